@@ -76,10 +76,8 @@ class Followed(Frozen):
             certified=self.certified[order],
             margin=self.margin[order],
             stop_of=self.stop_of[order],
-            breaks=frozenset(),
-            closed=False,
-            returns=None,
-        )
+            breaks=frozenset(), closed=False, returns=None,
+        )  # fmt: skip
 
     def between(self, places: Floats, inputs: Floats) -> dict[str, Floats]:
         """States (m,) at places (numbers of positions, counted on in between) with given drivers (m, d).

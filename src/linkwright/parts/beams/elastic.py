@@ -171,25 +171,29 @@ def solve_line(
             held |= dict.fromkeys((dofs[i][1], dofs[i][2]), 0.0)
     moved = _solved(matrix, right, held)
     reactions = matrix @ moved - right
-    found = []
-    for hold, i in zip(holds, places, strict=True):
-        up = (
-            reactions[dofs[i][0]] if hold.deflection else -hold.stiffness * moved[dofs[i][0]] * length / force
-        )
-        turn = (
-            reactions[dofs[i][1]]
-            if hold.slope
-            else -hold.torsional_stiffness * moved[dofs[i][1]] / force / length
-        )
-        if hold.slope and dofs[i][1] != dofs[i][2]:
-            turn += reactions[dofs[i][2]]
-        found.append((float(up) * force, float(turn) * force * length))
+    found = [
+        _reaction(hold, dofs[i], reactions, moved, force, length)
+        for hold, i in zip(holds, places, strict=True)
+    ]
     segments = [
         _segment(nodes[e], nodes[e + 1], piece, moved[[dofs[e][0], dofs[e][2], dofs[e + 1][0], dofs[e + 1][1]]],
                  length, unit)
         for e, piece in enumerate(pieces)
     ]  # fmt: skip
     return ElasticLine(tuple(segments), tuple(found))
+
+
+def _reaction(
+    hold: Hold, dofs: Sequence[int], rigid: Floats, moved: Floats, force: float, length: float
+) -> tuple[float, float]:
+    """Force, N, and couple, N·m, of a hold: those of what is held rigidly, else of its springs."""
+    deflection, left, right = dofs
+    up = rigid[deflection] if hold.deflection else -hold.stiffness * moved[deflection] * length / force
+    if not hold.slope:
+        turn = -hold.torsional_stiffness * moved[left] / force / length
+    else:
+        turn = rigid[left] + (rigid[right] if left != right else 0.0)
+    return float(up) * force, float(turn) * force * length
 
 
 def _nodes(
