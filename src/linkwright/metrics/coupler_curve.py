@@ -85,14 +85,14 @@ def _curve(analysis: Analysis, point: str) -> CouplerCurve:
 def _rounds(analysis: Analysis, point: str, path: Floats) -> int:
     """How many times a cycle runs the same curve, as far as its positions divide into so many."""
     count, size = len(path), float(np.ptp(path, axis=0).max())
-    begin, step = analysis.motion.time[0], analysis.motion.time[1] - analysis.motion.time[0]
     for rounds in range(count // 3, 1, -1) if size else ():
         shift, rest = divmod(count, rounds)
         if rest or np.abs(path[shift] - path[0]).max() > SAME * size:
             continue
         if np.abs(path - np.roll(path, shift, axis=0)).max() > SAME * size:
             continue
-        between = begin + step * (np.array([0.0, shift]) + 0.37)
+        begin, following = analysis.motion.time[:2]
+        between = begin + (following - begin) * (np.array([0.0, shift]) + 0.37)
         if (
             analysis.resolver.possible
             and np.ptp(analysis.resolver.motion(between).point(point).position, axis=0).max() <= SAME * size
