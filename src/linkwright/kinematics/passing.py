@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from itertools import chain
 from math import ceil, cos, inf, isfinite, nan, sin, tau
 from typing import TYPE_CHECKING
 
@@ -71,41 +72,45 @@ def nothing_passed(names: Sequence[str], rows: Sequence[Sequence[float]]) -> boo
     return clear_of_zero(names, lows, highs, leap)
 
 
-def plainly_passed(mechanism: Mechanism, structure: Structure, steps: int) -> bool:
-    """Whether a machine of dyads whose crank turns at constant speed reaches all positions of its cycle, and nothing
-    lies between two of them. False where this does not tell: then its motion is to be solved.
+def plainly_passed(
+    mechanism: Mechanism, structure: Structure, steps: int, outputs: Sequence[Output] = ()
+) -> list[bool] | None:
+    """Which outputs of a machine of dyads go to and fro as positions show, where its crank turns at constant speed,
+    it reaches all positions of its cycle and nothing lies between two of them. None where this does not tell: then
+    its motion is to be solved.
 
     Raises:
         AssemblyError: as :func:`linkwright.kinematics.assembly.assemble`.
     """
     if len(mechanism.drivers) != 1 or mechanism.cycle is not None:
-        return False
+        return None
     (driver,) = mechanism.drivers.values()
     if not driver.law.constant_speed or mechanism.joints[driver.joint].coordinate != "turn":
-        return False
+        return None
     if mechanism.higher:
-        return False
-    motion = trace_motion(mechanism, structure, rates=False)
+        return None
+    motion = trace_motion(mechanism, structure, rates=bool(outputs))
     if motion.next_states or any("sine" in placed.facts for placed in motion.placed.values()):
-        return False
+        return None
     names = [each for group in modal(motion) for each in measures(motion, group)]
-    rows = _turned(mechanism, structure, motion, names, steps)
-    return rows is not None and nothing_passed(names, rows)
+    followed = [program_names(mechanism, output)[0] for output in outputs]
+    rows = _turned(mechanism, structure, motion, [*names, *chain.from_iterable(followed)], steps)
+    if rows is None or not nothing_passed(names, rows[: len(names)]):
+        return None
+    left = iter(rows[len(names) :])
+    return [_reverses([next(left) for _ in each], mechanism.size) for each in followed]
 
 
-def surely_reverses(mechanism: Mechanism, structure: Structure, output: Output, steps: int) -> bool:
-    """Whether an output of a machine for which :func:`plainly_passed` holds goes to and fro, as positions show."""
-    names, _ = program_names(mechanism, output)
-    rows = _turned(mechanism, structure, trace_motion(mechanism, structure), names, steps)
-    if rows is None:
-        return False
-    if output.kind == "angle":
-        c, s = rows
-        ways = [a * d - b * e for a, b, d, e in zip(c, s, [*s[1:], s[0]], [*c[1:], c[0]], strict=True)]
+def _reverses(rows: Sequence[Sequence[float]], size: float) -> bool:
+    """Whether an output goes to and fro: its values over a cycle, or cosine and sine of its direction."""
+    ahead = [[*row[1:], row[0]] for row in rows]
+    if len(rows) == 2:
+        size, (c, s), (d, e) = 1.0, rows, ahead
+        ways = [c[k] * e[k] - s[k] * d[k] for k in range(len(c))]
     else:
-        ways = [b - a for a, b in zip(rows[0], [*rows[0][1:], rows[0][0]], strict=True)]
+        ways = [b - a for a, b in zip(rows[0], ahead[0], strict=True)]
     least = REVERSED * (max(ways) - min(ways))
-    return min(ways) < -least < 0.0 < least < max(ways) and max(ways) - min(ways) > REVERSED * mechanism.size
+    return min(ways) < -least < 0.0 < least < max(ways) and max(ways) - min(ways) > REVERSED * size
 
 
 def _turned(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from linkwright import gallery
@@ -11,8 +12,8 @@ from linkwright.errors import NO_FILE, Finding, LinkwrightError, ModelError
 from linkwright.words import Say
 
 if TYPE_CHECKING:
+    from linkwright.fields.signals import SwingPhase
     from linkwright.mechanism.mechanism import Mechanism
-    from linkwright.structure import Structure
 
 #: Positions of the cycle that are tried.
 TRIED = 72
@@ -68,11 +69,14 @@ def findings_of(name: str) -> tuple[list[Finding], dict[str, object]]:
             "mobility": built.mobility,
             "class": built.mechanism_class,
         }
-        plain = plainly_passed(mechanism, built, TRIED)
-        turned, notes = ([], []) if plain else _turned(name, mechanism)
+        swings = _swings(mechanism)
+        plain = plainly_passed(mechanism, built, TRIED, [each.output for each in swings.values()])
+        turned, notes = _turned(name, mechanism) if plain is None else ([], [])
     except LinkwrightError as error:
         return [*found, Finding("error", name, "", error.sentence, code="motion")], {}
-    idle = [] if turned else _never_acting(name, mechanism, built, plain)
+    sure = plain or [False] * len(swings)
+    unsure = {load: phase for (load, phase), each in zip(swings.items(), sure, strict=True) if not each}
+    idle = _never_acting(name, mechanism, unsure) if unsure and not turned else []
     return [*found, *turned, *idle, *_of_settings(name, mechanism), *notes], fact
 
 
@@ -103,21 +107,16 @@ def _turned(name: str, mechanism: Mechanism) -> tuple[list[Finding], list[Findin
     return [Finding("error", name, "", refusal(motion).sentence, code="position")], notes
 
 
-def _never_acting(name: str, mechanism: Mechanism, built: Structure, plain: bool) -> list[Finding]:
-    """Loads whose phase the motion does not have, such as one by the stroke of an output that never reverses."""
+def _swings(mechanism: Mechanism) -> dict[str, SwingPhase]:
+    """Phases of loads by the strokes of an output."""
     from linkwright.fields.signals import SwingPhase
-    from linkwright.kinematics.passing import surely_reverses
 
     phases = {load: getattr(each, "phase", None) for load, each in mechanism.loads.items()}
-    swings = {load: phase for load, phase in phases.items() if isinstance(phase, SwingPhase)}
-    if plain:
-        swings = {
-            load: each
-            for load, each in swings.items()
-            if not surely_reverses(mechanism, built, each.output, TRIED)
-        }
-    if not swings:
-        return []
+    return {load: phase for load, phase in phases.items() if isinstance(phase, SwingPhase)}
+
+
+def _never_acting(name: str, mechanism: Mechanism, swings: Mapping[str, SwingPhase]) -> list[Finding]:
+    """Loads whose phase the motion does not have, such as one by the stroke of an output that never reverses."""
     from linkwright.kinematics.solve import try_motion
     from linkwright.kinetostatics.signals import MotionSignals
     from linkwright.loads.phases import strokes
