@@ -101,6 +101,40 @@ def test_an_interrupted_command_says_so(
     assert capsys.readouterr().err == "interrupted\n"
 
 
+def test_an_interrupt_while_a_class_is_made_says_so(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Python 3.11 raises RuntimeError from whatever ends ``__set_name__``."""
+
+    def interrupted(*_: object, **__: object) -> None:
+        raise RuntimeError("Error calling __set_name__") from KeyboardInterrupt()
+
+    monkeypatch.setattr("linkwright.cli.commands.solve.run", interrupted)
+    assert main(["solve", "gallery:kite"]) == 130
+    assert capsys.readouterr().err == "interrupted\n"
+
+
+def test_an_interrupted_process_does_not_wait_for_its_threads() -> None:
+    program = """
+import sys, threading
+from linkwright.cli import main
+from linkwright.cli.commands import solve
+
+def interrupted(*_):
+    print("begun")
+    raise KeyboardInterrupt
+
+solve.run = interrupted
+threading.Thread(target=threading.Event().wait).start()
+sys.argv = ["linkwright", "solve", "gallery:kite"]
+raise SystemExit(main())
+"""
+    done = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, check=False, timeout=60
+    )
+    assert (done.returncode, done.stdout, done.stderr) == (130, "begun\n", "interrupted\n")
+
+
 @pytest.mark.parametrize("name", ["a" * 300 + ".svg", "a\0b.svg"])
 def test_a_name_that_no_file_can_have(name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["draw", "gallery:kite", "--output", str(tmp_path / name)]) == 2

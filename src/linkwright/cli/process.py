@@ -25,11 +25,25 @@ def main() -> int:
     try:
         sys.unraisablehook = _interrupt_again
         signal.signal(signal.SIGINT, signal.default_int_handler)
-        return run(sys.argv[1:])
+        code = run(sys.argv[1:])
     except KeyboardInterrupt:
-        return INTERRUPTED
+        code = INTERRUPTED
     finally:
         signal.signal(signal.SIGINT, signal.SIG_IGN)  # all is said: let the process end in peace
+    if code == INTERRUPTED:
+        _end()
+    return code
+
+
+def _end() -> None:
+    """Ends an interrupted process: waiting for its threads could last for ever, where the interrupt came while one of
+    their locks was being taken."""
+    for stream in (sys.stdout, sys.stderr):
+        try:
+            stream.flush()
+        except (OSError, ValueError):
+            continue  # nobody reads any more
+    os._exit(INTERRUPTED)
 
 
 def _draw_flat() -> None:

@@ -48,7 +48,17 @@ def run(argv: Sequence[str]) -> int:
         session.tell_error(session.say("cli.out_of_memory"))
         return FAULTY
     except Exception as error:
+        if _caused_by_interrupt(error):
+            session.tell(session.say("cli.interrupted"))
+            return INTERRUPTED
         return _unexpected(error, session)
+
+
+def _caused_by_interrupt(error: BaseException | None) -> bool:
+    """Whether an interrupt lies behind an exception: Python puts others in its place while it makes a class."""
+    while error is not None and not isinstance(error, KeyboardInterrupt):
+        error = error.__cause__ or error.__context__
+    return error is not None
 
 
 def _dispatch(arguments: list[str], session: Session) -> int:
