@@ -5,7 +5,7 @@ from __future__ import annotations
 import random
 
 import pytest
-from tests.work import calls
+from tests.work import counted
 
 import linkwright as lw
 
@@ -40,5 +40,5 @@ def test_structure_grows_linearly(order: str) -> None:
     found = lw.structure(many)
     assert [len(group.links) for group in found.groups] == [1] + [2] * MANY
     assert {group.signature for group in found.groups[1:]} == {"RRR"}
-    growth = calls(lambda: lw.structure(many)) / calls(lambda: lw.structure(few))
+    growth = counted(lambda: lw.structure(many))[1] / counted(lambda: lw.structure(few))[1]
     assert 1.0 < growth < (MANY / FEW) ** 1.1

@@ -155,10 +155,8 @@ def equivalent(forces: Forces) -> Equivalent:
     edges = abs(rate) * (grid.edges - begin)
     between, slope = _inertia_and_slope(grid.motion)
     torque = _torque(grid.forces, between, slope)
-    load, size = (
-        Piecewise(edges, direction * torque.reshape(-1, POINTS)),
-        np.abs(grid.forces.input_torque).max(),
-    )
+    load = Piecewise(edges, direction * torque.reshape(-1, POINTS))
+    size = np.abs(grid.forces.input_torque).max()
     if tails(load.values).max() > grid.tolerance * size:  # as where friction turns round
         halved = grid.curve(equivalent_torque, "forces", halve=True)
         load = Piecewise(abs(rate) * (halved.edges - begin), direction * halved.values)
