@@ -294,6 +294,13 @@ class Named:
         radius = self.motion.motion.dimensions(f"{joint}.pin_radius")
         return Quantity(name, "power", force * radius * (states[link].omega - states[other].omega))
 
+    def areal_velocity(self, name: str, rest: list[str]) -> Quantity:
+        """Area per time that the line from the frame's origin to a point sweeps over, counter-clockwise positive."""
+        if len(rest) != 1:
+            raise self._unknown(name)
+        place, velocity, _ = self.motion.outputs.point(self.point_key(rest[0]))
+        return Quantity(name, "areal_velocity", 0.5 * place.cross(velocity))
+
     def equivalent_inertia(self, name: str, rest: list[str]) -> Quantity:
         """Inertia on the first driver's link of the same kinetic energy as all links."""
         if rest or not self.mechanism.drivers:
@@ -361,6 +368,7 @@ _PHRASES: dict[str, Callable[[Named, str, list[str]], Quantity]] = {
     "conditioning": Named.conditioning,
     "velocity_ratio": Named.velocity_ratio,
     "heat": Named.heat,
+    "areal_velocity": Named.areal_velocity,
     "equivalent_inertia": Named.equivalent_inertia,
 }
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import field
+from functools import partial
+from operator import mul
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,7 +16,7 @@ from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import Forces
 from linkwright.metrics.analysis import Analysis
-from linkwright.metrics.base import METRICS, Metric, MetricValue, Remark
+from linkwright.metrics.base import METRICS, Metric, MetricValue, Number, Remark
 from linkwright.metrics.outputs import coupler_points
 from linkwright.metrics.plane import cross, crossings
 from linkwright.metrics.quantities import shown
@@ -69,21 +71,40 @@ def _curve(analysis: Analysis, point: str) -> CouplerCurve:
     motion = analysis.motion
     if not analysis.whole:
         raise LinkwrightError(Sentence("metrics.path_open", point=point, name=motion.mechanism.name))
-    track = motion.point(point)
-    position, velocity = track.position[analysis.once], track.velocity[analysis.once]
-    rounds = _rounds(analysis, point, position)
-    period, once = (motion.positions.period or 0.0) / rounds, len(position) // rounds
-    position, velocity = position[:once], velocity[:once]
-    speed = np.hypot(*velocity.T)
-    sense = np.sign(motion.time[-1] - motion.time[0])
-    area = 0.5 * float(np.mean(cross(position, velocity))) * period * float(sense)
-    length = float(np.mean(speed)) * period
-    doubles = tuple(_doubles(analysis, point, position, length, period)) if length > 0 else ()
-    return CouplerCurve(point, length, area, doubles, tuple(_cusps(analysis, point, speed)), position)
+    lap, number = _lap(analysis, point), slice(0, len(motion.time[analysis.once]) // _rounds(analysis, point))
+    path, speed = motion.point(point).position[number], np.hypot(*motion.point(point).velocity[number].T)
+    length, area = (each(point, lap).measured(analysis)[0] for each in (_length, _area))
+    doubles = tuple(_doubles(analysis, point, path, length, abs(lap))) if length > 0 else ()
+    return CouplerCurve(point, length, area, doubles, tuple(_cusps(analysis, point, speed)), path)
 
 
-def _rounds(analysis: Analysis, point: str, path: Floats) -> int:
+def _length(point: str, lap: float) -> Number:
+    """Length of a curve that is run once in the time ``lap``, s, negative where the positions run back in time."""
+    return Number(point, (f"{point}.velocity mean",), partial(mul, abs(lap)))
+
+
+def _area(point: str, lap: float) -> Number:
+    """Area within such a curve."""
+    return Number(point, (f"areal_velocity {point} mean",), partial(mul, lap))
+
+
+def _lap(analysis: Analysis, point: str) -> float:
+    """Time, s, in which a point runs its curve once; negative where the positions run back in time."""
+    motion = analysis.motion
+    sense = float(np.sign(motion.time[-1] - motion.time[0]))
+    return sense * (motion.positions.period or 0.0) / _rounds(analysis, point)
+
+
+def _rounds(analysis: Analysis, point: str) -> int:
     """How many times a cycle runs the same curve, as far as its positions divide into so many."""
+    if ("rounds", point) not in analysis.kept:
+        path = analysis.motion.point(point).position[analysis.once]
+        analysis.kept["rounds", point] = _repeated(analysis, point, path)
+    found: int = analysis.kept["rounds", point]
+    return found
+
+
+def _repeated(analysis: Analysis, point: str, path: Floats) -> int:
     count, size = len(path), float(np.ptp(path, axis=0).max())
     for rounds in range(count // 3, 1, -1) if size else ():
         shift, rest = divmod(count, rounds)
@@ -174,9 +195,9 @@ class CouplerCurveLength(CurveMetric):
     name = "coupler_curve_length"
     dimension = "length"
 
-    def values(self, analysis: Analysis) -> Iterator[MetricValue]:
-        for curve in self.curves(analysis):
-            yield self.value(analysis, curve.point, curve.length)
+    def numbers(self, analysis: Analysis) -> Iterator[Number]:
+        for point in coupler_points(analysis.motion.mechanism):
+            yield _length(point, _lap(analysis, point))
 
 
 @METRICS.register("coupler_curve_area")
@@ -186,9 +207,9 @@ class CouplerCurveArea(CurveMetric):
     name = "coupler_curve_area"
     dimension = "area"
 
-    def values(self, analysis: Analysis) -> Iterator[MetricValue]:
-        for curve in self.curves(analysis):
-            yield self.value(analysis, curve.point, curve.area)
+    def numbers(self, analysis: Analysis) -> Iterator[Number]:
+        for point in coupler_points(analysis.motion.mechanism):
+            yield _area(point, _lap(analysis, point))
 
 
 @METRICS.register("double_point")

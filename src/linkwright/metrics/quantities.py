@@ -10,6 +10,7 @@ from linkwright.units import SI_UNITS
 #: Dimensions that only design numbers have, with their SI units.
 FURTHER: Mapping[str, str] = {
     "energy": "J",
+    "areal_velocity": "m²/s",
     "jerk": "m/s³",
     "angular_jerk": "rad/s³",
     "length_per_angle": "m/rad",
