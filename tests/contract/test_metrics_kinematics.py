@@ -230,3 +230,46 @@ def test_an_extreme_of_two_positions_is_said_to_be_a_sample() -> None:
         if not exact:  # straight: triangle of 5, 3.5 and 2.5 m, at half a turn of 10 rad/s
             assert found.value == pytest.approx(pi - acos((25 + 6.25 - 12.25) / 25), rel=1e-12)
             assert (found.time, found.input) == pytest.approx((pi / 10, pi), rel=1e-12)
+
+
+TRAMMEL = """
+format: 1
+name: Trammel
+frame: {points: {O: [0 mm, 0 mm]}}
+links:
+  across: {points: [X], mass: 1 kg}
+  up: {points: [Y], mass: 1 kg}
+  bar: {points: [X, Y], length: 200 mm, mass: 2 kg, inertia: 0.01 kg·m²}
+joints:
+  level: {kind: prismatic, guide: frame, through: O, direction: 0 deg, block: across, at: X}
+  upright: {kind: prismatic, guide: frame, through: O, direction: 90 deg, block: up, at: Y}
+assembly: {Y: forward}
+driver: {slide: level, position: "120 mm*cos(2*pi*t/(1 s))"}
+cycle: {duration: 1 s}
+"""
+
+
+def test_a_driver_that_moves_to_and_fro() -> None:
+    """x = 120 mm·cos 2πt: the range is 240 mm, and y = √(200² - x²) stands still where x does, which is no dead
+    point, and over x = 0, which is one; the driver's effort is a force."""
+    table = metrics(lw.solve_forces(lw.loads(TRAMMEL)))
+    (way,) = table["range_of_motion"]
+    assert (way.value, way.at) == pytest.approx((0.24, -0.12), abs=1e-12)
+    assert [row.value for row in table["dead_point"]] == pytest.approx([0.0], abs=1e-12)
+    assert ("peak input force" in table.text(), "平衡力峰值" in table.text("zh")) == (True, True)
+    shown = [cell for line in table.text().splitlines() for cell in line.split()]
+    assert not [cell for cell in shown if "e-" in cell and cell.replace("e-", "").replace(".", "").isdigit()]
+
+
+def test_what_is_but_rounding_is_zero_and_a_constant_number_stands_at_the_first_position() -> None:
+    """The guide of a yoke, in line with the pin's horizontal force, carries nothing; a train turns evenly, so that
+    nothing can be taken for its energy fluctuation."""
+    yoke = metrics(lw.solve_forces(lw.load("gallery:scotch_yoke")))
+    assert yoke.value("peak_reaction", "guide") == 0.0 and yoke.value("peak_reaction", "O") == pytest.approx(
+        80
+    )
+    assert yoke.value("peak_shaking_moment") == 0.0
+    train = lw.load("gallery:planetary_two_inputs")
+    assert [row.at for row in metrics(lw.solve_forces(train))["peak_input_torque"]] == [0.0, 0.0]
+    even = metrics(lw.solve_forces(lw.load("gallery:external_gear_pair")))
+    assert even.value("energy_fluctuation") == 0.0

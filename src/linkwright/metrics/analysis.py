@@ -32,6 +32,8 @@ from linkwright.metrics.summary import Summary, one
 
 Result: TypeAlias = "Motion | Forces | Analysis"
 Kind = Literal["max", "min"]
+#: What is less than this share of the largest of its kind is rounding.
+ROUNDING = 1e-12
 #: Summaries that are found of all outputs at once.
 _TOGETHER = ("max", "min", "mean", "rms")
 
@@ -171,8 +173,20 @@ class Analysis:
         ``peak``: the largest size; places of extremes of a mechanism's outputs are its outermost limit positions.
         """
         if summary not in self._parts:
-            self._parts[summary] = self._summarised(one(summary))
+            found = self._summarised(one(summary))
+            if summary.startswith("reaction ") and abs(found.value) < ROUNDING * self._largest_reaction:
+                found = replace(found, value=0.0)
+            self._parts[summary] = found
         return self._parts[summary]
+
+    @cached_property
+    def _largest_reaction(self) -> float:
+        """Size of the largest component of all reactions at the solved positions, N."""
+        if self.forces is None:
+            return 0.0
+        rows = self.forces.rows
+        found = np.abs(rows.values[[place for name, place in rows.index.items() if name.startswith("r:")]])
+        return float(found[np.isfinite(found)].max(initial=0.0))
 
     def _summarised(self, summary: Summary) -> Extreme:
         kind = summary.kind
@@ -209,7 +223,9 @@ class Analysis:
         mean = curve.total / (self.grid.end - self.grid.start)
         work = Piecewise(curve.edges, mean - curve.values).integral()
         least, most = Piecewise(curve.edges, work.at_nodes).extremes()
-        return float(abs(self.input_rate[0])) * (most.value - least.value)
+        way, size = self.grid.end - self.grid.start, float(np.abs(curve.values).max())
+        excess = most.value - least.value
+        return float(abs(self.input_rate[0])) * (excess if excess > ROUNDING * size * way else 0.0)
 
     def _extreme(self, output: str, kind: str) -> Extreme | None:
         side: Kind = "max" if kind == "max" else "min"
@@ -249,6 +265,8 @@ class Analysis:
         both = np.concatenate([values, -values])
         piece, place, top, rough = largest(both, both.max(axis=1))
         time = grid.edges[piece] + 0.5 * (place + 1.0) * np.diff(grid.edges)[piece]
+        steady = top[:count] + top[count:] <= ROUNDING * np.abs(top[:count])
+        time[np.tile(steady, 2)] = grid.start
         smooth = rough <= np.tile(grid.tolerance * np.abs(values).max(axis=(1, 2)), 2)
         never = np.full(count, np.nan)
         found: dict[tuple[str, str], tuple[float, float] | None] = {}

@@ -152,9 +152,12 @@ class Metric(ABC):
         """What it says, in one English sentence."""
         return self.meaning_in("en")
 
-    def label_in(self, language: str) -> str:
-        """Its name in words; the plain name where the catalogue has none, as for numbers of other packages."""
+    def label_in(self, language: str, dimension: str = "") -> str:
+        """Its name in words, by its dimension where that has one of its own (a driver that slides has a force); the
+        plain name where the catalogue has none, as for numbers of other packages."""
         key = f"metrics.{self.name}.label"
+        if has(f"{key}.{dimension}"):
+            return say(f"{key}.{dimension}", language)
         return say(key, language) if has(key) else self.name.replace("_", " ")
 
     def meaning_in(self, language: str) -> str:

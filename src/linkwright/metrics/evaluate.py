@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+from math import isfinite
 
 from linkwright.errors import RequestError
 from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import Forces
-from linkwright.metrics.analysis import Analysis
+from linkwright.metrics.analysis import ROUNDING, Analysis
 from linkwright.metrics.base import METRICS, MetricValue
+from linkwright.metrics.quantities import NOTHING
 from linkwright.metrics.table import MetricsTable
 from linkwright.words.sentence import Sentence
 
@@ -45,8 +48,29 @@ def metrics(result: Motion | Forces, names: Iterable[str] | str | None = None) -
             raise RequestError(_refusal(name, analysis))
     title, reached = analysis.motion.mechanism.name, analysis.motion.ok.any()
     return MetricsTable(
-        title, rows, skipped, () if reached else (Sentence("metrics.none_reached", name=title),)
+        title,
+        _without_rounding(rows),
+        skipped,
+        () if reached else (Sentence("metrics.none_reached", name=title),),
     )
+
+
+def _without_rounding(rows: Sequence[MetricValue]) -> list[MetricValue]:
+    """The values, zero and without a place where one is nothing beside the largest of its dimension.
+
+    Angles and lengths, which may be places, stay, and are shown as zero below ``quantities.NOTHING``; so do ratios,
+    of which a zero has its place.
+    """
+    largest: dict[str, float] = {}
+    for row in rows:
+        if row.dimension not in (*NOTHING, "dimensionless") and isfinite(row.value):
+            largest[row.dimension] = max(largest.get(row.dimension, 0.0), abs(row.value))
+    return [
+        replace(row, value=0.0, at=None)
+        if abs(row.value) <= ROUNDING * largest.get(row.dimension, -1.0)
+        else row
+        for row in rows
+    ]
 
 
 def _usual() -> list[str]:

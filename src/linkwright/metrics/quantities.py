@@ -20,6 +20,9 @@ FURTHER: Mapping[str, str] = {
 #: Units in which tables show a dimension, with the factor from SI.
 SHOWN: Mapping[str, tuple[str, float]] = {"angle": ("°", 180 / math.pi), "length": ("mm", 1e3)}
 
+#: Sizes, SI, below which an angle and a length of a machine are rounding.
+NOTHING: Mapping[str, float] = {"angle": 1e-9, "length": 1e-15}
+
 
 def si_unit(dimension: str) -> str:
     """SI unit of a dimension; raises KeyError for one that is not known."""
@@ -39,6 +42,8 @@ def shown(value: float, dimension: str, digits: int = 6) -> str:
 
 
 def number(value: float, dimension: str, digits: int = 6) -> str:
-    """The number alone, in the shown unit; zero without a sign."""
+    """The number alone, in the shown unit; zero without a sign, rounding of an angle or a length as zero."""
+    if abs(value) < NOTHING.get(dimension, 0.0):
+        return "0"
     factor = SHOWN[dimension][1] if dimension in SHOWN else 1.0
     return f"{value * factor + 0.0:.{digits}g}"

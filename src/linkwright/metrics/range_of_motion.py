@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from linkwright.core.search import ends
+from linkwright.core.search import ends, zeros
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinetostatics.closure import dyads
 from linkwright.metrics.analysis import Analysis
@@ -16,6 +16,8 @@ from linkwright.metrics.quantities import shown
 
 #: Transmission angle, rad, below which a position counts as a dead point.
 DEAD = 1e-6
+#: Share of its largest rate below which a driver stands still.
+STILL = 1e-9
 
 
 def edges(analysis: Analysis) -> tuple[tuple[float, int], ...]:
@@ -56,6 +58,26 @@ def _ends(analysis: Analysis) -> tuple[float, float]:
     return start, end
 
 
+def _reached(analysis: Analysis, start: float, end: float) -> tuple[float, float]:
+    """Coordinates of the first driver between which it moves in a stretch of time, in the order of the motion where
+    it does not turn back."""
+    law = next(iter(analysis.motion.mechanism.drivers.values())).law
+    time = np.linspace(start, end, 1 if law.constant_speed is not None else len(analysis.motion.time))
+    sign = np.sign(law.coordinate(time)[1])
+    turns = np.flatnonzero(sign[:-1] * sign[1:] < 0.0)
+    at = zeros(lambda t: law.coordinate(t)[1:], time[turns], time[turns + 1], sign[turns])
+    values = law.coordinate(np.concatenate([[start, end], time, at]))[0]
+    least, most = float(values.min()), float(values.max())
+    return (most, least) if values[0] == most and values[1] == least else (least, most)
+
+
+def _drives(analysis: Analysis, time: float) -> bool:
+    """Whether the one driver moves at a time, so that an output at rest is one that could not drive."""
+    laws = [driver.law for driver in analysis.motion.mechanism.drivers.values()]
+    rates = np.abs(laws[0].coordinate(np.append(analysis.motion.time, time))[1])
+    return len(laws) == 1 and bool(rates[-1] > STILL * rates.max())
+
+
 @METRICS.register("range_of_motion")
 class RangeOfMotion(Metric):
     """Extent of every stretch of the input, within the cycle, in which the mechanism can be assembled."""
@@ -70,7 +92,7 @@ class RangeOfMotion(Metric):
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:
         subject, kind = next(iter(analysis.motion.mechanism.drivers)), analysis.input_dimension
         for start, end in intervals(analysis):
-            first, last = analysis.resolver.input_at(start), analysis.resolver.input_at(end)
+            first, last = _reached(analysis, start, end)
             ends: dict[str, object] = {"start": shown(first, kind), "end": shown(last, kind)}
             remarks = (Remark("range_of_motion.from_to", ends),)
             yield self.value(analysis, subject, abs(last - first), dimension=kind, at=first, remarks=remarks)
@@ -80,7 +102,8 @@ class RangeOfMotion(Metric):
 class DeadPoint(Metric):
     """Inputs at which a driver cannot move the mechanism: ends of the range, transmission angles of zero.
 
-    And, for each output with limit positions, the inputs at which that output could not drive the machine.
+    And, for each output of a machine with one driver, the inputs at which that output could not drive it: where the
+    output turns back while the driver goes on.
     """
 
     name = "dead_point"
@@ -93,11 +116,13 @@ class DeadPoint(Metric):
             remarks = (Remark("dead_point.driver", {"at": shown(q, kind)}, warning=True),)
             yield self.value(analysis, driver, q, dimension=kind, at=q, remarks=remarks)
         for output in analysis.outputs:
-            for limit in analysis.limits(output):
-                names: dict[str, object] = {"at": shown(limit.input, kind), "output": str(output)}
-                link = output_link(analysis.motion.mechanism, output)
-                remarks = (Remark("dead_point.output", names),)
-                yield self.value(analysis, link, limit.input, dimension=kind, at=limit.input, remarks=remarks)
+            link = output_link(analysis.motion.mechanism, output)
+            found = [limit.input for limit in analysis.limits(output) if _drives(analysis, limit.time)]
+            for q in _distinct(np.array(sorted(found))):
+                names: dict[str, object] = {"at": shown(q, kind), "output": link}
+                yield self.value(
+                    analysis, link, q, dimension=kind, at=q, remarks=(Remark("dead_point.output", names),)
+                )
 
     def _of_driver(self, analysis: Analysis) -> list[float]:
         if not analysis.resolver.possible:

@@ -103,7 +103,7 @@ class MetricsTable(Sequence[MetricValue]):
         return "\n".join([self.title, "", *text, *([""] if warnings else []), *warnings])
 
     def _cells(self, row: MetricValue, language: str) -> list[str]:
-        label = METRICS[row.metric]().label_in(language)
+        label = METRICS[row.metric]().label_in(language, row.dimension)
         at = "" if row.at is None else shown(row.at, row.at_dimension)
         value = number(row.value, row.dimension)
         return [label, row.subject, value, shown_unit(row.dimension), at]

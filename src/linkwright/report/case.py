@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -18,7 +17,7 @@ from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.plot.force_names import carries
-from linkwright.report.numbers import ROUNDING, Heads
+from linkwright.report.numbers import Heads
 from linkwright.report.settings import Settings
 from linkwright.structure.group import Structure
 from linkwright.units import parse
@@ -27,7 +26,6 @@ from linkwright.words.sentence import Sentence, in_language
 
 if TYPE_CHECKING:
     from linkwright.machine.running import SteadyRunning
-    from linkwright.metrics.base import MetricValue
     from linkwright.metrics.table import MetricsTable
     from linkwright.plot.diagrams.picture import Diagram
     from linkwright.worked.solution import Worked
@@ -104,17 +102,6 @@ class Case:
         from linkwright.metrics import metrics
 
         return metrics(self.result)
-
-    @cached_property
-    def numbers(self) -> list[MetricValue]:
-        """The design numbers, zero and without a place where one is nothing beside the largest of its dimension."""
-        largest: dict[str, float] = {}
-        for row in self.metrics:
-            largest[row.dimension] = max(largest.get(row.dimension, 0.0), abs(row.value))
-        return [
-            replace(row, value=0.0, at=None) if abs(row.value) < ROUNDING * largest[row.dimension] else row
-            for row in self.metrics
-        ]
 
     @cached_property
     def running(self) -> SteadyRunning:

@@ -159,7 +159,7 @@ def _cells(row: MetricValue, language: str) -> list[str]:
     remarks += [remark.text(language) for remark in row.remarks if not remark.warning]
     value = number(row.value, row.dimension)
     return [
-        metric.label_in(language),
+        metric.label_in(language, row.dimension),
         in_words(row.subject, language),
         value,
         shown_unit(row.dimension),

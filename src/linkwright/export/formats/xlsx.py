@@ -182,7 +182,7 @@ def _groups(results: Results) -> Iterable[Sequence[Cell]]:
 def _metrics(results: Results) -> Iterable[Sequence[Cell]]:
     for row in results.metrics:
         data = row.data()
-        label = METRICS[row.metric]().label_in(results.language)
+        label = METRICS[row.metric]().label_in(results.language, row.dimension)
         remark = say("finding.semicolon", results.language).join(
             each.text(results.language) for each in row.remarks
         )

@@ -26,7 +26,7 @@ class Limits(Section):
 
     def blocks(self, case: Case) -> Iterator[Block]:
         say = case.say
-        rows = [row for row in case.numbers if row.metric not in ELSEWHERE]
+        rows = [row for row in case.metrics if row.metric not in ELSEWHERE]
         if not rows:
             raise Missing(Sentence("report.no_numbers"))
         yield Paragraph(say("report.limits_text"))
@@ -63,7 +63,7 @@ def _cells(row: MetricValue, language: str) -> tuple[str, ...]:
     if metric.limit is not None:
         limit = f"{'≥' if metric.better == 'higher' else '≤'} {shown(metric.limit, metric.dimension)}"
     cells = (
-        metric.label_in(language), in_words(row.subject, language), number(value, row.dimension),
+        metric.label_in(language, row.dimension), in_words(row.subject, language), number(value, row.dimension),
         shown_unit(row.dimension), at, limit,
     )  # fmt: skip
     return tuple(literal(cell) for cell in cells)

@@ -32,7 +32,7 @@ class Reactions(Section):
     def blocks(self, case: Case) -> Iterator[Block]:
         say, _ = case.say, case.forces
         yield Paragraph(say("report.reactions_text"))
-        peaks = [row for row in case.numbers if row.metric == "peak_reaction"]
+        peaks = [row for row in case.metrics if row.metric == "peak_reaction"]
         rows = tuple(
             (literal(in_words(row.subject, case.language)), shown(row.value, row.dimension),
              "" if row.at is None else shown(faded(row.at), row.at_dimension)) for row in peaks
