@@ -10,7 +10,7 @@ import linkwright as lw
 from benchmarks.cases import sixbar
 from benchmarks.sweeps import SweepWork
 from benchmarks.timing import Candidate
-from linkwright.fields.signals import Output
+from linkwright.core.outputs import Output
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.metrics import METRICS
 from linkwright.metrics.summary import wanted
@@ -52,7 +52,7 @@ class LoadedWork:
         self.columns = {"pitman.length": self.crusher.dimension("pitman.length") * factors}
         self.rods = {"rod.length": self.conveyor.dimension("rod.length") * factors}
         names = [name for name, metric in METRICS.items() if not metric.on_request]
-        asked = Asked(Output("angle", "jaw", "jaw"), 0.02)
+        asked = Asked(Output("angle", "jaw"), 0.02)
         cycle = metric_cycle(self.crusher, self.columns, [*names, "flywheel"], asked=asked)
         assert cycle is not None
         self.cycle: MetricCycle = cycle

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 import linkwright as lw
+from linkwright.core.outputs import Output
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.numpy_backend import NumpyProgram
-from linkwright.fields.signals import Output
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinematics.solve import MotionRun
 from linkwright.kinematics.solver import MotionSolver
@@ -208,7 +208,7 @@ def test_outputs_that_turn_more_than_twice_are_doubted() -> None:
     x, y = (each.ravel() for each in np.meshgrid(np.linspace(-3.5, 0.5, 7), np.linspace(-9.0, 3.0, 7)))
     columns = {"coupler.P.x": x, "coupler.P.y": y}
     traced = Traced(fourbar, columns, over_cycle(fourbar, 360))
-    output = Output("y", "coupler.P", "coupler.P")
+    output = Output("position", "coupler.P", "y")
     cycle = CycleProgram(tuple(limit_stages(traced, [output])))
     known = {**traced.solver.nominal.parameters, **constants(traced)}
     table = np.stack([np.broadcast_to(columns.get(a, known[a]), len(x)) for a in cycle.dimensions], axis=1)
@@ -259,7 +259,7 @@ def test_limits_are_found_from_inputs_near_them_at_any_speed() -> None:
     assert machine.dimension("driver.speed") == pytest.approx(4 * np.pi)
     near = np.array([np.arcsin(0.05 / 0.9), np.pi + np.arcsin(0.05 / 0.5)])
     traced = Traced(machine, {}, over_cycle(machine, 36))
-    output = Output("x", "piston.B", "piston.B")
+    output = Output("position", "piston.B", "x")
     program = near_limits(traced, [output], [output])
     known = traced.solver.nominal.parameters
     found = NumpyProgram(program).run(

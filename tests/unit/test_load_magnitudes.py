@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.fields.signals import Output, SwingPhase
+from linkwright.core.outputs import Output
+from linkwright.fields.signals import SwingPhase
 from linkwright.files.model_file import loads
 from linkwright.mechanism.mechanism import Mechanism
 
@@ -241,7 +242,7 @@ def test_the_crusher_ramps_between_its_published_limit_positions() -> None:
 def test_the_conveyor_advances_between_its_printed_limit_positions() -> None:
     """The rocker swings forward from 231.6500775° to 348.743° of the crank, as printed in the report."""
     mechanism = lw.load("gallery:swing_conveyor")
-    advance = SwingPhase(Output("angle", "rocker", "rocker"), "max", "min")
+    advance = SwingPhase(Output("angle", "rocker"), "max", "min")
     load = replace(mechanism.loads["resistance"], phase=advance)
     at = np.radians([231.649, 231.651, 290.0, 348.742, 348.744])
     forces = lw.solve_forces(lw.solve_motion(replace(mechanism, loads={"resistance": load}), at=at))
@@ -255,7 +256,7 @@ def test_a_stroke_ends_at_the_first_of_two_equal_limits() -> None:
     Going out from its smallest displacement it stops at the first, before the rocker's own limit position.
     """
     mechanism = lw.load("gallery:swing_conveyor")
-    stroke = SwingPhase(Output("displacement", "guide", "guide"), "min", "max")
+    stroke = SwingPhase(Output("displacement", "guide"), "min", "max")
     load = replace(mechanism.loads["resistance"], phase=stroke)
     motion = lw.solve_motion(replace(mechanism, loads={"resistance": load}), steps=720)
     acts = lw.solve_forces(motion).load("resistance").magnitude > 0

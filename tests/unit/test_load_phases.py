@@ -10,14 +10,15 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from linkwright.core.outputs import Output
 from linkwright.errors import LinkwrightError
-from linkwright.fields.signals import InputPhase, MovingPhase, Output, SwingPhase, Table
+from linkwright.fields.signals import InputPhase, MovingPhase, SwingPhase, Table
 from linkwright.loads.force import Force
 from linkwright.loads.over_cycle import Activity, evaluate
 from linkwright.loads.over_cycle import activity as activity_of
 from linkwright.loads.signals import Limit, Whole
 
-JAW = Output("angle", "jaw", "jaw")
+JAW = Output("angle", "jaw")
 PERIOD = 2.0
 
 
@@ -224,9 +225,9 @@ def test_a_table_that_ends_too_early_says_what_is_missing() -> None:
 
 
 def test_a_table_over_an_output() -> None:
-    table = Table(Output("x", "slider.B", "B.x"), (-1.0, 0.0, 1.0), (5.0, 0.0, 1.0))
+    table = Table(Output("position", "slider.B", "x", written="B.x"), (-1.0, 0.0, 1.0), (5.0, 0.0, 1.0))
     got = interpolated(table, Turning([0, 60, 90, 180]), ALL)
     np.testing.assert_allclose(got, [1, 0.5, 0, 5], atol=1e-12)
-    narrow = Table(Output("x", "slider.B", "B.x"), (-0.5, 1.0), (5.0, 0.0))
+    narrow = Table(Output("position", "slider.B", "x", written="B.x"), (-0.5, 1.0), (5.0, 0.0))
     with pytest.raises(LinkwrightError, match=r"-1 m to -0\.5 m is missing"):
         interpolated(narrow, Turning([0, 60, 90, 180]), ALL)

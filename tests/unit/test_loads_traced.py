@@ -15,8 +15,9 @@ from tests.unit.test_load_phases import Turning
 
 import linkwright as lw
 from linkwright.core.expressions import parse
+from linkwright.core.outputs import Output
 from linkwright.engine.trace import Mask, Scalar
-from linkwright.fields.signals import InputPhase, MovingPhase, Output, Phase, SwingPhase, Table
+from linkwright.fields.signals import InputPhase, MovingPhase, Phase, SwingPhase, Table
 from linkwright.fields.strokes import Amount, StrokePart
 from linkwright.loads.force import Force
 from linkwright.loads.magnitude import (
@@ -30,8 +31,8 @@ from linkwright.loads.magnitude import (
 )
 from linkwright.loads.over_cycle import evaluate
 
-JAW = Output("angle", "jaw", "jaw")
-PLACE = Output("x", "jaw.P", "jaw.P")
+JAW = Output("angle", "jaw")
+PLACE = Output("position", "jaw.P", "x")
 TURN = 2 * np.pi
 
 

@@ -7,7 +7,7 @@ import pytest
 from tests.unit.test_whole_turns import DRAG, ROCKER, fourbar
 
 import linkwright as lw
-from linkwright.fields.signals import Output
+from linkwright.core.outputs import Output
 from linkwright.kinetostatics.signals import MotionSignals
 
 PERIOD = np.pi
@@ -30,7 +30,7 @@ def test_angles_are_those_of_the_cycle_and_whole_turns(lengths: tuple[str, str],
     signals = MotionSignals(lw.solve_motion(mechanism, times=time))
     for name in ("follower", "wheel"):
         turns = sense * (-1.0 if name == "wheel" else 1.0)
-        value, rate = signals.output(Output("angle", name, name))
+        value, rate = signals.output(Output("angle", name))
         known = np.interp(time - laps * PERIOD, cycle.time, cycle.link(name).angle)
         assert value == pytest.approx(known + 2 * np.pi * turns * laps, abs=1e-3)
         assert rate == pytest.approx(signals.motion.link(name).angular_velocity, abs=1e-12)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import Expression
+from linkwright.core.outputs import Output
 from linkwright.fields.base import (
     Field,
     Quantities,
@@ -27,26 +28,6 @@ if TYPE_CHECKING:
 
 
 Limit = Literal["max", "min"]
-
-
-@dataclass(frozen=True)
-class Output:
-    """A motion of the mechanism: a link's angle, a point's x or y, a prismatic joint's displacement.
-
-    ``owner`` is the link, ``link.point`` or joint; ``text`` is how the file says it.
-    """
-
-    kind: Literal["angle", "x", "y", "displacement"]
-    owner: str
-    text: str
-
-    @property
-    def dimension(self) -> str:
-        """Name of its dimension: angle or length."""
-        return "angle" if self.kind == "angle" else "length"
-
-    def __str__(self) -> str:
-        return self.text
 
 
 @dataclass(frozen=True)
@@ -270,15 +251,14 @@ def resolve_output(text: str, links: Mapping[str, Collection[str]], slides: Coll
     """The output that a text means, given each link's points and the joints with a displacement; None
     where it means none."""
     if text in links and text != "frame":
-        return Output("angle", text, text)
+        return Output("angle", text)
     if text in slides:
-        return Output("displacement", text, text)
-    owner, _, word = text.rpartition(".")
-    if word not in ("x", "y"):
+        return Output("displacement", text)
+    owner, _, axis = text.rpartition(".")
+    if axis not in ("x", "y"):
         return None
-    axis: Literal["x", "y"] = "x" if word == "x" else "y"
     link, _, point = owner.rpartition(".")
     if link:
-        return Output(axis, owner, text) if point in links.get(link, ()) else None
+        return Output("position", owner, axis) if point in links.get(link, ()) else None
     having = [name for name, points in links.items() if point in points]
-    return Output(axis, f"{having[0]}.{point}", text) if having else None
+    return Output("position", f"{having[0]}.{point}", axis, written=text) if having else None

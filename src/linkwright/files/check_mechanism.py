@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from functools import partial
 
+from linkwright.core.outputs import Output
 from linkwright.errors import Severity
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node
-from linkwright.fields.signals import Output
 from linkwright.files.reader import Reader
 from linkwright.joints.base import Joint
 from linkwright.mechanism.mechanism import Link, Mechanism, Vec

@@ -13,11 +13,12 @@ from linkwright import units
 from linkwright.core import expressions
 from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import Expression
+from linkwright.core.outputs import Output
 from linkwright.errors import QuantityError
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar, noun
 from linkwright.fields.references import LinkPoint
-from linkwright.fields.signals import Output, resolve_output
+from linkwright.fields.signals import resolve_output
 from linkwright.files.plain_reader import NUMBER, Place, PlainReader
 from linkwright.joints.base import JOINTS
 from linkwright.registry import listed, nearest

@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.core.outputs import row_name
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.change_points import Passage, closes, passages, signs
 from linkwright.kinematics.cycle import Floats, Positions, at_one_time, at_times
@@ -84,7 +85,7 @@ class Between:
 
     def quality(self, before: Indices, time: Floats) -> Floats:
         """Least quality (square of the sine of the transmission angle) of the groups that pass change points."""
-        names = tuple(dict.fromkeys(f"quality:{p.group}" for p in self.passing))
+        names = tuple(dict.fromkeys(row_name("quality", p.group) for p in self.passing))
         rows = self.evaluate(names, before, time) if names else np.ones((1, len(time)))
         return np.asarray(rows.min(axis=0))
 

@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.outputs import row_name
 from linkwright.core.search import edge, ends, lowest
 from linkwright.engine.recent import Recent
 from linkwright.engine.trace import Scalar, minimum
@@ -230,7 +231,7 @@ class _Search:
         rows = dict(zip(names, self._evaluate(names), strict=True))
         blocked = np.zeros(self.positions.count, dtype=bool)
         for group in groups:
-            blocked = blocked | ~(rows[f"quality:{group}"] > -TOUCH)
+            blocked = blocked | ~(rows[row_name("quality", group)] > -TOUCH)
             new = [replace(p, flips=self._flips(p, blocked)) for p in self._of_group(group, rows)]
             self.passing += new
             if touching := [p for p in new if p.touches]:
@@ -277,7 +278,7 @@ class _Search:
         """Where two guides of a group become parallel, and what slides on them goes through infinity."""
         placed = self.base.motion.placed
         slides = {
-            name: tuple(f"s:{step.joint}" for step in p.group.unknowns)
+            name: tuple(row_name("displacement", step.joint) for step in p.group.unknowns)
             for name, p in placed.items()
             if "sine" in p.facts
         }

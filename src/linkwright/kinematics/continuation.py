@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.frozen import Frozen
+from linkwright.core.outputs import row_name, row_names
 from linkwright.engine.scalar_backend import ScalarProgram
 from linkwright.kinematics.angles import geared, turn_state
 from linkwright.kinematics.assembly import AssemblyError
@@ -222,9 +223,11 @@ class Follower:
         """The unknowns as drawn; those of dyads by their closed form."""
         solver, loops, drawing = self.solver, self.loops, Drawing(self.mechanism)
         own = {link for group in self.groups for link in group.links}
-        names = tuple(f"e:{n}.{axis}" for n in loops.links if n not in ("frame", *own) for axis in "xy")
+        names = tuple(
+            each for n in loops.links if n not in ("frame", *own) for each in row_names("direction", n)
+        )
         slides = [key for kind, key in loops.unknowns if kind == "slide" and not self._drawn_slide(key)]
-        program = solver.program((*names, *(f"s:{key}" for key in slides))).program
+        program = solver.program((*names, *(row_name("displacement", key) for key in slides))).program
         inputs = _named(dict(zip(loops.drivers, self.drawn_inputs, strict=True)), self.rotary)
         parameters, drawn = self.design.parameters, solver.assembly.states
         outputs, _ = ScalarProgram(program).step(
@@ -241,7 +244,8 @@ class Follower:
             elif key in own:
                 rough.append(self._angle(drawn, group, key))
             else:
-                angle, drawn_angle = math.atan2(value[f"e:{key}.y"], value[f"e:{key}.x"]), drawing.angle(key)
+                x, y = (value[each] for each in row_names("direction", key))
+                angle, drawn_angle = math.atan2(y, x), drawing.angle(key)
                 near = angle if drawn_angle is None else drawn_angle
                 rough.append(near + math.remainder(angle - near, 2.0 * math.pi))
         return np.array(rough)

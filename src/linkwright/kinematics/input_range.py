@@ -10,6 +10,7 @@ from functools import cached_property
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.outputs import row_name
 from linkwright.core.search import edge
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.branch import FLOOR, Branch
@@ -323,7 +324,7 @@ class _Search:
         solver, modes = self._solver(stop.modes), {n: np.full(len(q), v) for n, v in stop.modes.items()}
         fine = _finite(states, len(q)) & (self._sines(positions, states) > 0).all(axis=0)
         if self.modal:
-            names = tuple(f"quality:{name}" for name in self.modal)
+            names = tuple(row_name("quality", name) for name in self.modal)
             fine &= (solver.evaluate(names, positions, states, modes) > 0).all(axis=0)
         return np.asarray(fine)
 
@@ -360,9 +361,9 @@ class _Search:
         states = self._states(stop, np.array([good, bad]))
         solver, modes = self._solver(stop.modes), {n: np.full(2, v) for n, v in stop.modes.items()}
         placed = solver.motion.placed
-        names = tuple(f"quality:{name}" for name, p in placed.items() if p.dyad is not None)
-        quality = solver.evaluate(names, ends, states, modes)
-        least = {name.removeprefix("quality:"): row[0] for name, row in zip(names, quality, strict=True)}
+        modal = [name for name, p in placed.items() if p.dyad is not None]
+        quality = solver.evaluate(tuple(row_name("quality", name) for name in modal), ends, states, modes)
+        least = {name: row[0] for name, row in zip(modal, quality, strict=True)}
         stuck = min(least, key=least.__getitem__, default=None)
         stuck = stop.group or stuck
         assert stuck is not None
@@ -370,7 +371,9 @@ class _Search:
         if told is None:
             return groups[stuck], Sentence("range.singular")
         facts = tuple(placed[stuck].facts)
-        row = solver.evaluate(tuple(f"fact:{stuck}|{fact}" for fact in facts), ends, states, modes)[:, 0]
+        row = solver.evaluate(tuple(row_name("fact", stuck, on=fact) for fact in facts), ends, states, modes)[
+            :, 0
+        ]
         return groups[stuck], told(dict(zip(facts, map(float, row), strict=True)))
 
 

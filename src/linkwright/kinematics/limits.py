@@ -16,10 +16,11 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.outputs import Output, kind_of
 from linkwright.core.search import ends, zero, zeros
 from linkwright.engine.recent import Recent
 from linkwright.errors import RequestError
-from linkwright.fields.signals import Output, resolve_output
+from linkwright.fields.signals import resolve_output
 from linkwright.kinematics.between import Between, Indices
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import TURN, Motion
@@ -148,7 +149,9 @@ _speeds: Recent[Mapping[str, int], tuple[list[int], list[int]]] = Recent(64)
 
 
 def _rows_of(index: Mapping[str, int]) -> tuple[list[int], list[int]]:
-    turning, moving = ([k for name, k in index.items() if name.startswith(kind)] for kind in ("w:", "v:"))
+    turning, moving = (
+        [k for name, k in index.items() if kind_of(name) == kind] for kind in ("angular_velocity", "velocity")
+    )
     return turning, moving
 
 

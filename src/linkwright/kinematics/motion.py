@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.frozen import FrozenDict, locked
+from linkwright.core.outputs import KINDS, SLIDE, Output, row_name
 from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import Floats, Positions
 from linkwright.kinematics.design import Design
@@ -85,17 +86,17 @@ class PointMotion:
     @property
     def position(self) -> Floats:
         """(n, 2) m."""
-        return self._motion.vector("p", self.name)
+        return self._motion.vector("position", self.name)
 
     @property
     def velocity(self) -> Floats:
         """(n, 2) m/s."""
-        return self._motion.vector("v", self.name)
+        return self._motion.vector("velocity", self.name)
 
     @property
     def acceleration(self) -> Floats:
         """(n, 2) m/s²."""
-        return self._motion.vector("a", self.name)
+        return self._motion.vector("acceleration", self.name)
 
 
 @dataclass(frozen=True)
@@ -120,7 +121,7 @@ class LinkMotion:
         """Unit vector of the link's x axis, (n, 2)."""
         if self.name == "frame":
             return np.tile([1.0, 0.0], (self._motion.steps, 1))
-        return self._motion.vector("e", self.name)
+        return self._motion.vector("direction", self.name)
 
     @property
     def angle(self) -> Floats:
@@ -132,7 +133,7 @@ class LinkMotion:
 
     def _angle(self) -> Floats:
         if self._motion.solver.motion.angles.counts(self.name):
-            turned = self._motion.row("o", self.name)
+            turned = self._motion.row("turned_angle", self.name)
             known = turned[np.isfinite(turned)]
             first = float(known[0]) if len(known) else 0.0
             return locked(turned - 2.0 * np.pi * np.ceil(first / (2.0 * np.pi) - 0.5))
@@ -146,12 +147,12 @@ class LinkMotion:
     @property
     def angular_velocity(self) -> Floats:
         """(n,) rad/s."""
-        return self._motion.row("w", self.name)
+        return self._motion.row("angular_velocity", self.name)
 
     @property
     def angular_acceleration(self) -> Floats:
         """(n,) rad/s²."""
-        return self._motion.row("g", self.name)
+        return self._motion.row("angular_acceleration", self.name)
 
     @property
     def centre(self) -> PointMotion:
@@ -276,7 +277,7 @@ class Motion:
         """Coordinate of a joint: displacement of a guide's block, or angle of a pin's second link on its first."""
         joint = self.design.base.joints.get(name)
         if joint is not None and joint.coordinate == "slide":
-            return JointMotion(name, *(self.row(kind, name) for kind in ("s", "sv", "sa")))
+            return JointMotion(name, *(self.row(kind, name) for kind in SLIDE))
         if joint is not None and joint.coordinate == "turn":
             a, b = (self.link(link) for link in joint.joined[:2])
             return JointMotion(
@@ -292,15 +293,23 @@ class Motion:
         """Motion of a point by its canonical key."""
         return PointMotion(self, key)
 
-    def vector(self, prefix: str, key: str) -> Floats:
-        """A vector output, (n, 2)."""
-        return self.rows.pair(f"{prefix}:{key}", self.evaluate)
+    def vector(self, kind: str, key: str) -> Floats:
+        """A vector output, (n, 2), by its kind (see ``core.outputs``) and owner."""
+        return self.rows.pair(row_name(kind, key), self.evaluate)
 
-    def row(self, prefix: str, key: str) -> Floats:
+    def row(self, kind: str, key: str) -> Floats:
         """A scalar output, (n,)."""
         if key == "frame":
             return np.zeros(self.steps)
-        return self.rows.row(f"{prefix}:{key}", self.evaluate)
+        return self.rows.row(row_name(kind, key), self.evaluate)
+
+    def read(self, output: Output) -> Floats:
+        """An angle, a displacement, a component of a point's motion, or a rate of these, (n,)."""
+        if output.kind == "angle":
+            return self.link(output.owner).angle
+        if KINDS[output.kind].of != "point":
+            return self.row(output.kind, output.owner)
+        return self.vector(output.kind, self._point_key(output.owner))[:, "xy".index(output.component)]
 
     def _fetch(self, names: tuple[str, ...]) -> list[Floats]:
         return self.rows.fetch(names, self.evaluate)

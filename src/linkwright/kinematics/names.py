@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
+from linkwright.core.outputs import Output, row_names
 from linkwright.errors import RequestError
-from linkwright.fields.signals import Output
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import no_such, offered
 from linkwright.words.sentence import Sentence
-
-
-def vector_names(prefix: str, key: str) -> tuple[str, str]:
-    """Names of the two components of a vector output."""
-    return f"{prefix}:{key}.x", f"{prefix}:{key}.y"
 
 
 def owners(mechanism: Mechanism, point: str) -> list[str]:
@@ -53,13 +50,10 @@ def canonical(mechanism: Mechanism, link: str, point: str) -> str:
 def program_names(mechanism: Mechanism, output: Output) -> tuple[tuple[str, ...], tuple[str, str]]:
     """Names of the program's outputs for a value (an angle as the cosine and sine of a direction), and for its two
     rates."""
-    match output.kind:
-        case "angle":
-            return (f"e:{output.owner}.x", f"e:{output.owner}.y"), (f"w:{output.owner}", f"g:{output.owner}")
-        case "displacement":
-            return (f"s:{output.owner}",), (f"sv:{output.owner}", f"sa:{output.owner}")
-    key = f"{canonical(mechanism, *find_point(mechanism, output.owner))}.{output.kind}"
-    return (f"p:{key}",), (f"v:{key}", f"a:{key}")
+    if output.kind == "position":
+        output = replace(output, owner=canonical(mechanism, *find_point(mechanism, output.owner)))
+    own, rate, second = (each.row for each in output.course)
+    return row_names("direction", output.owner) if output.kind == "angle" else (own,), (rate, second)
 
 
 def _unknown(noun: str, name: str, known: list[str]) -> RequestError:

@@ -6,14 +6,11 @@ from collections.abc import Iterable
 from functools import cached_property
 from typing import Any
 
+from linkwright.core.outputs import KINDS, POINT, SLIDE, Output, row_name, row_names
 from linkwright.engine.trace import Scalar
 from linkwright.engine.vector import ZERO, Vec
-from linkwright.kinematics.names import canonical, find_point, vector_names
+from linkwright.kinematics.names import canonical, find_point
 from linkwright.kinematics.trace import MotionTrace
-
-#: ``p:C.x`` position, ``v:`` velocity, ``a:`` acceleration of points; ``e:jaw.x`` direction, ``w:jaw`` angular
-#: velocity, ``g:jaw`` angular acceleration, ``o:jaw`` angle with turns (where they are counted) of links;
-#: ``s:guide``, ``sv:``, ``sa:`` displacements of guides.
 
 
 class MotionOutputs:
@@ -25,31 +22,31 @@ class MotionOutputs:
         self._points: dict[str, tuple[Vec, Vec, Vec]] = {}
 
     def value(self, name: str) -> Scalar:
-        """The traced value of an output."""
-        if name == "outcome":
-            return self.motion.outcome
-        kind, key = name.split(":", 1)
-        if kind in ("p", "v", "a"):
-            base, axis = key.rsplit(".", 1)
-            if base not in self._points:
-                self._points[base] = self.point(base)
-            vector = self._points[base]["pva".index(kind)]
-            return vector.x if axis == "x" else vector.y
-        if kind == "e":
-            base, axis = key.rsplit(".", 1)
-            direction = self.motion.poses[base].direction
-            return direction.x if axis == "x" else direction.y
-        if kind == "o":
-            return self.motion.angles(key)
-        if kind in ("w", "g"):
-            state = self.motion.states[key]
-            return state.omega if kind == "w" else state.alpha
-        if kind in ("s", "sv", "sa"):
-            return self.slide(key)[("s", "sv", "sa").index(kind)]
-        if kind == "quality":
-            return self.motion.placed[key].quality
-        group, fact = key.rsplit("|", 1)
-        return self.motion.placed[group].facts[fact]
+        """The traced value of an output, by its row; raises KeyError for one that is not of the motion."""
+        output = Output.of_row(name)
+        found = self._found(output)
+        return found if not isinstance(found, Vec) else found.x if output.component == "x" else found.y
+
+    def _found(self, output: Output) -> Scalar | Vec:
+        kind, owner, motion = output.kind, output.owner, self.motion
+        match KINDS[kind].of:
+            case "point":
+                if owner not in self._points:
+                    self._points[owner] = self.point(owner)
+                return self._points[owner][POINT.index(kind)]
+            case "guide":
+                return self.slide(owner)[SLIDE.index(kind)]
+            case "link" if kind == "direction":
+                return motion.poses[owner].direction
+            case "link" if kind == "turned_angle":
+                return motion.angles(owner)
+            case "link":
+                state = motion.states[owner]
+                return state.omega if kind == "angular_velocity" else state.alpha
+            case "group":
+                placed = motion.placed[owner]
+                return placed.quality if kind == "quality" else placed.facts[output.on]
+        return motion.outcome
 
     def point(self, key: str) -> tuple[Vec, Vec, Vec]:
         """Position, velocity, acceleration of ``C``, ``jaw.D`` or ``jaw.centre`` (the mass centre)."""
@@ -95,11 +92,10 @@ class MotionOutputs:
         """What every motion result stores: pins and points with rates, rotation rates, the outcome."""
         names: list[str] = []
         for key in self.point_keys():
-            for prefix in ("p", "v", "a"):
-                names += vector_names(prefix, key)
+            names += (name for kind in POINT for name in row_names(kind, key))
         for link in self.mechanism.links:
-            names += [f"w:{link}", f"g:{link}"]
-        return (*names, "outcome")
+            names += (row_name("angular_velocity", link), row_name("angular_acceleration", link))
+        return (*names, row_name("outcome"))
 
     def point_keys(self) -> Iterable[str]:
         """Canonical names of all points of the moving links that the frame does not carry."""

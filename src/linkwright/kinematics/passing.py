@@ -7,6 +7,7 @@ from itertools import chain
 from math import ceil, cos, inf, isfinite, nan, sin, tau
 from typing import TYPE_CHECKING
 
+from linkwright.core.outputs import Output, kind_of, row_name
 from linkwright.engine.program import Program
 from linkwright.engine.scalar_backend import ScalarProgram
 from linkwright.kinematics.assembly import assemble
@@ -16,7 +17,6 @@ from linkwright.kinematics.trace import MotionTrace, trace_motion
 from linkwright.structure import Structure
 
 if TYPE_CHECKING:
-    from linkwright.fields.signals import Output
     from linkwright.mechanism.mechanism import Mechanism
 
 #: Groups whose quality (square of the sine of their transmission angle) stays above this are left alone, unless
@@ -36,7 +36,10 @@ def modal(motion: MotionTrace) -> list[str]:
 def measures(motion: MotionTrace, group: str) -> list[str]:
     """Outputs that come near to zero where the modes or the outer pins of a group meet."""
     facts = motion.placed[group].facts
-    return [f"quality:{group}", *(["fact:" + group + "|distance²"] if "distance²" in facts else [])]
+    return [
+        row_name("quality", group),
+        *([row_name("fact", group, on="distance²")] if "distance²" in facts else []),
+    ]
 
 
 def clear_of_zero(
@@ -48,7 +51,7 @@ def clear_of_zero(
     an output, by its number, from one position to the next.
     """
     for k, (name, low, high) in enumerate(zip(names, lows, highs, strict=True)):
-        if name.startswith("fact:"):
+        if kind_of(name) == "fact":
             least = NEAR * high
         elif low > max(NEAR, high - low):
             least = NEAR

@@ -17,11 +17,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.outputs import row_names
 from linkwright.errors import LinkwrightError
 from linkwright.joints.lower import SlidingJoint
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion
-from linkwright.kinematics.names import canonical, vector_names
+from linkwright.kinematics.names import canonical
 from linkwright.mechanism.drawing import Drawing
 from linkwright.mechanism.geometry import mechanism_size
 from linkwright.mechanism.mechanism import Mechanism
@@ -269,9 +270,9 @@ def _first_points(mechanism: Mechanism) -> dict[str, str]:
 def _pose_outputs(mechanism: Mechanism) -> tuple[str, ...]:
     """Names of the outputs that tell where every link is."""
     wanted = [
-        vector_names(*each)
+        row_names(*each)
         for name, key in _first_points(mechanism).items()
-        for each in (("e", name), ("p", key))
+        for each in (("direction", name), ("position", key))
     ]
     return tuple(dict.fromkeys(name for pair in wanted for name in pair))
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
+from linkwright.core.outputs import row_names
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.cycle import Floats
-from linkwright.kinematics.names import vector_names
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
@@ -47,7 +47,7 @@ def columns(motion: Motion) -> dict[str, Floats]:
 
 def directions(motion: Motion) -> Iterator[str]:
     """Names of the outputs that the columns of links take their angles from."""
-    return (name for link in motion.mechanism.links for name in vector_names("e", link))
+    return (name for link in motion.mechanism.links for name in row_names("direction", link))
 
 
 def input_column(motion: Motion) -> str | None:

@@ -10,6 +10,7 @@ import numpy as np
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.frozen import locked
+from linkwright.core.outputs import row_name, row_names
 from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import Floats, over_cycle
 from linkwright.kinematics.motion import Motion, Rows
@@ -99,7 +100,7 @@ class Forces:
         if not self.mechanism.joints[joint].couples:
             return np.zeros(self.steps)
         other = self.mechanism.joints[joint].joined[1]
-        row = self.rows.row(f"c:{joint}|{other}", self.evaluate)
+        row = self.rows.row(row_name("couple", joint, on=other), self.evaluate)
         return locked(-row) if link == first else row
 
     def resultant_offset(self, joint: str) -> Floats:
@@ -116,7 +117,7 @@ class Forces:
         drivers = self.motion.design.base.drivers
         if name not in drivers:
             raise RequestError(no_such("driver", name, drivers))
-        return self.rows.row(f"effort:{name}", self.evaluate)
+        return self.rows.row(row_name("effort", name), self.evaluate)
 
     @property
     def input_torque(self) -> Floats:
@@ -135,14 +136,14 @@ class Forces:
     @cached_property
     def power(self) -> Floats:
         """Power that the drivers must supply, from the powers of all forces, (n,) W."""
-        return self.rows.row("power", self.evaluate)
+        return self.rows.row(row_name("power_of_forces"), self.evaluate)
 
     @cached_property
     def power_residual(self) -> Floats:
         """Power of the driver efforts minus the power of all forces, (n,) W: zero but for rounding."""
         if not self.mechanism.drivers:
             return np.zeros(self.steps)
-        return locked(self.rows.row("driver_power", self.evaluate) - self.power)
+        return locked(self.rows.row(row_name("power"), self.evaluate) - self.power)
 
     @cached_property
     def balance_residual(self) -> Floats:
@@ -152,18 +153,18 @@ class Forces:
     @cached_property
     def shaking_force(self) -> Floats:
         """Resultant of the inertia forces on the frame, (n, 2) N."""
-        return locked(np.stack(self.fetch(("shake.x", "shake.y")), axis=1))
+        return locked(np.stack(self.fetch(row_names("shaking_force")), axis=1))
 
     @cached_property
     def shaking_moment(self) -> Floats:
         """Its moment about the frame's origin, (n,) N·m."""
-        return self.rows.row("shake_moment", self.evaluate)
+        return self.rows.row(row_name("shaking_moment"), self.evaluate)
 
     def load(self, name: str) -> LoadForce:
         """What one of the file's loads did."""
         if name not in self.mechanism.loads:
             raise RequestError(no_such("load", name, self.mechanism.loads))
-        names = (f"lf:{name}.x", f"lf:{name}.y", f"lm:{name}", f"lp:{name}.x", f"lp:{name}.y")
+        names = (*row_names("load", name), row_name("load_moment", name), *row_names("load_place", name))
         fx, fy, moment, px, py = self.fetch(names)
         return LoadForce(name, locked(np.stack([fx, fy], axis=1)), moment, locked(np.stack([px, py], axis=1)))
 
@@ -188,7 +189,7 @@ class Forces:
     def _reaction(self, joint: str, link: str) -> Floats:
         links = self.motion.design.base.joints[joint].joined
         if link != links[0]:
-            return self.rows.pair(f"r:{joint}|{link}", self.evaluate)
+            return self.rows.pair(row_name("reaction", joint, on=link), self.evaluate)
         total = np.zeros((self.steps, 2))
         for other in links[1:]:
             total -= self._reaction(joint, other)

@@ -7,9 +7,9 @@ from collections.abc import Iterable, Mapping
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.outputs import Output
 from linkwright.engine.trace import Scalar
 from linkwright.engine.vector import Vec
-from linkwright.fields.signals import Output
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.trace import MotionTrace

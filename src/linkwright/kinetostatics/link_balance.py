@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from linkwright.core.outputs import row_name, row_names
 from linkwright.kinematics.cycle import Floats
-from linkwright.kinematics.names import canonical, vector_names
+from linkwright.kinematics.names import canonical
 
 if TYPE_CHECKING:
     from linkwright.kinetostatics.forces import Forces
@@ -46,19 +47,20 @@ def motion_outputs(forces: Forces) -> Iterator[str]:
     """Names of what the balance takes from the motion."""
     mechanism = forces.mechanism
     keys = [canonical(mechanism, *seat) for joint in mechanism.joints.values() for seat in joint.seats]
-    yield from (name for key in keys for name in vector_names("p", key))
+    yield from (name for key in keys for name in row_names("position", key))
     for link in mechanism.links:
-        for prefix in ("p",) if forces.static else ("p", "a"):
-            yield from vector_names(prefix, f"{link}.@centre")
+        for kind in ("position",) if forces.static else ("position", "acceleration"):
+            yield from row_names(kind, f"{link}.@centre")
 
 
 def load_outputs(forces: Forces) -> tuple[str, ...]:
     """Names of what the balance takes from the loads."""
-    return tuple(name for link in forces.mechanism.links for name in _load_outputs(link))
+    return tuple(name for link in forces.mechanism.links for name in applied_rows(link))
 
 
-def _load_outputs(link: str) -> tuple[str, str, str]:
-    return f"on:{link}.x", f"on:{link}.y", f"on:{link}.m"
+def applied_rows(link: str) -> tuple[str, str, str]:
+    """Names of the force (x, y) and the moment about the frame's origin of all loads on a link."""
+    return (*row_names("applied", link), row_name("applied", link, "m"))
 
 
 def _cross(place: Floats, force: Floats) -> Floats:
@@ -97,7 +99,7 @@ def _drivers(forces: Forces, link: str) -> Pair:
 
 def _loads(forces: Forces, link: str) -> Pair:
     """Loads and friction on a link, about the frame's origin."""
-    fx, fy, moment = forces.fetch(_load_outputs(link))
+    fx, fy, moment = forces.fetch(applied_rows(link))
     return np.stack([fx, fy], axis=1), moment
 
 

@@ -4,14 +4,11 @@ from __future__ import annotations
 
 from functools import cached_property
 
+from linkwright.core.outputs import Output, row_name, row_names
 from linkwright.engine.trace import Scalar
 from linkwright.engine.vector import ZERO, Vec
 from linkwright.kinetostatics.trace import ForceTrace
 from linkwright.loads.site import Wrench
-
-#: ``r:JOINT|LINK.x`` reaction on a link, ``c:JOINT|LINK`` couple, ``effort:DRIVER``, ``power`` of all demands,
-#: ``driver_power``, ``lf:LOAD.x`` force of a load, ``lm:LOAD`` its moment about the frame's origin, ``lp:LOAD.x``
-#: its place, ``on:LINK.x`` and ``on:LINK.m`` loads on a link, ``shake.x`` and ``shake_moment`` on the frame.
 
 
 class ForceOutputs:
@@ -22,49 +19,42 @@ class ForceOutputs:
         self.mechanism = forces.motion.mechanism
 
     def value(self, name: str) -> Scalar:
-        """The traced value of an output."""
-        kind, _, key = name.partition(":")
-        if name in ("power", "driver_power"):
-            return getattr(self.forces, name)  # type: ignore[no-any-return]
-        if name == "shake_moment":
-            return self._shaking()[1]
-        if kind == "effort":
-            return self.forces.efforts[key]
-        if kind == "c":
-            joint, link = key.split("|", 1)
-            return self.forces.couple(joint, link)
-        if kind == "lm":
-            return self._moment(self.forces.wrenches[key])
-        if kind == "on":
-            return self._on_link(*key.rsplit(".", 1))
-        base, axis = name.rsplit(".", 1)
-        vector = self._vector(base)
-        return vector.x if axis == "x" else vector.y
+        """The traced value of an output, by its row; raises KeyError for one that is not of the forces."""
+        output = Output.of_row(name)
+        found = self._found(output)
+        return found if not isinstance(found, Vec) else found.x if output.component == "x" else found.y
 
-    def _vector(self, base: str) -> Vec:
-        if base == "shake":
-            return self._shaking()[0]
-        kind, key = base.split(":", 1)
-        if kind == "r":
-            joint, link = key.split("|", 1)
-            return self.forces.reaction(joint, link)
-        wrenches = [w for w in self.forces.wrenches[key] if w.link != "frame"]
-        if kind == "lp":
-            return wrenches[0].place if wrenches else ZERO
-        total = ZERO
-        for wrench in wrenches:
-            total = total + wrench.force
-        return total
+    def _found(self, output: Output) -> Scalar | Vec:
+        owner, forces = output.owner, self.forces
+        match output.kind:
+            case "reaction":
+                return forces.reaction(owner, output.on)
+            case "couple":
+                return forces.couple(owner, output.on)
+            case "effort":
+                return forces.efforts[owner]
+            case "load":
+                return _sum(self._moving(owner))
+            case "load_moment":
+                return self._moment(forces.wrenches[owner])
+            case "load_place":
+                return next((wrench.place for wrench in self._moving(owner)), ZERO)
+            case "applied":
+                wrenches = [w for group in forces.wrenches.values() for w in group if w.link == owner]
+                return self._moment(wrenches) if output.component == "m" else _sum(wrenches)
+            case "shaking_force":
+                return self._shaking()[0]
+            case "shaking_moment":
+                return self._shaking()[1]
+            case "power":
+                return forces.driver_power
+            case "power_of_forces":
+                return forces.power
+        raise KeyError(output.row)
 
-    def _on_link(self, link: str, part: str) -> Scalar:
-        """Resultant of loads and friction on one link: x, y, or the moment m about the frame's origin."""
-        wrenches = [w for group in self.forces.wrenches.values() for w in group if w.link == link]
-        if part == "m":
-            return self._moment(wrenches)
-        total = ZERO
-        for wrench in wrenches:
-            total = total + wrench.force
-        return total.x if part == "x" else total.y
+    def _moving(self, load: str) -> list[Wrench]:
+        """What a load does to links other than the frame."""
+        return [wrench for wrench in self.forces.wrenches[load] if wrench.link != "frame"]
 
     def _moment(self, wrenches: list[Wrench]) -> Scalar:
         total: Scalar = 0.0
@@ -91,12 +81,12 @@ class ForceOutputs:
     @cached_property
     def standard(self) -> tuple[str, ...]:
         """What every result stores: reactions on every link, couples, efforts."""
-        names = []
+        names: list[str] = []
         for joint, link, couple in self.reaction_keys():
-            names += [f"r:{joint}|{link}.x", f"r:{joint}|{link}.y"]
+            names += row_names("reaction", joint, link)
             if couple:
-                names.append(f"c:{joint}|{link}")
-        return (*names, *(f"effort:{name}" for name in self.forces.efforts))
+                names.append(row_name("couple", joint, on=link))
+        return (*names, *(row_name("effort", name) for name in self.forces.efforts))
 
     def reaction_keys(self) -> list[tuple[str, str, bool]]:
         """Joint, link, and whether it carries a couple; one link per pair, the others follow by reaction."""
@@ -104,3 +94,10 @@ class ForceOutputs:
         for name, joint in self.mechanism.joints.items():
             found += [(name, link, joint.couples) for link in joint.joined[1:]]
         return found
+
+
+def _sum(wrenches: list[Wrench]) -> Vec:
+    total = ZERO
+    for wrench in wrenches:
+        total = total + wrench.force
+    return total

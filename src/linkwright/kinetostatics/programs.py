@@ -5,12 +5,12 @@ from __future__ import annotations
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from linkwright.core.outputs import SLIDE, Output, row_name, row_names
 from linkwright.engine.in_turn import InTurn
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
 from linkwright.engine.recent import Recent
 from linkwright.engine.trace import Scalar
-from linkwright.kinematics.names import vector_names
 from linkwright.kinematics.programs import MotionPrograms
 from linkwright.kinetostatics.friction import FrictionTerms
 from linkwright.kinetostatics.named import Named
@@ -27,7 +27,6 @@ if TYPE_CHECKING:
 _WORDS = "words:"
 #: Before the field of a friction that is not taken but found.
 _CAUSED = "caused:"
-_OF_MOTION = frozenset({"p", "v", "a", "e", "w", "g", "s", "sv", "sa", "quality", "fact", "outcome"})
 
 
 def words_name(words: str) -> str:
@@ -109,8 +108,8 @@ class ForcePrograms:
         moved = [
             each.owner for each in followed if each.kind == "displacement" and each.owner in mechanism.guides
         ]
-        more = [name for link in turned for name in vector_names("e", link)]
-        more += [f"{kind}:{guide}" for guide in moved for kind in ("s", "sv", "sa")]
+        more = [name for link in turned for name in row_names("direction", link)]
+        more += [row_name(kind, guide) for guide in moved for kind in SLIDE]
         early = tuple(dict.fromkeys((*self.motion.outputs.standard, *measures, *more)))
         sizes = (f"load:{name}" for name in sorted(self.along_input))
         names = tuple(dict.fromkeys((*early, *self.outputs.standard, *asked, *sizes)))
@@ -133,8 +132,7 @@ class ForcePrograms:
             return caused(self._terms, self.forces, name.removeprefix(_CAUSED))
         if name.startswith("load:"):
             return traced_magnitude(self.motion.motion, name.removeprefix("load:"))
-        of_motion = name.split(":", maxsplit=1)[0] in _OF_MOTION
-        return (self.motion.outputs if of_motion else self.outputs).value(name)
+        return (self.motion.outputs if Output.of_row(name).of_motion else self.outputs).value(name)
 
 
 def force_programs(

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from linkwright.core.outputs import kind_of
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.cycle import Floats, Positions
 from linkwright.kinematics.design import Design
@@ -168,7 +169,7 @@ def _with_friction(motion: Motion, solver: ForceSolver, fields: dict[str, Floats
     """Friction that agrees with the reactions it causes, by fixed-point iteration; exact to the largest reaction."""
     terms, ok = solver.friction.terms, motion.ok
     names = [term.field for term in terms]
-    reactions = [name for name in solver.outputs.standard if name.startswith("r:")]
+    reactions = [name for name in solver.outputs.standard if kind_of(name) == "reaction"]
     wanted = (*(caused_name(name) for name in names), *reactions)
     still, most = still_rates(motion, terms), max(term.arm for term in terms)
     previous, growing = np.inf, 0

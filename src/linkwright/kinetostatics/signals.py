@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.fields.signals import Output
+from linkwright.core.outputs import Output
 from linkwright.kinematics.cycle import CycleError, Floats, Positions, over_cycle
 from linkwright.kinematics.limits import limit_inputs, limit_positions
 from linkwright.kinematics.motion import Motion
@@ -105,11 +104,11 @@ class MotionSignals:
 
     def output(self, output: Output) -> tuple[Floats, Floats]:
         """Value and rate of an output, (n,) each."""
-        value, rate = _read(self.motion, output)
+        value, rate = self.motion.read(output), self.motion.read(output.rate)
         if self.cycle is self.motion:
             whole = rate
         else:
-            on_cycle, whole = _read(self.cycle, output)
+            on_cycle, whole = self.cycle.read(output), self.cycle.read(output.rate)
             if output.kind == "angle":
                 value = self._anchored(value, on_cycle)
         size = np.nanmax(np.abs(np.append(whole, rate)), initial=0.0) if self.ok.any() else 0.0
@@ -139,7 +138,7 @@ class MotionSignals:
     def angle_of(self, a: str, b: str, near: float | None) -> Floats:
         """The same; without ``near`` as the motion has it."""
         if near is None:
-            return self.output(Output("angle", b, b))[0]
+            return self.output(Output("angle", b))[0]
         return self.angle_between(a, b, near)
 
     def _anchored(self, angle: Floats, on_cycle: Floats) -> Floats:
@@ -170,16 +169,3 @@ class MotionSignals:
 
 def _between(motion: Motion, a: str, b: str) -> Floats:
     return motion.link(b).angle - motion.link(a).angle
-
-
-def _read(motion: Motion, output: Output) -> tuple[Floats, Floats]:
-    readers: dict[str, Callable[[], tuple[Any, Any]]] = {
-        "angle": lambda: (motion.link(output.owner).angle, motion.link(output.owner).angular_velocity),
-        "x": lambda: (motion.point(output.owner).position[:, 0], motion.point(output.owner).velocity[:, 0]),
-        "y": lambda: (motion.point(output.owner).position[:, 1], motion.point(output.owner).velocity[:, 1]),
-        "displacement": lambda: (
-            motion.joint(output.owner).displacement,
-            motion.joint(output.owner).velocity,
-        ),
-    }
-    return readers[output.kind]()

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from linkwright.core.outputs import Output
 from linkwright.engine.trace import Mask, Scalar, angle, cos, sin
 from linkwright.engine.vector import Vec
-from linkwright.fields.signals import MovingPhase, Output, SwingPhase
+from linkwright.fields.signals import MovingPhase, SwingPhase
 from linkwright.kinematics.outputs import MotionOutputs
 from linkwright.kinematics.trace import MotionTrace
 from linkwright.loads.base import Load
@@ -54,11 +55,7 @@ def output_value(motion: MotionTrace, output: Output) -> Scalar:
     """An output as a traced value; an angle that of a link that does not turn through."""
     if output.kind == "angle":
         return angle_between(motion, "frame", output.owner)
-    outputs = MotionOutputs(motion)
-    if output.kind == "displacement":
-        return outputs.slide(output.owner)[0]
-    place = outputs.point(output.owner)[0]
-    return place.x if output.kind == "x" else place.y
+    return MotionOutputs(motion).value(output.row)
 
 
 def guide_state(motion: MotionTrace, joint: str) -> tuple[Vec, Vec, Scalar]:

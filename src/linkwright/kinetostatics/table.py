@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from linkwright.core.outputs import row_name, row_names
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.table import directions
 from linkwright.kinetostatics.link_balance import load_outputs, motion_outputs
@@ -13,7 +14,7 @@ from linkwright.kinetostatics.link_balance import load_outputs, motion_outputs
 if TYPE_CHECKING:
     from linkwright.kinetostatics.forces import Forces
 
-_RESULTANTS = ("shake.x", "shake.y", "shake_moment", "power", "driver_power")
+_RESULTANTS = (*row_names("shaking_force"), *map(row_name, ("shaking_moment", "power_of_forces", "power")))
 
 
 def columns(forces: Forces) -> dict[str, Floats]:

@@ -10,10 +10,11 @@ import numpy as np
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import Expression
+from linkwright.core.outputs import Output
 from linkwright.engine.recent import Recent
 from linkwright.engine.table import Table
 from linkwright.engine.trace import Scalar
-from linkwright.fields.signals import MovingPhase, Output, SwingPhase
+from linkwright.fields.signals import MovingPhase, SwingPhase
 from linkwright.kinematics.programs import MotionPrograms
 from linkwright.kinematics.trace import MotionTrace
 from linkwright.kinetostatics.friction import Swinging

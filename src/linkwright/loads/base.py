@@ -20,6 +20,7 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.outputs import Output
 from linkwright.fields.base import Field, Quantities, Quantity, Schema, Word, table_schema
 from linkwright.fields.references import (
     LinkName,
@@ -30,7 +31,7 @@ from linkwright.fields.references import (
     PointReference,
     PointReferences,
 )
-from linkwright.fields.signals import Magnitude, Output, OutputName, Phase, PhaseField, Table, TableField
+from linkwright.fields.signals import Magnitude, OutputName, Phase, PhaseField, Table, TableField
 from linkwright.joints.base import JointName
 from linkwright.registry import Registry
 from linkwright.words.sentence import Sentence, together

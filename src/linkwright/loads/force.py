@@ -106,7 +106,7 @@ class Force(Load):
         for name, joint in mechanism.joints.items():
             if {"frame", self.on} <= set(joint.joined) and joint.coordinate:
                 turns = joint.coordinate == "turn"
-                return Output("angle", self.on, self.on) if turns else Output("displacement", name, name)
+                return Output("angle", self.on) if turns else Output("displacement", name)
         return None
 
     @property

@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 from linkwright.core.expression_tree import Binary, Call, Negative, Node, Number, evaluate, scalar_functions
 from linkwright.core.expressions import ON_VALUES, Expression
+from linkwright.core.outputs import Output
 from linkwright.engine.late import numpy as np
 from linkwright.errors import LinkwrightError, QuantityError
-from linkwright.fields.signals import Output, resolve_output
+from linkwright.fields.signals import resolve_output
 from linkwright.loads.signals import Array, Mask, Signals, column, input_dimension, shown, spot
 from linkwright.registry import offered
 from linkwright.units import LARGEST

@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Protocol
 
 from linkwright.core.expression_tree import Number
 from linkwright.core.expressions import Expression
+from linkwright.core.outputs import Output
 from linkwright.engine.trace import Mask, Scalar, absolute, floor, maximum, minimum, select, sign
-from linkwright.fields.signals import InputPhase, MovingPhase, Output, SwingPhase, Table
+from linkwright.fields.signals import InputPhase, MovingPhase, SwingPhase, Table
 from linkwright.loads.base import Load
 from linkwright.loads.formulas import denominators, output_named
 from linkwright.loads.phases import NEAR, TURN

@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING, Any
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import Expression
+from linkwright.core.outputs import Output
 from linkwright.engine.late import numpy as np
 from linkwright.errors import LinkwrightError, with_remedy
-from linkwright.fields.signals import InputPhase, MovingPhase, Output, SwingPhase, Table
+from linkwright.fields.signals import InputPhase, MovingPhase, SwingPhase, Table
 from linkwright.loads.formulas import named_column, refuse_formula
 from linkwright.loads.magnitude import constants, part_ends, phase_passed, place_in, within_phase
 from linkwright.loads.phases import NEAR, TURN, Stretch, place_on, strokes

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeAlias
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.outputs import Output
 from linkwright.engine.late import numpy as np
-from linkwright.fields.signals import Output
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:

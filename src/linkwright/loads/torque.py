@@ -69,7 +69,7 @@ class Torque(Load):
         """With the rotation that it opposes, where that is one against the frame."""
         if self.opposes is None or self.against != "frame":
             return None
-        return Output("angle", self.on, self.on)
+        return Output("angle", self.on)
 
     def mark(self, motion: Motion, index: int) -> Turn:
         sense = sign_of(self)

@@ -9,11 +9,11 @@ from itertools import chain
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.outputs import row_names
 from linkwright.core.piecewise import POINTS, Integral, Piecewise, at_nodes, tails
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion
-from linkwright.kinematics.names import vector_names
 from linkwright.kinetostatics.forces import Forces
 from linkwright.machine.energy import EnergyFluctuation, of_energy
 from linkwright.machine.torque_curve import TURN, TorqueCurve
@@ -48,7 +48,7 @@ def _inertia_and_slope(motion: Motion) -> tuple[Floats, Floats]:
     energy, power = np.zeros(motion.steps), np.zeros(motion.steps)
     links = motion.mechanism.links.items()
     names = {
-        name: [each for kind in "va" for each in vector_names(kind, f"{name}.@centre")]
+        name: [each for kind in ("velocity", "acceleration") for each in row_names(kind, f"{name}.@centre")]
         for name, link in links
         if link.mass
     }

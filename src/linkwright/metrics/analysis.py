@@ -12,10 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.outputs import Output
 from linkwright.core.piecewise import POINTS, Piecewise, largest
 from linkwright.core.search import lowest
 from linkwright.engine.recent import Recent
-from linkwright.fields.signals import Output
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.limits import limit_positions
 from linkwright.kinematics.motion import Motion
@@ -26,7 +26,7 @@ from linkwright.loads.phases import outermost
 from linkwright.loads.signals import Limit
 from linkwright.metrics import true_speed
 from linkwright.metrics.cycle_grid import PASSED, CycleGrid, cycle_grid
-from linkwright.metrics.outputs import mechanism_outputs, value
+from linkwright.metrics.outputs import mechanism_outputs
 from linkwright.metrics.resolve import Resolver
 from linkwright.metrics.summary import Summary, one
 
@@ -293,7 +293,7 @@ class Analysis:
     def _of_limits(self, output: Output, kind: str) -> Extreme:
         """Place of an output's outermost limit position, or the way between them."""
         if kind == "range":
-            reached = value(self.motion, output)
+            reached = self.motion.read(output)
             ends = [limit.value for limit in self.limits(output)]
             way = np.ptp(np.append(reached[np.isfinite(reached)], ends))
             exact = self.resolver.possible and bool(self.motion.ok.all())

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.core.outputs import kind_of
 from linkwright.core.piecewise import (
     POINTS,
     SMOOTH,
@@ -41,10 +42,10 @@ PIECES = 24
 HALVINGS = 24
 #: Stored outputs whose sizes are compared: places, rates, second derivatives, forces and moments.
 _ALIKE = {
-    **dict.fromkeys(("p", "e", "s"), "place"),
-    **dict.fromkeys(("v", "w", "sv"), "rate"),
-    **dict.fromkeys(("a", "g", "sa"), "second"),
-    **dict.fromkeys(("r", "c", "effort"), "force"),
+    **dict.fromkeys(("position", "direction", "displacement"), "place"),
+    **dict.fromkeys(("velocity", "angular_velocity", "slide_velocity"), "rate"),
+    **dict.fromkeys(("acceleration", "angular_acceleration", "slide_acceleration"), "second"),
+    **dict.fromkeys(("reaction", "couple", "effort"), "force"),
 }
 #: A piece around a change point reaches this share of the cycle to both sides. Nearer to it than the innermost Gauss
 #: points no position is asked for: places are exact to the machine's digits over the distance, second derivatives to
@@ -230,7 +231,7 @@ class CycleGrid:
         for rows in all_rows:
             kinds: dict[str, list[int]] = {}
             for name, place in rows.index.items():
-                kind = name.partition(":")[0]
+                kind = kind_of(name)
                 if kind in _ALIKE:
                     kinds.setdefault(_ALIKE[kind], []).append(place)
             for places in kinds.values():

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from linkwright.fields.signals import Output
-from linkwright.kinematics.cycle import Floats
+from linkwright.core.outputs import Output
 from linkwright.kinematics.motion import Motion
 from linkwright.mechanism.mechanism import Mechanism
 
@@ -20,9 +19,9 @@ def mechanism_outputs(mechanism: Mechanism) -> tuple[Output, ...]:
             continue
         links = [link for link in joint.joined if link != "frame" and (name, link) not in driven]
         if joint.coordinate == "turn":
-            found |= {Output("angle", link, link): None for link in links}
+            found |= {Output("angle", link): None for link in links}
         elif joint.coordinate == "slide" and links:
-            found[Output("displacement", name, name)] = None
+            found[Output("displacement", name)] = None
     return tuple(found)
 
 
@@ -34,32 +33,11 @@ def output_link(mechanism: Mechanism, output: Output) -> str:
     return next(link for link in joint.joined if link != "frame")
 
 
-def value(motion: Motion, output: Output) -> Floats:
-    """Angle (rad, continuous) or displacement (m), (n,)."""
-    return (
-        motion.link(output.owner).angle if output.kind == "angle" else motion.joint(output.owner).displacement
-    )
-
-
-def rate(motion: Motion, output: Output) -> Floats:
-    """Its first derivative in time, (n,)."""
-    if output.kind == "angle":
-        return motion.link(output.owner).angular_velocity
-    return motion.joint(output.owner).velocity
-
-
-def second(motion: Motion, output: Output) -> Floats:
-    """Its second derivative in time, (n,)."""
-    if output.kind == "angle":
-        return motion.link(output.owner).angular_acceleration
-    return motion.joint(output.owner).acceleration
-
-
 def turns_fully(motion: Motion, output: Output) -> bool:
     """Whether an angle gains whole turns over a closed cycle, so that it never swings back to its start."""
     if output.kind != "angle" or motion.steps < 3 or not motion.ok.all():
         return False
-    angle = value(motion, output)
+    angle = motion.read(output)
     step = angle[-1] - angle[-2]
     return bool(abs(angle[-1] + step - angle[0]) > np.pi)
 

@@ -9,8 +9,8 @@ from typing import ClassVar
 
 import numpy as np
 
+from linkwright.core.outputs import Output
 from linkwright.engine.trace import Scalar, floor, maximum
-from linkwright.fields.signals import Output
 from linkwright.loads.phases import outermost
 from linkwright.metrics.analysis import Analysis, Extreme
 from linkwright.metrics.base import METRICS, Metric, Number

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.core.outputs import Output
 from linkwright.errors import LinkwrightError
-from linkwright.fields.signals import Output
 from linkwright.kinematics.between import Between
 from linkwright.kinematics.cycle import Floats, at_times
 from linkwright.kinematics.motion import Motion, Rows

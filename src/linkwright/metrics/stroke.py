@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from linkwright.fields.signals import Output
+from linkwright.core.outputs import Output
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Metric, Number
 from linkwright.metrics.outputs import turns_fully

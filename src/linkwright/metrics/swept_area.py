@@ -8,9 +8,9 @@ from typing import ClassVar
 
 import numpy as np
 
+from linkwright.core.outputs import row_names
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion
-from linkwright.kinematics.names import vector_names
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Better, Metric, MetricValue, Remark
 from linkwright.metrics.plane import area, convex_hull
@@ -35,7 +35,7 @@ class SweptArea(Metric):
             for name, link in motion.mechanism.links.items()
         }
         moving = dict.fromkeys(chain.from_iterable(keys.values()))
-        motion.evaluate_together(chain.from_iterable(vector_names("p", key) for key in moving))
+        motion.evaluate_together(chain.from_iterable(row_names("position", key) for key in moving))
         tracks = {key: _track(motion, key) for key in moving}
         hulls = {name: convex_hull(np.vstack([tracks[key] for key in own])) for name, own in keys.items()}
         frame = np.array(list(motion.mechanism.frame.points.values())).reshape(-1, 2)
@@ -49,5 +49,5 @@ class SweptArea(Metric):
 
 def _track(motion: Motion, key: str) -> Floats:
     """The places of a point, (n, 2) m; one where it is at rest."""
-    places: Floats = motion.vector("p", key)[motion.ok]
+    places: Floats = motion.vector("position", key)[motion.ok]
     return places[:1] if (places == places[0]).all() else places

@@ -7,7 +7,7 @@ from itertools import pairwise
 from math import radians
 from typing import Any, ClassVar
 
-from linkwright.fields.signals import Output
+from linkwright.core.outputs import Output
 from linkwright.kinetostatics.closure import dyads
 from linkwright.metrics.analysis import Analysis, Extreme
 from linkwright.metrics.base import METRICS, Better, Metric, MetricValue, Number, Remark

@@ -12,11 +12,11 @@ from numpy.typing import NDArray
 
 from linkwright import units
 from linkwright.core.expressions import Expression, parse
+from linkwright.core.outputs import Output
 from linkwright.engine.machine_code import available
 from linkwright.engine.stage import Backend
 from linkwright.engine.trace import Scalar
 from linkwright.errors import LinkwrightError, RequestError
-from linkwright.fields.signals import Output
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.base import Number
@@ -207,7 +207,7 @@ class Measures:
     def _asked(self) -> Asked:
         """The output whose travel counts, and δ."""
         own, last = mechanism_outputs(self.mechanism), list(self.mechanism.links)[-1]
-        return Asked(own[-1] if own else Output("angle", last, last), self.problem.fluctuation)
+        return Asked(own[-1] if own else Output("angle", last), self.problem.fluctuation)
 
     def _held(self, columns: Mapping[str, Floats], count: int) -> dict[str, Floats]:
         """Dimensions that stand in expressions."""

@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from linkwright.core.outputs import row_name
 from linkwright.engine.javascript import javascript
 from linkwright.engine.portable import Kernels
 from linkwright.engine.wasm import wasm_module
@@ -172,7 +173,7 @@ def _groups(programs: PagePrograms) -> list[Plain]:
     return [
         {"name": each.name, "signature": each.signature, "links": list(each.links),
          "facts": list(placed[each.name].facts), "wheels": _wheels(programs, each.links),
-         "dyad": f"quality:{each.name}" in programs.main.output_names}
+         "dyad": row_name("quality", each.name) in programs.main.output_names}
         for each in programs.traced.solver.structure.groups
     ]  # fmt: skip
 

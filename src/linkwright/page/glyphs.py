@@ -16,6 +16,7 @@ from typing import Any
 
 import numpy as np
 
+from linkwright.core.outputs import row_name
 from linkwright.joints.marks import CamContact, RackWay, Wheel, Wheels
 from linkwright.kinematics.names import canonical
 from linkwright.loads.base import Load
@@ -142,7 +143,7 @@ def _pins(machine: Machine) -> Iterator[Plain]:
 
 def _along(link: str) -> str | float:
     """The output that a part of a link is turned by."""
-    return 0.0 if link == "frame" else f"e:{link}"
+    return 0.0 if link == "frame" else row_name("direction", link)
 
 
 class _Following:
@@ -253,7 +254,7 @@ def _tied(machine: Machine, part: Part, point: str | None = None) -> Plain:
         middle = np.concatenate(part.shape.ink).mean(axis=0)
         places = np.array([machine.local(part.carrier, name) for name in names])
         point = names[int(np.hypot(*(places - middle).T).argmin())]
-    along = 0.0 if part.carrier == "frame" else f"e:{part.carrier}"
+    along = 0.0 if part.carrier == "frame" else row_name("direction", part.carrier)
     at = machine.local(part.carrier, point)
     return _stamp(
         part.layer, key_of(machine, part.carrier, point), along, _shifted(part.shape, at), role="input"

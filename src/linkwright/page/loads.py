@@ -6,19 +6,22 @@ several drivers. The magnitudes themselves are traced.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.fields.signals import InputPhase, MovingPhase, Output, SwingPhase
+from linkwright.core.outputs import Output
+from linkwright.fields.signals import InputPhase, MovingPhase, SwingPhase
 from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.names import program_names
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.kinetostatics.site import ACTS, middle_name
 from linkwright.loads.base import Load
 from linkwright.loads.magnitude import angles_of, has_formula
 from linkwright.loads.over_cycle import activity
+from linkwright.mechanism.mechanism import Mechanism
 
 Plain = dict[str, Any]
 Floats = NDArray[np.float64]
@@ -55,35 +58,29 @@ def _phase_per_position(load: Load, motion: Motion) -> bool:
     return first.law.constant_speed is None or not motion.positions.rotary[first.name]
 
 
-def phases(loads: Iterable[Load], motion: Motion, point_key: Callable[[str], str]) -> list[Plain]:
+def phases(loads: Iterable[Load], motion: Motion) -> list[Plain]:
     """The phases that follow the motion: their outputs by rows of a page's main program."""
     found: list[Plain] = []
     for load in loads:
         phase = getattr(load, "phase", None)
         if isinstance(phase, MovingPhase):
             ends = (phase.start, phase.end)
-            found.append({**_rows(load, phase.output, point_key), "moving": True, "part": None, "ends": ends})
+            found.append(
+                {**_rows(load, phase.output, motion.mechanism), "moving": True, "part": None, "ends": ends}
+            )
         elif isinstance(phase, SwingPhase):
             part = phase.part and {
                 "word": phase.part.word, "amounts": [[a.value, a.share] for a in phase.part.amounts],
             }  # fmt: skip
             ends = (phase.start, phase.end)
-            found.append(
-                {**_rows(load, phase.output, point_key), "moving": False, "part": part, "ends": ends}
-            )
+            followed = _rows(load, phase.output, motion.mechanism)
+            found.append({**followed, "moving": False, "part": part, "ends": ends})
     return found
 
 
-def _rows(load: Load, output: Output, point_key: Callable[[str], str]) -> Plain:
-    owner = output.owner
-    if output.kind in ("x", "y"):
-        key = point_key(owner)
-        rows, rate = [f"p:{key}.{output.kind}"], f"v:{key}.{output.kind}"
-    elif output.kind == "angle":
-        rows, rate = [f"e:{owner}.x", f"e:{owner}.y"], f"w:{owner}"
-    else:
-        rows, rate = [f"s:{owner}"], f"sv:{owner}"
-    return {"load": load.name, "rows": rows, "rate": rate, "ramp": _ramp(load)}
+def _rows(load: Load, output: Output, mechanism: Mechanism) -> Plain:
+    rows, (rate, _) = program_names(mechanism, output)
+    return {"load": load.name, "rows": list(rows), "rate": rate, "ramp": _ramp(load)}
 
 
 def angles(loads: Iterable[Load], motion: Motion, constants: Iterable[str]) -> list[Plain]:

@@ -9,6 +9,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.core.outputs import SLIDE, row_name, row_names
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.program import Program
 from linkwright.engine.stage import Stage
@@ -16,7 +17,7 @@ from linkwright.engine.states import parameters_as_fields
 from linkwright.engine.table import Tables
 from linkwright.engine.trace import Scalar, select
 from linkwright.kinematics.motion import Motion
-from linkwright.kinematics.names import canonical, vector_names
+from linkwright.kinematics.names import canonical
 from linkwright.kinematics.step_rule import StepRule
 from linkwright.kinematics.trace import MotionTrace
 from linkwright.kinetostatics.closure import dyads, transmission
@@ -77,9 +78,8 @@ class PagePrograms:
     @cached_property
     def found_per_position(self) -> dict[str, list[dict[str, object]]]:
         """``phases`` and ``angles`` that the page finds at every position."""
-        key = self.traced.named.point_key
         return {
-            "phases": phases(self._positional_loads, self.motion, key),
+            "phases": phases(self._positional_loads, self.motion),
             "angles": angles(self._positional_loads, self.motion, self.followed.constants),
         }
 
@@ -185,25 +185,25 @@ class PagePrograms:
         solver = self.traced.solver
         names = [name for name in solver.outputs.standard if name != "outcome"]
         frame = [canonical(self.mechanism, "frame", point) for point in self.mechanism.frame.points]
-        names += [each for key in frame for each in vector_names("p", key)]
-        names += [each for link in self.mechanism.links for each in vector_names("e", link)]
+        names += [each for key in frame for each in row_names("position", key)]
+        names += [each for link in self.mechanism.links for each in row_names("direction", link)]
         names += [
             each
             for name, link in self.mechanism.links.items()
             if link.mass
-            for each in vector_names("p", f"{name}.@centre")
+            for each in row_names("position", f"{name}.@centre")
         ]
-        names += [f"fact:{name}|{fact}" for name, placed in motion.placed.items() for fact in placed.facts]
+        names += [
+            row_name("fact", name, on=fact) for name, placed in motion.placed.items() for fact in placed.facts
+        ]
         outputs: dict[str, Scalar | bool] = {name: solver.outputs.value(name) for name in names}
         for name in self.mechanism.guides:
-            outputs |= {
-                f"{kind}:{name}": solver.outputs.value(f"{kind}:{name}") for kind in ("s", "sv", "sa")
-            }
+            outputs |= zip((row_name(kind, name) for kind in SLIDE), solver.outputs.slide(name), strict=True)
             direction, _, _ = guide_state(motion, name)
-            outputs |= {f"d:{name}.x": direction.x, f"d:{name}.y": direction.y}
+            outputs |= zip(row_names("guide_direction", name), (direction.x, direction.y), strict=True)
         for group in self.dyads:
-            outputs[f"m:{group.name}"] = transmission(solver.outputs, group)
-            outputs[f"quality:{group.name}"] = motion.placed[group.name].quality
+            outputs[row_name("transmission_angle", group.name)] = transmission(solver.outputs, group)
+            outputs[row_name("quality", group.name)] = motion.placed[group.name].quality
         if self.forces is not None:
             outputs |= self._of_forces()
         return {**outputs, "outcome": motion.outcome}
@@ -212,8 +212,8 @@ class PagePrograms:
         forces = self.traced.forces.outputs
         names = list(forces.standard)
         for load in self.mechanism.loads:
-            names += [*vector_names("lf", load), *vector_names("lp", load)]
-        names += ["shake.x", "shake.y", "shake_moment"]
+            names += [*row_names("load", load), *row_names("load_place", load)]
+        names += [*row_names("shaking_force"), row_name("shaking_moment")]
         found: dict[str, Scalar | bool] = {name: forces.value(name) for name in names}
         return found if (sizes := self._sizes()) is None else {**found, SIZES: sizes}
 

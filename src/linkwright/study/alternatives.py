@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.outputs import Output
 from linkwright.errors import LinkwrightError, RequestError
-from linkwright.fields.signals import Output
 from linkwright.files.model_file import load
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
@@ -22,7 +22,7 @@ from linkwright.machine import flywheel_inertia
 from linkwright.machine.running import require_steady
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import Analysis
-from linkwright.metrics.outputs import mechanism_outputs, rate, second, value
+from linkwright.metrics.outputs import mechanism_outputs
 from linkwright.registry import offered
 from linkwright.study.terms import pivot
 from linkwright.words.sentence import Sentence
@@ -108,11 +108,8 @@ class Alternative:
 
     def travel(self) -> tuple[Floats, Floats, Floats]:
         """The output and its rates in time, (n,) each."""
-        return (
-            value(self.motion, self.output),
-            rate(self.motion, self.output),
-            second(self.motion, self.output),
-        )
+        place, rate, second = map(self.motion.read, self.output.course)
+        return place, rate, second
 
 
 def has_loads(mechanism: Mechanism) -> bool:

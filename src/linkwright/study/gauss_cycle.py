@@ -16,12 +16,13 @@ from numpy.typing import NDArray
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import Expression
+from linkwright.core.outputs import Output
 from linkwright.core.piecewise import NODES, POINTS, WEIGHTS
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import Reduction
 from linkwright.engine.stage import Stage
 from linkwright.engine.trace import Scalar, Trace, floor, maximum, minimum, select, sign
-from linkwright.fields.signals import InputPhase, MovingPhase, Output, SwingPhase, Table
+from linkwright.fields.signals import InputPhase, MovingPhase, SwingPhase, Table
 from linkwright.kinetostatics.named import Quantity
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.kinetostatics.site import limit_name

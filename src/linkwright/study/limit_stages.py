@@ -5,15 +5,17 @@ The extremes over the positions bracket the limits; safeguarded Newton steps wit
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable
 
 import numpy as np
 
+from linkwright.core.outputs import Output
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import Reduction
 from linkwright.engine.stage import Stage
 from linkwright.engine.trace import Mask, Scalar, Trace, absolute, minimum, select, sign, sin, sqrt
-from linkwright.fields.signals import Output, SwingPhase
+from linkwright.fields.signals import SwingPhase
+from linkwright.kinematics.names import program_names
 from linkwright.kinetostatics.friction import FrictionTerm, Swinging
 from linkwright.kinetostatics.site import TracedSite, limit_name, output_value, value_name
 from linkwright.loads.base import Load
@@ -21,13 +23,6 @@ from linkwright.loads.magnitude import part_ends, turned
 from linkwright.loads.phases import NEAR, TURN
 from linkwright.study.traced import VALID, Traced
 
-#: Names of an output's rate and second derivative among the motion's outputs.
-RATES: Mapping[str, Callable[[str], tuple[str, str]]] = {
-    "angle": lambda owner: (f"w:{owner}", f"g:{owner}"),
-    "displacement": lambda owner: (f"sv:{owner}", f"sa:{owner}"),
-    "x": lambda owner: (f"v:{owner}.x", f"a:{owner}.x"),
-    "y": lambda owner: (f"v:{owner}.y", f"a:{owner}.y"),
-}
 #: The step of the input between two positions, rad, and the number of positions that are reached.
 STEP, ASSEMBLED = "step of the input", "assembled at limits"
 #: How near the sum of directions of neighbouring places comes to the longest; others lack some (π/n)² of it.
@@ -58,25 +53,20 @@ def rates(traced: Traced, output: Swinging) -> tuple[Scalar, Scalar]:
     if isinstance(output, FrictionTerm):
         a, b = (traced.solver.motion.states[link] for link in (output.a, output.b))
         return b.omega - a.omega, b.alpha - a.alpha
-    rate, second = (traced.solver.outputs.value(name) for name in _rate_names(traced, output))
+    rate, second = (traced.solver.outputs.value(name) for name in program_names(traced.mechanism, output)[1])
     return rate, second
 
 
 def _course(traced: Traced, output: Swinging) -> Scalar:
     """What has its largest and smallest value where an output has."""
     if isinstance(output, Output):
-        return traced.named.quantity(f"{output.owner}.{output.kind}").carrier
+        return traced.named.quantity(output.name).carrier
     turned = traced.nominal.link(output.b).angle - traced.nominal.link(output.a).angle
     middle = 0.5 * float(np.nanmin(turned) + np.nanmax(turned))
     a, b = (traced.solver.motion.poses[link].direction for link in (output.a, output.b))
     c, s = float(np.cos(middle)), float(np.sin(middle))
     along, across = a.dot(b), a.cross(b)
     return (across * c - along * s) / (1.0 + along * c + across * s)
-
-
-def _rate_names(traced: Traced, output: Output) -> tuple[str, str]:
-    owner = traced.named.point_key(output.owner) if output.kind in ("x", "y") else output.owner
-    return RATES[output.kind](owner)
 
 
 def _seen(traced: Traced, outputs: Iterable[Swinging], judged: bool) -> Stage:

@@ -9,12 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.outputs import Output
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.reductions import VALID_COUNT, Reduction, Results
 from linkwright.engine.stage import Backend, Stage
 from linkwright.engine.trace import Scalar, select
 from linkwright.errors import LinkwrightError
-from linkwright.fields.signals import Output
 from linkwright.kinetostatics.friction import STILL, FrictionTerm, Swinging, joint_rate, still_rates
 from linkwright.kinetostatics.friction_stage import can_be_traced
 from linkwright.kinetostatics.signals import MotionSignals
@@ -121,9 +121,9 @@ def _moves_phases(loads: Iterable[Load], varied: Iterable[str], mechanism: Mecha
 def _swinging(term: FrictionTerm) -> Swinging:
     """What comes and goes with a joint, the motion of a link where that tells it."""
     if term.slides:
-        return Output("displacement", term.joint, term.joint)
+        return Output("displacement", term.joint)
     moving = [link for link in (term.a, term.b) if link != "frame"]
-    return Output("angle", moving[0], moving[0]) if len(moving) == 1 else term
+    return Output("angle", moving[0]) if len(moving) == 1 else term
 
 
 def _swings(traced: Traced, term: FrictionTerm) -> bool:

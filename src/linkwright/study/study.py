@@ -12,8 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 from linkwright.core.dataclass import dataclass
 from linkwright.core.frozen import Frozen
 from linkwright.core.html import columns_html
+from linkwright.core.outputs import Output
 from linkwright.errors import LinkwrightError, RequestError, with_remedy
-from linkwright.fields.signals import Output
 from linkwright.machine import flywheel_inertia
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.outputs import mechanism_outputs
@@ -355,7 +355,7 @@ def _output(mechanism: Mechanism, name: str | None) -> Output:
     if own:
         return own[-1]
     last = list(mechanism.links)[-1]
-    return Output("angle", last, last)
+    return Output("angle", last)
 
 
 def _none_moves(count: int, failures: Iterable[Failure]) -> str:

@@ -6,9 +6,9 @@ from collections.abc import Iterable, Mapping, Sequence
 from functools import reduce
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.outputs import Output
 from linkwright.engine.trace import Scalar, absolute, minimum, select
 from linkwright.errors import RequestError
-from linkwright.fields.signals import Output
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import METRICS, Analysis
 from linkwright.metrics.analysis import Extreme

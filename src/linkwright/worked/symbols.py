@@ -71,7 +71,7 @@ class Book:
         turn = self.turn(link)
         if link == "frame" or not self.motion.solver.motion.angles.counts(link):
             return turn
-        counted = math.degrees(float(self.motion.row("o", link)[self.index]))
+        counted = math.degrees(float(self.motion.row("turned_angle", link)[self.index]))
         turns = round((counted - turn.amount) / 360.0)
         whole = number(360.0 * abs(turns), degrees=True)
         return turn + whole if turns > 0 else turn - whole

@@ -13,6 +13,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, LinkwrightError
 from linkwright.fields.base import Quantity, Text
 from linkwright.kinetostatics.forces import Forces, solve_forces
+from linkwright.kinetostatics.link_balance import applied_rows
 from linkwright.mechanism.mechanism import Link, Mechanism
 from linkwright.parts.base import Block, Floats, Result, Row, fault
 from linkwright.parts.beams.axis import LinkAxis, Numbers, SpreadMass
@@ -234,7 +235,7 @@ class LinkStress(Result):
     def _load_forces(self) -> list[PointForce]:
         """The resultant of all loads on the link, where it meets the axis; a couple where it passes by."""
         link = self.problem.link
-        fx, fy, moment = self.forces.fetch((f"on:{link}.x", f"on:{link}.y", f"on:{link}.m"))
+        fx, fy, moment = self.forces.fetch(applied_rows(link))
         if not (np.any(fx) or np.any(fy) or np.any(moment)):
             return []
         force = np.stack([fx, fy], axis=1)

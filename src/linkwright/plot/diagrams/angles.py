@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from linkwright.core.outputs import Output
 from linkwright.errors import RequestError
-from linkwright.fields.signals import Output
 from linkwright.kinematics.cycle import Floats
 from linkwright.plot.diagrams.base import DIAGRAMS, Request
 from linkwright.plot.diagrams.outputs import known_link, main_output, turning_links
@@ -23,7 +23,7 @@ class Angles(OverInput):
 
     def output(self, source: Source, request: Request) -> Output | str | None:
         if len(request.of) == 1:
-            return Output("angle", request.of[0], request.of[0])
+            return Output("angle", request.of[0])
         return None if request.of else main_output(source.motion)
 
     def panels(self, source: Source, request: Request) -> list[Panel]:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.outputs import row_names
 from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinetostatics.forces import Forces
@@ -88,7 +89,7 @@ def link_forces(forces: Forces, link: str, index: int) -> list[LinkForce]:
     """
     mechanism = forces.mechanism
     part, number = mechanism.links[link], str(link_numbers(mechanism)[link])
-    applied = np.array([row[index] for row in forces.fetch((f"on:{link}.x", f"on:{link}.y"))])
+    applied = np.array([row[index] for row in forces.fetch(row_names("applied", link))])
     found = [LinkForce(_load_name(forces, link), "load", applied)]
     found.append(LinkForce("G", "weight", part.mass * np.asarray(mechanism.gravity), number))
     if not forces.static:

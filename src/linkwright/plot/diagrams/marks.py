@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.outputs import Output
 from linkwright.errors import LinkwrightError
-from linkwright.fields.signals import Output
 from linkwright.kinematics.limits import limit_positions
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.loads.over_cycle import activity

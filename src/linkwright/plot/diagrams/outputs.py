@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from linkwright.core.outputs import Output
 from linkwright.errors import RequestError
-from linkwright.fields.signals import Output
 from linkwright.kinematics.limits import output_of
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import canonical, owners
@@ -25,8 +25,8 @@ def output_named(mechanism: Mechanism, name: str) -> Output | str:
     if name in mechanism.links:
         for joint in mechanism.joints.values():
             if joint.coordinate == "slide" and set(joint.joined) == {"frame", name}:
-                return Output("displacement", joint.name, name)
-        return Output("angle", name, name)
+                return Output("displacement", joint.name, written=name)
+        return Output("angle", name)
     link, _, point = name.rpartition(".")
     if link and link in mechanism.links and point in mechanism.links[link].points:
         return canonical(mechanism, link, point)
@@ -55,7 +55,7 @@ def main_output(motion: Motion) -> Output | str:
         return free[-1]
     moving = [link for link in reversed(order) if size(motion.link(link).angular_velocity) > 1e-9]
     moving.sort(key=lambda link: link in geared)
-    return Output("angle", moving[0], moving[0]) if moving else Output("angle", order[-1], order[-1])
+    return Output("angle", moving[0]) if moving else Output("angle", order[-1])
 
 
 def _geared(motion: Motion) -> set[str]:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
-from linkwright.fields.signals import Output
+from linkwright.core.outputs import Output
 from linkwright.kinematics.cycle import Floats
 from linkwright.plot.diagrams.axes import Legend, framed, label_input
 from linkwright.plot.diagrams.base import Kind, Request

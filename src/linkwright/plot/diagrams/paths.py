@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from linkwright.core.outputs import Output
 from linkwright.errors import RequestError
-from linkwright.fields.signals import Output
 from linkwright.kinematics.cycle import Floats
 from linkwright.plot.diagrams.axes import Legend, framed
 from linkwright.plot.diagrams.base import DIAGRAMS, Kind, Request

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from linkwright.fields.signals import Output
+from linkwright.core.outputs import Output
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinetostatics.forces import Forces
 from linkwright.metrics.analysis import Analysis

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from linkwright.core.outputs import Output
 from linkwright.errors import RequestError
-from linkwright.fields.signals import Output
 from linkwright.kinetostatics.forces import Forces
 from linkwright.metrics.reactions import size as magnitude
 from linkwright.plot.diagrams.base import DIAGRAMS, Request

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
+from operator import methodcaller
 
 import numpy as np
 
-from linkwright.fields.signals import Output
-from linkwright.kinematics.cycle import Floats
-from linkwright.kinematics.motion import Motion
-from linkwright.metrics.outputs import rate, second, value
+from linkwright.core.outputs import Output
 from linkwright.plot.diagrams.base import DIAGRAMS, Request
 from linkwright.plot.diagrams.outputs import main_output, output_named
 from linkwright.plot.diagrams.panels import DASHES, Curve, OverInput, Panel
@@ -74,30 +72,14 @@ def _together(parts: list[tuple[str, list[Panel]]]) -> list[Panel]:
     return list(found.values())
 
 
-def course(motion: Motion, output: Output) -> tuple[Floats, Floats, Floats]:
-    """Value, rate and second derivative of an output, (n,) each."""
-    if output.kind in ("angle", "displacement"):
-        return value(motion, output), rate(motion, output), second(motion, output)
-    column = "xy".index(output.kind)
-    point = motion.point(output.owner)
-    return point.position[:, column], point.velocity[:, column], point.acceleration[:, column]
-
-
 def _of_output(source: Source, output: Output, say: Say) -> list[Panel]:
     named = ANGULAR if output.kind == "angle" else STRAIGHT
     found = []
-    for number, ((word, symbol, dimension), values) in enumerate(
-        zip(named, course(source.motion, output), strict=True)
-    ):
-        shown = source.closed(values, turns=word == "angle")
-        exact = None if word == "angle" else source.extremes(_part(output, number))
+    for (word, symbol, dimension), each in zip(named, output.course, strict=True):
+        shown = source.closed(source.motion.read(each), turns=word == "angle")
+        exact = None if word == "angle" else source.extremes(methodcaller("read", each))
         found.append(Panel(f"{say(word)} {symbol}", dimension, (Curve("", shown, extremes=exact),)))
     return found
-
-
-def _part(output: Output, number: int) -> Callable[[Motion], Floats]:
-    """Value, rate or second derivative of an output."""
-    return lambda motion: course(motion, output)[number]
 
 
 def _of_point(source: Source, key: str, say: Say) -> list[Panel]:

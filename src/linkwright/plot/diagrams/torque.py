@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from functools import partial
 
+from linkwright.core.outputs import Output
 from linkwright.errors import RequestError
-from linkwright.fields.signals import Output
 from linkwright.kinetostatics.forces import Forces
 from linkwright.metrics.analysis import Analysis
 from linkwright.plot.diagrams.base import DIAGRAMS, Request

@@ -1,0 +1,202 @@
+"""What a machine's motion and forces have to tell: the one type of its outputs, and every name they go by.
+
+The same output is ``C.velocity.x`` for who asks, ``v:C.x`` among the rows of a program, ``C.velocity.x [m/s]`` over a
+column. :class:`Output` writes the three and reads rows; words are read against a mechanism, in ``kinematics.names``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import lru_cache
+
+from linkwright.core.dataclass import dataclass
+
+
+@dataclass(frozen=True)
+class Kind:
+    """What outputs of one kind share.
+
+    ``of``: what they belong to (point, link, guide, driver, joint, load, the loads on a
+    link, group, motion, machine); ``dimension``: of a driver's
+    outputs for one that turns; ``row``: before the owner among rows of programs; ``symbol``: LaTeX; ``vector``: has
+    components x and y; ``word``: for the user, where it is not the kind's name; ``slid``: dimension for a driver that
+    slides.
+    """
+
+    of: str
+    dimension: str
+    row: str = ""
+    symbol: str = ""
+    vector: bool = False
+    word: str = ""
+    slid: str = ""
+
+
+KINDS = {
+    "time": Kind("motion", "time", symbol="t"),
+    "input": Kind("driver", "angle", slid="length"),
+    "position": Kind("point", "length", "p", vector=True),
+    "velocity": Kind("point", "velocity", "v", "v", vector=True),
+    "acceleration": Kind("point", "acceleration", "a", "a", vector=True),
+    "jerk": Kind("point", "jerk", vector=True),
+    "direction": Kind("link", "dimensionless", "e", vector=True),
+    "angle": Kind("link", "angle", symbol=r"\varphi"),
+    "turned_angle": Kind("link", "angle", "o"),
+    "angular_velocity": Kind("link", "angular_velocity", "w", r"\omega"),
+    "angular_acceleration": Kind("link", "angular_acceleration", "g", r"\alpha"),
+    "angular_jerk": Kind("link", "angular_jerk"),
+    "displacement": Kind("guide", "length", "s", "s"),
+    "slide_velocity": Kind("guide", "velocity", "sv", r"\dot{s}", word="velocity"),
+    "slide_acceleration": Kind("guide", "acceleration", "sa", r"\ddot{s}", word="acceleration"),
+    "slide_jerk": Kind("guide", "jerk", word="jerk"),
+    "guide_direction": Kind("guide", "dimensionless", "d", vector=True),
+    "quality": Kind("group", "dimensionless", "quality"),
+    "fact": Kind("group", "dimensionless", "fact"),
+    "closeness": Kind("group", "dimensionless"),
+    "transmission_angle": Kind("group", "angle", "m"),
+    "conditioning": Kind("group", "dimensionless"),
+    "outcome": Kind("motion", "dimensionless", "outcome"),
+    "effort": Kind("driver", "torque", "effort", slid="force"),
+    "reaction": Kind("joint", "force", "r", "F", vector=True),
+    "couple": Kind("joint", "torque", "c", "M"),
+    "heat": Kind("joint", "power"),
+    "load": Kind("load", "force", "lf", vector=True),
+    "load_place": Kind("load", "length", "lp", vector=True),
+    "load_moment": Kind("load", "torque", "lm"),
+    "applied": Kind("loads", "force", "on", vector=True),
+    "shaking_force": Kind("machine", "force", "shake", r"F_{\mathrm{S}}", vector=True),
+    "shaking_moment": Kind("machine", "torque", "shake_moment", r"M_{\mathrm{S}}"),
+    "power": Kind("machine", "power", "driver_power"),
+    "power_of_forces": Kind("machine", "power", "power"),
+    "power_residual": Kind("machine", "power", symbol=r"\Delta P"),
+    "balance_residual": Kind("machine", "force", symbol=r"\Delta F"),
+    "velocity_ratio": Kind("link", "dimensionless"),
+    "equivalent_inertia": Kind("machine", "inertia"),
+}  # fmt: skip
+_BY_ROW = {kind.row: name for name, kind in KINDS.items() if kind.row}
+_RATES = {
+    "position": "velocity", "velocity": "acceleration", "acceleration": "jerk",
+    "angle": "angular_velocity", "angular_velocity": "angular_acceleration", "angular_acceleration": "angular_jerk",
+    "displacement": "slide_velocity", "slide_velocity": "slide_acceleration", "slide_acceleration": "slide_jerk",
+}  # fmt: skip
+
+
+#: A point's motion, and a guide's.
+POINT = ("position", "velocity", "acceleration")
+SLIDE = ("displacement", "slide_velocity", "slide_acceleration")
+
+
+@lru_cache(4096)
+def row_name(kind: str, owner: str = "", component: str = "", on: str = "") -> str:
+    """The name of an output among the rows of a program; of a vector without component, the part before it."""
+    name = KINDS[kind].row
+    for sign, part in ((":", owner), ("|", on), (".", component)):
+        if part:
+            name += sign + part
+    return name
+
+
+def row_names(kind: str, owner: str = "", on: str = "") -> tuple[str, str]:
+    """The names of the two components of a vector."""
+    return row_name(kind, owner, "x", on), row_name(kind, owner, "y", on)
+
+
+def kind_of(name: str) -> str:
+    """The kind of the output in a program's row of this name; empty where the row is no output."""
+    return _BY_ROW.get(name.partition(":")[0].partition(".")[0], "")
+
+
+@dataclass(frozen=True)
+class Output:
+    """One output of a machine.
+
+    ``kind``: of ``KINDS``; ``owner``: the point, link, joint, driver, load or group; ``component``: ``x``, ``y``, or
+    none for the whole or its size (of loads on a link also ``m``, their moment); ``on``: the link on which a joint's
+    force acts, the fact of a group; ``slides``: of a driver, whether it slides; ``written``: how a file says it,
+    where that is not :func:`str`'s own.
+    """
+
+    kind: str
+    owner: str = ""
+    component: str = ""
+    on: str = ""
+    slides: bool = False
+    written: str = ""
+
+    @classmethod
+    def of_row(cls, row: str) -> Output:
+        """The output of a row of a program; raises KeyError where a row is no output."""
+        head, colon, rest = row.partition(":")
+        if not colon:
+            head, _, component = row.partition(".")
+            return cls(_BY_ROW[head], "", component)
+        kind, component, on = _BY_ROW[head], "", ""
+        if KINDS[kind].vector:
+            rest, _, component = rest.rpartition(".")
+        if KINDS[kind].of == "joint" or kind == "fact":
+            rest, _, on = rest.partition("|")
+        return cls(kind, rest, component, on)
+
+    @property
+    def row(self) -> str:
+        """Its name among the rows of a program; see :func:`row_name`."""
+        return row_name(self.kind, self.owner, self.component, self.on)
+
+    @property
+    def rate(self) -> Output:
+        """Its derivative in time; raises KeyError for what has none."""
+        return replace(self, kind=_RATES[self.kind], written="")
+
+    @property
+    def of_motion(self) -> bool:
+        """Whether a program of the motion has it, not one of the forces."""
+        return KINDS[self.kind].of in ("point", "link", "guide", "group", "motion")
+
+    @property
+    def course(self) -> tuple[Output, Output, Output]:
+        """Itself and its two derivatives in time."""
+        return self, self.rate, self.rate.rate
+
+    @property
+    def dimension(self) -> str:
+        """Name of its dimension."""
+        kind = KINDS[self.kind]
+        return "torque" if self.component == "m" else kind.slid if self.slides else kind.dimension
+
+    @property
+    def word(self) -> str:
+        """What the user calls its kind: a driver's ``effort``, a guide's ``velocity``."""
+        return KINDS[self.kind].word or self.kind
+
+    @property
+    def name(self) -> str:
+        """Its name in the user's words, as studies take it: ``jaw.angle``, ``C.x``, ``reaction O5 on jaw``."""
+        of, axis = KINDS[self.kind].of, self.component and f".{self.component}"
+        if self.kind == "position":
+            return f"{self.owner}{axis}"
+        if of in ("point", "link", "guide", "driver") and self.kind != "velocity_ratio":
+            return f"{self.owner}.{self.word}{axis}"
+        return " ".join(filter(None, (self.word, self.owner, self.on and f"on {self.on}"))) + axis
+
+    @property
+    def quantity(self) -> str:
+        """What stands over its column beneath the owner: ``angle``, ``position.x``, ``magnitude`` of a reaction."""
+        if self.kind == "reaction":
+            return self.component or "magnitude"
+        return self.word + (self.component and f".{self.component}")
+
+    @property
+    def place(self) -> str:
+        """To what a column belongs: ``jaw``, ``O5 on jaw``; empty for the whole machine."""
+        return f"{self.owner} on {self.on}" if self.on else self.owner
+
+    @property
+    def column(self) -> str:
+        """Its name over a column, without the unit: ``jaw.angle``, ``O5 on jaw.magnitude``, a driver's own."""
+        if self.kind == "input":
+            return self.owner
+        return f"{self.place}.{self.quantity}" if self.owner else self.quantity
+
+    def __str__(self) -> str:
+        """As a model file writes it: ``jaw`` for its angle, ``guide`` for its displacement, ``C.x``."""
+        return self.written or (self.owner if self.kind in ("angle", "displacement") else self.name)
