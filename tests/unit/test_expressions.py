@@ -128,12 +128,35 @@ SMOOTH = [
 @pytest.mark.parametrize("text", SMOOTH)
 def test_derivatives_agree_with_differences(text: str) -> None:
     expression = parse(text, ["t"])
-    first = expression.diff("t")
-    second = first.diff("t")
     h = 1e-5
-    for of, slope in ((expression, first), (first, second)):
-        difference = (of.evaluate({"t": 0.7 + h}) - of.evaluate({"t": 0.7 - h})) / (2 * h)
-        assert slope.evaluate({"t": 0.7}) == pytest.approx(difference, rel=1e-7, abs=1e-9)
+    places = {"t": np.array([0.7 - h, 0.7, 0.7 + h])}
+    first, second = expression.derivatives(places, "t", 2)
+    for of, slope in ((expression.over(places), first), (first, second)):
+        difference = (np.broadcast_to(of, 3)[2] - np.broadcast_to(of, 3)[0]) / (2 * h)
+        assert slope[1] == pytest.approx(difference, rel=1e-7, abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("text", "slope"),
+    [
+        ("abs(t)", 0.0),
+        ("max(t, 2*t)", 1.0),
+        ("max(2*t, t)", 2.0),
+        ("min(t, 2*t)", 1.0),
+        ("sign(t) + step(t)", 0.0),
+        ("k", 0.0),
+        ("3", 0.0),
+        ("1/(t - t)", math.nan),
+        ("sqrt(t)", math.inf),
+        ("k^t", math.log(3.0)),
+        ("t^k", 0.0),
+    ],
+)
+def test_derivatives_at_kinks_and_where_there_is_none(text: str, slope: float) -> None:
+    given = {"t": np.zeros((2, 1)), "k": 3.0}
+    (found,) = parse(text, ["t", "k"]).derivatives(given, "t")
+    assert found.shape == (2, 1)
+    assert np.array_equal(found, np.full((2, 1), slope), equal_nan=True)
 
 
 @pytest.mark.parametrize("text", SMOOTH)

@@ -10,8 +10,9 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Collection, Mapping
+from contextlib import suppress
 from dataclasses import field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from linkwright import units
 from linkwright.core.dataclass import dataclass
@@ -23,16 +24,20 @@ from linkwright.core.expression_tree import (
     Node,
     Number,
     Variable,
-    derivative,
     dimension_of,
     evaluate,
     functions_of,
     scalar_functions,
 )
 from linkwright.engine import trace
+from linkwright.engine.late import numpy as np
+from linkwright.engine.recent import Recent
 from linkwright.errors import QuantityError
 from linkwright.registry import nearest, offered
 from linkwright.words.sentence import Sentence
+
+if TYPE_CHECKING:
+    from linkwright.engine.numpy_backend import NumpyProgram
 
 MAX_LENGTH, MAX_DEPTH = 1000, 40
 CONSTANTS: Mapping[str, float] = {"pi": math.pi}
@@ -102,10 +107,30 @@ class Expression:
             )
         return value
 
-    def diff(self, name: str) -> Expression:
-        """Exact derivative with respect to a free name."""
-        tree = derivative(self.tree, name)
-        return Expression(f"d({self.text})/d{name}", tree, self.names)
+    def derivatives(self, values: Mapping[str, Any], name: str, order: int = 1) -> list[Any]:
+        """Exact derivatives of the orders 1 to ``order`` with respect to a free name, over arrays of the free names.
+
+        Of the shape of the values together, where the expression has a value. At the kink of ``abs`` 0, of ``min``
+        and ``max`` that of the first argument; ``sign`` and ``step`` are taken as constant.
+        """
+        shape = np.broadcast_shapes(*map(np.shape, values.values()))
+        along = {each: np.broadcast_to(values[each], shape).ravel() for each in self.names}
+        program = _derivatives.get(self, (name, order), lambda: self._traced(name, order))
+        return list(program.run((), along, length=math.prod(shape)).reshape(order, *shape))
+
+    def _traced(self, name: str, order: int) -> NumpyProgram:
+        """A program of the free names whose outputs are the derivatives."""
+        from linkwright.engine.numpy_backend import NumpyProgram
+        from linkwright.engine.program import Program
+
+        lines = trace.Trace()
+        names = {each: lines.position(each) for each in {*self.names, name}}
+        slopes: dict[str, Any] = dict.fromkeys(map(str, range(order)), math.nan)
+        with suppress(ZeroDivisionError):
+            value = evaluate(self.tree, names, {**ON_VALUES, "abs": lambda x: x * trace.sign(x)})
+            for each in slopes:
+                slopes[each] = value = trace.slope(value, {names[name]: 1.0})
+        return NumpyProgram(Program.of(lines, slopes))
 
     def dimension(self, kinds: Mapping[str, units.Dimension]) -> units.Dimension:
         """Dimension of the result, given those of the free names; raises QuantityError where they do not
@@ -410,9 +435,11 @@ ON_VALUES = functions_of(
     {
         "atan2": trace.angle,
         "abs": trace.absolute,
-        "min": lambda a, b: trace.select(a < b, a, trace.select(b <= a, b, a + b)),
-        "max": lambda a, b: trace.select(a > b, a, trace.select(b >= a, b, a + b)),
+        "min": lambda a, b: trace.select(a <= b, a, trace.select(b < a, b, a + b)),
+        "max": lambda a, b: trace.select(a >= b, a, trace.select(b > a, b, a + b)),
         "step": lambda x: trace.select(x >= 0.0, 1.0, trace.select(x < 0.0, 0.0, trace.stop(x))),
         "pow": trace.power,
     },
 )
+#: Traced derivatives by expression, name and order.
+_derivatives: Recent[Expression, NumpyProgram] = Recent(256)

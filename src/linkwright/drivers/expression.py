@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import field
-from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar
 
 from linkwright.core.dataclass import dataclass
@@ -28,17 +27,13 @@ class ExpressionLaw(Law):
     parameters: Mapping[str, float] = field(default_factory=dict)
     rotary: bool = True
 
-    @cached_property
-    def _derivatives(self) -> tuple[Expression, Expression, Expression]:
-        first = self.expression.diff("t")
-        return self.expression, first, first.diff("t")
-
     def modelica(self, write: LawText) -> str:
         return write.expression(self.expression.tree, self.parameters)
 
     def coordinate(self, t: Array) -> tuple[Array, Array, Array]:
         values = {**self.parameters, "t": t}
-        q, qd, qdd = (each.over(values) + 0.0 * t for each in self._derivatives)
+        q: Array = self.expression.over(values) + 0.0 * t
+        qd, qdd = self.expression.derivatives(values, "t", 2)
         return q, qd, qdd
 
     def with_dimensions(

@@ -253,9 +253,8 @@ class Measures:
         values = {name: found[number] for name, number in names.items()}
         total = np.zeros_like(next(iter(slopes.values())))
         for name, number in names.items():
-            with np.errstate(all="ignore"):
-                rate = np.asarray(expression.diff(name).over(values))
-            total = total + np.broadcast_to(rate, len(total))[:, None] * slopes[number]
+            (rate,) = expression.derivatives(values, name)
+            total = total + rate[:, None] * slopes[number]
         return total
 
     def _numbers_with_slopes(

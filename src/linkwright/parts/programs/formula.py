@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from functools import cached_property
 
 import numpy as np
 
@@ -35,23 +34,14 @@ class Formula:
 
     def value(self, point: Mapping[str, Floats]) -> Floats:
         """Values (n,) at points (n,) by variable; NaN where there is none."""
-        return self._evaluated(self.expression, point)
+        with np.errstate(all="ignore"):
+            found = self.expression.over({**self.constants, **point})
+        return np.broadcast_to(np.asarray(found, dtype=float), next(iter(point.values())).shape)
 
     def gradient(self, point: Mapping[str, Floats]) -> Floats:
         """Derivatives by the variables in the point's order, (variables, n)."""
-        none = 0.0 * next(iter(point.values()))
-        found = [self._evaluated(self._slopes[name], point) if name in self._slopes else none
-                 for name in point]  # fmt: skip
-        return np.array(found)
-
-    @cached_property
-    def _slopes(self) -> dict[str, Expression]:
-        return {name: self.expression.diff(name) for name in self.expression.names - set(self.constants)}
-
-    def _evaluated(self, expression: Expression, point: Mapping[str, Floats]) -> Floats:
-        with np.errstate(all="ignore"):
-            found = expression.over({**self.constants, **point})
-        return np.broadcast_to(np.asarray(found, dtype=float), next(iter(point.values())).shape)
+        values = {**self.constants, **point}
+        return np.array([self.expression.derivatives(values, name)[0] for name in point])
 
 
 @dataclass(frozen=True)

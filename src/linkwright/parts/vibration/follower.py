@@ -42,16 +42,10 @@ class ExpressionLaw(MotionLaw):
     source: ClassVar[str] = ""
     expression: Expression
 
-    @cached_property
-    def _derivatives(self) -> tuple[Expression, ...]:
-        found = [self.expression]
-        for _ in range(3):
-            found.append(found[-1].diff("u"))
-        return tuple(found)
-
     def curves(self, u: Any) -> tuple[Any, Any, Any, Any]:
         with np.errstate(all="ignore"):
-            found = [each.over({"u": u}) + 0.0 * u for each in self._derivatives]
+            value = self.expression.over({"u": u}) + 0.0 * u
+        found = [value, *self.expression.derivatives({"u": u}, "u", 3)]
         s, v, a, j = (np.nan_to_num(each) for each in found)
         return s, v, a, j
 
