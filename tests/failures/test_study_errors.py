@@ -345,11 +345,13 @@ def test_design_numbers_of_sweeps_name_what_they_have() -> None:
         said(lambda: sweep(machine(), coupler, outputs=["peak_acceleration Q9"], steps=24))
         == '"peak_acceleration" has no value for "Q9"; there is rocker, coupler.P'
     )
-    for name in ("grashof", "peak_reaction"):
-        text = said(lambda n=name: sweep(machine(), coupler, outputs=[n], steps=24))
-        assert text.startswith(
-            f"{name} of 'Crank-rocker four-bar with a coupler point' is no number over the cycle"
-        )
+    for name in ("swept_area", "grashof"):
+        text = said(lambda n=name: sweep(machine(), coupler, outputs=[f"{n} Q9"], steps=24))
+        assert text.startswith(f'"{name}" has no value for "Q9"; there is ')
+    text = said(lambda: sweep(machine(), coupler, outputs=["peak_reaction"], steps=24))
+    assert text == (
+        "peak_reaction of 'Crank-rocker four-bar with a coupler point' does not apply to it; choose another one"
+    )
 
 
 def test_sensitivities_say_what_they_were_asked_for() -> None:

@@ -301,6 +301,19 @@ class Named:
         place, velocity, _ = self.motion.outputs.point(self.point_key(rest[0]))
         return Quantity(name, "areal_velocity", 0.5 * place.cross(velocity))
 
+    def distance(self, name: str, rest: list[str]) -> Quantity:
+        """Distance of two points, a length of the link that both are written of, ``distance coupler.A coupler.B``."""
+        if len(rest) != 2:
+            raise self._unknown(name)
+        (link, a), (other, b) = (find_point(self.mechanism, each) for each in rest)
+        if link == other:
+            dimensions = self.motion.motion.dimensions
+            between = dimensions.point(link, b) - dimensions.point(link, a)
+        else:
+            first, second = (self.motion.outputs.point(self.point_key(each))[0] for each in rest)
+            between = second - first
+        return Quantity(name, "length", sqrt(between.square))
+
     def equivalent_inertia(self, name: str, rest: list[str]) -> Quantity:
         """Inertia on the first driver's link of the same kinetic energy as all links."""
         if rest or not self.mechanism.drivers:
@@ -369,8 +382,11 @@ _PHRASES: dict[str, Callable[[Named, str, list[str]], Quantity]] = {
     "velocity_ratio": Named.velocity_ratio,
     "heat": Named.heat,
     "areal_velocity": Named.areal_velocity,
+    "distance": Named.distance,
     "equivalent_inertia": Named.equivalent_inertia,
 }
+#: First words of outputs that are phrases, ``transmission_angle B``.
+PHRASES = frozenset(_PHRASES)
 
 
 def output_names(mechanism: Mechanism) -> Iterator[str]:

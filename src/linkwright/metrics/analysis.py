@@ -24,7 +24,7 @@ from linkwright.kinetostatics.programs import words_name
 from linkwright.kinetostatics.solver import ForceSolver
 from linkwright.loads.phases import outermost
 from linkwright.loads.signals import Limit
-from linkwright.metrics import true_speed
+from linkwright.metrics import strokes, true_speed
 from linkwright.metrics.cycle_grid import PASSED, CycleGrid, cycle_grid
 from linkwright.metrics.outputs import mechanism_outputs
 from linkwright.metrics.resolve import Resolver
@@ -139,8 +139,9 @@ class Analysis:
     def ask(self, parts: Iterable[str]) -> None:
         """Says which summaries will be wanted, so that their outputs are evaluated together."""
         for summary in map(one, parts):
-            if summary.kind not in true_speed.KINDS and not summary.output.endswith(".angle"):
-                self._words[words_name(summary.output)] = None
+            output = strokes.signal_of(summary) if summary.kind in strokes.KINDS.values() else summary.output
+            if summary.kind not in true_speed.KINDS and not output.endswith(".angle"):
+                self._words[words_name(output)] = None
 
     def signal(self, output: str) -> Callable[[Motion | Forces], Floats]:
         """An output in words (see ``kinetostatics.named``) as a function of motion or forces, (n,)."""
@@ -192,6 +193,8 @@ class Analysis:
         kind = summary.kind
         if kind in true_speed.KINDS:
             return true_speed.of_machine(summary, self)
+        if kind in strokes.KINDS.values():
+            return strokes.of_machine(summary, self)
         if kind in _TOGETHER and (known := self._known(summary.output, kind)):
             return known
         output, signal = self.output(summary.output), self.signal(summary.output)

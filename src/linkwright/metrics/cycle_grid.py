@@ -288,20 +288,11 @@ def _twice(curve: Piecewise, period: float) -> Piecewise:
     return Piecewise(edges, np.concatenate([curve.values, curve.values]), tolerance=curve.tolerance)
 
 
-def _all_passed(resolver: Resolver, motion: Motion) -> bool:
-    """Whether all positions are reached but those that lie on change points."""
-    if motion.ok.all():
-        return True
-    missed = motion.time[~motion.ok]
-    near = np.abs(missed[:, None] - resolver.changes).min(axis=1, initial=np.inf)
-    return bool((near < 1e-9 * (np.ptp(motion.time) or 1.0)).all())
-
-
 def cycle_grid(
     resolver: Resolver, motion: Motion, forces: Forces | None, asked: tuple[str, ...]
 ) -> CycleGrid | None:
     """The grid of a motion all of whose positions are reached, and between which others can be solved; else None."""
-    if not resolver.possible or motion.steps < 3 or not _all_passed(resolver, motion):
+    if not resolver.possible or motion.steps < 3 or not resolver.passed.all():
         return None
     start, positions = float(motion.time[0]), motion.positions
     if positions.closed and positions.period:

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from functools import reduce
 from itertools import combinations
 from math import hypot
 
 from linkwright.core.dataclass import dataclass
+from linkwright.engine.trace import Scalar, maximum, minimum
 from linkwright.joints.lower import TurningJoint
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis
-from linkwright.metrics.base import METRICS, Metric, MetricValue, Remark
+from linkwright.metrics.base import METRICS, Metric, MetricValue, Number, Remark
 from linkwright.metrics.quantities import shown
 
 #: A Grashof sum this near to zero, relative to the longest link, is a change point.
@@ -19,12 +21,14 @@ EQUAL = 1e-12
 
 @dataclass(frozen=True)
 class FourBar:
-    """A loop of four pinned links: ``first`` and ``second`` turn about the frame, ``coupler`` between; lengths m."""
+    """A loop of four pinned links: ``first`` and ``second`` turn about the frame, ``coupler`` between; lengths m, and
+    the two pins of every link."""
 
     first: str
     coupler: str
     second: str
     lengths: dict[str, float]
+    pins: dict[str, tuple[str, str]]
 
     @property
     def name(self) -> str:
@@ -34,8 +38,9 @@ class FourBar:
     @property
     def margin(self) -> float:
         """p + q - (s + l), m: positive where the shortest link can turn fully against the others."""
-        s, p, q, longest = sorted(self.lengths.values())
-        return p + q - s - longest
+        found = _margin(*self.lengths.values())
+        assert isinstance(found, float)
+        return found
 
     @property
     def shortest(self) -> str:
@@ -50,6 +55,11 @@ class FourBar:
         if self.margin < 0:
             return "triple_rocker"
         return {"frame": "double_crank", self.coupler: "double_rocker"}.get(self.shortest, "crank_rocker")
+
+
+def _margin(*lengths: Scalar) -> Scalar:
+    """The sum of all lengths less twice the shortest and the longest."""
+    return sum(lengths) - 2.0 * (reduce(minimum, lengths) + reduce(maximum, lengths))
 
 
 def four_bars(mechanism: Mechanism) -> tuple[FourBar, ...]:
@@ -67,7 +77,7 @@ def four_bars(mechanism: Mechanism) -> tuple[FourBar, ...]:
             ends = {"frame": (a0, b0), first: (a0, a), coupler: (a, b), second: (b0, b)}
             lengths = {link: _length(mechanism, link, *pair) for link, pair in ends.items()}
             if min(lengths.values()) > 0:
-                found.append(FourBar(first, coupler, second, lengths))
+                found.append(FourBar(first, coupler, second, lengths, ends))
     return tuple(found)
 
 
@@ -98,6 +108,11 @@ class Grashof(Metric):
 
     def suits(self, analysis: Analysis) -> bool:
         return bool(four_bars(analysis.motion.mechanism))
+
+    def numbers(self, analysis: Analysis) -> Iterator[Number]:
+        for loop in four_bars(analysis.motion.mechanism):
+            parts = (f"distance {link}.{a} {link}.{b} mean" for link, (a, b) in loop.pins.items())
+            yield Number(loop.name, tuple(parts), _margin)
 
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:
         for loop in four_bars(analysis.motion.mechanism):

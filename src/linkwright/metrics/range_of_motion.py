@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from functools import partial
 
 import numpy as np
 
 from linkwright.core.search import ends, zeros
-from linkwright.kinematics.cycle import Floats
+from linkwright.engine.trace import Scalar, floor
 from linkwright.kinetostatics.closure import dyads
 from linkwright.metrics.analysis import Analysis
-from linkwright.metrics.base import METRICS, Metric, MetricValue, Remark
+from linkwright.metrics.base import METRICS, Metric, MetricValue, Number, Remark
+from linkwright.metrics.limit_positions import outermost_limits
 from linkwright.metrics.outputs import output_link
 from linkwright.metrics.quantities import shown
 
@@ -22,8 +24,8 @@ STILL = 1e-9
 
 def edges(analysis: Analysis) -> tuple[tuple[float, int], ...]:
     """Times, s, at which the mechanism comes into (+1) or gets out of (-1) reach, found by halving."""
-    motion = analysis.motion
-    change = np.diff(motion.ok.astype(int))
+    motion, passed = analysis.motion, analysis.resolver.passed
+    change = np.diff(passed.astype(int))
     where = np.flatnonzero(change)
     inside = np.where(change[where] < 0, motion.time[where], motion.time[where + 1])
     outside = np.where(change[where] < 0, motion.time[where + 1], motion.time[where])
@@ -34,10 +36,10 @@ def edges(analysis: Analysis) -> tuple[tuple[float, int], ...]:
 
 def intervals(analysis: Analysis) -> tuple[tuple[float, float], ...]:
     """Stretches of time, s, in which all positions are reached; across the end of a closed cycle in one piece."""
-    motion, found = analysis.motion, edges(analysis)
+    found = edges(analysis)
     start, end = _ends(analysis)
     if not found:
-        return ((start, end),) if motion.ok.all() else ()
+        return ((start, end),) if analysis.resolver.passed.all() else ()
     times = [t for t, _ in found]
     if found[0][1] < 0:
         times.insert(0, start)
@@ -100,7 +102,7 @@ class RangeOfMotion(Metric):
 
 @METRICS.register("dead_point")
 class DeadPoint(Metric):
-    """Inputs at which a driver cannot move the mechanism: ends of the range, transmission angles of zero.
+    """Inputs at which a driver cannot move the machine: ends of range, change points, transmission angles of zero.
 
     And, for each output of a machine with one driver, the inputs at which that output could not drive it: where the
     output turns back while the driver goes on.
@@ -110,31 +112,52 @@ class DeadPoint(Metric):
     dimension = "angle"
     source = "IFToMM terminology: transmission angle zero"
 
+    def numbers(self, analysis: Analysis) -> Iterator[Number]:
+        """Those of outputs in their outermost limit positions, where one driver turns steadily through the cycle."""
+        drivers, period = (
+            list(analysis.motion.mechanism.drivers.values()),
+            analysis.motion.positions.period or 0.0,
+        )
+        if len(drivers) != 1 or (speed := drivers[0].law.constant_speed) is None:
+            return
+        within = partial(_within, float(analysis.motion.input[0]), speed * period)
+        for output, subject, kind in outermost_limits(analysis):
+            part = f"{output.owner}.{output.kind} arg{kind}"
+            yield Number(subject, (part,), within, analysis.input_dimension)
+
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:
         driver, kind = next(iter(analysis.motion.mechanism.drivers)), analysis.input_dimension
-        for q in self._of_driver(analysis):
+        for q, subject in _distinct((q, driver) for q in self._of_driver(analysis)):
             remarks = (Remark("dead_point.driver", {"at": shown(q, kind)}, warning=True),)
-            yield self.value(analysis, driver, q, dimension=kind, at=q, remarks=remarks)
+            yield self.value(analysis, subject, q, dimension=kind, at=q, remarks=remarks)
         for output in analysis.outputs:
             link = output_link(analysis.motion.mechanism, output)
-            found = [limit.input for limit in analysis.limits(output) if _drives(analysis, limit.time)]
-            for q in _distinct(np.array(sorted(found))):
-                names: dict[str, object] = {"at": shown(q, kind), "output": link}
-                yield self.value(
-                    analysis, link, q, dimension=kind, at=q, remarks=(Remark("dead_point.output", names),)
-                )
+            found = [limit for limit in analysis.limits(output) if _drives(analysis, limit.time)]
+            for q, subject in _distinct((limit.input, f"{output} {limit.kind}") for limit in found):
+                remarks = (Remark("dead_point.output", {"at": shown(q, kind), "output": link}),)
+                yield self.value(analysis, subject, q, dimension=kind, at=q, remarks=remarks)
 
-    def _of_driver(self, analysis: Analysis) -> list[float]:
+    def _of_driver(self, analysis: Analysis) -> Iterator[float]:
         if not analysis.resolver.possible:
-            return []
-        found = [analysis.resolver.input_at(time) for time, _ in edges(analysis)]
+            return
+        for time in (*(time for time, _ in edges(analysis)), *analysis.resolver.changes.tolist()):
+            yield analysis.resolver.input_at(time)
         for group in dyads(analysis.motion.structure):
             low = analysis.part(f"transmission_angle {group.name} min")
             if low.value < DEAD:
-                found.append(low.input)
-        return _distinct(np.array(sorted(found)))
+                yield low.input
 
 
-def _distinct(values: Floats) -> list[float]:
-    """Sorted values, those within 1e-6 of the one before left out."""
-    return [float(v) for i, v in enumerate(values) if i == 0 or v - values[i - 1] > 1e-6]
+def _within(first: float, cycle: float, place: Scalar) -> Scalar:
+    """The same place in the turn of the input that begins at ``first``."""
+    share = (place - first) / cycle
+    return first + cycle * (share - floor(share))
+
+
+def _distinct(places: Iterable[tuple[float, str]]) -> Iterator[tuple[float, str]]:
+    """Inputs with their subjects in order, those within 1e-6 of the one before left out."""
+    before = -np.inf
+    for place, subject in sorted(places):
+        if place - before > 1e-6:
+            yield place, subject
+        before = place

@@ -67,6 +67,13 @@ class Resolver:
         places = [p.place for p in passing]
         return np.asarray(np.interp(places, np.arange(float(len(time))), time)) if places else np.empty(0)
 
+    @cached_property
+    def passed(self) -> NDArray[np.bool_]:
+        """Which positions are reached, or lie on change points that the motion passes, (n,)."""
+        time = self._motion.time
+        apart = np.abs(time[:, None] - self.changes).min(axis=1, initial=np.inf)
+        return np.asarray(self._motion.ok | (apart < 1e-9 * (np.ptp(time) or 1.0)))
+
     def at(self, time: Floats, of: str = "motion", asked: tuple[str, ...] = ()) -> Any:
         """Motion, or Forces with ``of="forces"``, at some times, s; ``asked``: outputs beside the stored ones."""
         if of != "forces":

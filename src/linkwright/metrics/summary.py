@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from functools import lru_cache
 
 import numpy as np
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.reductions import Reduction
 from linkwright.errors import RequestError
-from linkwright.kinetostatics.named import Quantity
+from linkwright.kinetostatics.named import PHRASES, Quantity
 from linkwright.registry import offered
 from linkwright.words.sentence import Sentence
 
@@ -73,15 +73,21 @@ def one(text: str) -> Summary:
 
 
 def is_summary(name: str) -> bool:
-    """Whether a text is a summary of an output, ``driver.effort rms``."""
-    return any(sign in name and name.rpartition(sign)[2] in KINDS for sign in " .")
+    """Whether a text is a summary of an output, ``driver.effort rms``, not a metric, ``limit_position jaw max``."""
+    ends = any(sign in name and name.rpartition(sign)[2] in KINDS for sign in " .")
+    first = name.partition(" ")[0]
+    return ends and (first in PHRASES or first not in _metrics())
 
 
 def is_metric(name: str) -> bool:
     """Whether a text means a registered design number, not a summary of the output of the same name."""
+    return name.partition(" ")[0] in _metrics() and not is_summary(name)
+
+
+def _metrics() -> Collection[str]:
     from linkwright.metrics.base import METRICS
 
-    return name.partition(" ")[0] in METRICS and not is_summary(name)
+    return METRICS
 
 
 def _one(each: str | tuple[str, str]) -> list[Summary]:

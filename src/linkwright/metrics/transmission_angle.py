@@ -5,14 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import pairwise
 from math import radians
-from typing import Any, ClassVar
+from typing import ClassVar
 
 from linkwright.core.outputs import Output
 from linkwright.kinetostatics.closure import dyads
-from linkwright.metrics.analysis import Analysis, Extreme
-from linkwright.metrics.base import METRICS, Better, Metric, MetricValue, Number, Remark
+from linkwright.metrics.analysis import Analysis
+from linkwright.metrics.base import METRICS, Better, Metric, Number, Remark
 from linkwright.metrics.outputs import output_link
 from linkwright.metrics.quantities import shown
+from linkwright.metrics.strokes import KINDS
 from linkwright.structure.group import Group
 
 LIMIT = radians(40)
@@ -51,7 +52,7 @@ class TransmissionAngle(Metric):
 
 @METRICS.register("transmission_angle_of_stroke")
 class TransmissionAngleOfStroke(Metric):
-    """Smallest transmission angle of a dyad on each stroke of its output between two limit positions."""
+    """Smallest transmission angle of a dyad on the strokes of its output from its largest value on, and back."""
 
     name = "transmission_angle_of_stroke"
     rank = 2
@@ -63,27 +64,15 @@ class TransmissionAngleOfStroke(Metric):
     def suits(self, analysis: Analysis) -> bool:
         return super().suits(analysis) and analysis.whole and bool(_driven_dyads(analysis))
 
-    def values(self, analysis: Analysis) -> Iterator[MetricValue]:
-        period = analysis.motion.positions.period or 0.0
-        strokes = [
-            (group, output, first, last)
-            for group, output in _driven_dyads(analysis)
-            for first, last in pairwise([*analysis.limits(output), analysis.limits(output)[0]])
-        ]
-        signals = {group.name: analysis.signal(f"transmission_angle {group.name}") for group, *_ in strokes}
-        wanted = [
-            (signals[group.name], (first.time, last.time + (0.0 if last.time > first.time else period)))
-            for group, _, first, last in strokes
-        ]
-        lowest = analysis.extremes_between("min", wanted, "motion" if analysis.forces is None else "forces")
-        for (group, output, first, last), found in zip(strokes, lowest, strict=True):
-            if found is not None:
+    def numbers(self, analysis: Analysis) -> Iterator[Number]:
+        for group, output in _driven_dyads(analysis):
+            for first, last in pairwise([*analysis.limits(output)[:2], analysis.limits(output)[0]]):
+                signal = f"transmission_angle {group.name} on {output.owner}.{output.kind}"
                 subject = f"{group.name}: {output} {first.kind}→{last.kind}"
-                yield self.value(analysis, subject, found.value, **_where(found))
+                yield Number(subject, (f"{signal} {KINDS[first.kind]}",))
 
-
-def _where(found: Extreme) -> dict[str, Any]:
-    return {"at": found.input, "exact": found.exact, "remarks": low(found.value)}
+    def remarks(self, value: float, at: float, analysis: Analysis) -> tuple[Remark, ...]:
+        return low(value)
 
 
 def _driven_dyads(analysis: Analysis) -> list[tuple[Group, Output]]:

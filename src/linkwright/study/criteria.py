@@ -14,7 +14,7 @@ from linkwright.metrics.flywheel import SIZED
 from linkwright.metrics.summary import is_summary, wanted
 from linkwright.registry import offered
 from linkwright.study.alternatives import Alternative
-from linkwright.study.terms import OWN, Asked, own
+from linkwright.study.terms import OWN, Asked, governing, own
 from linkwright.words import say
 from linkwright.words.sentence import Sentence
 
@@ -105,7 +105,7 @@ def _metric(each: Alternative, metric: Metric, subject: str) -> Measured | None:
                 Sentence("study.no_value_for", name=metric.name, label=each.label, subject=subject, hint=hint)
             )
         return None
-    worst = _governing(found, metric)
+    worst = governing(found, metric.better)
     return Measured(worst.value, worst.dimension, worst.at)
 
 
@@ -138,12 +138,6 @@ def _of_output(each: Alternative, metric: Metric, values: Iterable[MetricValue])
     everything = list(values)
     mine = [] if metric.needs_forces else [v for v in everything if v.subject == str(each.output)]
     return mine or everything
-
-
-def _governing(found: list[MetricValue], metric: Metric) -> MetricValue:
-    if metric.better == "higher":
-        return min(found, key=lambda v: v.value)
-    return max(found, key=lambda v: abs(v.value)) if metric.better == "lower" else found[0]
 
 
 def _summary(each: Alternative, name: str) -> Measured:

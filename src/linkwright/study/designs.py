@@ -19,8 +19,8 @@ from linkwright.kinetostatics.named import Quantity
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.summary import Summary, wanted
 from linkwright.study.cluster import current, in_turn
+from linkwright.study.design_numbers import numbers_of
 from linkwright.study.failures import Failure, explained
-from linkwright.study.metric_cycle import numbers_of
 from linkwright.study.sweep_run import Manner, SweepRun
 from linkwright.study.vary import design_values, refuse_moved_positions
 from linkwright.words.sentence import Sentence

@@ -19,25 +19,24 @@ from linkwright.engine.reductions import Reduction
 from linkwright.engine.replay import across_designs
 from linkwright.engine.stage import Backend, Stage
 from linkwright.engine.threads import cores, spread_over
-from linkwright.engine.trace import Scalar, Trace, absolute, maximum, sqrt
-from linkwright.errors import LinkwrightError, RequestError
+from linkwright.engine.trace import Scalar, Trace, absolute, maximum, select, sqrt
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinetostatics.forces import solve_forces
+from linkwright.kinetostatics.named import Quantity
 from linkwright.kinetostatics.site import limit_name
 from linkwright.kinetostatics.traced_loads import AlongInput
 from linkwright.loads.phases import TURN
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.metrics import Analysis, true_speed
+from linkwright.metrics import Analysis, strokes, true_speed
 from linkwright.metrics.summary import Summary, one
 from linkwright.study.gauss_cycle import PIECES, SHARE, GaussCycle, reversing
-from linkwright.study.limit_stages import STEP, limit_stages
+from linkwright.study.limit_stages import STEP, limit_stages, rates
 from linkwright.study.loaded_cycle import along_input, one_turn, with_loads
 from linkwright.study.piece_summaries import SIDES, PieceSummaries
 from linkwright.study.seen import Seen
 from linkwright.study.steady_designs import REST, SIGNALS, SteadyDesigns
 from linkwright.study.terms import Asked, Term, all_parts, term
 from linkwright.study.traced import VALID, Traced
-from linkwright.words.sentence import Sentence
 
 Floats = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -88,12 +87,14 @@ def _metric_cycle(
         return None
     analysis = Analysis.of(solve_forces(plain.nominal))
     offered = (each if isinstance(each, Term) else term(each, analysis, asked) for each in given)
-    terms = [each for each in offered if each is not None]
+    terms = [each for each in offered if each is not None and _without_more_limits(each, analysis)]
     program = plain.program(plain.quantities(_outputs(map(one, all_parts(terms)))))
     loads = along_input(plain, addresses, program.fields)
     if loads is None:
         return None
-    loads = replace(loads, swinging=tuple(dict.fromkeys((*loads.swinging, *reversing(plain, program)))))
+    ways = (analysis.output(strokes.output_of(part)) for part in _strokes(all_parts(terms)).values())
+    swinging = (*loads.swinging, *reversing(plain, program), *(each for each in ways if each is not None))
+    loads = replace(loads, swinging=tuple(dict.fromkeys(swinging)))
     traced = with_loads(plain, loads)
     nominal = {address: np.array([mechanism.dimension(address)]) for address in addresses}
     coarsest = None
@@ -108,64 +109,6 @@ def _metric_cycle(
 
 
 _cycles: Recent[Mechanism, MetricCycle | None] = Recent(16)
-
-
-def numbers_of(
-    mechanism: Mechanism,
-    columns: Mapping[str, Floats],
-    names: Sequence[str],
-    designs: NDArray[np.intp],
-    *,
-    threads: int | None = None,
-    backend: Backend = "auto",
-) -> tuple[dict[str, Floats], dict[str, str], dict[int, str]]:
-    """Metrics of the chosen ones of all designs, NaN for the others: values and dimensions by name, and sentences of
-    designs for which they cannot be found.
-
-    Together as far as that is certain, the others one by one. Raises RequestError for a metric that applies to none.
-    """
-    count = len(next(iter(columns.values())))
-    values = {name: np.full(count, np.nan) for name in names}
-    dimensions: dict[str, str] = {}
-    cycle = metric_cycle(mechanism, columns, names)
-    sure = np.zeros(count, dtype=np.bool_)
-    if cycle is not None and len(cycle.terms) == len(names):
-        part = {address: column[designs] for address, column in columns.items()}
-        found = cycle.evaluate(part, threads=threads, backend=backend)
-        sure[designs] = found.certain
-        for each in cycle.terms:
-            values[each.name][designs[found.certain]] = found.values[each.name][found.certain]
-            dimensions[each.name] = each.dimension
-    failed: dict[int, str] = {}
-    for index in designs[~sure[designs]].tolist():
-        design = mechanism.with_dimensions({a: float(column[index]) for a, column in columns.items()})
-        found_alone, why = _alone(design, names)
-        failed |= {index: why} if why else {}
-        for name, (value, dimension) in found_alone.items():
-            values[name][index], dimensions[name] = value, dimension
-    idle = [name for name in names if name not in dimensions] if len(designs) > len(failed) else []
-    if idle:
-        raise RequestError(Sentence("study.objective_metric", names=tuple(idle), name=mechanism.name))
-    return values, dimensions, failed
-
-
-def _alone(design: Mechanism, names: Sequence[str]) -> tuple[dict[str, tuple[float, str]], str]:
-    """Values and dimensions of the metrics that one design has, and why it lacks others."""
-    found: dict[str, tuple[float, str]] = {}
-    analysis, why = None, ""
-    for name in names:
-        try:
-            analysis = analysis or Analysis.of(solve_forces(design))
-            if (own := term(name, analysis)) is not None:
-                found[name] = float("nan"), own.dimension
-                found[name] = own.measured(analysis), own.dimension
-        except RequestError:
-            raise
-        except LinkwrightError as error:
-            why = error.sentence
-            if analysis is None:
-                break
-    return found, why
 
 
 @dataclass(frozen=True)
@@ -190,7 +133,9 @@ class MetricCycle:
     ) -> None:
         self.analysis, self.loads = analysis, loads
         self.traced, self.gauss, self.terms = traced, gauss, tuple(terms)
-        self.parts = {text: one(text) for text in all_parts(terms)}
+        texts = all_parts(terms)
+        on_strokes = _strokes(texts)
+        self.parts = {text: Summary(text, "min") if text in on_strokes else one(text) for text in texts}
         places = {text: analysis.output(p.output) for text, p in self.parts.items() if p.kind in _PLACES}
         self.limited = {
             text: limit_name(output, self.parts[text].kind.removeprefix("arg"))
@@ -202,9 +147,20 @@ class MetricCycle:
                 [*loads.outputs, *loads.swinging, *(each for each in places.values() if each is not None)]
             )
         )
+        found_apart = {*self.limited, *on_strokes}
         self.quantities = traced.quantities(
-            _outputs(part for text, part in self.parts.items() if text not in self.limited)
+            _outputs(part for text, part in self.parts.items() if text not in found_apart)
         )
+        self.quantities |= {text: self._on_stroke(text, part) for text, part in on_strokes.items()}
+
+    def _on_stroke(self, text: str, part: Summary) -> Quantity:
+        """A transmission angle while an output goes one way, else the largest one that there is."""
+        output, signal = self.analysis.output(strokes.output_of(part)), strokes.signal_of(part)
+        assert output is not None
+        rate, _ = rates(self.traced, output)
+        going = rate < 0.0 if part.kind == strokes.KINDS["max"] else rate > 0.0
+        angle = self.traced.named.quantity(signal)
+        return Quantity(text, angle.dimension, select(going, angle.value, strokes.LARGEST))
 
     # values -----------------------------------------------------------------------------------------
     def evaluate(
@@ -468,5 +424,21 @@ def _outputs(parts: Iterable[Summary]) -> Iterator[str]:
     for part in parts:
         if part.kind in true_speed.KINDS:
             yield from (true_speed.EFFORT, true_speed.INERTIA)
+        elif part.kind in strokes.KINDS.values():
+            yield strokes.signal_of(part)
         elif part.kind not in _PLACES:
             yield part.output
+
+
+def _strokes(texts: Iterable[str]) -> dict[str, Summary]:
+    """The parts over the strokes of an output."""
+    return {text: part for text in texts if (part := one(text)).kind in strokes.KINDS.values()}
+
+
+def _without_more_limits(each: Term, analysis: Analysis) -> bool:
+    """Whether the outputs whose limits a term takes have no others than two."""
+    parts = [one(text) for text in each.parts]
+    words = [part.output for part in parts if part.kind in _PLACES]
+    words += [strokes.output_of(part) for part in _strokes(each.parts).values()]
+    outputs = [output for output in map(analysis.output, words) if output is not None]
+    return all(len(analysis.limits(output)) == 2 for output in outputs)

@@ -12,7 +12,7 @@ from linkwright.errors import RequestError
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import METRICS, Analysis
 from linkwright.metrics.analysis import Extreme
-from linkwright.metrics.base import Metric, Number
+from linkwright.metrics.base import Metric, MetricValue, Number
 from linkwright.metrics.flywheel import SIZED
 from linkwright.metrics.outputs import turns_fully
 from linkwright.registry import offered
@@ -151,6 +151,37 @@ def term(name: str, analysis: Analysis, asked: Asked | None = None) -> Term | No
     return Term(name, chosen, chosen[0].dimension or metric.dimension, metric.better)
 
 
+def measured(name: str, analysis: Analysis) -> tuple[float, str] | None:
+    """Value and dimension of a metric of one machine: of the asked subject, or the governing one; None where it has
+    no such number. Raises RequestError for a subject that the metric does not have."""
+    found = term(name, analysis)
+    if found is not None:
+        return found.measured(analysis), found.dimension
+    kind, subject = metric_of(name) or (None, "")
+    if kind is None or not kind().applies(analysis):
+        return None
+    values = kind().evaluate(analysis)
+    mine = [each for each in values if not subject or each.subject == subject]
+    if subject and values and not mine:
+        raise _no_subject(name, subject, (each.subject for each in values))
+    chosen = governing(mine, kind.better) if mine else None
+    return None if chosen is None else (chosen.value, chosen.dimension)
+
+
+def governing(found: Sequence[MetricValue], better: str | None) -> MetricValue:
+    """Of several values the worst where a direction is better, else the first."""
+    if better == "higher":
+        return min(found, key=lambda value: value.value)
+    return max(found, key=lambda value: abs(value.value)) if better == "lower" else found[0]
+
+
+def _no_subject(name: str, subject: str, known: Iterable[str]) -> RequestError:
+    metric, _, _ = name.partition(" ")
+    return RequestError(
+        Sentence("metrics.no_value", name=metric, subject=subject, hint=offered(subject, known))
+    )
+
+
 def _chosen(
     name: str, metric: Metric, numbers: Sequence[Number], subject: str, preferred: str
 ) -> tuple[Number, ...]:
@@ -158,8 +189,7 @@ def _chosen(
     wanted = subject or ("" if metric.needs_forces else preferred)
     mine = tuple(number for number in numbers if number.subject == wanted)
     if subject and not mine:
-        hint = offered(subject, [number.subject for number in numbers])
-        raise RequestError(Sentence("metrics.no_value", name=metric.name, subject=subject, hint=hint))
+        raise _no_subject(name, subject, (number.subject for number in numbers))
     return mine or tuple(numbers)
 
 

@@ -123,6 +123,7 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
     "objective_turned_loads": "{name!r}: loads go by limits of what a wheel, rack, belt or cam on {links} moves, "
     "whose turns are counted from position to position, so no gradient of many designs is found; for outputs use "
     "sensitivity, for design numbers study",
+    "sweep_metric": "{names} of {name!r} does not apply to it; choose another one",
     "objective_metric": "{names} of {name!r} is no number over the cycle that has a gradient, or does not apply to "
     "it; choose another one",
     "objective_idle": "{names} has no influence on what is asked; leave it out",

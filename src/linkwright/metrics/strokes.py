@@ -1,0 +1,45 @@
+"""Parts of design numbers that are the smallest transmission angle while an output goes one way.
+
+``transmission_angle B on jaw.angle falling``, ``rising``: from its largest to its smallest value, and back.
+"""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from math import pi
+from typing import TYPE_CHECKING
+
+from linkwright.metrics.summary import Summary
+
+if TYPE_CHECKING:
+    from linkwright.metrics.analysis import Analysis, Extreme
+
+#: Kinds of these parts, by the limits with which their strokes begin.
+KINDS = {"max": "falling", "min": "rising"}
+#: No transmission angle is larger.
+LARGEST = pi / 2
+
+
+def signal_of(part: Summary) -> str:
+    """The signal whose smallest value is sought."""
+    return part.output.rpartition(" on ")[0]
+
+
+def output_of(part: Summary) -> str:
+    """The output that goes one way."""
+    return part.output.rpartition(" on ")[2]
+
+
+def of_machine(part: Summary, analysis: Analysis) -> Extreme:
+    """Such a part of one machine, the smallest of all its strokes that way."""
+    output = analysis.output(output_of(part))
+    assert output is not None
+    limits, period = analysis.limits(output), analysis.motion.positions.period or 0.0
+    signal = analysis.signal(signal_of(part))
+    wanted = [
+        (signal, (first.time, last.time + (0.0 if last.time > first.time else period)))
+        for first, last in pairwise([*limits, limits[0]])
+        if KINDS[first.kind] == part.kind
+    ]
+    found = analysis.extremes_between("min", wanted, "motion" if analysis.forces is None else "forces")
+    return min((each for each in found if each is not None), key=lambda each: each.value)

@@ -1,0 +1,78 @@
+"""Design numbers of sweeps: of many designs together as far as that is certain, of the others one by one."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.engine.stage import Backend
+from linkwright.errors import LinkwrightError, RequestError
+from linkwright.kinetostatics.forces import solve_forces
+from linkwright.mechanism.mechanism import Mechanism
+from linkwright.metrics import Analysis
+from linkwright.study.metric_cycle import metric_cycle
+from linkwright.study.terms import measured
+from linkwright.words.sentence import Sentence
+
+Floats = NDArray[np.float64]
+
+
+def numbers_of(
+    mechanism: Mechanism,
+    columns: Mapping[str, Floats],
+    names: Sequence[str],
+    designs: NDArray[np.intp],
+    *,
+    threads: int | None = None,
+    backend: Backend = "auto",
+) -> tuple[dict[str, Floats], dict[str, str], dict[int, str]]:
+    """Metrics of the chosen ones of all designs, NaN for the others: values and dimensions by name, and sentences of
+    designs for which they cannot be found.
+
+    Formulas of summaries are found together as far as that is certain, the others, and what is no such formula, one
+    by one. Raises RequestError for a metric that applies to none.
+    """
+    count = len(next(iter(columns.values())))
+    values = {name: np.full(count, np.nan) for name in names}
+    dimensions: dict[str, str] = {}
+    cycle = metric_cycle(mechanism, columns, names)
+    sure = np.zeros(count, dtype=np.bool_)
+    if cycle is not None and cycle.terms:
+        part = {address: column[designs] for address, column in columns.items()}
+        found = cycle.evaluate(part, threads=threads, backend=backend)
+        sure[designs] = found.certain
+        for each in cycle.terms:
+            values[each.name][designs[found.certain]] = found.values[each.name][found.certain]
+            dimensions[each.name] = each.dimension
+    rest = [name for name in names if name not in dimensions]
+    failed: dict[int, str] = {}
+    for index in designs.tolist() if rest else designs[~sure[designs]].tolist():
+        design = mechanism.with_dimensions({a: float(column[index]) for a, column in columns.items()})
+        found_alone, why = _alone(design, rest if sure[index] else names)
+        failed |= {index: why} if why else {}
+        for name, (value, dimension) in found_alone.items():
+            values[name][index], dimensions[name] = value, dimension
+    idle = [name for name in names if name not in dimensions] if len(designs) > len(failed) else []
+    if idle:
+        raise RequestError(Sentence("study.sweep_metric", names=tuple(idle), name=mechanism.name))
+    return values, dimensions, failed
+
+
+def _alone(design: Mechanism, names: Sequence[str]) -> tuple[dict[str, tuple[float, str]], str]:
+    """Values and dimensions of the metrics that one design has, and why it lacks others."""
+    found: dict[str, tuple[float, str]] = {}
+    analysis, why = None, ""
+    for name in names:
+        try:
+            analysis = analysis or Analysis.of(solve_forces(design))
+            if (own := measured(name, analysis)) is not None:
+                found[name] = own
+        except RequestError:
+            raise
+        except LinkwrightError as error:
+            why = error.sentence
+            if analysis is None:
+                break
+    return found, why
