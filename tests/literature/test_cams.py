@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from math import radians
+from math import pi, radians
 from pathlib import Path
 
 import numpy as np
@@ -127,6 +127,41 @@ def test_power_is_in_balance() -> None:
         assert design.torque[smooth] == pytest.approx(
             (design.contact_force * normal_speed)[smooth], abs=2e-6 * np.abs(design.torque).max()
         )
+
+
+def test_forces_are_greatest_between_the_places_of_the_curves() -> None:
+    """m ω² s'' + F₀ + k s over cos α, tan α = (s' - e)/(s + s₀), of a fall by the cycloid, on 0.0001° steps."""
+    program = lw.MotionProgram(
+        (
+            lw.Segment(radians(120), 0.025, law="polynomial_345"),
+            lw.Segment(radians(60)),
+            lw.Segment(radians(120), to=0.0, law="cycloidal"),
+            lw.Segment(radians(60)),
+        )
+    )
+    speed, beta = 20 * pi, radians(120)
+    loading = lw.CamLoading(speed, 0.8, spring=lw.CamSpring(4000.0, 60.0))
+    design = lw.Cam(program, lw.Follower(roller_radius=0.01, offset=0.008), 0.05, loading=loading).solve()
+    u = np.linspace(0.0, 1.0, 1_200_001)
+    s = 0.025 * (1 - u + np.sin(2 * pi * u) / (2 * pi))
+    slope = -0.025 / beta * (1 - np.cos(2 * pi * u))
+    effort = -0.8 * speed**2 * 0.025 / beta**2 * 2 * pi * np.sin(2 * pi * u) + 60.0 + 4000.0 * s
+    force = effort * np.hypot(1.0, (slope - 0.008) / (s + np.sqrt(0.06**2 - 0.008**2)))
+    for kind, k in (("max", force.argmax()), ("min", force.argmin())):
+        found = design.extreme_force(kind)
+        assert found.value == pytest.approx(force[k], rel=1e-9)
+        assert found.place == pytest.approx(pi + beta * u[k], abs=1e-5)
+    assert design.extreme_torque("min").value == pytest.approx((effort * slope).min(), rel=1e-9)
+
+
+def test_a_chosen_spring_holds_on_both_sides_of_a_jump_of_the_acceleration() -> None:
+    """A harmonic rise ends with s'' = -h π²/(2 β²) and is followed by a rest: the force is zero just before it."""
+    program = lw.MotionProgram(
+        (lw.Segment(radians(100), 0.015, law="simple_harmonic"), lw.Segment(radians(260), to=0.0))
+    )
+    loading, need = lw.CamLoading(100.0, 0.3, spring=lw.CamSpring(preload=0.0)), 0.3 * 100.0**2
+    design = lw.Cam(program, lw.Follower("flat"), 0.045, loading=loading, spring_wanted=True).solve()
+    assert design.loading.spring.stiffness == pytest.approx(need * pi**2 / (2 * radians(100) ** 2), rel=1e-9)
 
 
 def test_hertz_pressure_is_that_of_the_textbook() -> None:

@@ -242,3 +242,10 @@ def test_a_plot_imports_nothing_that_it_does_not_write() -> None:
     )
     found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert found.stdout.split() == []
+
+
+def test_a_joint_that_carries_nothing_has_a_point_for_a_hodograph() -> None:
+    """The guide of a yoke in line with its load: 4e-15 N by rounding were drawn as a scribble."""
+    axes = plot(lw.solve_forces(lw.load("gallery:scotch_yoke")), "hodographs", of=["guide"]).figure.axes[0]
+    assert all(not np.any(line.get_xydata()) for line in axes.lines if len(line.get_xydata()) > 2)
+    assert axes.get_xlim()[1] > 0.5 and axes.get_xlabel() == "Fx (N)"

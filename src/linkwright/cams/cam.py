@@ -21,6 +21,7 @@ from linkwright.cams.undercut import undercuts
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, ModelError
 from linkwright.fields.base import Field
+from linkwright.laws.base import Floats
 from linkwright.laws.program import Program
 from linkwright.parts.base import Problem, fault
 
@@ -243,8 +244,13 @@ class Cam(Problem):
         """The loading with its spring, chosen where it is wanted and not given."""
         if not self.spring_wanted or self.closure != "force":
             return self.loading
-        phi = self.program.places(2880)
-        return self.loading.with_spring(self.program, phi, self.limits.contact_force)
+        return self.loading.with_spring(self.program, self._tried, self.limits.contact_force)
+
+    @property
+    def _tried(self) -> Floats:
+        """Places at which the contact is looked at, rad: both sides of every edge of the program among them."""
+        program = self.program
+        return np.sort(np.append(program.places(2880), np.nextafter(program.edges[1:], 0.0)))
 
     def _contact_lost(self) -> list[Finding]:
         """Where a given spring does not hold the contact."""
@@ -252,7 +258,7 @@ class Cam(Problem):
         unloaded = not loading.mass and not loading.load and loading.spring.preload is None
         if self.closure != "force" or self.barrel_radius is not None or unloaded:
             return []
-        phi = self.program.places(2880)
+        phi = self._tried
         effort = loading.effort(self.program, phi)
         k = int(effort.argmin())
         size = float(np.abs(effort).max())

@@ -155,15 +155,17 @@ def _forces(design: CamDesign, say: Say) -> Block | None:
             Row("stiffness", spring.stiffness or 0.0, "torsional_stiffness" if turning else "stiffness")
         )
         rows.append(Row("preload", spring.preload or 0.0, "torque" if turning else "force"))
-    curves = [("contact_force", design.contact_force, "force"), ("torque", design.torque, "torque")]
+    for key, extreme, dimension in (
+        ("contact_force", design.extreme_force, "force"),
+        ("torque", design.extreme_torque, "torque"),
+    ):
+        for word, kind in (("largest", "max"), ("smallest", "min")):
+            found = extreme(kind)
+            rows.append(Row(f"{word}_{key}", found.value, dimension, note=at(found.place, say)))
     if design.pressure is not None:
-        curves.append(("contact_pressure", design.pressure, "pressure"))
-    for key, values, dimension in curves:
-        for word, k in (("largest", int(values.argmax())), ("smallest", int(values.argmin()))):
-            if key != "contact_pressure" or word == "largest":
-                rows.append(
-                    Row(f"{word}_{key}", float(values[k]), dimension, note=at(float(design.angles[k]), say))
-                )
+        k = int(design.pressure.argmax())
+        place = at(float(design.angles[k]), say)
+        rows.append(Row("largest_contact_pressure", float(design.pressure[k]), "pressure", note=place))
     if design.cam.closure != "force":
         force = design.contact_force
         pressed = np.flatnonzero(np.abs(force) > 1e-6 * np.abs(force).max())
@@ -220,6 +222,6 @@ def steps(design: CamDesign, say: Say) -> list[Step]:
         return [first, second, third]
     fourth = Step("4", say("cams.step_force"))
     fourth.say("  F = m·ω²·s″ + F₀ + k·s + F_l,  N = F/cos α,  T = F·s′")
-    put(fourth, "N_max", "", float(design.contact_force.max()), "force")
-    put(fourth, "T_max", "", float(design.torque.max()), "torque")
+    put(fourth, "N_max", "", design.extreme_force("max").value, "force")
+    put(fourth, "T_max", "", design.extreme_torque("max").value, "torque")
     return [first, second, third, fourth]

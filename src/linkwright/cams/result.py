@@ -150,11 +150,14 @@ class CamDesign(Result):
     @cached_property
     def contact_force(self) -> Floats:
         """Normal force between cam and follower (n,) N; negative: on the other wall of a groove or pair."""
-        effort = self.loading.effort(self.cam.program, self._inside)
-        force = effort / leverage(self.cam.follower, self.contact)
+        return self._contact_force(self._inside)
+
+    def _contact_force(self, phi: Floats) -> Floats:
+        effort = self.loading.effort(self.cam.program, phi)
+        force = effort / leverage(self.cam.follower, self.wall.contact(phi))
         if self._other is None:
             return np.asarray(force)
-        back = effort / leverage(self._other.follower, self._other.contact(self._inside))
+        back = effort / leverage(self._other.follower, self._other.contact(phi))
         return np.where(effort < 0, -np.abs(back), np.abs(force))
 
     @property
@@ -170,7 +173,18 @@ class CamDesign(Result):
     @cached_property
     def torque(self) -> Floats:
         """Torque (n,) N·m with which the cam must be driven, positive in its sense of turning: effort times s'."""
-        return np.asarray(self.loading.effort(self.cam.program, self._inside) * self.motion[1])
+        return self._torque(self._inside)
+
+    def _torque(self, phi: Floats) -> Floats:
+        return np.asarray(self.loading.effort(self.cam.program, phi) * self.cam.program.curves(phi)[1])
+
+    def extreme_force(self, kind: str) -> Extreme:
+        """The largest (``max``) or smallest (``min``) contact force, N, found between the places of the curves."""
+        return self._extreme(self._contact_force, kind)
+
+    def extreme_torque(self, kind: str) -> Extreme:
+        """The same of the torque, N·m."""
+        return self._extreme(self._torque, kind)
 
     @cached_property
     def pressure(self) -> Floats | None:

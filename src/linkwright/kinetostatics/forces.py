@@ -27,6 +27,9 @@ if TYPE_CHECKING:
 
     from linkwright.plot import Diagram
 
+#: Share of the largest joint force below which another one is rounding.
+ROUNDING = 1e-12
+
 
 @dataclass(frozen=True)
 class LoadForce:
@@ -68,6 +71,13 @@ class Forces:
     def steps(self) -> int:
         """Number of positions n."""
         return self.motion.steps
+
+    @cached_property
+    def rounding(self) -> float:
+        """Size, N, below which a joint force is but rounding beside the largest of the machine."""
+        rows = self.rows
+        found = np.abs(rows.values[[place for name, place in rows.index.items() if name.startswith("r:")]])
+        return ROUNDING * float(found[np.isfinite(found)].max(initial=0.0))
 
     def in_order(self) -> Forces:
         """The forces of ``motion.in_order()``."""

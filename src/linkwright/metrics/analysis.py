@@ -19,7 +19,7 @@ from linkwright.engine.recent import Recent
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.limits import limit_positions
 from linkwright.kinematics.motion import Motion
-from linkwright.kinetostatics.forces import Forces
+from linkwright.kinetostatics.forces import ROUNDING, Forces
 from linkwright.kinetostatics.programs import words_name
 from linkwright.kinetostatics.solver import ForceSolver
 from linkwright.loads.phases import outermost
@@ -32,8 +32,6 @@ from linkwright.metrics.summary import Summary, one
 
 Result: TypeAlias = "Motion | Forces | Analysis"
 Kind = Literal["max", "min"]
-#: What is less than this share of the largest of its kind is rounding.
-ROUNDING = 1e-12
 #: Summaries that are found of all outputs at once.
 _TOGETHER = ("max", "min", "mean", "rms")
 
@@ -175,19 +173,10 @@ class Analysis:
         """
         if summary not in self._parts:
             found = self._summarised(one(summary))
-            if summary.startswith("reaction ") and abs(found.value) < ROUNDING * self._largest_reaction:
+            if summary.startswith("reaction ") and self.forces and abs(found.value) < self.forces.rounding:
                 found = replace(found, value=0.0)
             self._parts[summary] = found
         return self._parts[summary]
-
-    @cached_property
-    def _largest_reaction(self) -> float:
-        """Size of the largest component of all reactions at the solved positions, N."""
-        if self.forces is None:
-            return 0.0
-        rows = self.forces.rows
-        found = np.abs(rows.values[[place for name, place in rows.index.items() if name.startswith("r:")]])
-        return float(found[np.isfinite(found)].max(initial=0.0))
 
     def _summarised(self, summary: Summary) -> Extreme:
         kind = summary.kind

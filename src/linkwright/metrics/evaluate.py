@@ -8,8 +8,8 @@ from math import isfinite
 
 from linkwright.errors import RequestError
 from linkwright.kinematics.motion import Motion
-from linkwright.kinetostatics.forces import Forces
-from linkwright.metrics.analysis import ROUNDING, Analysis
+from linkwright.kinetostatics.forces import ROUNDING, Forces
+from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, MetricValue
 from linkwright.metrics.quantities import NOTHING
 from linkwright.metrics.table import MetricsTable

@@ -60,16 +60,16 @@ def draw_hodograph(
 ) -> None:
     """One hodograph: ``what`` is the joint, the link on which it acts, and the link in whose axes it is drawn;
     ``largest``: whether the largest force is an arrow that the legend names."""
-    joint, link, view = what
+    view = what[2]
     say = request.say
-    curves = [source.closed(source.forces.reaction(joint, on=link, axes=view)) for source in sources]
+    curves = [_curve(source, what) for source in sources]
     unit = unit_of("force", curves)
     for number, (source, curve) in enumerate(zip(sources, curves, strict=True)):
         colour = COLOURS[number % len(COLOURS)]
         line = draw_curve(axes, curve * unit.factor, jumps(source), colour)
         if len(sources) > 1:
             legend.add(source.label, line)
-        elif request.marks:
+        elif request.marks and curve.any():
             mark_inputs(axes, curve * unit.factor, source.axis, colour)
             if largest:
                 _largest(axes, curve, unit, legend, request)
@@ -80,6 +80,15 @@ def draw_hodograph(
     equal(axes)
     axes.plot([0], [0], "+", color=INK, markersize=9, zorder=4)
     axes.margins(0.13)
+    if not any(curve.any() for curve in curves):
+        axes.update_datalim([(-1.0, -1.0), (1.0, 1.0)])
+
+
+def _curve(source: Source, what: tuple[str, str, str]) -> Floats:
+    """The joint force (n, 2) N, zero where a joint carries nothing but rounding."""
+    joint, link, view = what
+    found = source.closed(source.forces.reaction(joint, on=link, axes=view))
+    return found if np.nanmax(np.abs(found), initial=0.0) > source.forces.rounding else np.zeros_like(found)
 
 
 def _largest(axes: Axes, curve: Floats, unit: Unit, legend: Legend, request: Request) -> None:
