@@ -93,6 +93,22 @@ def test_an_interval_longer_than_a_turn_is_refused_of_many_designs_too(law: str)
     assert np.isnan(found["input_torque", "rms"]).all()
 
 
+@pytest.mark.parametrize("output", ["input_torque rms", "rms_input_torque"])
+def test_designs_whose_own_interval_is_longer_than_a_turn_are_refused(output: str) -> None:
+    load = f"{{kind: force, on: piston, at: B, direction: 0 deg, {LOADS['interval']}}}"
+    mechanism = lw.loads(SLIDER.replace("SPEED", "10 rad/s").replace("LOAD", load))
+    address = "loads.work.phase.input.1"
+    ends = np.radians([200.0, 395.0, 389.0])
+    found = lw.sweep(mechanism, {address: ends}, outputs=[output], steps=90)
+    assert found.ok.tolist() == [True, False, True]
+    assert "from 30° to 395° is longer than one turn" in found.unloaded[1]
+    objective = lw.objective(mechanism, output, vary=[address], steps=90)
+    assert np.isnan(objective.many(ends[:, None])[0]).tolist() == [False, True, False]
+    prepared = lw.prepare(mechanism, vary=[address], steps=90)
+    with pytest.raises(lw.LinkwrightError, match="from 30° to 395° is longer than one turn"):
+        prepared.solve({address: ends[1]})
+
+
 def test_an_objective_under_a_law_of_the_time_has_its_gradient() -> None:
     """Central differences of designs solved alone."""
     mechanism = machine(UNEVEN, LOADS["expression"])

@@ -21,7 +21,7 @@ from linkwright.kinetostatics.friction import Swinging
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.kinetostatics.site import TracedSite, constant_name, limit_name, middle_name, value_name
 from linkwright.loads.base import Load
-from linkwright.loads.magnitude import angles_of, divides, followed, is_constant, magnitude
+from linkwright.loads.magnitude import angles_of, divides, followed, interval_of_turn, is_constant, magnitude
 from linkwright.loads.magnitude import constants as of_load
 from linkwright.loads.phases import TURN
 from linkwright.mechanism.mechanism import Mechanism
@@ -96,6 +96,7 @@ def numbers_of_loads(loads: Iterable[Load], mechanism: Mechanism) -> AlongInput:
     }
     fallible = [each.name for each in given if isinstance(getattr(each, "magnitude", None), Expression)]
     fallible += [each.name for each in given if f"load:{each.name}" in over or of_load(each)]
+    fallible += [each.name for each in given if interval_of_turn(each)]
     return AlongInput(
         frozenset(each.name for each in given),
         tuple(dict.fromkeys(phase.output for phase in phases)),

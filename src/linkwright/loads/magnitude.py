@@ -95,12 +95,8 @@ def followed(load: Load, mechanism: Mechanism) -> bool:
     Not where a kind finds it in a way of its own, where an expression divides by an output, which may go through
     zero between two positions, and where an interval of the input is longer than a turn.
     """
-    phase = getattr(load, "phase", None)
-    long = (
-        isinstance(phase, InputPhase)
-        and phase.across == "angle"
-        and abs(phase.end - phase.start) > TURN + NEAR
-    )
+    interval = interval_of_turn(load)
+    long = interval is not None and abs(interval.end - interval.start) > TURN + NEAR
     if long or not has_formula(load):
         return False
     given = getattr(load, "magnitude", None)
@@ -108,6 +104,12 @@ def followed(load: Load, mechanism: Mechanism) -> bool:
         found = [output_named(n, mechanism) for n in given.names - {*mechanism.parameters, "t", "input"}]
         return None not in found and not (found and divides(load))
     return True
+
+
+def interval_of_turn(load: Load) -> InputPhase | None:
+    """The interval of the input's turn in which a load acts, which no design may have longer than the turn."""
+    phase = getattr(load, "phase", None)
+    return phase if isinstance(phase, InputPhase) and phase.across == "angle" else None
 
 
 def divides(load: Load) -> bool:
@@ -229,7 +231,7 @@ def phase_passed(load: Load, course: Course) -> tuple[Mask, Scalar, Mask]:
     phase = getattr(load, "phase", None)
     match phase:
         case InputPhase():
-            return (*_between(course), True)
+            return _between(course)
         case MovingPhase():
             return (*course.moving(phase), True)
         case SwingPhase():
@@ -285,19 +287,19 @@ def _in_part(phase: SwingPhase, acts: Mask, course: Course) -> tuple[Mask, Scala
     return inside, _share((gone - begin) / (end - begin)), fits
 
 
-def _between(course: Course) -> tuple[Mask, Scalar]:
+def _between(course: Course) -> tuple[Mask, Scalar, Mask]:
     """A closed interval of the input; of angles modulo one turn, from the larger to the smaller end through the
-    end of the turn where the input grows."""
+    end of the turn where the input grows. There is none longer than a turn."""
     start, end = course.dimension("phase.input.0"), course.dimension("phase.input.1")
     gap = end - start
     if not course.rotary:
         inside = (course.input >= minimum(start, end) - NEAR) & (course.input <= maximum(start, end) + NEAR)
-        return inside, _share((course.input - start) / gap)
+        return inside, _share((course.input - start) / gap), True
     through = turned(gap)
     through = select(through <= 0.0, TURN, through)
     length = select(gap < 0.0, select(course.heading > 0.0, through, gap), gap)
     acts, share = _within(course.input - minimum(start, start + length), absolute(length))
-    return acts, select(length > 0.0, share, 1.0 - share)
+    return acts, select(length > 0.0, share, 1.0 - share), absolute(gap) <= TURN + NEAR
 
 
 def _within(gone: Scalar, length: Scalar) -> tuple[Mask, Scalar]:

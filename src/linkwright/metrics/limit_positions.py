@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from linkwright.core.outputs import Output
+from linkwright.loads.phases import outermost
+from linkwright.loads.signals import Limit
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Metric, MetricValue, Number
 
@@ -22,8 +24,10 @@ class LimitPosition(Metric):
 
     def numbers(self, analysis: Analysis) -> Iterator[Number]:
         """The outermost ones of a closed cycle."""
-        for output, subject, kind in outermost_limits(analysis):
-            yield Number(subject, (f"{output.owner}.{output.kind} {kind}",), dimension=output.dimension)
+        for output, limits in outermost_limits(analysis):
+            for limit in limits:
+                part = f"{output.owner}.{output.kind} {limit.kind}"
+                yield Number(f"{output} {limit.kind}", (part,), dimension=output.dimension)
 
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:
         for output in analysis.outputs:
@@ -37,8 +41,8 @@ class LimitPosition(Metric):
                 )
 
 
-def outermost_limits(analysis: Analysis) -> Iterator[tuple[Output, str, str]]:
-    """Outputs with limits in a closed cycle, with subject and kind of the outermost ones, the first in time first."""
+def outermost_limits(analysis: Analysis) -> Iterator[tuple[Output, list[Limit]]]:
+    """Outputs with limits in a closed cycle, with their outermost ones by increasing time."""
     for output in analysis.outputs if analysis.whole else ():
-        for kind in dict.fromkeys(limit.kind for limit in analysis.limits(output)):
-            yield output, f"{output} {kind}", kind
+        if limits := analysis.limits(output):
+            yield output, outermost(limits)

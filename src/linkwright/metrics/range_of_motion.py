@@ -121,9 +121,10 @@ class DeadPoint(Metric):
         if len(drivers) != 1 or (speed := drivers[0].law.constant_speed) is None:
             return
         within = partial(_within, float(analysis.motion.input[0]), speed * period)
-        for output, subject, kind in outermost_limits(analysis):
-            part = f"{output.owner}.{output.kind} arg{kind}"
-            yield Number(subject, (part,), within, analysis.input_dimension)
+        for output, limits in outermost_limits(analysis):
+            for limit in sorted(limits, key=lambda each: each.input):
+                part = f"{output.owner}.{output.kind} arg{limit.kind}"
+                yield Number(f"{output} {limit.kind}", (part,), within, analysis.input_dimension)
 
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:
         driver, kind = next(iter(analysis.motion.mechanism.drivers)), analysis.input_dimension
