@@ -20,7 +20,8 @@ class Kind:
     link, group, motion, machine); ``dimension``: of a driver's
     outputs for one that turns; ``row``: before the owner among rows of programs; ``symbol``: LaTeX; ``vector``: has
     components x and y; ``word``: for the user, where it is not the kind's name; ``slid``: dimension for a driver that
-    slides.
+    slides; ``form``: how the user asks for it, a ``part`` behind its owner, a
+    ``place`` (the owner with a component), or a ``phrase`` before it.
     """
 
     of: str
@@ -30,48 +31,51 @@ class Kind:
     vector: bool = False
     word: str = ""
     slid: str = ""
+    form: str = ""
 
 
 KINDS = {
     "time": Kind("motion", "time", symbol="t"),
     "input": Kind("driver", "angle", slid="length"),
-    "position": Kind("point", "length", "p", vector=True),
-    "velocity": Kind("point", "velocity", "v", "v", vector=True),
-    "acceleration": Kind("point", "acceleration", "a", "a", vector=True),
-    "jerk": Kind("point", "jerk", vector=True),
+    "position": Kind("point", "length", "p", vector=True, form="place"),
+    "velocity": Kind("point", "velocity", "v", "v", vector=True, form="part"),
+    "acceleration": Kind("point", "acceleration", "a", "a", vector=True, form="part"),
+    "jerk": Kind("point", "jerk", vector=True, form="part"),
     "direction": Kind("link", "dimensionless", "e", vector=True),
-    "angle": Kind("link", "angle", symbol=r"\varphi"),
+    "angle": Kind("link", "angle", symbol=r"\varphi", form="part"),
     "turned_angle": Kind("link", "angle", "o"),
-    "angular_velocity": Kind("link", "angular_velocity", "w", r"\omega"),
-    "angular_acceleration": Kind("link", "angular_acceleration", "g", r"\alpha"),
-    "angular_jerk": Kind("link", "angular_jerk"),
-    "displacement": Kind("guide", "length", "s", "s"),
-    "slide_velocity": Kind("guide", "velocity", "sv", r"\dot{s}", word="velocity"),
-    "slide_acceleration": Kind("guide", "acceleration", "sa", r"\ddot{s}", word="acceleration"),
-    "slide_jerk": Kind("guide", "jerk", word="jerk"),
+    "angular_velocity": Kind("link", "angular_velocity", "w", r"\omega", form="part"),
+    "angular_acceleration": Kind("link", "angular_acceleration", "g", r"\alpha", form="part"),
+    "angular_jerk": Kind("link", "angular_jerk", form="part"),
+    "displacement": Kind("guide", "length", "s", "s", form="part"),
+    "slide_velocity": Kind("guide", "velocity", "sv", r"\dot{s}", word="velocity", form="part"),
+    "slide_acceleration": Kind("guide", "acceleration", "sa", r"\ddot{s}", word="acceleration", form="part"),
+    "slide_jerk": Kind("guide", "jerk", word="jerk", form="part"),
     "guide_direction": Kind("guide", "dimensionless", "d", vector=True),
     "quality": Kind("group", "dimensionless", "quality"),
     "fact": Kind("group", "dimensionless", "fact"),
-    "closeness": Kind("group", "dimensionless"),
-    "transmission_angle": Kind("group", "angle", "m"),
-    "conditioning": Kind("group", "dimensionless"),
+    "closeness": Kind("group", "dimensionless", form="phrase"),
+    "transmission_angle": Kind("group", "angle", "m", form="phrase"),
+    "conditioning": Kind("group", "dimensionless", form="phrase"),
     "outcome": Kind("motion", "dimensionless", "outcome"),
-    "effort": Kind("driver", "torque", "effort", slid="force"),
-    "reaction": Kind("joint", "force", "r", "F", vector=True),
-    "couple": Kind("joint", "torque", "c", "M"),
-    "heat": Kind("joint", "power"),
-    "load": Kind("load", "force", "lf", vector=True),
+    "effort": Kind("driver", "torque", "effort", slid="force", form="part"),
+    "reaction": Kind("joint", "force", "r", "F", vector=True, form="phrase"),
+    "couple": Kind("joint", "torque", "c", "M", form="phrase"),
+    "heat": Kind("joint", "power", form="phrase"),
+    "load": Kind("load", "force", "lf", vector=True, form="phrase"),
     "load_place": Kind("load", "length", "lp", vector=True),
     "load_moment": Kind("load", "torque", "lm"),
     "applied": Kind("loads", "force", "on", vector=True),
-    "shaking_force": Kind("machine", "force", "shake", r"F_{\mathrm{S}}", vector=True),
-    "shaking_moment": Kind("machine", "torque", "shake_moment", r"M_{\mathrm{S}}"),
-    "power": Kind("machine", "power", "driver_power"),
+    "shaking_force": Kind("machine", "force", "shake", r"F_{\mathrm{S}}", vector=True, form="phrase"),
+    "shaking_moment": Kind("machine", "torque", "shake_moment", r"M_{\mathrm{S}}", form="phrase"),
+    "power": Kind("machine", "power", "driver_power", form="phrase"),
     "power_of_forces": Kind("machine", "power", "power"),
     "power_residual": Kind("machine", "power", symbol=r"\Delta P"),
     "balance_residual": Kind("machine", "force", symbol=r"\Delta F"),
-    "velocity_ratio": Kind("link", "dimensionless"),
-    "equivalent_inertia": Kind("machine", "inertia"),
+    "distance": Kind("point", "length", form="phrase"),
+    "areal_velocity": Kind("point", "areal_velocity", form="phrase"),
+    "velocity_ratio": Kind("link", "", form="phrase"),
+    "equivalent_inertia": Kind("machine", "inertia", form="phrase"),
 }  # fmt: skip
 _BY_ROW = {kind.row: name for name, kind in KINDS.items() if kind.row}
 _RATES = {
@@ -81,7 +85,8 @@ _RATES = {
 }  # fmt: skip
 
 
-#: A point's motion, and a guide's.
+#: Where something is; a point's motion, and a guide's.
+PLACES = ("position", "angle", "displacement")
 POINT = ("position", "velocity", "acceleration")
 SLIDE = ("displacement", "slide_velocity", "slide_acceleration")
 
@@ -112,8 +117,8 @@ class Output:
 
     ``kind``: of ``KINDS``; ``owner``: the point, link, joint, driver, load or group; ``component``: ``x``, ``y``, or
     none for the whole or its size (of loads on a link also ``m``, their moment); ``on``: the link on which a joint's
-    force acts, the fact of a group; ``slides``: of a driver, whether it slides; ``written``: how a file says it,
-    where that is not :func:`str`'s own.
+    force acts, the fact of a group, the second of two points; ``slides``: of a driver, whether it slides;
+    ``written``: how a file says it, where that is not :func:`str`'s own.
     """
 
     kind: str
@@ -159,7 +164,7 @@ class Output:
 
     @property
     def dimension(self) -> str:
-        """Name of its dimension."""
+        """Name of its dimension; empty of a ratio, which the driver tells."""
         kind = KINDS[self.kind]
         return "torque" if self.component == "m" else kind.slid if self.slides else kind.dimension
 
@@ -171,12 +176,12 @@ class Output:
     @property
     def name(self) -> str:
         """Its name in the user's words, as studies take it: ``jaw.angle``, ``C.x``, ``reaction O5 on jaw``."""
-        of, axis = KINDS[self.kind].of, self.component and f".{self.component}"
-        if self.kind == "position":
-            return f"{self.owner}{axis}"
-        if of in ("point", "link", "guide", "driver") and self.kind != "velocity_ratio":
-            return f"{self.owner}.{self.word}{axis}"
-        return " ".join(filter(None, (self.word, self.owner, self.on and f"on {self.on}"))) + axis
+        axis = self.component and f".{self.component}"
+        form = KINDS[self.kind].form
+        if form in ("part", "place"):
+            return f"{self.owner}.{self.word}{axis}" if form == "part" else f"{self.owner}{axis}"
+        on = f"on {self.on}" if self.on and KINDS[self.kind].of == "joint" else self.on
+        return " ".join(filter(None, (self.word, self.owner, on))) + axis
 
     @property
     def quantity(self) -> str:

@@ -16,7 +16,7 @@ from linkwright.core.outputs import KINDS, SLIDE, Output, row_name
 from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import Floats, Positions
 from linkwright.kinematics.design import Design
-from linkwright.kinematics.names import canonical, find_point
+from linkwright.kinematics.names import point_key
 from linkwright.kinematics.outcome import Outcome
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.mechanism.mechanism import Mechanism
@@ -328,15 +328,8 @@ class Motion:
     def _point_key(self, name: str) -> str:
         found = self.solver.point_keys.get(name)
         if found is None:
-            found = self.solver.point_keys[name] = self._find_key(name)
+            found = self.solver.point_keys[name] = point_key(self.design.base, name)
         return found
-
-    def _find_key(self, name: str) -> str:
-        known = self.design.base
-        link = known.links.get(name.removesuffix(".centre"))
-        if name.endswith(".centre") and link is not None and "centre" not in link.points:
-            return name.removesuffix("centre") + "@centre"
-        return canonical(known, *find_point(known, name))
 
     def point_names(self) -> Iterable[str]:
         """Names of all points that move."""

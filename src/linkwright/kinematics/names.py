@@ -2,13 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
+from typing import NoReturn
 
-from linkwright.core.outputs import Output, row_names
+from linkwright.core.outputs import KINDS, SLIDE, Output, row_names
 from linkwright.errors import RequestError
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import no_such, offered
 from linkwright.words.sentence import Sentence
+
+#: First words of outputs that are phrases, ``transmission_angle B``.
+PHRASES = frozenset({"input_torque", *(name for name, kind in KINDS.items() if kind.form == "phrase")})
+#: Kinds by what they belong to and the word behind it.
+_PARTS = {
+    (kind.of, kind.word or name): name for name, kind in KINDS.items() if kind.form in ("part", "place")
+}
 
 
 def owners(mechanism: Mechanism, point: str) -> list[str]:
@@ -47,10 +56,18 @@ def canonical(mechanism: Mechanism, link: str, point: str) -> str:
     return point if link in mechanism.pin_links(point) else f"{link}.{point}"
 
 
+def point_key(mechanism: Mechanism, name: str) -> str:
+    """The canonical key of a point, or of a link's mass centre: ``jaw.centre``."""
+    link = mechanism.links.get(name.removesuffix(".centre"))
+    if name.endswith(".centre") and link is not None and "centre" not in link.points:
+        return name.removesuffix("centre") + "@centre"
+    return canonical(mechanism, *find_point(mechanism, name))
+
+
 def program_names(mechanism: Mechanism, output: Output) -> tuple[tuple[str, ...], tuple[str, str]]:
     """Names of the program's outputs for a value (an angle as the cosine and sine of a direction), and for its two
     rates."""
-    if output.kind == "position":
+    if KINDS[output.kind].of == "point":
         output = replace(output, owner=canonical(mechanism, *find_point(mechanism, output.owner)))
     own, rate, second = (each.row for each in output.course)
     return row_names("direction", output.owner) if output.kind == "angle" else (own,), (rate, second)
@@ -58,3 +75,100 @@ def program_names(mechanism: Mechanism, output: Output) -> tuple[tuple[str, ...]
 
 def _unknown(noun: str, name: str, known: list[str]) -> RequestError:
     return RequestError(no_such(noun, name, known))
+
+
+def output_meant(mechanism: Mechanism, text: str) -> Output:
+    """The output that the user's words mean: ``C.velocity.x``, ``jaw.angle``, ``reaction O5 on jaw``.
+
+    Raises RequestError with the nearest known names.
+    """
+    words = text.split()
+    phrased = bool(words) and words[0] in PHRASES
+    found = _phrase(mechanism, text, words[0], words[1:]) if phrased else _part(mechanism, text)
+    return no_output(mechanism, text) if found is None else found
+
+
+def no_output(mechanism: Mechanism, text: str) -> NoReturn:
+    """Raises RequestError with the names that come nearest to one that means nothing."""
+    hint = offered(text, list(output_names(mechanism)), "study.such_as", most=6)
+    raise RequestError(Sentence("study.no_such_output", name=text, mechanism=mechanism.name, hint=hint))
+
+
+def _part(mechanism: Mechanism, text: str) -> Output | None:
+    """``OWNER.PART``, with ``.x`` or ``.y`` of what is a vector; ``POINT.x``."""
+    base, _, last = text.rpartition(".")
+    axis = last if last in ("x", "y") else ""
+    if axis and base == "shaking_force":
+        return Output(base, "", axis)
+    for of, owners in (("driver", mechanism.drivers), ("link", mechanism.links), ("guide", mechanism.guides)):
+        if base in owners and (of, last) in _PARTS:
+            return Output(_PARTS[of, last], base, slides=of == "driver" and _slides(mechanism, base))
+    owner, part = base, last
+    if axis:
+        owner, _, part = base.rpartition(".")
+        if ("point", part) not in _PARTS:
+            owner, part = base, "position"
+    if not owner or ("point", part) not in _PARTS or (part == "position" and not axis):
+        return None
+    return Output(part, point_key(mechanism, owner), axis)
+
+
+def _phrase(mechanism: Mechanism, text: str, kind: str, rest: list[str]) -> Output | None:
+    """``KIND``, ``KIND OWNER``, ``KIND JOINT on LINK``."""
+    first = next(iter(mechanism.drivers), None)
+    if kind == "input_torque":
+        return Output("effort", first, slides=_slides(mechanism, first)) if not rest and first else None
+    if kind == "distance":
+        return Output(kind, rest[0], on=rest[1]) if len(rest) == 2 else None
+    match KINDS[kind].of:
+        case "machine":
+            return None if rest else Output(kind)
+        case "joint":
+            return _at_joint(mechanism, text, kind, rest)
+        case "group" if kind == "closeness":
+            return Output(kind, "".join(rest[:1]))
+    known = {"link": {**mechanism.links, **mechanism.guides}, "load": mechanism.loads}.get(KINDS[kind].of)
+    if len(rest) != 1 or (known is not None and rest[0] not in known):
+        return None
+    return Output(kind, point_key(mechanism, rest[0]) if KINDS[kind].of == "point" else rest[0])
+
+
+def _at_joint(mechanism: Mechanism, text: str, kind: str, rest: list[str]) -> Output | None:
+    axis = ""
+    if rest and rest[-1].endswith((".x", ".y")):
+        rest = [*rest[:-1], rest[-1][:-2]]
+        axis = text[-1] if KINDS[kind].vector else ""
+    joints = mechanism.joints
+    if len(rest) not in (1, 3) or rest[0] not in joints or (len(rest) == 3 and rest[1] != "on"):
+        return None
+    joint, joined = rest[0], joints[rest[0]].joined
+    if len(rest) == 3 and rest[2] not in joined:
+        told = Sentence("study.not_touching", name=text, joint=joint, link=rest[2], joined=tuple(joined))
+        raise RequestError(told)
+    links = rest[2:] or [link for link in joined if link != "frame"]
+    if len(links) != 1:
+        told = Sentence("study.say_link", name=text, joint=joint, joined=tuple(joined), moving=links[0])
+        raise RequestError(told)
+    return Output(kind, joint, axis, links[0])
+
+
+def _slides(mechanism: Mechanism, driver: str) -> bool:
+    return mechanism.joints[mechanism.drivers[driver].joint].coordinate != "turn"
+
+
+def output_names(mechanism: Mechanism) -> Iterator[str]:
+    """Names of outputs that a study can ask for, most of them."""
+    for driver in mechanism.drivers:
+        yield Output("effort", driver).name
+    yield from ("input_torque", "power", "shaking_force", "shaking_moment", "closeness")
+    for link in mechanism.links:
+        yield from (each.name for each in Output("angle", link).course)
+    for name, joint in mechanism.joints.items():
+        if name in mechanism.guides:
+            yield from (Output(kind, name).name for kind in (*SLIDE, "slide_jerk"))
+            yield Output("couple", name, on=mechanism.guides[name].block).name
+        yield from (Output("reaction", name, on=link).name for link in joint.joined if link != "frame")
+    keys = {canonical(mechanism, name, p) for name, link in mechanism.links.items() for p in link.points}
+    for key in sorted(keys):
+        yield from (Output("position", key, axis).name for axis in "xy")
+        yield from (Output(kind, key).name for kind in ("velocity", "acceleration"))

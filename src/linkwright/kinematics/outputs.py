@@ -24,10 +24,11 @@ class MotionOutputs:
     def value(self, name: str) -> Scalar:
         """The traced value of an output, by its row; raises KeyError for one that is not of the motion."""
         output = Output.of_row(name)
-        found = self._found(output)
+        found = self.of(output)
         return found if not isinstance(found, Vec) else found.x if output.component == "x" else found.y
 
-    def _found(self, output: Output) -> Scalar | Vec:
+    def of(self, output: Output) -> Scalar | Vec:
+        """The traced value of an output, of a vector the whole of it."""
         kind, owner, motion = output.kind, output.owner, self.motion
         match KINDS[kind].of:
             case "point":

@@ -10,7 +10,7 @@ import numpy as np
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.frozen import locked
-from linkwright.core.outputs import row_name, row_names
+from linkwright.core.outputs import kind_of, row_name, row_names
 from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import Floats, over_cycle
 from linkwright.kinematics.motion import Motion, Rows
@@ -76,7 +76,9 @@ class Forces:
     def rounding(self) -> float:
         """Size, N, below which a joint force is but rounding beside the largest of the machine."""
         rows = self.rows
-        found = np.abs(rows.values[[place for name, place in rows.index.items() if name.startswith("r:")]])
+        found = np.abs(
+            rows.values[[place for name, place in rows.index.items() if kind_of(name) == "reaction"]]
+        )
         return ROUNDING * float(found[np.isfinite(found)].max(initial=0.0))
 
     def in_order(self) -> Forces:

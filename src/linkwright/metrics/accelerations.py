@@ -26,8 +26,8 @@ class PeakAcceleration(Metric):
 
     def numbers(self, analysis: Analysis) -> Iterator[Number]:
         for output in analysis.outputs:
-            word = f"angular_{self.word}" if output.kind == "angle" else self.word
-            yield Number(str(output), (f"{output.owner}.{word} peak",), dimension=word)
+            rate = output.course[2] if self.word == "acceleration" else output.course[2].rate
+            yield Number(str(output), (f"{rate.name} peak",), dimension=rate.dimension)
         for point in free_points(analysis.motion.mechanism):
             yield Number(point, (f"{point}.{self.word} max",), dimension=self.word)
 

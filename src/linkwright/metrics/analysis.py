@@ -19,6 +19,7 @@ from linkwright.engine.recent import Recent
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.limits import limit_positions
 from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.names import output_meant
 from linkwright.kinetostatics.forces import ROUNDING, Forces
 from linkwright.kinetostatics.programs import words_name
 from linkwright.kinetostatics.solver import ForceSolver
@@ -62,6 +63,7 @@ class Analysis:
         self.kept: dict[tuple[str, str], Any] = {}
         self._limits: dict[Output, tuple[Limit, ...]] = {}
         self._words: dict[str, None] = {}
+        self._outputs: dict[str, Output] = {}
         self._met: dict[tuple[str, str], tuple[float, float] | None] = {}
         self._parts: dict[str, Extreme] = {}
 
@@ -138,15 +140,15 @@ class Analysis:
         """Says which summaries will be wanted, so that their outputs are evaluated together."""
         for summary in map(one, parts):
             output = strokes.signal_of(summary) if summary.kind in strokes.KINDS.values() else summary.output
-            if summary.kind not in true_speed.KINDS and not output.endswith(".angle"):
+            if summary.kind not in true_speed.KINDS and self._meant(output).kind != "angle":
                 self._words[words_name(output)] = None
 
     def signal(self, output: str) -> Callable[[Motion | Forces], Floats]:
         """An output in words (see ``kinetostatics.named``) as a function of motion or forces, (n,)."""
         kept = self._words
-        link, _, part = output.rpartition(".")
-        if part == "angle" and link in self.motion.mechanism.links:
-            return lambda each: (each.motion if isinstance(each, Forces) else each).link(link).angle
+        meant = self._meant(output)
+        if meant.kind == "angle":
+            return lambda each: (each.motion if isinstance(each, Forces) else each).read(meant)
 
         def read(solved: Motion | Forces) -> Floats:
             name, rows, evaluate = words_name(output), solved.rows, partial(self._read, solved=solved)
@@ -229,7 +231,7 @@ class Analysis:
     def _known(self, output: str, kind: str) -> Extreme | None:
         """A maximum, minimum, mean or root mean square of an output, where polynomials meet it, found at once with
         those of all that were asked for."""
-        if output.endswith(".angle"):
+        if self._meant(output).kind == "angle":
             return None
         name = words_name(output)
         if (name, kind) not in self._met:
@@ -278,9 +280,13 @@ class Analysis:
 
     def output(self, words: str) -> Output | None:
         """The output of the mechanism that words mean."""
-        owner, _, part = words.rpartition(".")
-        kind = "angle" if part == "angle" else "displacement"
-        return next((o for o in self.outputs if (o.owner, o.kind) == (owner, kind) and part == kind), None)
+        meant = self._meant(words)
+        return meant if meant in self.outputs else None
+
+    def _meant(self, words: str) -> Output:
+        if words not in self._outputs:
+            self._outputs[words] = output_meant(self.motion.mechanism, words)
+        return self._outputs[words]
 
     def _of_limits(self, output: Output, kind: str) -> Extreme:
         """Place of an output's outermost limit position, or the way between them."""

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.reductions import Reduction
 from linkwright.errors import RequestError
-from linkwright.kinetostatics.named import PHRASES, Quantity
+from linkwright.kinematics.names import PHRASES
+from linkwright.kinetostatics.named import Quantity
 from linkwright.registry import offered
 from linkwright.words.sentence import Sentence
 

@@ -160,7 +160,7 @@ class MetricCycle:
         rate, _ = rates(self.traced, output)
         going = rate < 0.0 if part.kind == strokes.KINDS["max"] else rate > 0.0
         angle = self.traced.named.quantity(signal)
-        return Quantity(text, angle.dimension, select(going, angle.value, strokes.LARGEST))
+        return Quantity(text, angle.output, angle.dimension, select(going, angle.value, strokes.LARGEST))
 
     # values -----------------------------------------------------------------------------------------
     def evaluate(

@@ -23,6 +23,7 @@ from linkwright.engine.table import Table
 from linkwright.engine.trace import Mask, Scalar, Trace, absolute, maximum
 from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import Positions, at_inputs, over_cycle
+from linkwright.kinematics.names import point_key
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.named import Quantity
 from linkwright.kinetostatics.signals import MotionSignals
@@ -370,7 +371,7 @@ class _Builder:
         outputs = {name: each.carrier for name, each in self.quantities.items()}
         targets: dict[str, Floats] = {}
         for k, (term, _) in enumerate(self.paths):
-            place = self.traced.solver.outputs.point(self.traced.named.point_key(term.point))[0]
+            place = self.traced.solver.outputs.point(point_key(self.traced.mechanism, term.point))[0]
             points = np.asarray(term.target, dtype=float)
             squares: Scalar = 0.0
             for axis, value, column in (("x", place.x, points[:, 0]), ("y", place.y, points[:, 1])):

@@ -250,10 +250,10 @@ class _Derivation:
 
     def _curve(self, name: str) -> Floats:
         """Values of an output; an angle as the motion gives it, continuous over the positions."""
-        owner, _, part = name.rpartition(".")
-        if part == "angle" and owner in self.traced.mechanism.links:
-            return self.traced.nominal.link(owner).angle
-        return self.quantities[name].shown(self.work.values(name))
+        quantity = self.quantities[name]
+        if quantity.output.kind == "angle":
+            return self.traced.nominal.read(quantity.output)
+        return quantity.shown(self.work.values(name))
 
     def _value(self, summary: Summary) -> float:
         curve = self._curve(summary.output)

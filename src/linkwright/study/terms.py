@@ -80,21 +80,20 @@ def own(name: str, analysis: Analysis, asked: Asked) -> Term | None:
     None where the machine has none.
     """
     output, dimension = asked.output, OWN[name][0]
-    turning, words = output.kind == "angle", f"{output.owner}.{output.kind}"
     numbers: list[Number] = []
     if name in SIZED:
         metric = SIZED[name](asked.fluctuation)
         numbers += metric.numbers(analysis) if metric.applies(analysis) else ()
     elif name == "pivot_reaction":
         joint, link = pivot(analysis.motion.mechanism, output)
-        numbers.append(Number(joint, (f"reaction {joint} on {link} max",)))
+        numbers.append(Number(joint, (f"{Output('reaction', joint, on=link).name} max",)))
     elif name != "travel":
-        word = name.removeprefix("output_")
-        dimension = f"angular_{word}" if turning else word
-        numbers.append(Number(str(output), (f"{output.owner}.{dimension} peak",)))
+        rate = output.course[1 if name == "output_velocity" else 2]
+        dimension = rate.dimension
+        numbers.append(Number(str(output), (f"{rate.name} peak",)))
     elif not turns_fully(analysis.motion, output):
         dimension = output.dimension
-        numbers.append(Number(str(output), (f"{words} range",), at=_nowhere))
+        numbers.append(Number(str(output), (f"{output.name} range",), at=_nowhere))
     return Term(name, tuple(numbers), dimension, OWN[name][1]) if numbers else None
 
 

@@ -13,7 +13,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from linkwright.core.outputs import PLACES
 from linkwright.errors import LinkwrightError
+from linkwright.kinematics.names import output_meant
 from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.parts.base import Floats
 from linkwright.words.sentence import Sentence
@@ -68,13 +70,14 @@ def exact(study: ToleranceStudy, output: str) -> Floats:
     nominal = study.prepared.dimensions()
     forces = solver.solve({})
     ways = directions(study, forces)
+    meant = output_meant(study.mechanism, output)
     found = np.empty(study.steps if forces.motion.positions.closed else forces.steps)
     for i in range(len(found)):
         here = {pin: way[i] for pin, way in ways.items()}
         for _ in range(ROUNDS):
             solved = solver.solve(_moved(study, holes, nominal, here))
             here = {pin: way[i] for pin, way in directions(study, solved).items()}
-        found[i] = position_output(solved, output)[i]
+        found[i] = solved.motion.read(meant)[i]
     return found
 
 
@@ -93,20 +96,4 @@ def _moved(
 
 def is_position(study: ToleranceStudy, output: str) -> bool:
     """Whether an output is an angle, a coordinate or a displacement."""
-    owner, _, last = output.rpartition(".")
-    if last in ("x", "y"):
-        return not owner.endswith((".velocity", ".acceleration", ".force")) and " " not in owner
-    known = (
-        study.mechanism.links if last == "angle" else study.mechanism.joints if last == "displacement" else ()
-    )
-    return owner in known
-
-
-def position_output(forces: Forces, output: str) -> Floats:
-    """An angle, a coordinate or a displacement over the cycle, (n,)."""
-    owner, _, last = output.rpartition(".")
-    if last == "angle":
-        return forces.motion.link(owner).angle
-    if last == "displacement":
-        return forces.motion.joint(owner).displacement
-    return forces.motion.point(owner).position[:, "xy".index(last)]
+    return output_meant(study.mechanism, output).kind in PLACES
