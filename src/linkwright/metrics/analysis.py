@@ -62,6 +62,7 @@ class Analysis:
         self.resolver = Resolver(motion, forces)
         self.kept: dict[tuple[str, str], Any] = {}
         self._limits: dict[Output, tuple[Limit, ...]] = {}
+        self._outermost: dict[Output, list[Limit]] = {}
         self._words: dict[str, None] = {}
         self._outputs: dict[str, Output] = {}
         self._met: dict[tuple[str, str], tuple[float, float] | None] = {}
@@ -126,6 +127,13 @@ class Analysis:
             limits = [Limit(each.input, each.time, each.value, each.kind) for each in found]
             self._limits[output] = tuple(sorted(limits, key=lambda each: each.time))
         return self._limits[output]
+
+    def outermost(self, output: Output) -> list[Limit]:
+        """Those of its limit positions with the largest and the smallest value."""
+        if output not in self._outermost:
+            limits = self.limits(output)
+            self._outermost[output] = outermost(limits) if limits else []
+        return self._outermost[output]
 
     def mean(self, values: Floats) -> float:
         """Mean over the time of the cycle, of the positions that are reached."""
@@ -296,7 +304,7 @@ class Analysis:
             way = np.ptp(np.append(reached[np.isfinite(reached)], ends))
             exact = self.resolver.possible and bool(self.motion.ok.all())
             return Extreme(float(way), float("nan"), float("nan"), exact)
-        end = next(each for each in outermost(self.limits(output)) if each.kind == kind.removeprefix("arg"))
+        end = next(each for each in self.outermost(output) if each.kind == kind.removeprefix("arg"))
         return Extreme(end.input, end.time, end.input, True)
 
     @cached_property

@@ -146,7 +146,10 @@ class CycleGrid:
     ) -> list[Extreme]:
         """The largest or smallest values of curves between pairs of times, the second perhaps in the next cycle."""
         period = self.end - self.start
-        found = extremes_of([(_twice(curve, period).part(*span), kind) for curve, span in wanted])
+        whole = [curve if span[1] <= self.end else _twice(curve, period) for curve, span in wanted]
+        found = extremes_of(
+            [(curve.part(*span), kind) for curve, (_, span) in zip(whole, wanted, strict=True)]
+        )
         return [
             each if each.place <= self.end else replace(each, place=each.place - period) for each in found
         ]

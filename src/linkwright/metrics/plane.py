@@ -24,7 +24,7 @@ def convex_hull(points: Floats) -> Floats:
     """Corners (m, 2) of the convex hull of points (n, 2), counter-clockwise (Andrew's monotone chains)."""
     some = _outer(points) if len(points) > MANY else points
     ordered = np.sort(some[:, 0] + 1j * some[:, 1])
-    ordered = ordered[np.append(True, np.diff(ordered) != 0.0)[: len(ordered)]]
+    ordered = np.concatenate([ordered[:1], ordered[1:][ordered[1:] != ordered[:-1]]])
     corners = ordered if len(ordered) < 3 else np.concatenate([_half(ordered), _half(ordered[::-1])])
     return np.stack([corners.real, corners.imag], axis=1)
 
@@ -73,8 +73,9 @@ def _half(chain: NDArray[np.complex128]) -> NDArray[np.complex128]:
 
 def _bends(chain: NDArray[np.complex128]) -> NDArray[np.bool_]:
     """Where a chain bends to the left, its ends left out."""
-    step = np.diff(chain)
-    return np.asarray(step[:-1].real * step[1:].imag - step[:-1].imag * step[1:].real > 0.0)
+    step = chain[1:] - chain[:-1]
+    along, across = step.real, step.imag
+    return np.asarray(along[:-1] * across[1:] - across[:-1] * along[1:] > 0.0)
 
 
 def area(corners: Floats) -> float:

@@ -11,7 +11,6 @@ import numpy as np
 
 from linkwright.core.outputs import Output
 from linkwright.engine.trace import Scalar, floor, maximum
-from linkwright.loads.phases import outermost
 from linkwright.metrics.analysis import Analysis, Extreme
 from linkwright.metrics.base import METRICS, Metric, Number
 
@@ -50,7 +49,7 @@ class CrankAngleBetweenLimits(QuickReturnRatio):
 def _returning(analysis: Analysis) -> Iterator[Output]:
     """The outputs with two outermost positions in a closed cycle."""
     for output in analysis.outputs:
-        ends = outermost(analysis.limits(output)) if analysis.limits(output) else []
+        ends = analysis.outermost(output)
         if len(ends) == 2 and ends[0].kind != ends[1].kind and analysis.motion.positions.period is not None:
             yield output
 
