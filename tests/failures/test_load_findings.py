@@ -277,3 +277,14 @@ def test_check_names_loads_of_what_never_reverses(
     assert "loads.work.phase:" in said and f"'{output}' never reverses" in said
     file.write_text(PRESS.replace("PHASE", "of: slide, from: min, to: max"), encoding="utf-8")
     assert main(["check", str(file)]) == 0
+
+
+def test_check_finds_more_of_a_stroke_than_there_is(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It said "fine" of a model whose forces are refused."""
+    file = tmp_path / "press.yaml"
+    phase = "of: slide, from: min, to: max, last: 5 m"
+    file.write_text(PRESS.replace("PHASE", phase), encoding="utf-8")
+    assert main(["check", str(file)]) == 1
+    assert "press.yaml:13:" in (said := capsys.readouterr().out) and "too much of the stroke" in said

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 
+from linkwright.cli import main
 from linkwright.errors import Finding, ModelError
 from linkwright.files.model_file import check, load, loads, read_text
 from linkwright.files.source import MAX_BYTES
@@ -323,3 +324,32 @@ def test_a_missing_file_offers_the_nearest(tmp_path: Path) -> None:
 )
 def test_line_ends_marks_and_scripts_do_not_matter(text: str) -> None:
     assert findings(text) == []
+
+
+@pytest.mark.parametrize(
+    ("text", "places"),
+    [
+        ("format：1\nname：x\nframe：{points: {O: [0 m, 0 m]}}\n", ["1:7 ：", "2:5 ：", "3:6 ："]),
+        (
+            "format: 1\nframe: {points: {O: [0 m，0 m]}}\nlinks:\n  crank： {points: [O, A]}\n",
+            ["2:25 ，", "4:8 ："],
+        ),
+        ("format: 1\nname: 牛头刨床：导杆（一）  # ：，\nframe: {points: {O: [0 m, 0 m]}｝\n", ["3:32 ｝"]),
+    ],
+)
+def test_full_width_punctuation_is_named_where_it_stands(text: str, places: list[str]) -> None:
+    """As a Chinese keyboard writes it; in titles, quotes and remarks it is no matter."""
+    found = read_text(text, "m.yaml")[1]
+    assert [
+        f"{each.where.partition(':')[2]} {place[-1]}" for each, place in zip(found, places, strict=True)
+    ] == places
+    assert all(f'"{place[-1]}"' in each.message for each, place in zip(found, places, strict=True))
+    assert "半角" in found[0].say("zh")
+
+
+def test_an_assembly_that_nothing_says_is_noted(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "m.yaml"
+    for line, noted in (("", True), ("assembly: {B: left}\n", False), ("drawing: {B: [3 m, 2 m]}\n", False)):
+        file.write_text(MODEL + line, encoding="utf-8")
+        assert main(["check", str(file)]) == 0
+        assert ("note: group RRR (coupler, rocker)" in capsys.readouterr().out) is noted

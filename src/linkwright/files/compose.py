@@ -19,7 +19,7 @@ from yaml.events import (
 
 from linkwright.fields.nodes import MAX_DEPTH, MAX_NODES, Entry, Mapping, Node, Remark, Scalar, Sequence
 from linkwright.files.events import Source, event_reader
-from linkwright.files.syntax import explain, tab_remarks
+from linkwright.files.syntax import explain, tab_remarks, wide_remarks
 from linkwright.words.characters import UNFIT
 from linkwright.words.sentence import Sentence
 
@@ -48,7 +48,10 @@ def compose(text: str) -> tuple[Node | None, list[Remark]]:
             mark = getattr(error, "problem_mark", None)
             if mark is not None and source.part(mark.index):
                 continue
-            return None, [*composer.remarks, *(tab_remarks(text) or [explain(error, text)])]
+            return None, [
+                *composer.remarks,
+                *(tab_remarks(text) or wide_remarks(text) or [explain(error, text)]),
+            ]
         except (ValueError, OverflowError) as error:
             return None, [_unreadable(error)]
         if composer.root is not None:

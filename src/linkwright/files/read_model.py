@@ -31,7 +31,7 @@ FORMAT = 1
 TASK_KEYS = ("format", "name", "purpose", "source", "expected", "synthesis", "report")
 WORDS = ("left", "right", "forward", "backward")
 HEADER: Mapping[str, Field] = {
-    "format": Count(FORMAT, required=True, doc="add format: 1 as the first line"),
+    "format": Count(FORMAT, required=True, doc="1, in the first line"),
     "name": Text(doc="name of the mechanism"),
     "purpose": Text(doc="what it is for, one sentence"),
     "source": Text(doc="where it is taken from"),

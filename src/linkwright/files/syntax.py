@@ -77,3 +77,28 @@ def tab_remarks(text: str) -> list[Remark]:
                 Remark(number, line.index("\t"), Sentence("yaml.tab"), Sentence("yaml.tab_do"), "tab")
             )
     return found[:10]
+
+
+#: Full-width punctuation with what YAML writes for it, in a key, and anywhere in braces and brackets.
+_HALF = {"：": ": ", "，": ",", "｛": "{", "｝": "}", "［": "[", "］": "]"}
+_KEY = re.compile(r"(?:^|[{,｛，])\s*(?:- )?[\w.]+\s*(：)")
+_QUOTED = re.compile(r"\"(?:[^\"\\]|\\.)*\"|'(?:[^']|'')*'|#.*")
+
+
+def wide_remarks(text: str) -> list[Remark]:
+    """A remark for each line of a text that cannot be read with full-width punctuation in the place of YAML's own,
+    at most ten."""
+    found = []
+    for number, line in enumerate(text.split("\n")):
+        plain = _QUOTED.sub(lambda quoted: " " * len(quoted[0]), line)
+        places = [key.start(1) for key in _KEY.finditer(plain)]
+        opened = min((plain.find(each) for each in "{[｛［" if each in plain), default=len(plain))
+        places += [
+            at for at, each in enumerate(plain) if each in "｛｝［］" or (each == "，" and at > opened)
+        ]
+        if places:
+            wide = line[min(places)]
+            values = {"wide": wide, "half": _HALF[wide]}
+            remedy = Sentence("yaml.wide_do", **values)
+            found.append(Remark(number, min(places), Sentence("yaml.wide", **values), remedy, "syntax"))
+    return found[:10]

@@ -57,7 +57,7 @@ class PrismaticJoint(SlidingJoint):
             "guide": LinkName(required=True, doc="the link that carries the guide"),
             "through": PointName("guide", required=True, doc="point of the guide link on the guide line"),
             "direction": Direction(
-                required=True, doc="direction: an angle in the guide link's axes, or two points [P, Q]"
+                required=True, doc="an angle in the guide link's axes, or two points [P, Q]"
             ),
             "block": LinkName(required=True, doc="the link that slides"),
             "at": PointName("block", required=True, doc="point of the block that follows the line"),

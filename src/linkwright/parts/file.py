@@ -45,7 +45,7 @@ KINDS: Mapping[str, str] = {
 }
 GALLERY = "gallery:"
 HEADING: Mapping[str, Field] = {
-    "format": Count(FORMAT, required=True, doc="add format: 1 as the first line"),
+    "format": Count(FORMAT, required=True, doc="1, in the first line"),
     "kind": Word(tuple(KINDS), required=True, doc="say what is calculated, such as kind: beam"),
     "name": Text(doc="name of the calculation"),
     "purpose": Text(doc="what it is for, one sentence"),

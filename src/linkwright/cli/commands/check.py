@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Mapping
+from collections.abc import Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from linkwright import gallery
 from linkwright.cli.session import Session
 from linkwright.errors import NO_FILE, Finding, LinkwrightError, ModelError
 from linkwright.words import Say
+from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
+    from linkwright.fields.nodes import Node
     from linkwright.fields.signals import SwingPhase
     from linkwright.mechanism.mechanism import Mechanism
+    from linkwright.structure.group import Structure
 
 #: Positions of the cycle that are tried.
 TRIED = 72
@@ -75,9 +79,39 @@ def findings_of(name: str) -> tuple[list[Finding], dict[str, object]]:
     except LinkwrightError as error:
         return [*found, Finding("error", name, "", error.sentence, code="motion")], {}
     sure = plain or [False] * len(swings)
-    unsure = {load: phase for (load, phase), each in zip(swings.items(), sure, strict=True) if not each}
+    unsure = [
+        load for (load, phase), each in zip(swings.items(), sure, strict=True) if phase.part or not each
+    ]
     idle = _never_acting(name, mechanism, unsure) if unsure and not turned else []
-    return [*found, *turned, *idle, *_of_settings(name, mechanism), *notes], fact
+    notes += _assumed(name, mechanism, built)
+    mended = [*turned, *idle, *_of_settings(name, mechanism), *notes]
+    return [*found, *(_located(each, root, place) for each in mended)], fact
+
+
+def _located(finding: Finding, root: Node | None, place: str) -> Finding:
+    """A finding with line and column where its key stands in the text."""
+    from linkwright.fields.nodes import Mapping
+
+    node = root
+    for part in finding.key.split("."):
+        node = (node.get(part) if isinstance(node, Mapping) else None) or node
+    if not finding.key or node is None:
+        return finding
+    return replace(finding, where=f"{place}:{node.line + 1}:{node.column + 1}")
+
+
+def _assumed(name: str, mechanism: Mechanism, structure: Structure) -> list[Finding]:
+    """Notes on dyads whose assembly neither a word nor a drawing says."""
+    from linkwright.kinematics.assembly import modal_groups
+
+    found = []
+    for group, words in () if mechanism.drawing else modal_groups(structure).values():
+        inner = [each.joint for each in group.inner_joints]
+        if not any(joint in mechanism.assembly for joint in inner):
+            told = {"signature": group.signature, "links": tuple(group.links), "joint": inner[0]}
+            message = Sentence("check.assumed", **told, first=words[0], second=words[1])
+            found.append(Finding("note", name, "", message, code="assembly"))
+    return found
 
 
 def _of_calculation(name: str) -> tuple[list[Finding], dict[str, object]]:
@@ -115,16 +149,16 @@ def _swings(mechanism: Mechanism) -> dict[str, SwingPhase]:
     return {load: phase for load, phase in phases.items() if isinstance(phase, SwingPhase)}
 
 
-def _never_acting(name: str, mechanism: Mechanism, swings: Mapping[str, SwingPhase]) -> list[Finding]:
-    """Loads whose phase the motion does not have, such as one by the stroke of an output that never reverses."""
+def _never_acting(name: str, mechanism: Mechanism, loads: Sequence[str]) -> list[Finding]:
+    """Loads whose phase the motion does not have: of an output that never reverses, of more than its stroke."""
     from linkwright.kinematics.solve import try_motion
     from linkwright.kinetostatics.signals import MotionSignals
-    from linkwright.loads.phases import strokes
+    from linkwright.loads.over_cycle import activity
 
     signals, found = MotionSignals(try_motion(mechanism, TRIED)), []
-    for load, phase in swings.items():
+    for load in loads:
         try:
-            strokes(phase, signals)
+            activity(mechanism.loads[load], signals)
         except LinkwrightError as error:
             found.append(Finding("error", name, f"loads.{load}.phase", error.sentence, code="no-motion"))
     return found

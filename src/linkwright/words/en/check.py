@@ -16,4 +16,6 @@ linkwright check crusher.yaml --json  findings for an editor or a script""",
     "fine": "{name}: fine ({links} moving links, mobility {mobility})",
     "fine_kind": "{name}: fine (kind {kind})",
     "faulty": "{name}: errors: {count}",
+    "assumed": "group {signature} ({links}) has two assemblies, and neither assembly nor drawing says which: "
+    '"{first}" is taken; write assembly: {{{joint}: {first}}} or {{{joint}: {second}}}',
 }

@@ -263,7 +263,8 @@ WORDS = {
     "set_beyond": "{address} is set to {value:g}, which is more than any machine has; check the number",
     "no_inertia": 'the link "{link}" turns and has a mass of {mass} kg, but no moment of inertia: it counts '
     "as zero",
-    "add_inertia": "add inertia: 2.5 kg·m² (about the mass centre), or inertia: 0 if that is meant",
+    "add_inertia": "add the moment of inertia about its mass centre (inertia: … kg·m²), or inertia: 0 if that is "
+    "meant",
     "no_mechanism": 'this is a calculation of kind "{kind}", not a mechanism',
     "calculations": "call linkwright beam, cam, statics, vibration, statistics, program, trajectory, tolerance",
     "from_and_to": "from and to",

@@ -24,6 +24,8 @@ WORDS = {
     "merge": "a merge key (<<) needs a mapping",
     "merge_do": "refer to an anchor of a mapping",
     "other_do": "check indentation, brackets and quotes",
+    "wide": 'the full-width character "{wide}" is no punctuation of YAML',
+    "wide_do": 'write "{half}"',
     "tab": "a tab in the indentation",
     "tab_do": "indent with spaces",
     "unreadable": "not readable as YAML: {message}{since}",

@@ -1,7 +1,7 @@
 """模型文件中的键可写的内容。"""
 
 WORDS = {
-    "add_key": "请补上 {key_}：{form}",
+    "add_key": "请补上 {key_}: {form}",
     "just": "{value}",
     "one_of": "{names} 之一",
     "such_as": "{noun}，如 {example}",

@@ -260,7 +260,7 @@ WORDS = {
     "beyond_do": "请检查数值和单位；最大 {limit}",
     "set_beyond": "{address} 设为 {value:g}，超出了任何机器可能的数值；请检查",
     "no_inertia": "构件“{link}”会转动且质量为 {mass} kg，但没有转动惯量：按零计算",
-    "add_inertia": "请加上 inertia: 2.5 kg·m²（对质心），若确为零则写 inertia: 0",
+    "add_inertia": "请加上对质心的转动惯量（inertia: … kg·m²），若确为零则写 inertia: 0",
     "no_mechanism": "该文件是类型“{kind}”的计算，不是机构",
     "calculations": "请用相应的命令：linkwright beam、cam、statics、vibration、"
     "statistics、program、trajectory、tolerance",

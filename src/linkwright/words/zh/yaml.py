@@ -24,6 +24,8 @@ WORDS = {
     "merge": "合并键（<<）需要映射",
     "merge_do": "请引用映射的锚点",
     "other_do": "请检查缩进、括号和引号",
+    "wide": "全角符号“{wide}”不是 YAML 的标点",
+    "wide_do": "请用半角符号“{half}”",
     "tab": "缩进中有制表符",
     "tab_do": "请用空格缩进",
     "unreadable": "无法按 YAML 读取：{message}{since}",
