@@ -72,6 +72,18 @@ def test_what_is_no_formula_is_found_design_by_design() -> None:
         lw.objective(mechanism, "double_point", vary=["coupler.P.y"])
 
 
+def test_cranks_that_cannot_turn_have_their_range() -> None:
+    """Up to where coupler and rocker are stretched, 6 m from the rocker's pivot, by the cosine rule."""
+    mechanism, cranks = lw.load("gallery:crank_rocker"), np.array([1.0, 2.3, 2.6])
+    outputs = ["range_of_motion", "grashof"]
+    found = lw.sweep(mechanism, {"crank.length": cranks}, outputs=outputs, partial=True)
+    ends = np.arccos((cranks[1:] ** 2 + 4.0**2 - 6.0**2) / (2 * cranks[1:] * 4.0))
+    assert found["range_of_motion"] == pytest.approx([2 * np.pi, *(2 * ends)], rel=1e-9)
+    assert found["grashof"] == pytest.approx([1.0, -0.3, -0.4], rel=1e-12)
+    whole = lw.sweep(mechanism, {"crank.length": cranks}, outputs=outputs)
+    assert np.isnan(whole["grashof"]).tolist() == [False, True, True]
+
+
 def test_both_change_points_of_a_parallelogram_are_dead_points() -> None:
     """The crank and the frame in one line, whether positions lie on them (360, 100 steps) or not."""
     text = (Path(lw.__file__).parent / "gallery" / "parallelogram.yaml").read_text("utf-8")

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from linkwright.engine.stage import Backend
 from linkwright.errors import LinkwrightError, RequestError
+from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import solve_forces
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import Analysis
@@ -25,11 +26,12 @@ def numbers_of(
     names: Sequence[str],
     designs: NDArray[np.intp],
     *,
+    partial: bool = False,
     threads: int | None = None,
     backend: Backend = "auto",
 ) -> tuple[dict[str, Floats], dict[str, str], dict[int, str]]:
     """Metrics of the chosen ones of all designs, NaN for the others: values and dimensions by name, and sentences of
-    designs for which they cannot be found.
+    designs for which they cannot be found. ``partial``: also of designs that reach a part of their cycle alone.
 
     Formulas of summaries are found together as far as that is certain, the others, and what is no such formula, one
     by one. Raises RequestError for a metric that applies to none.
@@ -50,7 +52,7 @@ def numbers_of(
     failed: dict[int, str] = {}
     for index in designs.tolist() if rest else designs[~sure[designs]].tolist():
         design = mechanism.with_dimensions({a: float(column[index]) for a, column in columns.items()})
-        found_alone, why = _alone(design, rest if sure[index] else names)
+        found_alone, why = _alone(design, rest if sure[index] else names, partial)
         failed |= {index: why} if why else {}
         for name, (value, dimension) in found_alone.items():
             values[name][index], dimensions[name] = value, dimension
@@ -60,13 +62,17 @@ def numbers_of(
     return values, dimensions, failed
 
 
-def _alone(design: Mechanism, names: Sequence[str]) -> tuple[dict[str, tuple[float, str]], str]:
+def _alone(
+    design: Mechanism, names: Sequence[str], partial: bool
+) -> tuple[dict[str, tuple[float, str]], str]:
     """Values and dimensions of the metrics that one design has, and why it lacks others."""
     found: dict[str, tuple[float, str]] = {}
     analysis, why = None, ""
     for name in names:
         try:
-            analysis = analysis or Analysis.of(solve_forces(design))
+            analysis = analysis or Analysis.of(
+                solve_forces(solve_motion(design, failures="mark") if partial else design)
+            )
             if (own := measured(name, analysis)) is not None:
                 found[name] = own
         except RequestError:

@@ -146,11 +146,12 @@ def sweep(
             ``couple guide on slider``, ``driver.effort``, ``input_torque``, ``power``, ``shaking_force``,
             ``closeness`` (to a singular position, 0 there), ``transmission_angle B``. Kinds: min, max, mean, rms,
             range, peak, argmin, argmax (see :class:`Summary`). Design numbers as well, with a subject if wanted:
-            ``rms_input_torque``, ``peak_reaction O5`` (those of :func:`metrics` that are formulas of such summaries);
-            they are exact between positions.
+            ``rms_input_torque``, ``peak_reaction O5``, exact between positions; those that are no formulas of such
+            summaries (``double_point``, ``range_of_motion``) are found one by one.
         steps: positions over the cycle.
         partial: keep summaries over the positions that a design reaches on its way from the first one that it can
-            be in, where it does not reach all; such designs are found one by one.
+            be in, where it does not reach all, and design numbers of what it reaches; such designs are found one by
+            one.
         threads: None for all cores; results do not depend on it.
         backend: ``numpy``, ``llvm`` (compiled), or ``auto``.
         progress: called with (designs done, designs); what it raises stops the sweep.
@@ -178,9 +179,9 @@ def sweep(
     numbers = [each.output for each in asked if not each.kind]
     dimensions: dict[str, str] = {}
     if numbers:
-        passed = np.flatnonzero(assembled == positions.count)
+        chosen = np.flatnonzero(assembled >= (1 if partial else positions.count))
         found, dimensions, failed = numbers_of(
-            mechanism, columns, numbers, passed, threads=threads, backend=backend
+            mechanism, columns, numbers, chosen, partial=partial, threads=threads, backend=backend
         )
         values |= {Summary(name, ""): column for name, column in found.items()}
         run.unloaded |= failed
