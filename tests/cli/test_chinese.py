@@ -232,14 +232,14 @@ driver: {turn: crank, about: O1, speed: 1 rad/s}
 def test_missing_keys_are_said_in_chinese(
     text: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """The key, its quantity or form, and an example; the English description stays in English."""
+    """The key with YAML's colon, its quantity or form, and an example; the English description stays English."""
     path = tmp_path / "missing.yaml"
     path.write_text(text, encoding="utf-8")
     said = [line for line in shown(capsys, "check", str(path)).splitlines() if "缺少键" in line]
     assert said
     for line in said:
         key, remedy = re.search("缺少键“(.*?)”；(.*)", line).groups()  # type: ignore[union-attr]
-        assert remedy.startswith(f"请补上 {key}：") and not re.search("[A-Za-z]{2,} [a-z]{2,}", remedy), line
+        assert remedy.startswith(f"请补上 {key}: ") and not re.search("[A-Za-z]{2,} [a-z]{2,}", remedy), line
     main(["check", str(path)])
     assert "the key" in capsys.readouterr().out
 
