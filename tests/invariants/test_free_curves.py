@@ -8,13 +8,20 @@ import pytest
 
 import linkwright as lw
 from linkwright.engine import machine_code
-from linkwright.synthesis.free_curve.atlas import STEP, Atlas, M, parts, places
+from linkwright.synthesis.free_curve.atlas import STEP, Atlas, M, Matches, parts, places
 from linkwright.synthesis.free_curve.curve_file import path_points, read_curve
 from linkwright.synthesis.free_curve.kernels import POINT, kernels
 from linkwright.synthesis.free_curve.likeness import TURNS
 from linkwright.synthesis.free_curve.linkages import Placed, linkage_of
 from linkwright.synthesis.free_curve.moves import with_dyad, with_joint
-from linkwright.synthesis.free_curve.nodes import Design, node_paths, random_structure, turned_paths
+from linkwright.synthesis.free_curve.nodes import (
+    FOUR_BAR,
+    Design,
+    flat,
+    node_paths,
+    random_structure,
+    turned_paths,
+)
 from linkwright.synthesis.free_curve.search import Search
 from linkwright.synthesis.free_curve.target import (
     MIDDLE,
@@ -185,6 +192,23 @@ def test_the_nearest_part_does_not_know_the_order_of_strokes() -> None:
         target = Target(np.array(strokes), False, math.radians(20), 6.0)
         found.append(Atlas((), (), np.zeros((0, 2), np.int32), curves).nearest(target).distances)
     assert found[0] == pytest.approx(found[1], abs=0.02)
+
+
+def test_starts_come_once_each_and_near_ones_early() -> None:
+    count, structures = 3000, (flat(list(FOUR_BAR)), random_structure(2, 8, np.random.default_rng(2)))
+    x = np.tile([3.0, 0.0, math.log(3.0), math.log(3.0)], (count, 1))
+    x[:, 1] = np.arange(count) / count  # tells the rows apart
+    which = np.column_stack([np.zeros(2 * count), np.tile(np.arange(count), 2)]).astype(np.int32)
+    which[count:, 0] = 1  # never drawn, as it has 8 joints
+    atlas = Atlas(structures, (x, x), which, np.zeros((2 * count, M, 2), np.int8))
+    matches = Matches(atlas, np.tile(1.0 + x[::-1, 1], 2), lambda _: ((0, M // 2), False, 0.0))
+    drawn = list(matches.designs(np.random.default_rng(1), 5))
+    rows = np.array([round(each.x[1] * count) for each in drawn])
+    assert sorted(rows) == list(range(count))
+    early, whole = rows[:300], range(count)
+    assert np.sum(early >= whole[-1000]) > 1.5 * np.sum(early < whole[1000]) > 0
+    again = list(matches.designs(np.random.default_rng(1), 5))
+    assert all((a.x == b.x).all() for a, b in zip(drawn, again, strict=True))
 
 
 def test_the_solver_draws_the_same_curve_within_the_demands() -> None:

@@ -28,6 +28,7 @@ from linkwright.synthesis.free_curve.likeness import ANGLES, MARKS, POINTS, REAC
 from linkwright.synthesis.free_curve.nodes import (
     Complexes,
     Design,
+    Draw,
     Floats,
     Whole,
     node_paths,
@@ -41,8 +42,14 @@ M, WINDOWS, STEP = 64, (16, 23, 33, 46, 64), 1 / 36
 #: Least sin² of a transmission angle in the atlas, positions of a draw, least radius of a curve in cranks.
 LIMIT, POSITIONS, RADIUS = 0.08, 72, 0.15
 BLOCK = 4096
+#: Of the curves nearest to a target so many are as likely.
+EVENLY = 1000
 #: Parts tried by distance, steps from one to the next; range of the crank where a whole curve lies on an open target.
 PARTS, WHOLE = ((15, 4), (22, 4), (32, 6), (45, 8), (64, 64)), 6.27
+#: Positions of a turn from which a part's crank angles are read, round to the first one; their angles, rad.
+CRANK = 144
+RING = np.arange(CRANK + 1) % CRANK
+ANGLE = np.linspace(0, 2 * np.pi, CRANK + 1)
 #: First point and number of a part's steps; with the image it lies on and the turn of the picture.
 Part = tuple[int, int]
 Laid = tuple[Part, bool, float]
@@ -78,7 +85,7 @@ class Atlas:
 
         def laid(i: int) -> Laid:
             (mirror, window), lag = wanted[int(best[1, i])], int(best[2, i])
-            part = np.tile(_complex(self.curves[i]), 2)[lag : lag + len(window)]
+            part = _complex(self.curves[i, (lag + np.arange(len(window))) % M])
             return (lag, len(window)), mirror, float(np.angle(np.sum(np.conj(part) * window)))
 
         spread_over(len(self.curves), BLOCK, cores(), match)
@@ -110,16 +117,16 @@ class Atlas:
         (lag, length), mirror, turn = laid
         structure, row = self.which[i]
         nodes, x = self.structures[structure], self.x[structure][row].astype(float)
-        angle, paths = np.linspace(0, 2 * np.pi, 145), turned_paths(nodes, x, 144)
+        paths = turned_paths(nodes, x, CRANK)
         if paths is None:
-            paths = node_paths(nodes, x, angle[:-1])[0]
-        along = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(paths[-1], append=paths[-1, :1])))])
-        along /= along[-1]
-        first = float(np.interp(lag / M, along, angle))
-        span = WHOLE
-        if length < M:
-            span = max((float(np.interp((lag + length) / M % 1, along, angle)) - first) % (2 * np.pi), 0.35)
-        return Design(nodes, np.concatenate([x, [turn, first, span]]), mirror)
+            paths = node_paths(nodes, x, ANGLE[:-1])[0]
+        ring = paths[-1, RING]
+        along = np.zeros(CRANK + 1)
+        np.cumsum(np.abs(ring[1:] - ring[:-1]), out=along[1:])
+        ends = np.array([lag, (lag + length) % M]) * (along[-1] / M)
+        first, last = (np.interp(ends, along, ANGLE)).tolist()
+        span = max((last - first) % (2 * np.pi), 0.35) if length < M else WHOLE
+        return Design(nodes, np.append(x, (turn, first, span)), mirror)
 
 
 @dataclass(frozen=True, eq=False)
@@ -130,13 +137,12 @@ class Matches:
     distances: NDArray[np.floating[Any]]
     laid: Callable[[int], Laid]
 
-    def designs(self, block: int, count: int, most: int) -> Iterator[Design]:
-        """A block of ``count`` with at most so many joints, the nearest in block 0; blocks come round again."""
+    def designs(self, draw: Draw, most: int) -> Iterator[Design]:
+        """Designs with at most so many joints in a random order, the nearer the likelier early."""
         joints = np.array([len(each) // 4 for each in self.atlas.structures])
         order = np.argsort(self.distances, kind="stable")
         rows = order[joints[self.atlas.which[order, 0]] <= most]
-        first = block % max(1, len(rows) // count) * count
-        for i in rows[first : first + count]:
+        for i in rows[np.argsort(draw.exponential(size=len(rows)) * (EVENLY + np.arange(len(rows))))]:
             yield self.atlas.design(i, self.laid(i))
 
 
@@ -189,11 +195,9 @@ def _match(
     spectra = fft.fft(z, axis=1)
     best = np.zeros((3, len(z)), np.float32)
     rows = np.arange(len(z))
-    weights: dict[int, Any] = {M: 1.0} if closed else {}
+    weights: dict[int, Any] = {M: 1.0} if closed else _energies(z)
     for number, ((_, window), one) in enumerate(zip(wanted, filters, strict=True)):
         product = fft.ifft(spectra * one, axis=1)
-        if len(window) not in weights:
-            weights[len(window)] = _energies(z, len(window))
         value = (product.real**2 + product.imag**2) * weights[len(window)]
         at = value.argmax(1)
         better = value[rows, at] > best[0]
@@ -201,15 +205,16 @@ def _match(
     return best
 
 
-def _energies(z: Any, length: int) -> Any:
-    """One over the energy of every window about its mean, from running sums."""
-    double = np.concatenate([z, z], 1)
-    zero = np.zeros((len(z), 1), np.float32)
-    sums = np.concatenate([zero, np.cumsum(double, 1)], 1)
-    squares = np.concatenate([zero, np.cumsum(np.abs(double) ** 2, 1)], 1)
-    mean = sums[:, length : length + M] - sums[:, :M]
-    energy = (squares[:, length : length + M] - squares[:, :M]) * length - np.abs(mean) ** 2
-    return 1 / np.maximum(energy, 1e-3 * length * length)
+def _energies(z: Any) -> dict[int, Any]:
+    """One over the energy of every window about its mean, from running sums, for every length of a window."""
+    double = np.concatenate([np.zeros((len(z), 1), np.complex64), z, z], 1)
+    sums, squares = np.cumsum(double, 1), np.cumsum(double.real**2 + double.imag**2, 1)
+    found = {}
+    for length in WINDOWS:
+        part = sums[:, length : length + M] - sums[:, :M]
+        energy = (squares[:, length : length + M] - squares[:, :M]) * length - part.real**2 - part.imag**2
+        found[length] = 1 / np.maximum(energy, 1e-3 * length * length)
+    return found
 
 
 def _complex(curves: NDArray[np.int8]) -> Complexes:

@@ -48,8 +48,8 @@ LEVELS = (
     Level(5, 0, 0.7), Level(7, SIX_BARS, 1.5), Level(8, SIX_BARS, 2.0), Level(8, 3, 2.5, apart=True),
     Level(9, 2, 2.5), Level(10, 2, 3.5), Level(12, None, 7.0),
 )  # fmt: skip
-#: Starts from an atlas; those that descend on, and further on; how many begin together.
-STARTS, HALVED, CHOSEN, SOME = 4000, 500, 50, 200
+#: Starts that begin together, their first steps, the share of them that descends on; how many of all descend further.
+SOME, BEGUN, HALVED, CHOSEN = 200, 15, 0.33, 50
 #: Processor seconds of a level with part 1 in a round of all levels; shares of the time after which the designs of
 #: the rounds go on together, and after which the best are polished.
 ROUND, MERGED, ENDED = 4.0, 0.85, 0.96
@@ -180,10 +180,10 @@ class Search:
         rounds = max(1, round(self.seconds * cores() / (ROUND * sum(level.part for level in self.best))))
         times = np.linspace(over, max(over, MERGED), rounds + 1)
         for number in range(rounds):
-            self._round(number, times[number], times[number + 1])
+            self._round(times[number], times[number + 1])
 
-    def _round(self, number: int, begin: float, end: float) -> None:
-        """All levels once, from starts of the atlases that no round had before."""
+    def _round(self, begin: float, end: float) -> None:
+        """All levels once, from other starts of the atlases."""
         pools: dict[Level, Pool] = {}
         parts = np.cumsum([level.part for level in self.best])
         for level, part in zip(self.best, parts / parts[-1], strict=True):
@@ -191,7 +191,7 @@ class Search:
             pool = pools[level] = Pool()
             over = self.begin + (begin + (end - begin) * part) * self.seconds
             try:
-                for each in self._starts(number, level, over):
+                for each in self._starts(level, over):
                     pool.add(each)
                 for one in fewer:
                     for each in one.designs[:10]:
@@ -219,23 +219,23 @@ class Search:
                 over = (time.perf_counter() - self.begin) / self.seconds
                 self.progress(min(over, 1.0), pool.designs[0].value)
 
-    def _starts(self, number: int, level: Level, end: float) -> Iterable[Design]:
+    def _starts(self, level: Level, end: float) -> Iterable[Design]:
         """Starts of an atlas, after descents; half the time of the level at most."""
         if level.atlas is None:
             return []
-        starts = self.matches[level.atlas].designs(number, STARTS, level.joints)
+        starts = self.matches[level.atlas].designs(self.draw, level.joints)
         half = 0.5 * (time.perf_counter() + end)
         near: list[Design] = []
         while some := list(islice(starts, SOME)):
-            near += self._each(some, lambda each: self.target.descend(each, 15, COARSE))
+            begun = self._best(
+                some, lambda each: self.target.descend(each, BEGUN, COARSE), int(HALVED * SOME)
+            )
+            near += self._each(begun, lambda each: self.target.eased(each, 60))
+            self.attempts += len(some)
             if time.perf_counter() > half:
                 break
-        self.attempts += len(near)
-        near = sorted(near, key=lambda each: each.value)[: max(SOME // 4, HALVED * len(near) // STARTS)]
-        nearer = self._best(near, lambda each: self.target.eased(each, 60), CHOSEN)
-        return self._each(
-            self._best(nearer, lambda each: self.target.eased(each, 150), CHOSEN), self.target.checked
-        )
+        near = sorted(near, key=lambda each: each.value)[:CHOSEN]
+        return self._each(near, lambda each: self.target.checked(self.target.eased(each, 150)))
 
     def _best(self, designs: list[Design], descent: Callable[[Design], Design], count: int) -> list[Design]:
         return sorted(self._each(designs, descent), key=lambda each: each.value)[:count]
