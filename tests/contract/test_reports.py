@@ -15,6 +15,7 @@ import linkwright.parts
 import linkwright.plot
 from linkwright.cams.joint import cam_of
 from linkwright.cli import main
+from linkwright.core.outputs import Output
 from linkwright.errors import LinkwrightError
 from linkwright.joints.cam import CamJoint
 from linkwright.joints.cam_shape import CamShape
@@ -239,16 +240,17 @@ def test_tables_hold_no_rounding_but_in_residuals() -> None:
 
 
 def test_results_that_are_nothing_beside_the_largest_of_their_unit_are_zero() -> None:
+    force, couple = Output("reaction", "A", "x", "rod"), Output("couple", "guide", on="ram")
     columns = {
-        "A on rod.x [N]": np.array([2000.0, 3e-9, -1e-10]),
-        "guide on ram.couple [N·m]": np.array([3e-10, np.nan, 0.0]),
-        "power_residual [W]": np.array([1e-13, 0.0, 0.0]),
-        "driver power [W]": np.array([500.0, 0.0, 0.0]),
+        force: np.array([2000.0, 3e-9, -1e-10]),
+        couple: np.array([3e-10, np.nan, 0.0]),
+        Output("power_residual"): np.array([1e-13, 0.0, 0.0]),
+        Output("power"): np.array([500.0, 0.0, 0.0]),
     }
     found = without_rounding(columns)
-    assert found["A on rod.x [N]"].tolist() == [2000.0, 3e-9, 0.0]
-    assert found["guide on ram.couple [N·m]"][0] == 3e-10  # the largest of its unit
-    assert found["power_residual [W]"][0] == 1e-13
+    assert found[force].tolist() == [2000.0, 3e-9, 0.0]
+    assert found[couple][0] == 3e-10  # the largest of its unit
+    assert found[Output("power_residual")][0] == 1e-13
 
 
 def test_what_a_train_does_not_carry_or_does_not_change_is_said_in_one_place() -> None:

@@ -64,3 +64,12 @@ def test_sliding_drivers_have_forces() -> None:
 def test_rates_follow_their_outputs() -> None:
     assert [each.row for each in Output("displacement", "ram").course] == ["s:ram", "sv:ram", "sa:ram"]
     assert Output("position", "C", "y", written="it").rate == Output("velocity", "C", "y")
+
+
+def test_columns_have_owners_quantities_and_units() -> None:
+    force = Output("shaking_force", "", "x")
+    assert (force.place, force.quantity, force.heading) == ("shaking_force", "x", "shaking_force.x [N]")
+    size = Output("reaction", "A", on="rod")
+    assert (size.place, size.quantity, size.heading) == ("A on rod", "magnitude", "A on rod.magnitude [N]")
+    lift = Output("input", "lift", slides=True)
+    assert (lift.place, lift.quantity, lift.heading) == ("", "lift", "lift [m]")

@@ -12,12 +12,13 @@ import numpy as np
 
 from linkwright.cli.errors import UsageError
 from linkwright.core.dataclass import dataclass
+from linkwright.core.outputs import Output
 from linkwright.kinematics.cycle import Floats
 from linkwright.registry import nearest
+from linkwright.units import SI_UNITS
 from linkwright.words import Say
 from linkwright.words.width import GAP, cells, padded
 
-_VECTORS = frozenset({"position", "velocity", "acceleration"})
 #: Digits of a column's largest value.
 DIGITS = 5
 #: Share of the scale below which a value is rounding.
@@ -40,13 +41,9 @@ class Column:
     scale: float = 1.0
 
     @classmethod
-    def of(cls, key: str, values: Floats) -> Column:
-        """The column of a result's name such as ``jaw.angle [rad]``."""
-        name, _, unit = key.rpartition(" [")
-        parts = name.split(".")
-        tail = 2 if parts[-1] in ("x", "y") and len(parts) > 2 and parts[-2] in _VECTORS else 1
-        owner, quantity = ".".join(parts[:-tail]), ".".join(parts[-tail:])
-        return cls(name, owner, quantity, unit.rstrip("]"), values)
+    def of(cls, output: Output, values: Floats) -> Column:
+        """The column of a result."""
+        return cls(output.column, output.place, output.quantity, SI_UNITS[output.dimension], values)
 
     def in_degrees(self) -> Column:
         """The same with angles in degrees."""

@@ -60,7 +60,7 @@ def data(solved: Solved, options: argparse.Namespace, say: Say) -> dict[str, obj
 
 def chosen(solved: Solved, options: argparse.Namespace, say: Say) -> list[Column]:
     """The columns that are asked for behind time and inputs; all of them if none is asked for."""
-    columns = {column.name: column for column in (Column.of(*item) for item in solved.columns().items())}
+    columns = {column.name: column for column in (Column.of(*item) for item in solved.results().items())}
     patterns = [*(options.columns or ()), *point_keys(solved.motion, options.points)]
     if not patterns:
         return list(columns.values())

@@ -49,7 +49,7 @@ def _structure_line(solved: Solved, say: Say) -> str:
 
 def _chosen(solved: Solved, options: argparse.Namespace, session: Session) -> tuple[list[Column], str]:
     """Columns of the table, and a sentence on those that found no place."""
-    found = (Column.of(*item) for item in solved.columns().items())
+    found = (Column.of(*item) for item in solved.results().items())
     columns = {column.name: column if options.si else column.in_degrees() for column in found}
     first = leading(solved, columns)
     if options.columns:

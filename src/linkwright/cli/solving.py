@@ -11,11 +11,14 @@ from numpy.typing import NDArray
 from linkwright.cli.errors import UsageError
 from linkwright.cli.positions import MOST, inputs, quantities
 from linkwright.core.dataclass import dataclass
+from linkwright.core.outputs import Output
 from linkwright.errors import Finding, LinkwrightError
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
+from linkwright.kinematics.table import motion_results
 from linkwright.kinetostatics.forces import Forces, solve_forces
+from linkwright.kinetostatics.table import force_results
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.cycle_grid import CycleGrid
@@ -66,10 +69,10 @@ class Solved:
         """The cycle between its positions; None of chosen positions, and where it is not passed."""
         return self.analysis.grid if self.whole else None
 
-    def columns(self) -> dict[str, Floats]:
-        """All results at the shown rows, by name with unit, SI."""
-        source = self.motion if self.forces is None else self.forces
-        return {name: values[self.rows] for name, values in source.columns().items()}
+    def results(self) -> dict[Output, Floats]:
+        """All results at the shown rows, SI."""
+        found = motion_results(self.motion) if self.forces is None else force_results(self.forces)
+        return {output: values[self.rows] for output, values in found.items()}
 
 
 def solve(mechanism: Mechanism, warnings: list[Finding], options: argparse.Namespace, say: Say) -> Solved:

@@ -10,6 +10,7 @@ from dataclasses import replace
 from functools import lru_cache
 
 from linkwright.core.dataclass import dataclass
+from linkwright.units import SI_UNITS
 
 
 @dataclass(frozen=True)
@@ -58,7 +59,7 @@ KINDS = {
     "transmission_angle": Kind("group", "angle", "m", form="phrase"),
     "conditioning": Kind("group", "dimensionless", form="phrase"),
     "outcome": Kind("motion", "dimensionless", "outcome"),
-    "effort": Kind("driver", "torque", "effort", slid="force", form="part"),
+    "effort": Kind("driver", "torque", "effort", "M", slid="force", form="part"),
     "reaction": Kind("joint", "force", "r", "F", vector=True, form="phrase"),
     "couple": Kind("joint", "torque", "c", "M", form="phrase"),
     "heat": Kind("joint", "power", form="phrase"),
@@ -89,6 +90,8 @@ _RATES = {
 PLACES = ("position", "angle", "displacement")
 POINT = ("position", "velocity", "acceleration")
 SLIDE = ("displacement", "slide_velocity", "slide_acceleration")
+#: What is zero but for rounding.
+RESIDUALS = ("power_residual", "balance_residual")
 
 
 @lru_cache(4096)
@@ -186,21 +189,28 @@ class Output:
     @property
     def quantity(self) -> str:
         """What stands over its column beneath the owner: ``angle``, ``position.x``, ``magnitude`` of a reaction."""
-        if self.kind == "reaction":
-            return self.component or "magnitude"
+        if self.kind == "input":
+            return self.owner
+        if self.kind == "reaction" or not self.owner:
+            return self.component or ("magnitude" if self.owner else self.word)
         return self.word + (self.component and f".{self.component}")
 
     @property
     def place(self) -> str:
-        """To what a column belongs: ``jaw``, ``O5 on jaw``; empty for the whole machine."""
-        return f"{self.owner} on {self.on}" if self.on else self.owner
+        """To what a column belongs: ``jaw``, ``O5 on jaw``, ``shaking_force``; nothing for an input and the time."""
+        if not self.owner:
+            return self.component and self.word
+        return "" if self.kind == "input" else f"{self.owner} on {self.on}" if self.on else self.owner
 
     @property
     def column(self) -> str:
-        """Its name over a column, without the unit: ``jaw.angle``, ``O5 on jaw.magnitude``, a driver's own."""
-        if self.kind == "input":
-            return self.owner
-        return f"{self.place}.{self.quantity}" if self.owner else self.quantity
+        """Its name over a column: ``jaw.angle``, ``O5 on jaw.magnitude``, a driver's own for its input."""
+        return ".".join(filter(None, (self.place, self.quantity)))
+
+    @property
+    def heading(self) -> str:
+        """The same with its SI unit: ``jaw.angle [rad]``."""
+        return f"{self.column} [{SI_UNITS[self.dimension]}]"
 
     def __str__(self) -> str:
         """As a model file writes it: ``jaw`` for its angle, ``guide`` for its displacement, ``C.x``."""

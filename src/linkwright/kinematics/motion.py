@@ -337,9 +337,9 @@ class Motion:
 
     def columns(self) -> dict[str, Floats]:
         """All results as named columns (n,), names with units."""
-        from linkwright.kinematics.table import columns
+        from linkwright.kinematics.table import columns, motion_results
 
-        return columns(self)
+        return columns(motion_results(self))
 
     def to_dataframe(self) -> pandas.DataFrame:
         """All results as a table over the first driver's coordinate, its index; needs pandas."""

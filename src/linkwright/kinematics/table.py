@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
-from linkwright.core.outputs import row_names
+from linkwright.core.outputs import POINT, Output, row_names
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.cycle import Floats
 from linkwright.words.sentence import Sentence
@@ -16,33 +16,25 @@ if TYPE_CHECKING:
     from linkwright.kinematics.motion import Motion
 
 
-def columns(motion: Motion) -> dict[str, Floats]:
-    """Time, inputs, links, guides and points of a motion, by column names such as ``jaw.angle [rad]``."""
-    found: dict[str, Floats] = {"time [s]": motion.time}
+def motion_results(motion: Motion) -> dict[Output, Floats]:
+    """Time, inputs, links, guides and points of a motion, (n,) each."""
+    found = {Output("time"): motion.time}
     motion.evaluate_together(directions(motion))
     for name, q in motion.inputs.items():
-        found[f"{name} [{'rad' if motion.positions.rotary[name] else 'm'}]"] = q
-    for name in motion.mechanism.links:
-        link = motion.link(name)
-        found[f"{name}.angle [rad]"] = link.angle
-        found[f"{name}.angular_velocity [rad/s]"] = link.angular_velocity
-        found[f"{name}.angular_acceleration [rad/s²]"] = link.angular_acceleration
-    for name, joint in motion.mechanism.joints.items():
-        if joint.coordinate == "slide":
-            slide = motion.joint(name)
-            found[f"{name}.displacement [m]"] = slide.displacement
-            found[f"{name}.velocity [m/s]"] = slide.velocity
-            found[f"{name}.acceleration [m/s²]"] = slide.acceleration
+        found[_input(motion, name)] = q
+    firsts = [Output("angle", name) for name in motion.mechanism.links]
+    firsts += [Output("displacement", name) for name in motion.mechanism.guides]
+    found |= {each: motion.read(each) for first in firsts for each in first.course}
     for name in motion.point_names():
-        point = motion.point_of(name)
-        for kind, unit, values in (
-            ("position", "m", point.position),
-            ("velocity", "m/s", point.velocity),
-            ("acceleration", "m/s²", point.acceleration),
-        ):
-            found[f"{name}.{kind}.x [{unit}]"] = values[:, 0]
-            found[f"{name}.{kind}.y [{unit}]"] = values[:, 1]
+        for kind in POINT:
+            values = motion.vector(kind, name)
+            found |= {Output(kind, name, axis): values[:, k] for k, axis in enumerate("xy")}
     return found
+
+
+def columns(found: Mapping[Output, Floats]) -> dict[str, Floats]:
+    """Results by column names such as ``jaw.angle [rad]``."""
+    return {each.heading: values for each, values in found.items()}
 
 
 def directions(motion: Motion) -> Iterator[str]:
@@ -53,7 +45,11 @@ def directions(motion: Motion) -> Iterator[str]:
 def input_column(motion: Motion) -> str | None:
     """The column of the first driver's coordinate; None without a driver."""
     name = next(iter(motion.inputs), None)
-    return None if name is None else f"{name} [{'rad' if motion.positions.rotary[name] else 'm'}]"
+    return None if name is None else _input(motion, name).heading
+
+
+def _input(motion: Motion, driver: str) -> Output:
+    return Output("input", driver, slides=not motion.positions.rotary[driver])
 
 
 def dataframe(named: Mapping[str, Floats], *, index: str | None = None) -> pandas.DataFrame:

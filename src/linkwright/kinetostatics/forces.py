@@ -182,9 +182,10 @@ class Forces:
 
     def columns(self) -> dict[str, Floats]:
         """All results as named columns (n,), names with units."""
-        from linkwright.kinetostatics.table import columns
+        from linkwright.kinematics.table import columns
+        from linkwright.kinetostatics.table import force_results
 
-        return columns(self)
+        return columns(force_results(self))
 
     def to_dataframe(self) -> pandas.DataFrame:
         """All results as a table over the first driver's coordinate, its index; needs pandas."""

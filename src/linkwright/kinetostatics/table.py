@@ -1,4 +1,4 @@
-"""Forces as named columns with units."""
+"""Forces as results by their outputs."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from linkwright.core.outputs import row_name, row_names
+from linkwright.core.outputs import Output, row_name, row_names
 from linkwright.kinematics.cycle import Floats
-from linkwright.kinematics.table import directions
+from linkwright.kinematics.table import directions, motion_results
 from linkwright.kinetostatics.link_balance import load_outputs, motion_outputs
 
 if TYPE_CHECKING:
@@ -17,26 +17,25 @@ if TYPE_CHECKING:
 _RESULTANTS = (*row_names("shaking_force"), *map(row_name, ("shaking_moment", "power_of_forces", "power")))
 
 
-def columns(forces: Forces) -> dict[str, Floats]:
-    """Motion columns, then efforts, reactions on every link, couples, shaking force, residuals."""
+def force_results(forces: Forces) -> dict[Output, Floats]:
+    """The results of the motion, then efforts, reactions on every link, couples, shaking force, residuals, (n,)."""
     motion = forces.motion
     motion.evaluate_together((*directions(motion), *motion_outputs(forces)))
     forces.fetch((*_RESULTANTS, *load_outputs(forces)))
-    found = dict(motion.columns())
+    found = motion_results(motion)
     for name in forces.mechanism.drivers:
-        unit = "N·m" if forces.motion.positions.rotary[name] else "N"
-        found[f"{name}.effort [{unit}]"] = forces.driver_effort(name)
+        found[Output("effort", name, slides=not motion.positions.rotary[name])] = forces.driver_effort(name)
     for name, joint in forces.mechanism.joints.items():
         for link in joint.joined:
             if link == "frame":
                 continue
             force = forces.reaction(name, on=link)
-            found[f"{name} on {link}.x [N]"], found[f"{name} on {link}.y [N]"] = force[:, 0], force[:, 1]
-            found[f"{name} on {link}.magnitude [N]"] = np.hypot(force[:, 0], force[:, 1])
+            found |= {Output("reaction", name, axis, link): force[:, k] for k, axis in enumerate("xy")}
+            found[Output("reaction", name, on=link)] = np.hypot(force[:, 0], force[:, 1])
             if joint.couples:
-                found[f"{name} on {link}.couple [N·m]"] = forces.couple(name, on=link)
-    found["shaking_force.x [N]"], found["shaking_force.y [N]"] = forces.shaking_force.T
-    found["shaking_moment [N·m]"] = forces.shaking_moment
-    found["power_residual [W]"] = forces.power_residual
-    found["balance_residual [N]"] = forces.balance_residual
+                found[Output("couple", name, on=link)] = forces.couple(name, on=link)
+    found |= {Output("shaking_force", "", axis): forces.shaking_force[:, k] for k, axis in enumerate("xy")}
+    found[Output("shaking_moment")] = forces.shaking_moment
+    found[Output("power_residual")] = forces.power_residual
+    found[Output("balance_residual")] = forces.balance_residual
     return found

@@ -8,10 +8,12 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from linkwright.core.outputs import KINDS, RESIDUALS, Output
 from linkwright.kinematics.cycle import Floats
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.plot.force_names import link_numbers
 from linkwright.report.document import literal
+from linkwright.units import SI_UNITS
 from linkwright.words import Say
 from linkwright.worked.symbols import tex
 
@@ -24,14 +26,6 @@ ROUNDING = 1e-12
 #: Keeps a unit such as rad/s on one line.
 JOINER = "\u2060"
 _UNITS = {"rad": ("°", 180.0 / math.pi), "m": ("mm", 1e3)}
-_TURNS = {"angle": r"\varphi", "angular_velocity": r"\omega", "angular_acceleration": r"\alpha"}
-_SLIDES = {"displacement": "s", "velocity": r"\dot{s}", "acceleration": r"\ddot{s}"}
-_POINTS = {"position": "", "velocity": "v", "acceleration": "a"}
-_FORCES = {"magnitude": ("F", ""), "x": ("F", "x"), "y": ("F", "y"), "couple": ("M", "")}
-_WHOLE = {
-    "time": "t", "shaking_force.x": r"F_{\mathrm{S}x}", "shaking_force.y": r"F_{\mathrm{S}y}",
-    "shaking_moment": r"M_{\mathrm{S}}", "power_residual": r"\Delta P", "balance_residual": r"\Delta F",
-}  # fmt: skip
 _POWER_OF_TEN = re.compile(r"([-−]?\d+(?:\.\d+)?)e([+-]?\d+)((?: ?\S+)?)")
 #: Signs that a name cannot have inside a formula.
 _UNPRINTABLE = frozenset("$\\{}^#%&~")
@@ -45,42 +39,34 @@ class Heads:
         self.mechanism, self.say = mechanism, say
         self.numbers = link_numbers(mechanism)
 
-    def head(self, name: str) -> tuple[str, float]:
+    def head(self, output: Output) -> tuple[str, float]:
         """Head of a column of results in the unit of tables, and the factor from SI."""
-        label, _, unit = name.removesuffix("]").rpartition(" [")
+        unit = SI_UNITS[output.dimension]
         shown, factor = _UNITS.get(unit, (unit, 1.0))
-        symbol = self.symbol(label)
-        quantity = f"${symbol}$" if symbol else literal(label)
+        symbol = self.symbol(output)
+        quantity = f"${symbol}$" if symbol else literal(output.column)
         return f"{quantity}\u00a0/\u00a0{shown.replace('/', f'/{JOINER}')}", factor
 
-    def symbol(self, label: str) -> str:
-        """LaTeX of a result, such as ``crank.angle`` or ``A on rod.x``; empty where the books have none."""
-        if label in _WHOLE:
-            return _WHOLE[label]
-        if _UNPRINTABLE & set(label):
+    def symbol(self, output: Output) -> str:
+        """LaTeX of a result; empty where the books have none."""
+        kind, owner, axis = KINDS[output.kind], output.owner, output.component
+        if _UNPRINTABLE & set(output.column):
             return ""
-        on = re.fullmatch(r"(.+) on (.+)\.(magnitude|couple|x|y)", label)
-        if on:
-            letter, axis = _FORCES[on[3]]
-            return f"{letter}_{{{tex(on[1])},{self.numbers.get(on[2], on[2])}{axis}}}"
-        owner, _, what = label.rpartition(".")
-        if what == "effort":
-            several = len(self.mechanism.drivers) > 1
-            return rf"{self._effort(owner)}_{{\mathrm{{d}}{f',{tex(owner)}' if several else ''}}}"
-        if what in _TURNS and owner in self.numbers:
-            return f"{_TURNS[what]}_{{{self.numbers[owner]}}}"
-        if what in _SLIDES and owner in self.mechanism.joints:
-            return f"{_SLIDES[what]}_{{{tex(owner)}}}"
-        point, _, kind = owner.rpartition(".")
-        if what in ("x", "y") and kind in _POINTS:
-            name = tex(self._point(point))
-            return f"{_POINTS[kind]}_{{{name}{what}}}" if _POINTS[kind] else f"{what}_{{{name}}}"
-        return ""
-
-    def _effort(self, driver: str) -> str:
-        """M of a driver that turns, F of one that slides."""
-        joint = self.mechanism.joints[self.mechanism.drivers[driver].joint]
-        return "M" if joint.coordinate == "turn" else "F"
+        match kind.of:
+            case "point":
+                name = tex(self._point(owner))
+                return f"{kind.symbol}_{{{name}{axis}}}" if kind.symbol else f"{axis}_{{{name}}}"
+            case "link":
+                return f"{kind.symbol}_{{{self.numbers[owner]}}}"
+            case "guide":
+                return f"{kind.symbol}_{{{tex(owner)}}}"
+            case "joint":
+                return f"{kind.symbol}_{{{tex(owner)},{self.numbers.get(output.on, output.on)}{axis}}}"
+            case "driver" if kind.symbol:
+                several = len(self.mechanism.drivers) > 1
+                letter = "F" if output.slides else kind.symbol
+                return rf"{letter}_{{\mathrm{{d}}{f',{tex(owner)}' if several else ''}}}"
+        return f"{kind.symbol[:-1]}{axis}}}" if axis else kind.symbol
 
     def _point(self, name: str) -> str:
         """A point without its link where no other link has one of this name."""
@@ -89,18 +75,18 @@ class Heads:
         return last if sum(last in link.points for link in links) == 1 else name
 
 
-def without_rounding(columns: Mapping[str, Floats]) -> dict[str, Floats]:
-    """Columns of results, zero where a number is nothing beside the largest of its unit; residuals as they are."""
+def without_rounding(results: Mapping[Output, Floats]) -> dict[Output, Floats]:
+    """Results, zero where a number is nothing beside the largest of its dimension; residuals as they are."""
     largest: dict[str, float] = {}
-    for name, values in columns.items():
+    for output, values in results.items():
         known = np.abs(values[np.isfinite(values)])
-        unit = name.rpartition(" [")[2]
-        largest[unit] = max(largest.get(unit, 0.0), float(known.max(initial=0.0)))
+        size = float(known.max(initial=0.0))
+        largest[output.dimension] = max(largest.get(output.dimension, 0.0), size)
     return {
-        name: values
-        if "_residual [" in name
-        else np.where(np.abs(values) < ROUNDING * largest[name.rpartition(" [")[2]], 0.0, values)
-        for name, values in columns.items()
+        output: values
+        if output.kind in RESIDUALS
+        else np.where(np.abs(values) < ROUNDING * largest[output.dimension], 0.0, values)
+        for output, values in results.items()
     }
 
 

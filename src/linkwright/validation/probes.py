@@ -10,8 +10,11 @@ from typing import Any
 import numpy as np
 
 from linkwright.files.model_file import load
+from linkwright.kinematics.names import output_meant
 from linkwright.kinematics.solve import solve_motion
+from linkwright.kinematics.table import motion_results
 from linkwright.kinetostatics.forces import Forces, solve_forces
+from linkwright.kinetostatics.table import force_results
 from linkwright.plot.force_names import carries
 from linkwright.units import parse
 
@@ -29,7 +32,8 @@ def machine(given: Mapping[str, Any]) -> Find:
     else:
         motion = solve_motion(mechanism)
     forces = _forces(motion)
-    values = {name.partition(" [")[0]: column[0] for name, column in (forces or motion).columns().items()}
+    results = motion_results(motion) if forces is None else force_results(forces)
+    values = {output.column: column[0] for output, column in results.items()}
 
     def find(what: str) -> float:
         if what.endswith(".direction"):
@@ -40,23 +44,15 @@ def machine(given: Mapping[str, Any]) -> Find:
         if what in values:
             return float(values[what])
         if " on " in what and forces is not None:
-            joint, link = what.rpartition(".")[0].split(" on ")
-            return float(forces.reaction(joint, on=link)[0]["xy".index(what[-1])])
-        return _of_link_point(motion, what)
+            output = output_meant(mechanism, f"reaction {what}")
+            return float(forces.reaction(output.owner, on=output.on)[0]["xy".index(output.component)])
+        return float(motion.read(output_meant(mechanism, what))[0])
 
     return find
 
 
 def _forces(motion: Any) -> Forces | None:
     return solve_forces(motion) if carries(motion.mechanism) else None
-
-
-def _of_link_point(motion: Any, what: str) -> float:
-    """A component of a point's motion, or a link's, that is no column of its own."""
-    name, kind, *axis = what.rsplit(".", 2) if what.endswith((".x", ".y")) else what.rsplit(".", 1)
-    if axis:
-        return float(getattr(motion.point(name), kind)[0]["xy".index(axis[0])])
-    return float(getattr(motion.link(name), kind)[0])
 
 
 def limits(given: Mapping[str, Any]) -> Find:

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from linkwright.errors import LinkwrightError
+from linkwright.kinematics.table import motion_results
+from linkwright.kinetostatics.table import force_results
 from linkwright.report.case import Case
 from linkwright.report.document import Block, Paragraph
 from linkwright.report.numbers import without_rounding
@@ -21,9 +23,10 @@ class Appendix(Section):
     def blocks(self, case: Case) -> Iterator[Block]:
         say = case.say
         try:
-            columns = without_rounding(case.numbered_forces.columns())
+            columns = without_rounding(force_results(case.numbered_forces))
         except LinkwrightError:
-            columns = without_rounding(case.numbered.motion.columns())
+            columns = without_rounding(motion_results(case.numbered.motion))
         yield Paragraph(say("report.appendix_text"))
-        names = [name for name in columns if not name.startswith("driver [")]
+        first = next(iter(case.mechanism.drivers), "")
+        names = [each for each in columns if each.column != first]
         yield from varying(case, "report.appendix_table", columns, names)

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 import numpy as np
 
+from linkwright.core.outputs import KINDS, RESIDUALS, SLIDE, Output
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.cycle import Floats
+from linkwright.kinematics.table import motion_results
+from linkwright.kinetostatics.table import force_results
 from linkwright.report.case import Case
 from linkwright.report.document import Block, Paragraph, Table, literal
 from linkwright.report.numbers import column, faded, residual, typeset, without_rounding
@@ -29,48 +32,39 @@ class CycleTables(Section):
         elif case.mechanism.drivers:
             yield Paragraph(say("report.numbered_start", count=count))
         yield Paragraph(literal(case.links_text))
-        columns = without_rounding(numbered.motion.columns())
+        columns = without_rounding(motion_results(numbered.motion))
         for title, wanted in _motion_tables(case, columns):
             yield table(case, say(title), columns, wanted)
         try:
-            columns = without_rounding(case.numbered_forces.columns())
+            columns = without_rounding(force_results(case.numbered_forces))
         except LinkwrightError as error:
             yield Paragraph(literal(case.told(error)), "missing")
             return
-        sizes = [name for name in columns if name.endswith((".magnitude [N]", ".couple [N·m]"))]
-        efforts = [name for name in columns if ".effort [" in name]
+        sizes = [each for each in _of(columns, "reaction", "couple") if not each.component]
+        efforts = _of(columns, "effort")
         yield from varying(case, "report.reactions_table", columns, sizes)
         if efforts:
-            shaking = _starting(columns, "shaking")
+            shaking = _of(columns, "shaking_force", "shaking_moment")
             yield from varying(case, "report.effort_table", columns, [*efforts, *shaking])
 
 
-def _motion_tables(case: Case, columns: Mapping[str, Floats]) -> Iterator[tuple[str, list[str]]]:
+def _motion_tables(case: Case, columns: Mapping[Output, Floats]) -> Iterator[tuple[str, list[Output]]]:
     """Titles and columns: of links that turn, of guides, of points."""
-    turning = [link for link in case.mechanism.links if f"{link}.angle [rad]" in columns]
-    links = [name for link in turning for name in _starting(columns, f"{link}.angle", f"{link}.angular")
-             if varies(columns[name])]  # fmt: skip
-    if links:
-        yield "report.links_table", links
-    ends = (".displacement [m]", ".velocity [m/s]", ".acceleration [m/s²]")
-    guides = [name for name in columns if name.endswith(ends)
-              and name.partition(".")[0] in case.mechanism.joints]  # fmt: skip
-    if guides:
-        yield "report.guides_table", guides
-    points = [name for name in columns if ".position." in name and varies(columns[name])]
-    if points:
-        yield "report.points_table", points
-    rates = [
-        name
-        for name in columns
-        if (".velocity." in name or ".acceleration." in name) and varies(columns[name])
-    ]
-    if rates:
-        yield "report.rates_table", rates
+    links = [each for each in columns if KINDS[each.kind].of == "link" and varies(columns[each])]
+    points = [each for each in columns if KINDS[each.kind].of == "point" and varies(columns[each])]
+    places = _of(points, "position")
+    for title, found in (
+        ("links", links),
+        ("guides", _of(columns, *SLIDE)),
+        ("points", places),
+        ("rates", [each for each in points if each not in places]),
+    ):
+        if found:
+            yield f"report.{title}_table", found
 
 
-def _starting(columns: Mapping[str, Floats], *starts: str) -> list[str]:
-    return [name for name in columns if name.startswith(starts)]
+def _of(columns: Iterable[Output], *kinds: str) -> list[Output]:
+    return [each for each in columns if each.kind in kinds]
 
 
 def varies(values: Floats) -> bool:
@@ -79,7 +73,9 @@ def varies(values: Floats) -> bool:
     return bool(len(known)) and float(np.ptp(known)) > 1e-12 * max(float(np.abs(known).max()), 1e-300)
 
 
-def varying(case: Case, title: str, columns: Mapping[str, Floats], names: Sequence[str]) -> Iterator[Block]:
+def varying(
+    case: Case, title: str, columns: Mapping[Output, Floats], names: Sequence[Output]
+) -> Iterator[Block]:
     """What does not change over the cycle in a sentence, the others in a table; all in it without a driver."""
     moving = [name for name in names if varies(columns[name])] if case.mechanism.drivers else names
     still = [name for name in names if name not in moving and np.isfinite(columns[name]).any()]
@@ -91,7 +87,7 @@ def varying(case: Case, title: str, columns: Mapping[str, Floats], names: Sequen
         yield table(case, case.say(title), columns, moving)
 
 
-def _equal(case: Case, columns: Mapping[str, Floats], name: str) -> str:
+def _equal(case: Case, columns: Mapping[Output, Floats], name: Output) -> str:
     """What a result that does not change is equal to."""
     head, factor = case.heads.head(name)
     quantity, _, unit = head.rpartition("\u00a0/\u00a0")
@@ -100,14 +96,14 @@ def _equal(case: Case, columns: Mapping[str, Floats], name: str) -> str:
     return f"{quantity} = {value} {unit}".replace(" °", "°")
 
 
-def table(case: Case, title: str, columns: Mapping[str, Floats], names: Sequence[str]) -> Table:
+def table(case: Case, title: str, columns: Mapping[Output, Floats], names: Sequence[Output]) -> Table:
     """Columns at the numbered positions, in shown units."""
     numbered = case.numbered
     rows = list(numbered.rows)
     first = case.inputs_of(numbered)
     shown = [case.heads.head(name) for name in names]
     printed = [
-        (residual if "_residual [" in name else column)(columns[name][rows] * factor)
+        (residual if name.kind in RESIDUALS else column)(columns[name][rows] * factor)
         for name, (_, factor) in zip(names, shown, strict=True)
     ]
     body = tuple((str(k + 1), first[k], *(each[k] for each in printed)) for k in range(len(rows)))
