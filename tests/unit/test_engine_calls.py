@@ -15,7 +15,7 @@ from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
 from linkwright.engine.scalar_backend import ScalarProgram
 from linkwright.engine.sweep import sweep
-from linkwright.engine.threads import cores, spread_over
+from linkwright.engine.threads import cores, spread_over, tapering
 from linkwright.engine.trace import Trace
 from linkwright.engine.wasm import wasm_module
 
@@ -216,3 +216,17 @@ def test_nobody_writes_any_more_when_an_exception_is_raised() -> None:
     with pytest.raises(ZeroDivisionError):
         spread_over(8, 1, 2, work)
     assert done in ([(0, 1)], [(1, 2)])
+
+
+def test_the_last_chunks_of_several_threads_are_small() -> None:
+    """Every design once, in order; no chunk is more than a fourth of what is left to two threads."""
+    found = list(tapering(1003, 160, 8, 2))
+    assert [first for first, _ in found] == [0, *(after for _, after in found[:-1])] and found[-1][1] == 1003
+    sizes = [after - first for first, after in found]
+    assert sizes[0] == 160 and sizes == sorted(sizes, reverse=True) and sizes[-1] <= 8
+    assert all(4 * size <= 1003 - first for size, (first, _) in zip(sizes, found, strict=True) if size > 8)
+    done: list[tuple[int, int]] = []
+    spread_over(1003, 160, 2, lambda *chunk: done.append(chunk), least=8)
+    assert sorted(done) == found
+    spread_over(8, 160, 2, lambda *chunk: done.append(chunk), least=8)
+    assert done[-1] == (0, 8)

@@ -18,8 +18,8 @@ from linkwright.engine.threads import chunks, cores
 Floats = NDArray[np.float64]
 Progress = Callable[[int, int], None]
 
-#: Configurations between two reports of progress; fewer where stages keep fields.
-_REPORT, _REPORT_WITH_FIELDS = 1 << 23, 1 << 20
+#: Configurations of a block: between two reports of progress, where nobody wants any, and where stages keep fields.
+_REPORT, _UNREPORTED, _WITH_FIELDS = 1 << 23, 1 << 26, 1 << 20
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,8 +78,9 @@ class CycleProgram:
         ValueError for unknown back ends, missing inputs and wrong shapes.
         """
         parts: list[Results] = []
+        size = _UNREPORTED if progress is None else _REPORT
         for end, known, _ in self.blocks(
-            table, positions, fields, tables=tables, threads=threads, backend=backend
+            table, positions, fields, tables=tables, threads=threads, backend=backend, size=size
         ):
             parts.append(known.values)
             if progress is not None:
@@ -97,8 +98,12 @@ class CycleProgram:
         tables: Tables | None = None,
         threads: int | None = None,
         backend: Backend = "auto",
+        size: int | None = None,
     ) -> Iterator[tuple[int, Known, Run]]:
-        """What is found of some designs after another: (number after the last design, numbers, manner)."""
+        """What is found of some designs after another: (number after the last design, numbers, manner).
+
+        ``size``: most configurations of one block; fewer where stages keep fields.
+        """
         if backend not in BACKENDS:
             raise ValueError(f"there is no back end '{backend}': use auto, numpy or llvm")
         numbers = np.ascontiguousarray(table, dtype=np.float64)
@@ -108,8 +113,8 @@ class CycleProgram:
         given = {name: np.ascontiguousarray(a, dtype=np.float64) for name, a in (fields or {}).items()}
         n = self._length(positions or {}, given)
         run = Run(positions or {}, n, tables, cores() if threads is None else threads, backend)
-        report = _REPORT_WITH_FIELDS if any(stage.keep for stage in self.stages) else _REPORT
-        for first, end in chunks(len(numbers), max(1, report // max(n, 1))) if len(numbers) else [(0, 0)]:
+        most = _WITH_FIELDS if any(stage.keep for stage in self.stages) else size or _REPORT
+        for first, end in chunks(len(numbers), max(1, most // max(n, 1))) if len(numbers) else [(0, 0)]:
             rows = {name: array[first:end] for name, array in given.items()}
             yield end, self._block(numbers[first:end], rows, run), run
 

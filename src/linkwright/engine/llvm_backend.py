@@ -27,8 +27,9 @@ __all__ = ["CompiledProgram", "available", "compile_program"]
 Floats = NDArray[np.float64]
 Arrays = Mapping[str, ArrayLike]
 _NONE: Arrays = {}
-#: Most configurations (designs times positions) of one call; a call cannot be interrupted.
-_LONGEST_CALL = 1 << 20
+#: Most configurations (designs times positions) of one call; a call cannot be interrupted. On several threads the
+#: last calls have as few as these, or a fourth of a thread's share.
+_LONGEST_CALL, _SHORTEST_CALL = 1 << 20, 1 << 16
 _CALLS_PER_THREAD = 4
 
 
@@ -274,7 +275,7 @@ class CompiledProgram:
             )
             self._function(address_of(block))
 
-        longest = _LONGEST_CALL // inputs.length
-        share = longest if threads <= 1 else -(-len(table) // (threads * _CALLS_PER_THREAD))
-        size = max(1, min(longest, share) // self.width) * self.width
-        spread_over(len(table), size, threads, work)
+        share = -(-len(table) // (threads * _CALLS_PER_THREAD))
+        longest, least = _LONGEST_CALL // inputs.length, min(_SHORTEST_CALL // inputs.length, share)
+        size, few = (max(1, designs // self.width) * self.width for designs in (longest, least))
+        spread_over(len(table), size, threads, work, least=few)

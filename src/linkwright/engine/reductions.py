@@ -222,15 +222,16 @@ class Accumulation:
 
         Where no position is valid: NaN, position number -1, count 0 and sum 0.
         """
+        rows = np.ascontiguousarray(table.T)
         valid = np.full(len(table), float(n))
         if self.valid is not None:
-            valid = table[:, self.column[Step("count", self.valid)]]
+            valid = rows[self.column[Step("count", self.valid)]]
         results: Results = {}
         for reduction in self.reductions:
-            accumulated = table[:, self.column[reduction.steps[-1]]]
+            accumulated = rows[self.column[reduction.steps[-1]]]
             results[reduction.name] = _result(reduction.kind, accumulated, valid)
         for place, (name, _) in enumerate(self.after.outputs if self.after is not None else ()):
-            results[name] = table[:, len(self.steps) + place].copy()
+            results[name] = rows[len(self.steps) + place]
         results[VALID_COUNT] = valid.astype(np.int64)
         return results
 
@@ -251,8 +252,8 @@ def _result(kind: str, accumulated: Floats, valid: Floats) -> Floats | NDArray[n
         if kind == "rms":
             return np.sqrt(accumulated / valid)
     if kind in ("min", "max"):
-        return np.where(accumulated == _START[kind], np.nan, accumulated)
-    return accumulated.copy()
+        accumulated[accumulated == _START[kind]] = np.nan
+    return accumulated
 
 
 def accumulate(

@@ -29,6 +29,19 @@ def chunks(count: int, size: int) -> Iterator[Chunk]:
     return ((first, min(first + size, count)) for first in range(0, count, size))
 
 
+def tapering(count: int, largest: int, least: int, threads: int) -> Iterator[Chunk]:
+    """The same of chunks of at most ``largest`` that grow smaller to the end, by multiples of ``least``.
+
+    So the threads leave off at nearly the same time.
+    """
+    first = 0
+    while first < count:
+        share = (count - first) // (2 * threads)
+        size = min(largest, max(least, share - share % least))
+        yield first, min(first + size, count)
+        first += size
+
+
 def _next(waiting: deque[Chunk]) -> Chunk | None:
     """The next chunk; None when there is none, or another thread has taken the last one."""
     try:
@@ -37,15 +50,19 @@ def _next(waiting: deque[Chunk]) -> Chunk | None:
         return None
 
 
-def spread_over(count: int, size: int, threads: int, work: Callable[[int, int], None]) -> None:
+def spread_over(
+    count: int, size: int, threads: int, work: Callable[[int, int], None], *, least: int | None = None
+) -> None:
     """Call ``work(first, after_last)`` for every chunk, on ``threads`` threads, this one among them.
 
-    The first exception is raised, once all threads have left off; chunks not begun by then are left out.
+    Chunks have ``size``, with ``least`` fewer to the end. The first exception is raised, once all threads have left
+    off; chunks not begun by then are left out.
     """
-    if count <= size:
+    if count <= (least or size) or (threads <= 1 and count <= size):
         work(0, count)
         return
-    waiting = deque(chunks(count, size))
+    tapers = least is not None and threads > 1
+    waiting = deque(tapering(count, size, least or size, threads) if tapers else chunks(count, size))
 
     def drain() -> None:
         try:
