@@ -98,7 +98,7 @@ def _model(motion: Motion, text: str | None, number: int) -> tuple[Plain, str]:
         **programs.found_per_position,
         "friction": programs.friction(),
         "groups": _groups(programs),
-        "signals": known,
+        "signals": list(known.values()),
         "numbers": numbers(programs, known),
         "curves": usual_curves(programs, known),
         "points": point_keys(programs),

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
 from typing import Any
 
+from linkwright.core.outputs import KINDS, Output, row_names
 from linkwright.kinematics.names import canonical
 from linkwright.metrics.outputs import mechanism_outputs
 from linkwright.page.programs import PagePrograms
@@ -13,95 +15,75 @@ from linkwright.words import LANGUAGES, say
 Plain = dict[str, Any]
 
 
-def signals(page: PagePrograms) -> list[Plain]:
+#: Numbers over the cycle that are shown of a signal.
+_NUMBERS = {
+    "transmission_angle": ("least",),
+    "effort": ("largest", "rms"),
+    "reaction": ("largest",),
+    "shaking_force": ("largest",),
+}
+
+
+def signals(page: PagePrograms) -> dict[Output, Plain]:
     """Everything that is plotted over the input. ``form``: how the value follows from the ``rows``."""
-    return [*_motion(page), *([] if page.forces is None else _forces(page))]
+    outputs = [*_motion(page), *([] if page.forces is None else _forces(page))]
+    return {each: _signal(page, each) for each in outputs}
 
 
-def _signal(key: str, form: str, rows: list[str], kind: str, word: str, **names: str) -> Plain:
-    return {"id": key, "form": form, "rows": rows, "kind": kind, "name": _said(word, **names)}
+def _signal(page: PagePrograms, output: Output) -> Plain:
+    owner, word, form, key = output.owner, output.kind, "row", output.row
+    rows: tuple[str, ...] = (key,)
+    if output.kind == "angle":
+        form, key, rows = "angle", f"angle:{owner}", row_names("direction", owner)
+    elif KINDS[output.kind].vector:
+        form, rows = "size", row_names(output.kind, owner, output.on)
+    elif output.kind == "effort" and len(page.mechanism.drivers) == 1:
+        word = "input_force" if output.slides else "input_torque"
+    name = _said(word, name=owner, joint=owner, link=output.on)
+    return {"id": key, "form": form, "rows": list(rows), "kind": output.dimension, "name": name}
 
 
 def _said(word: str, **names: str) -> dict[str, str]:
     return {language: say(f"page.{word}", language, **names) for language in LANGUAGES}
 
 
-def _pair(prefix: str, key: str) -> list[str]:
-    return [f"{prefix}:{key}.x", f"{prefix}:{key}.y"]
-
-
-def _motion(page: PagePrograms) -> list[Plain]:
+def _motion(page: PagePrograms) -> Iterator[Output]:
     mechanism = page.mechanism
-    found = []
     for name in mechanism.links:
-        found += [
-            _signal(f"angle:{name}", "angle", _pair("e", name), "angle", "angle", name=name),
-            _signal(f"w:{name}", "row", [f"w:{name}"], "angular_velocity", "angular_velocity", name=name),
-            _signal(
-                f"g:{name}", "row", [f"g:{name}"], "angular_acceleration", "angular_acceleration", name=name
-            ),
-        ]
+        yield from Output("angle", name).course
     for name in mechanism.guides:
-        found += [
-            _signal(f"s:{name}", "row", [f"s:{name}"], "length", "displacement", name=name),
-            _signal(f"sv:{name}", "row", [f"sv:{name}"], "velocity", "slide_velocity", name=name),
-            _signal(f"sa:{name}", "row", [f"sa:{name}"], "acceleration", "slide_acceleration", name=name),
-        ]
+        yield from Output("displacement", name).course
     for key in page.traced.solver.outputs.point_keys():
-        found += [
-            _signal(f"v:{key}", "size", _pair("v", key), "velocity", "velocity", name=key),
-            _signal(f"a:{key}", "size", _pair("a", key), "acceleration", "acceleration", name=key),
-        ]
+        yield from (Output("velocity", key), Output("acceleration", key))
     for group in page.dyads:
-        rows = [f"m:{group.name}"]
-        found.append(_signal(rows[0], "row", rows, "angle", "transmission", name=group.name))
-    return found
+        yield Output("transmission_angle", group.name)
 
 
-def _forces(page: PagePrograms) -> list[Plain]:
-    found = []
+def _forces(page: PagePrograms) -> Iterator[Output]:
     for name in page.traced.forces.forces.efforts:
-        turning = page.mechanism.drivers[name].joint not in page.mechanism.guides
-        word, kind = ("input_torque", "torque") if turning else ("input_force", "force")
-        one = len(page.mechanism.drivers) == 1
-        found.append(
-            _signal(f"effort:{name}", "row", [f"effort:{name}"], kind, word if one else "effort", name=name)
-        )
+        yield Output("effort", name, slides=page.mechanism.drivers[name].joint in page.mechanism.guides)
     stored = {(joint, link) for joint, link, _ in page.traced.forces.outputs.reaction_keys()}
     for joint, link in reaction_pairs(page.mechanism):
         if (joint, link) in stored:
-            rows = _pair("r", f"{joint}|{link}")
-            found.append(
-                _signal(f"r:{joint}|{link}", "size", rows, "force", "reaction", joint=joint, link=link)
-            )
-    found.append(_signal("shake", "size", ["shake.x", "shake.y"], "force", "shaking_force"))
-    return found
+            yield Output("reaction", joint, on=link)
+    yield Output("shaking_force")
 
 
-def numbers(page: PagePrograms, known: list[Plain]) -> list[Plain]:
+def numbers(page: PagePrograms, known: Mapping[Output, Plain]) -> list[Plain]:
     """Design numbers over the whole cycle; ``kind`` says how one follows from a signal."""
-    by_id = {each["id"]: each for each in known}
     found = []
     rotating = _one_steady_turn(page)
     for output in mechanism_outputs(page.mechanism) if page.motion.positions.count > 1 else ():
         angle = output.kind == "angle"
-        signal = by_id[f"angle:{output.owner}" if angle else f"s:{output.owner}"]
         if angle and _turns(page, output.owner):
             continue
-        word = "swing" if angle else "stroke"
-        found.append(_number("range", signal, _said(word, name=output.owner)))
+        found.append(
+            _number("range", known[output], _said("swing" if angle else "stroke", name=output.owner))
+        )
         if rotating:
-            found.append(_number("ratio", signal, _said("ratio", name=output.owner), "ratio"))
-    for each in known:
-        if each["id"].startswith("m:"):
-            found.append(_number("least", each, _within("least", each)))
-        elif each["id"].startswith("effort:"):
-            found += [
-                _number("largest", each, _within("largest", each)),
-                _number("rms", each, _within("rms", each)),
-            ]
-        elif each["id"].startswith("r:") or each["id"] == "shake":
-            found.append(_number("largest", each, _within("largest", each)))
+            found.append(_number("ratio", known[output], _said("ratio", name=output.owner), "ratio"))
+    for output, signal in known.items():
+        found += [_number(kind, signal, _within(kind, signal)) for kind in _NUMBERS.get(output.kind, ())]
     return found
 
 
@@ -132,19 +114,13 @@ def _one_steady_turn(page: PagePrograms) -> bool:
     return page.motion.positions.rotary[drivers[0].name] and abs(span - 6.283185307179586) < 1e-9
 
 
-def usual_curves(page: PagePrograms, known: list[Plain]) -> list[str]:
+def usual_curves(page: PagePrograms, known: Mapping[Output, Plain]) -> list[str]:
     """The curves that a page opens with: motion of an output, effort, largest reaction, transmission angle."""
-    ids = [each["id"] for each in known]
-    outputs = mechanism_outputs(page.mechanism)
-    wanted: list[str] = []
-    for output in outputs[-1:]:
-        prefixes = ("angle", "w", "g") if output.kind == "angle" else ("s", "sv", "sa")
-        wanted += [f"{prefix}:{output.owner}" for prefix in prefixes]
-    wanted += [each for each in ids if each.startswith("effort:")][:1]
-    wanted += [each for each in ids if each.startswith("m:")][-1:]
-    wanted += [each for each in ids if each.startswith("r:")][:1]
-    wanted = [each for each in wanted if each in ids]
-    return (wanted or ids)[:6]
+    wanted = [each for output in mechanism_outputs(page.mechanism)[-1:] for each in output.course]
+    for kind, place in (("effort", 0), ("transmission_angle", -1), ("reaction", 0)):
+        wanted += [each for each in known if each.kind == kind][place:][:1]
+    wanted = [each for each in wanted if each in known]
+    return [known[each]["id"] for each in (wanted or known)][:6]
 
 
 def point_keys(page: PagePrograms) -> list[Plain]:

@@ -15,7 +15,7 @@ WORDS = {
     "input_force": "input force",
     "reaction": "reaction at {joint} on {link}",
     "shaking_force": "shaking force",
-    "transmission": "transmission angle of {name}",
+    "transmission_angle": "transmission angle of {name}",
     "swing": "swing angle of {name}",
     "stroke": "stroke at {name}",
     "ratio": "quick-return ratio of {name}",

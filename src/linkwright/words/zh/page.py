@@ -15,7 +15,7 @@ WORDS = {
     "input_force": "输入力",
     "reaction": "{joint}处对{link}的约束反力",
     "shaking_force": "振动力",
-    "transmission": "{name}的传动角",
+    "transmission_angle": "{name}的传动角",
     "swing": "{name}的摆角",
     "stroke": "{name}处的行程",
     "ratio": "{name}的行程速比系数",
