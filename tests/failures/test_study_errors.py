@@ -38,7 +38,7 @@ def said(call: Callable[[], Any]) -> str:
         ({"coupler.length": "2..3 m:0"}, ["whole number"]),
         ({"coupler.length": "2..3 m:many"}, ["whole number"]),
         ({"coupler.length": "2..3 mn"}, ["mn"]),
-        ({"coupler.length": "-2..3 m:3"}, ["coupler.length", "positive"]),
+        ({"coupler.length": "-2..3 m:3"}, ["coupler.length", "above zero"]),
         ({"coupler.length": [1.0, float("nan")]}, ["coupler.length", "finite"]),
         ({"driver.start": "0..1 rad:3"}, ["driver.start", "positions of the input"]),
         ({}, ["nothing varies"]),

@@ -28,7 +28,10 @@ HEAD = "format: 1\nkind: tolerance\nmechanism: gallery:crank_rocker\n"
             "dimensions: {crank.length: 3 m}\nof: [rocker.angle range]\nlimits: {B.x max: {lower: 1 m}}",
             "not asked",
         ),
-        ("dimensions: {crank.length: 3 m}\nof: [rocker.angle range]", "a length must be positive"),
+        (
+            "dimensions: {crank.length: 3 m}\nof: [rocker.angle range]",
+            "give a length above zero",
+        ),
         (
             "clearances: {B: {clearance: 1 mm, on: rocker, kind: pressed}}\ncurves: [rocker.angle]",
             "carries no force",

@@ -134,16 +134,25 @@ def test_dimensions_that_are_expressions_follow_their_parameters() -> None:
     assert free.dimension("crank.length") == 1.0
 
 
-def test_changes_that_make_no_sense_are_refused() -> None:
-    mechanism = loads(BLOCK)
-    for changes in (
-        {"crank.length": -1.0},
-        {"crank.length": math.nan},
-        {"crank.mass": -1.0},
-        {"crank.lenth": 1.0},
-    ):
-        with pytest.raises(LinkwrightError):
-            mechanism.with_dimensions(changes)
+@pytest.mark.parametrize(
+    ("address", "value", "words"),
+    [
+        ("crank.length", -1.0, "give a length above zero"),
+        ("crank.length", math.nan, "finite"),
+        ("crank.mass", -1.0, "give a mass of zero or more"),
+        ("crank.lenth", 1.0, 'did you mean "crank.length"'),
+        ("loads.s.stiffness", -1.0, "give a stiffness of zero or more"),
+        ("loads.s.free_length", -0.1, "give a length of zero or more"),
+        ("A.pin_radius", 0.0, "give a length above zero"),
+        ("cycle.duration", 0.0, "give a time above zero"),
+        ("gravity.z", 1.0, "gravity.y"),
+    ],
+)
+def test_changes_that_make_no_sense_are_refused(address: str, value: float, words: str) -> None:
+    spring = "loads: {s: {kind: spring, between: [A, O2], stiffness: 1 N/m}}"
+    more = f"joints: {{A: {{kind: revolute, pin_radius: 5 mm}}}}\ncycle: {{duration: 1 s}}\n{spring}"
+    with pytest.raises(LinkwrightError, match=words):
+        loads(f"{BLOCK}\n{more}\n").with_dimensions({address: value})
 
 
 def test_a_mechanism_can_be_pickled() -> None:

@@ -89,23 +89,17 @@ class Expression:
 
         Raises QuantityError where the result does not exist (a division by zero, the root of a negative number).
         """
+        value, problem = math.nan, "model.no_real_value"
         try:
             value = float(evaluate(self.tree, values, scalar_functions()))
         except ZeroDivisionError:
-            raise QuantityError(
-                Sentence("model.divides_by_zero", text=self.text),
-                Sentence("model.change_values"),
-                code="not-finite",
-            ) from None
+            problem = "model.divides_by_zero"
         except (ValueError, OverflowError, TypeError):
-            value = math.nan
-        if not math.isfinite(value):
-            raise QuantityError(
-                Sentence("model.no_real_value", text=self.text),
-                Sentence("model.change_values"),
-                code="not-finite",
-            )
-        return value
+            pass
+        if math.isfinite(value):
+            return value
+        remedy = Sentence("model.change_values")
+        raise QuantityError(Sentence(problem, text=self.text), remedy, code="not-finite")
 
     def derivatives(self, values: Mapping[str, Any], name: str, order: int = 1) -> list[Any]:
         """Exact derivatives of the orders 1 to ``order`` with respect to a free name, over arrays of the free names.
@@ -264,24 +258,20 @@ class _Parser:
             position = found.end()
         return [*tokens, ("end", "", len(self.text))]
 
-    def _error(self, message: str, remedy: str, column: int, code: str = "expression") -> ExpressionError:
-        return ExpressionError(message, remedy, self.text, column, code)
-
-    def _fault(self, key: str, column: int, code: str = "expression", **values: object) -> ExpressionError:
-        """The error ``model.KEY`` of the catalogue with its remedy ``model.KEY_do``."""
-        problem, remedy = (Sentence(f"model.{each}", **values) for each in (key, f"{key}_do"))
-        return self._error(problem, remedy, column, code)
+    def _fault(
+        self, key: str, column: int, code: str = "expression", remedy: str = "", **values: object
+    ) -> ExpressionError:
+        """The error ``model.KEY`` of the catalogue with its remedy, ``model.KEY_do`` where no other is given."""
+        told = remedy or Sentence(f"model.{key}_do", **values)
+        return ExpressionError(Sentence(f"model.{key}", **values), told, self.text, column, code)
 
     def whole(self) -> Node:
         tree = self._binary(0)
         kind, token, column = self.tokens[self.at]
         if kind != "end":
-            remedy = (
-                Sentence("model.write_factor_sign")
-                if kind in ("name", "number") or token == "("
-                else Sentence("model.remove_it")
-            )
-            raise self._error(Sentence("model.unexpected", token=token), remedy, column)
+            factor = kind in ("name", "number") or token == "("
+            remedy = Sentence("model.write_factor_sign" if factor else "model.remove_it")
+            raise self._fault("unexpected", column, remedy=remedy, token=token)
         return tree
 
     def _binary(self, binding: int) -> Node:
@@ -320,8 +310,8 @@ class _Parser:
             inner = self._binary(0)
             self._close(column)
             return inner
-        what = Sentence("model.ends_early") if kind == "end" else Sentence("model.unexpected", token=token)
-        raise self._error(what, Sentence("model.operand_needed"), column)
+        what, needed = "ends_early" if kind == "end" else "unexpected", Sentence("model.operand_needed")
+        raise self._fault(what, column, remedy=needed, token=token)
 
     def _close(self, opened: int) -> None:
         if self.tokens[self.at][1] != ")":
@@ -341,7 +331,7 @@ class _Parser:
             if name in self.variables:
                 raise self._fault("no_sign", place, token=token, name=name)
             error = units.unknown_unit(name)
-            raise self._error(error.message, error.remedy, place, "unknown-unit")
+            raise ExpressionError(error.message, error.remedy, self.text, place, "unknown-unit")
         factor, dimension = self._unit("rev" if turning else name)
         while self._joined_unit():
             sign = -1 if self.tokens[self.at][1] == "/" else 1
@@ -402,21 +392,13 @@ class _Parser:
         offer = nearest(name, [*self.variables, *CONSTANTS])
         known = tuple(sorted(self.variables, key=lambda each: (each.count("."), each))[:12])
         remedy = Sentence("model.define_it", known=known) if known else Sentence("model.define_none")
-        raise self._error(
-            Sentence("model.unknown_name", name=name),
-            Sentence("names.did_you_mean", offer=offer) if offer else remedy,
-            column,
-            "unknown-name",
-        )
+        if offer:
+            remedy = Sentence("names.did_you_mean", offer=offer)
+        raise self._fault("unknown_name", column, "unknown-name", remedy, name=name)
 
     def _call(self, name: str, column: int) -> Node:
         if name not in ARITY:
-            raise self._error(
-                Sentence("model.unknown_function", name=name),
-                offered(name, ARITY),
-                column,
-                "unknown-name",
-            )
+            raise self._fault("unknown_function", column, "unknown-name", offered(name, ARITY), name=name)
         self.at += 1
         arguments = [self._binary(0)]
         while self.tokens[self.at][1] == ",":

@@ -13,7 +13,8 @@ from linkwright.errors import LinkwrightError, QuantityError, RequestError
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.plot.force_names import carries
 from linkwright.registry import offered
-from linkwright.units import SI_UNITS, parse
+from linkwright.study.ranges import dimension_of
+from linkwright.units import DIMENSIONS, SI_UNITS, parse
 from linkwright.words.sentence import Sentence
 
 KEYS = ("vary", "ask", "at", "tolerance")
@@ -106,7 +107,8 @@ def _ranges(mechanism: Mechanism, given: Any) -> dict[str, tuple[float, float]]:
 
 
 def _limits(mechanism: Mechanism, address: str, value: float, given: Any) -> tuple[float, float]:
-    dimension = _dimension(mechanism, address)
+    kind = dimension_of(mechanism, address)
+    dimension = next((name for name, each in DIMENSIONS.items() if each == kind), "dimensionless")
     try:
         if isinstance(given, list | tuple) and len(given) == 2:
             low, high = (_quantity(f"vary.{address}", each, dimension) for each in given)
@@ -118,12 +120,6 @@ def _limits(mechanism: Mechanism, address: str, value: float, given: Any) -> tup
     if not -math.inf < low < high < math.inf:
         raise RequestError(Sentence("course.bad_range", address=address, text=str(given)))
     return low, high
-
-
-def _dimension(mechanism: Mechanism, address: str) -> str:
-    last = address.rpartition(".")[2]
-    known = {"mass": "mass", "inertia": "inertia", "speed": "angular_velocity", "angle": "angle"}
-    return known.get(last, "length")
 
 
 def _questions(sheet: Sheet, given: Any) -> tuple[Question, ...]:

@@ -99,6 +99,10 @@ class Driver:
     relative_to: str
     law: Law
 
+    def fields(self) -> Mapping[str, Field]:
+        """What a file may say about the driver's law."""
+        return self.law.fields(self.law.rotary)
+
     def dimensions(self) -> Mapping[str, float]:
         """Addresses of the driver's dimensions (``driver.speed``) with their SI values."""
         return {f"{self.name}.{name}": value for name, value in self.law.dimensions().items()}

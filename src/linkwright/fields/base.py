@@ -311,13 +311,8 @@ class TimeTable(Field):
             else drift / (abs(max(positions, key=abs)) or 1.0)
         )
         if way == "periodic" and abs(turns - (round(turns) if self.dimension == "angle" else 0)) > 1e-6:
-            reader.error(
-                node,
-                place,
-                Sentence("model.periodic_turns" if self.dimension == "angle" else "model.periodic_ends"),
-                Sentence("model.last_as_first"),
-                "table",
-            )
+            key = "periodic_turns" if self.dimension == "angle" else "periodic_ends"
+            reader.finding(node, place, key, "table", Sentence("model.last_as_first"))
             return None
         return TimeTableValues(times, positions, way)
 

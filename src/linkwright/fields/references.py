@@ -1,14 +1,17 @@
-"""Fields that refer to links, points and joints of the model by name."""
+"""Fields that name links and points of the model, or place points."""
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Mapping
-from dataclasses import field
-from typing import TYPE_CHECKING, Any
+from dataclasses import field, replace
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.core.dataclass import dataclass
-from linkwright.fields.base import Field, Schema, pair_schema, quantity_schema, written_quantity
+from linkwright.fields.base import Field, Quantities, Schema, pair_schema, quantity_schema, written_quantity
+from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Sequence
+from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.files.plain_reader import Place
@@ -62,24 +65,6 @@ class PointName(Field):
 
 
 @dataclass(frozen=True)
-class PointPair(Field):
-    """Two different points ``[P, Q]`` of the link that the field ``of`` names: the ray from P to Q."""
-
-    of: str
-
-    def read(
-        self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]
-    ) -> tuple[str, str] | None:
-        return reader.ray(node, place, given.get(self.of))
-
-    def shape(self) -> Schema:
-        return pair_schema(PointName(self.of).shape())
-
-    def written(self, value: Any) -> Any:
-        return list(value)
-
-
-@dataclass(frozen=True)
 class PointReference(Field):
     """A point of the mechanism: ``link.point``, or only ``point`` where the name leaves no doubt."""
 
@@ -95,33 +80,74 @@ class PointReference(Field):
 
 
 @dataclass(frozen=True)
-class PointReferences(Field):
-    """Two points of the mechanism, ``[link.point, point]``."""
+class Two(Field):
+    """Two different ones of a kind of references; ``form`` is an example, ``what`` they are: ``point``, ``link``."""
+
+    form: ClassVar[str]
+    what: ClassVar[str] = "point"
+
+    @property
+    @abstractmethod
+    def one(self) -> Field:
+        """The field of each."""
 
     def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
-        items = reader.items(node, place, 2, "[crank.A, O3]")
+        items = reader.items(node, place, 2, self.form)
         if items is None:
             return None
-        one = PointReference()
-        found = [one.read(reader, item, place.child(str(index)), given) for index, item in enumerate(items)]
-        return reader.two(node, place, found, "point")
+        a, b = (self.one.read(reader, item, place.child(str(k)), given) for k, item in enumerate(items))
+        if a is None or b is None or a != b:
+            return None if a is None or b is None else (a, b)
+        remedy = Sentence(f"model.two_{self.what}s")
+        reader.finding(node, place, f"both_{self.what}s", "reference", remedy, first=a)
+        return None
 
     def shape(self) -> Schema:
-        return pair_schema(PointReference().shape())
+        return pair_schema(self.one.shape())
 
     def written(self, value: Any) -> Any:
-        return [str(point) for point in value]
+        return [self.one.written(each) for each in value]
+
+
+@dataclass(frozen=True)
+class LinkNames(Two):
+    """Two different links [a, b]."""
+
+    form: ClassVar[str] = "[a, b]"
+    what: ClassVar[str] = "link"
+    one: ClassVar[Field] = LinkName()
+
+
+@dataclass(frozen=True)
+class PointReferences(Two):
+    """Two points of the mechanism, ``[link.point, point]``."""
+
+    form: ClassVar[str] = "[crank.A, O3]"
+    one: ClassVar[Field] = PointReference()
+
+
+@dataclass(frozen=True)
+class PointPair(Two):
+    """Two different points ``[P, Q]`` of the link that the field ``of`` names: the ray from P to Q."""
+
+    form: ClassVar[str] = "[P, Q]"
+    of: str
+
+    @property
+    def one(self) -> Field:
+        return PointName(self.of)
 
 
 @dataclass(frozen=True)
 class Direction(Field):
     """A direction in the axes of the link that the field ``of`` names: an angle, or two points [P, Q] of it."""
 
+    dimension: ClassVar[str] = "angle"
     of: str = "guide"
 
     def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
         if isinstance(node, Sequence):
-            return reader.ray(node, place, given.get(self.of))
+            return PointPair(self.of).read(reader, node, place, given)
         return reader.quantity(node, place, "angle")
 
     def shape(self) -> Schema:
@@ -132,19 +158,51 @@ class Direction(Field):
         return written_quantity(value, "angle") if isinstance(value, float) else list(value)
 
 
+#: The coordinates of a point, m.
+PLACE = Quantities("length", ("x", "y"))
+
+
 @dataclass(frozen=True)
-class LinkNames(Field):
-    """Two different links [a, b]."""
+class Coordinates(Field):
+    """Points with their coordinates: ``{A: [0 m, 0 m], B: …}``, whose addresses leave out the key."""
 
     def read(
         self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]
-    ) -> tuple[str, str] | None:
-        items = reader.items(node, place, 2, "[a, b]")
-        if items is None:
+    ) -> dict[str, tuple[float, float] | None] | None:
+        mapping = reader.mapping(node, place)
+        if mapping is None:
             return None
-        return reader.two(
-            node, place, [LinkName().read(reader, item, place, given) for item in items], "link"
-        )
+        owner = replace(place, address=place.address.rpartition(".")[0])
+        found: dict[str, tuple[float, float] | None] = {}
+        for entry in mapping.entries:
+            name = reader.name(entry.key, owner.child(entry.key.text), "point")
+            if name is not None:
+                found[name] = PLACE.read(reader, entry.value, owner.child(name), {})  # type: ignore[assignment]
+        return found
 
     def shape(self) -> Schema:
-        return pair_schema(LinkName().shape())
+        return {"type": "object", "additionalProperties": PLACE.shape()}
+
+
+@dataclass(frozen=True)
+class LinkPoints(Field):
+    """The points of a link: a list of names, or a mapping of names to coordinates in the link's axes."""
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
+        if isinstance(node, MappingNode):
+            return Coordinates().read(reader, node, place, given)
+        if not isinstance(node, Sequence):
+            reader.items(node, place, None, "[A, B]")
+            return None
+        names: dict[str, None] = {}
+        for index, item in enumerate(node.items):
+            name = reader.name(item, place.child(str(index)), "point")
+            if name in names:
+                reader.finding(item, place, "point_twice", "duplicate", name=name)
+            elif name is not None:
+                names[name] = None
+        return list(names)
+
+    def shape(self) -> Schema:
+        names: Schema = {"type": "array", "items": {"type": "string"}, "minItems": 1}
+        return {"anyOf": [names, Coordinates().shape()]}

@@ -72,36 +72,17 @@ class Model:
         self._section("joints", name, {"kind": kind, **_present(**fields)})
 
     def drive(
-        self,
-        link: str,
-        *,
-        about: str,
-        relative_to: str | None = None,
-        name: str = "driver",
-        speed: Value | None = None,
-        start: Value | None = None,
-        position: str | None = None,
-        table: Mapping[str, Any] | None = None,
+        self, link: str, *, about: str, relative_to: str | None = None, name: str = "driver", **law: Any
     ) -> None:
-        """Turn a link about a pin: by constant ``speed`` (rad/s), an expression ``position``, or a
-        ``table``."""
-        law = _present(relative_to=relative_to, speed=speed, start=start, position=position, table=table)
-        self._section("drivers", name, {"turn": link, "about": about, **law})
+        """Turn a link about a pin by a law, by its keys in a file: constant ``speed`` (rad/s) from ``start`` (rad),
+        an expression ``position``, a ``table``."""
+        given = _present(relative_to=relative_to, **law)
+        self._section("drivers", name, {"turn": link, "about": about, **given})
 
-    def slide(
-        self,
-        joint: str,
-        *,
-        name: str = "driver",
-        speed: Value | None = None,
-        start: Value | None = None,
-        position: str | None = None,
-        table: Mapping[str, Any] | None = None,
-    ) -> None:
-        """Drive a prismatic joint: by constant ``speed`` (m/s), an expression ``position``, or a
-        ``table``."""
-        law = _present(speed=speed, start=start, position=position, table=table)
-        self._section("drivers", name, {"slide": joint, **law})
+    def slide(self, joint: str, *, name: str = "driver", **law: Any) -> None:
+        """Drive a prismatic joint by a law, by its keys in a file: constant ``speed`` (m/s) from ``start`` (m),
+        an expression ``position``, a ``table``."""
+        self._section("drivers", name, {"slide": joint, **_present(**law)})
 
     def assemble(self, **modes: str) -> None:
         """Assembly modes: joint name = left, right, forward or backward."""

@@ -146,10 +146,9 @@ def _missing_inertias(reader: Reader, root: MappingNode, mechanism: Mechanism) -
         node = _link_node(root, name)
         if not isinstance(node, MappingNode) or name in sliding or not link.mass or node.get("inertia"):
             continue
-        message = Sentence("model.no_inertia", link=name, mass=number(link.mass, 6))
-        remedy = Sentence("model.add_inertia")
-        at = node.get("mass") or node
-        reader.error(at, f"links.{name}.inertia", message, remedy, "no-inertia", severity="warning")
+        at, remedy, mass = node.get("mass") or node, Sentence("model.add_inertia"), number(link.mass, 6)
+        reader.finding(at, f"links.{name}.inertia", "no_inertia", "no-inertia", remedy, severity="warning",
+                       link=name, mass=mass)  # fmt: skip
 
 
 def _sliding(mechanism: Mechanism) -> set[str]:

@@ -96,15 +96,16 @@ class PlainReader:
         place: Place | str,
         key: str,
         code: str,
+        remedy: str = "",
         /,
         *,
         severity: Severity = "error",
         **values: object,
     ) -> None:
-        """Note a finding of the catalogue at a node: the problem ``model.KEY`` and its remedy ``model.KEY_do``, both
-        with the same ``values``."""
-        problem, remedy = (Sentence(f"model.{each}", **values) for each in (key, f"{key}_do"))
-        self.error(node, place, problem, remedy, code, severity=severity)
+        """Note a finding of the catalogue at a node: the problem ``model.KEY`` and its remedy, ``model.KEY_do`` with
+        the same ``values`` where no other is given."""
+        told = remedy or Sentence(f"model.{key}_do", **values)
+        self.error(node, place, Sentence(f"model.{key}", **values), told, code, severity=severity)
 
     def where(self, node: Node | None, column: int = 0) -> str:
         """The place of a node as ``file:line:column``."""
@@ -124,12 +125,8 @@ class PlainReader:
     def items(self, node: Node, place: Place | str, count: int | None, form: str) -> list[Node] | None:
         """The items of a list, of a given count where there is one; ``form`` is an example."""
         if not isinstance(node, Sequence):
-            self.error(
-                node,
-                place,
-                Sentence("model.where_list", node=noun(node)),
-                Sentence("model.write_as", form=form),
-                "type",
+            self.finding(
+                node, place, "where_list", "type", Sentence("model.write_as", form=form), node=noun(node)
             )
             return None
         if count is None or len(node.items) == count:
@@ -138,9 +135,7 @@ class PlainReader:
         comma = len(texts) > count and any(re.fullmatch(r"[+-]?\d+", text) and text != "0" for text in texts)
         remedy = Sentence("model.decimal_points" if comma else "model.write_as", form=form)
         code = "decimal-comma" if comma else "count"
-        self.error(
-            node, place, Sentence("model.value_count", given=len(node.items), count=count), remedy, code
-        )
+        self.finding(node, place, "value_count", code, remedy, given=len(node.items), count=count)
         return None
 
     def text(self, node: Node, place: Place | str) -> str | None:
@@ -165,13 +160,8 @@ class PlainReader:
         text = self.text(node, place)
         if text is None or text in choices:
             return text
-        self.error(
-            node,
-            place,
-            Sentence("model.unknown_word", text=text),
-            listed(text, choices, "one_of"),
-            "unknown-word",
-        )
+        remedy = listed(text, choices, "one_of")
+        self.finding(node, place, "unknown_word", "unknown-word", remedy, text=text)
         return None
 
     def of_kind(
@@ -207,8 +197,7 @@ class PlainReader:
             each = fields[name]
             if value is None and each.required:
                 remedy = missing_remedy(key, each.doc, each.shape())
-                problem = Sentence("model.missing_key", key_=key)
-                self.error(mapping, place.child(key), problem, remedy, "missing-key")
+                self.finding(mapping, place.child(key), "missing_key", "missing-key", remedy, key_=key)
             elif value is not None:
                 reader = cast("Reader", self)
                 found[name] = None if key in split else each.read(reader, value, place.child(key), found)
@@ -230,18 +219,8 @@ class PlainReader:
                 split.add(before.key.text)
                 continue
             offer = nearest(key[:100], [each for each in known if each not in present] or known)
-            remedy = (
-                Sentence("names.near_known", offer=offer, names=tuple(known))
-                if offer
-                else Sentence("names.all_known", names=tuple(known))
-            )
-            self.error(
-                entry.key,
-                place.child(key),
-                Sentence("model.unknown_key", key_=key[:100]),
-                remedy,
-                "unknown-key",
-            )
+            remedy = Sentence(f"names.{'near' if offer else 'all'}_known", offer=offer, names=tuple(known))
+            self.finding(entry.key, place.child(key), "unknown_key", "unknown-key", remedy, key_=key[:100])
         return split
 
     def _comma(self, before: Entry, entry: Entry, place: Place) -> bool:

@@ -7,7 +7,7 @@ from functools import lru_cache
 from typing import Any
 
 from linkwright.drivers.base import LAWS, Driver, Law
-from linkwright.fields.base import Field, Quantity
+from linkwright.fields.base import Field
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node
 from linkwright.fields.references import LinkName
@@ -48,13 +48,8 @@ def read_drivers(reader: Reader, root: MappingNode, joints: Mapping[str, Joint])
     for entry in mapping.entries if mapping else []:
         name = reader.name(entry.key, f"drivers.{entry.key.text}", "driver")
         if name in reader.names.links or name in reader.names.joints:
-            reader.error(
-                entry.key,
-                f"drivers.{name}",
-                Sentence("model.name_taken", name=name),
-                Sentence("model.rename_driver"),
-                "duplicate",
-            )
+            remedy = Sentence("model.rename_driver")
+            reader.finding(entry.key, f"drivers.{name}", "name_taken", "duplicate", remedy, name=name)
         elif name is not None:
             _add(reader, found, joints, entry.value, name, Place(f"drivers.{name}", name))
     return found
@@ -147,13 +142,9 @@ def _revolute(
     owners = reader.names.pins[pin]
     if link not in owners:
         mine = [name for name, links in reader.names.pins.items() if link in links]
-        reader.error(
-            node.get("about"),
-            place.child("about"),
-            Sentence("model.no_pin_at", link=link, pin=pin),
-            Sentence("model.its_pins", pins=tuple(mine)) if mine else Sentence("model.no_pins"),
-            "reference",
-        )
+        remedy = Sentence("model.its_pins", pins=tuple(mine)) if mine else Sentence("model.no_pins")
+        at, key = node.get("about"), place.child("about")
+        reader.finding(at, key, "no_pin_at", "reference", remedy, link=link, pin=pin)
         return None
     rest = [owner for owner in owners if owner != link]
     if other is None:
@@ -164,13 +155,9 @@ def _revolute(
             )
             return None
     elif other not in rest:
-        reader.error(
-            node.get("relative_to"),
-            place.child("relative_to"),
-            Sentence("model.not_on_pin", other=other, pin=pin),
-            Sentence("names.one_of", names=tuple(rest)),
-            "reference",
-        )
+        remedy = Sentence("names.one_of", names=tuple(rest))
+        at, key = node.get("relative_to"), place.child("relative_to")
+        reader.finding(at, key, "not_on_pin", "reference", remedy, other=other, pin=pin)
         return None
     return pin, link, other
 
@@ -179,22 +166,12 @@ def _revolute(
 CYCLE_FORMS = (("duration",), ("from", "to"), ("turns",))
 
 
-def cycle_fields(across: str) -> dict[str, Field]:
-    """The keys of the section ``cycle``; ``across``: dimension of the first driver's coordinate."""
-    return {
-        "duration": Quantity("time", above=0, doc="time of one cycle"),
-        "from": Quantity(across, doc="first coordinate of the first driver"),
-        "to": Quantity(across, doc="last coordinate of the first driver"),
-        "turns": Quantity("dimensionless", above=0, doc="turns of the first driver"),
-    }
-
-
 def read_cycle(reader: Reader, node: Node | None, drivers: Mapping[str, Driver]) -> Cycle | None:
     """What one cycle is, if the file says so."""
     if node is None:
         return None
     before = reader.error_count
-    given = reader.table(node, Place("cycle", "cycle"), cycle_fields(reader.input_dimension()))
+    given = reader.table(node, Place("cycle", "cycle"), Cycle.fields(reader.input_dimension()))
     if given is None or reader.error_count > before:
         return None
     if set(given) not in map(set, CYCLE_FORMS):

@@ -6,82 +6,17 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from linkwright.core.dataclass import dataclass
-from linkwright.fields.base import Field, Quantities, Quantity, Schema
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar, Sequence
+from linkwright.fields.references import Coordinates
 from linkwright.files.plain_reader import NAME, Place
 from linkwright.files.reader import Reader
 from linkwright.mechanism.geometry import from_drawing
-from linkwright.mechanism.mechanism import Geometry, Link, Vec
+from linkwright.mechanism.mechanism import FRAME_FIELDS, LINK_FIELDS, Geometry, Link, Vec
 from linkwright.words.sentence import Sentence, together
 
 #: Links of a model, at most; more than that no machine has, and none is answered quickly.
 MOST_LINKS = 1000
-_PAIR = Quantities("length", ("x", "y"))
-
-
-@dataclass(frozen=True)
-class Coordinates(Field):
-    """Points with their coordinates: ``{A: [0 m, 0 m], B: …}``; ``in_address`` False for a key like
-    ``points``."""
-
-    def read(
-        self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]
-    ) -> dict[str, Vec | None] | None:
-        mapping = reader.mapping(node, place)
-        if mapping is None:
-            return None
-        key = place.key
-        owner = Place(key, place.address.rpartition(".")[0])
-        found: dict[str, Vec | None] = {}
-        for entry in mapping.entries:
-            name = reader.name(entry.key, owner.child(entry.key.text), "point")
-            if name is not None:
-                found[name] = _PAIR.read(reader, entry.value, owner.child(name), {})  # type: ignore[assignment]
-        return found
-
-    def shape(self) -> Schema:
-        return {"type": "object", "additionalProperties": _PAIR.shape()}
-
-
-@dataclass(frozen=True)
-class LinkPoints(Field):
-    """The points of a link: a list of names, or a mapping of names to coordinates in the link's axes."""
-
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
-        if isinstance(node, MappingNode):
-            return Coordinates().read(reader, node, place, given)
-        if not isinstance(node, Sequence):
-            reader.items(node, place, None, "[A, B]")
-            return None
-        names: dict[str, None] = {}
-        for index, item in enumerate(node.items):
-            name = reader.name(item, place.child(str(index)), "point")
-            if name in names:
-                reader.finding(item, place, "point_twice", "duplicate", name=name)
-            elif name is not None:
-                names[name] = None
-        return list(names)
-
-    def shape(self) -> Schema:
-        names: Schema = {"type": "array", "items": {"type": "string"}, "minItems": 1}
-        return {"anyOf": [names, Coordinates().shape()]}
-
-
-LINK_FIELDS: Mapping[str, Field] = {
-    "points": LinkPoints(required=True, doc="the link's points: [A, B], or {A: [x, y], …} in its own axes"),
-    "length": Quantity("length", above=0, doc="distance from the first point to the second"),
-    "lengths": Quantities("length", count=2, above=0, doc="bent link: first to second, first to third point"),
-    "angle": Quantity("angle", doc="bent link: angle from the first length to the second"),
-    "also": Coordinates(doc="further points, by coordinates in the link's axes"),
-    "mass": Quantity("mass", minimum=0, doc="mass (default 0)"),
-    "inertia": Quantity("inertia", minimum=0, doc="moment of inertia about the mass centre (default 0)"),
-    "mass_centre": Quantities("length", ("x", "y"), doc="mass centre in the link's axes (default: midway)"),
-}
-FRAME_FIELDS: Mapping[str, Field] = {
-    "points": Coordinates(required=True, doc="fixed points: {O1: [0 m, 0 m], …}"),
-}
 
 
 def legible(node: Node | None) -> bool:

@@ -7,12 +7,11 @@ import re
 from collections.abc import Mapping
 from dataclasses import replace
 from functools import partial
-from typing import Any
 
 from linkwright import units
 from linkwright.core import expressions
 from linkwright.errors import Finding, QuantityError
-from linkwright.fields.base import Count, Field, Free, Quantities, Text
+from linkwright.fields.base import Count, Field, Free, Text
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar
 from linkwright.files.check_mechanism import check_whole
@@ -23,7 +22,7 @@ from linkwright.files.read_links import legible, read_drawing, read_frame, read_
 from linkwright.files.reader import Reader
 from linkwright.loads.base import Load, read_load
 from linkwright.mechanism.drawing import Drawing
-from linkwright.mechanism.mechanism import Mechanism, Vec
+from linkwright.mechanism.mechanism import GRAVITY, Mechanism
 from linkwright.words.sentence import Sentence
 
 FORMAT = 1
@@ -40,7 +39,7 @@ HEADER: Mapping[str, Field] = {
     "report": Free(doc="title, own text, order of sections and more for the command report"),
     "course": Free(doc="what the command variants changes, within which limits, and what it asks"),
     "optimize": Free(doc="what varies, what is made least and what is kept, for the command optimize"),
-    "gravity": Quantities("acceleration", ("x", "y"), doc="gravity in frame axes", form="[0, -9.81 m/s²]"),
+    "gravity": GRAVITY,
 }
 SECTIONS = (
     *HEADER, "parameters", "frame", "links", "joints", "assembly", "drawing", "driver", "drivers", "cycle", "loads",
@@ -57,13 +56,11 @@ def read_model(root: Node, source: str, *, si: bool = False) -> tuple[Mechanism 
         return None, reader.findings
     kind = mapping.get("kind")
     if isinstance(kind, Scalar) and mapping.get("links") is None:
-        message = Sentence("model.no_mechanism", kind=kind.text)
-        reader.error(kind, "kind", message, Sentence("model.calculations"), "kind")
+        reader.finding(kind, "kind", "no_mechanism", "kind", Sentence("model.calculations"), kind=kind.text)
         return None, reader.findings
     task = mapping.get("synthesis")
     if task is not None and mapping.get("frame") is None and mapping.get("links") is None:
-        message = Sentence("model.task_alone")
-        reader.error(task, "synthesis", message, Sentence("model.synthesize"), "kind")
+        reader.finding(task, "synthesis", "task_alone", "kind", Sentence("model.synthesize"))
         return None, reader.findings
     try:
         mechanism = _sections(reader, mapping, source)
@@ -94,7 +91,7 @@ def _sections(reader: Reader, root: MappingNode, source: str) -> Mechanism:
         source=header.get("source") or "",
         assembly=_assembly(reader, root.get("assembly")),
         drawing=drawn,
-        gravity=_gravity(header),
+        gravity=header.get("gravity") or (0.0, 0.0),
         loads=_loads(reader, root.get("loads")),
         cycle=read_cycle(reader, root.get("cycle"), drivers),
         parameters=parameters,
@@ -125,11 +122,6 @@ def _report(
 def _only(root: MappingNode, fields: Mapping[str, Field]) -> MappingNode:
     kept = [entry for entry in root.entries if entry.key.text in fields]
     return MappingNode(root.line, root.column, root.start, root.end, kept, root.flow)
-
-
-def _gravity(header: Mapping[str, Any]) -> Vec:
-    given = header.get("gravity")
-    return (0.0, 0.0) if given is None else (given[0], given[1])
 
 
 def _scan(reader: Reader, root: MappingNode) -> None:
@@ -166,21 +158,13 @@ def _parameter(reader: Reader, key: Node, node: Node, place: Place, waiting: set
     name = place.address
     reserved = {*expressions.CONSTANTS, *expressions.FUNCTIONS, "t", "input"}
     if not re.fullmatch(r"[^\W\d]\w*", name) or name in reserved:
-        what = Sentence("model.reserved" if name in reserved else "model.no_word")
-        reader.error(
-            key,
-            place,
-            Sentence("model.bad_parameter", name=name, what=what),
-            Sentence("model.rename_first", first=name[:1])
-            if name in reserved
-            else Sentence("model.rename_l"),
-            "name",
-        )
+        what, remedy = Sentence("model.no_word"), Sentence("model.rename_l")
+        if name in reserved:
+            what, remedy = Sentence("model.reserved"), Sentence("model.rename_first", first=name[:1])
+        reader.finding(key, place, "bad_parameter", "name", remedy, name=name, what=what)
         return None
     if name in {*reader.names.links, *reader.names.joints} - set(reader.names.pins):
-        reader.error(
-            key, place, Sentence("model.name_taken", name=name), Sentence("model.rename_one"), "duplicate"
-        )
+        reader.finding(key, place, "name_taken", "duplicate", Sentence("model.rename_one"), name=name)
         return None
     text = reader.quantity_text(node, place, "1.25 m")
     if text is None:

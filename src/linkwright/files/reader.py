@@ -7,7 +7,7 @@ from collections import ChainMap
 from collections.abc import Iterator, MutableMapping
 from contextlib import contextmanager
 from dataclasses import field
-from typing import Literal, TypeVar
+from typing import Literal
 
 from linkwright import units
 from linkwright.core import expressions
@@ -24,7 +24,6 @@ from linkwright.joints.base import JOINTS
 from linkwright.registry import listed, nearest
 from linkwright.words.sentence import Sentence
 
-T = TypeVar("T")
 #: A name with dots in a text; superscripts belong to units.
 _WORD = re.compile(r"(?![⁰¹²³⁴⁵⁶⁷⁸⁹])[^\W\d](?:(?![⁰¹²³⁴⁵⁶⁷⁸⁹])[\w'-])*(?:\.[^\W\d][\w'-]*)*")
 
@@ -237,12 +236,8 @@ class Reader(PlainReader):
                 self.finding(node, place, "lone_pin", "unknown-name", name=name, owner=owners[0])
             return False
         noun_of = what if isinstance(what, Sentence) else Sentence(f"nouns.{what}")
-        self.error(
-            node,
-            place,
-            Sentence("model.no_such", what=noun_of, name=name),
-            listed(name, candidates),
-            "unknown-name",
+        self.finding(
+            node, place, "no_such", "unknown-name", listed(name, candidates), what=noun_of, name=name
         )
         return False
 
@@ -265,29 +260,6 @@ class Reader(PlainReader):
             )
             return False
         return self.known(node, place, Sentence("model.point_on", link=link), name, points)
-
-    def ray(self, node: Node, place: Place, link: str | None) -> tuple[str, str] | None:
-        """Two different points [P, Q] of a link."""
-        items = self.items(node, place, 2, "[P, Q]")
-        if items is None:
-            return None
-        names = [self.text(item, place) for item in items]
-        if link is not None:
-            for item, name in zip(items, names, strict=True):
-                if name is not None and not self.point_of(item, place, name, link):
-                    return None
-        return self.two(node, place, names, "point")
-
-    def two(self, node: Node, place: Place, found: list[T | None], what: str) -> tuple[T, T] | None:
-        """Two different ones of a kind, ``point`` or ``link``; None after a finding."""
-        first, second = found
-        if first is None or second is None:
-            return None
-        if first == second:
-            problem, remedy = Sentence(f"model.both_{what}s", first=first), Sentence(f"model.two_{what}s")
-            self.error(node, place, problem, remedy, "reference")
-            return None
-        return first, second
 
     def link_point(self, node: Node, place: Place, text: str) -> LinkPoint | None:
         """A point of the mechanism: ``link.point``, or ``point`` where it is one place."""
@@ -321,15 +293,10 @@ class Reader(PlainReader):
         names = [*self.names.links, *self.names.sliding]
         points = dict.fromkeys(f"{point}.x" for points in self.names.links.values() for point in points)
         offer = nearest(text, [*(name for name in names if name != "frame"), *points])
-        self.error(
-            node,
-            place,
-            Sentence("model.no_output", text=text),
-            Sentence("model.names_an_output", hint=Sentence("names.did_you_mean", offer=offer))
-            if offer
-            else Sentence("model.output_forms"),
-            "unknown-name",
-        )
+        remedy = Sentence("model.output_forms")
+        if offer:
+            remedy = Sentence("model.names_an_output", hint=Sentence("names.did_you_mean", offer=offer))
+        self.finding(node, place, "no_output", "unknown-name", remedy, text=text)
         return None
 
     def over(self, node: MappingNode, place: Place) -> tuple[Literal["input", "time"] | Output | None, str]:

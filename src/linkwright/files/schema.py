@@ -7,45 +7,34 @@ from dataclasses import replace
 
 from linkwright.drivers.base import LAWS
 from linkwright.fields.base import Field, Schema, Word, table_schema
-from linkwright.files.read_drivers import CYCLE_FORMS, SLIDE_FIELDS, TURN_FIELDS, cycle_fields
-from linkwright.files.read_links import FRAME_FIELDS, LINK_FIELDS, Coordinates
-from linkwright.files.read_model import HEADER, WORDS
+from linkwright.fields.references import Coordinates
+from linkwright.files.read_drivers import CYCLE_FORMS, SLIDE_FIELDS, TURN_FIELDS
+from linkwright.files.read_model import FORMAT, HEADER, WORDS
 from linkwright.joints.base import JOINTS
 from linkwright.loads.base import LOADS
+from linkwright.mechanism.mechanism import FRAME_FIELDS, LINK_FIELDS, Cycle
 
-#: Version of the format of model files.
-FORMAT = 1
 _NAME_PATTERN = r"^[^\W\d][\w'-]*$"
 
 
 def json_schema() -> Schema:
     """JSON Schema (2020-12) of a model file: every section, joint kind, driver law and registered load
     kind."""
-    properties: Schema = {name: each.schema() for name, each in HEADER.items()}
-    properties |= {
-        "parameters": {
-            **_named({"type": ["string", "number"]}),
-            "description": "named quantities for expressions",
-        },
-        "frame": {**table_schema(FRAME_FIELDS), "description": "the fixed link"},
-        "links": {
-            **_named(table_schema(LINK_FIELDS)),
-            "description": "the moving links; shared point names are pins",
-        },
-        "joints": {**_named({"oneOf": _joints()}), "description": "guides, welds, and attributes of pins"},
-        "assembly": {**_named({"enum": list(WORDS)}), "description": "assembly mode by inner joint"},
-        "drawing": {
-            **Coordinates().shape(),
-            "description": "coordinates of the assembled drawing, in frame axes",
-        },
-        "driver": {"oneOf": _drivers(), "description": "the one driver"},
-        "drivers": {**_named({"oneOf": _drivers()}), "description": "several drivers by name"},
-        "cycle": _cycle(),
-        "loads": {
-            **_named({"oneOf": [load.schema() for load in LOADS.values()]}),
-            "description": "loads by name",
-        },
+    drivers = {"oneOf": _drivers()}
+    sections: dict[str, tuple[Schema, str]] = {
+        "parameters": (_named({"type": ["string", "number"]}), "named quantities for expressions"),
+        "frame": (table_schema(FRAME_FIELDS), "the fixed link"),
+        "links": (_named(table_schema(LINK_FIELDS)), "the moving links; shared point names are pins"),
+        "joints": (_named({"oneOf": _joints()}), "guides, welds, and attributes of pins"),
+        "assembly": (_named({"enum": list(WORDS)}), "assembly mode by inner joint"),
+        "drawing": (Coordinates().shape(), "coordinates of the assembled drawing, in frame axes"),
+        "driver": (drivers, "the one driver"),
+        "drivers": (_named(drivers), "several drivers by name"),
+        "cycle": (_cycle(), "what one cycle is (default: one turn of the driver)"),
+        "loads": (_named({"oneOf": [load.schema() for load in LOADS.values()]}), "loads by name"),
     }
+    properties = {name: each.schema() for name, each in HEADER.items()}
+    properties |= {name: {**shape, "description": doc} for name, (shape, doc) in sections.items()}
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "$id": f"urn:linkwright:model:{FORMAT}",
@@ -80,10 +69,6 @@ def _drivers() -> list[Schema]:
 
 
 def _cycle() -> Schema:
-    fields = cycle_fields("angle")
+    fields = Cycle.fields("angle")
     forms = [{key: replace(fields[key], required=True) for key in form} for form in CYCLE_FORMS]
-    return {
-        "type": "object",
-        "oneOf": [table_schema(form) for form in forms],
-        "description": "what one cycle is (default: one turn of the driver)",
-    }
+    return {"type": "object", "oneOf": [table_schema(form) for form in forms]}

@@ -8,12 +8,11 @@ from collections.abc import Mapping
 from typing import Any
 
 from linkwright.drivers.base import Driver
-from linkwright.fields.base import written_quantity
-from linkwright.files.read_links import LINK_FIELDS
+from linkwright.fields.references import PLACE
 from linkwright.files.read_model import KEPT
 from linkwright.joints.base import IMPLIED, Joint
 from linkwright.mechanism.geometry import STRUCTURAL_POINTS, from_drawing
-from linkwright.mechanism.mechanism import Link, Mechanism, Vec
+from linkwright.mechanism.mechanism import GRAVITY, LINK_FIELDS, Cycle, Link, Mechanism, Vec
 from linkwright.units import NONE, number, si_symbol
 
 Plain = dict[str, Any]
@@ -36,26 +35,19 @@ def to_data(mechanism: Mechanism) -> Plain:
     data["parameters"] = {
         name: texts.get(name) or _parameter(mechanism, name) for name in mechanism.parameters
     }
-    data["frame"] = {"points": _points(mechanism.frame, texts)}
+    data["frame"] = {"points": _substituted(_places(mechanism.frame.points), "frame", texts)}
     drawn = {**mechanism.frame.points, **mechanism.drawing}
     data["links"] = {name: _link(link, texts, drawn) for name, link in mechanism.links.items()}
-    data["joints"] = {
-        name: found for name, joint in mechanism.joints.items() if (found := _joint(joint, texts))
-    }
+    joints = {name: _joint(joint, texts) for name, joint in mechanism.joints.items()}
+    data["joints"] = {name: found for name, found in joints.items() if found}
     data["assembly"] = dict(mechanism.assembly)
-    data["drawing"] = {name: [_length(x), _length(y)] for name, (x, y) in mechanism.drawing.items()}
+    data["drawing"] = _places(mechanism.drawing)
     data |= _drivers(mechanism.drivers, texts)
-    cycle = mechanism.cycle.dimensions() if mechanism.cycle else {}
-    values = {
-        address.removeprefix("cycle."): _cycle_value(mechanism, address, value)
-        for address, value in cycle.items()
-    }
-    data["cycle"] = _substituted(values, "cycle", texts)
-    if mechanism.gravity != (0.0, 0.0) or "gravity.x" in texts or "gravity.y" in texts:
-        data["gravity"] = [
-            texts.get(f"gravity.{axis}") or written_quantity(value, "acceleration")
-            for axis, value in zip("xy", mechanism.gravity, strict=True)
-        ]
+    fields, cycle = Cycle.fields(mechanism.across), mechanism.cycle.dimensions() if mechanism.cycle else {}
+    said = {key: fields[key].written(cycle[f"cycle.{key}"]) for key in fields if f"cycle.{key}" in cycle}
+    data["cycle"] = _substituted(said, "cycle", texts)
+    gravity = _substituted(GRAVITY.written(mechanism.gravity), "gravity", texts)
+    data["gravity"] = [] if gravity == [0.0, 0.0] else gravity
     data["loads"] = {
         name: _substituted(load.written(), f"loads.{name}", texts) for name, load in mechanism.loads.items()
     }
@@ -68,39 +60,24 @@ def _parameter(mechanism: Mechanism, name: str) -> Any:
     return f"{number(value)} {symbol}" if symbol else value
 
 
-def _length(value: float) -> Any:
-    return written_quantity(value, "length")
-
-
-def _points(link: Link, texts: Mapping[str, str]) -> Plain:
-    return {point: _coordinates(f"{link.name}.{point}", place, texts) for point, place in link.points.items()}
-
-
-def _coordinates(address: str, place: Vec, texts: Mapping[str, str]) -> list[Any]:
-    return [texts.get(f"{address}.{axis}") or _length(value) for axis, value in zip("xy", place, strict=True)]
+def _places(points: Mapping[str, Vec]) -> Plain:
+    return {name: PLACE.written(place) for name, place in points.items()}
 
 
 def _link(link: Link, texts: Mapping[str, str], drawn: Mapping[str, Vec]) -> Plain:
-    points = _points(link, texts)
-    names = list(points)
+    points = _substituted(_places(link.points), link.name, texts)
     listed = _as_drawn(link, drawn) if link.geometry == "drawing" else STRUCTURAL_POINTS[link.geometry]
-    found: Plain = {"points": names[:listed] if listed else points}
-    name = link.name
+    sizes: Plain = {"lengths": link.lengths, "angle": link.angle} if link.geometry == "bent" else {}
     if link.geometry == "length":
-        found["length"] = texts.get(f"{name}.length") or _length(link.lengths[0])
-    if link.geometry == "bent":
-        found["lengths"] = [
-            texts.get(f"{name}.lengths.{i}") or _length(value) for i, value in enumerate(link.lengths)
-        ]
-        found["angle"] = texts.get(f"{name}.angle") or written_quantity(link.angle, "angle")
-    if listed and names[listed:]:
-        found["also"] = {point: points[point] for point in names[listed:]}
-    for key, value in (("mass", link.mass), ("inertia", link.inertia)):
-        if value or f"{name}.{key}" in texts:
-            found[key] = texts.get(f"{name}.{key}") or LINK_FIELDS[key].written(value)
-    if link.mass_centre is not None:
-        found["mass_centre"] = _coordinates(f"{name}.mass_centre", link.mass_centre, texts)
-    return found
+        sizes = {"length": link.lengths[0]}
+    given = {key: getattr(link, key) for key in ("mass", "inertia", "mass_centre")}
+    sizes |= {key: value for key, value in given.items() if value or f"{link.name}.{key}" in texts}
+    written = {key: LINK_FIELDS[key].written(value) for key, value in sizes.items()}
+    found = {"points": points, **_substituted(written, link.name, texts)}
+    if listed:
+        found["points"], rest = list(points)[:listed], list(points)[listed:]
+        found["also"] = {name: points[name] for name in rest}
+    return {key: found[key] for key in LINK_FIELDS if found.get(key, {}) != {}}
 
 
 def _as_drawn(link: Link, drawn: Mapping[str, Vec]) -> int:
@@ -116,15 +93,12 @@ def _as_drawn(link: Link, drawn: Mapping[str, Vec]) -> int:
 
 
 def _joint(joint: Joint, texts: Mapping[str, str]) -> Plain | None:
-    values, fields = joint.written(), joint.fields()
+    addresses = {key: f"{joint.name}.{key}" for key in joint.fields()}
+    given = {key: texts[address] for key, address in addresses.items() if address in texts}
+    values = {**joint.written(), **given}
     if not values and joint.kind == IMPLIED:
         return None
-    values |= {key: 0.0 for key in fields if f"{joint.name}.{key}" in texts}
-    written = {
-        key: value if isinstance(value, list | str) else fields[key].written(value)
-        for key, value in values.items()
-    }
-    return {"kind": joint.kind, **_substituted(written, joint.name, texts)}
+    return {"kind": joint.kind, **_substituted(values, joint.name, texts)}
 
 
 def _drivers(drivers: Mapping[str, Driver], texts: Mapping[str, str]) -> Plain:
@@ -144,14 +118,6 @@ def _driver(driver: Driver, texts: Mapping[str, str]) -> Plain:
     return {**way, **_substituted(written, driver.name, texts)}
 
 
-def _cycle_value(mechanism: Mechanism, address: str, value: float) -> Any:
-    first = next(iter(mechanism.drivers.values()), None)
-    across = "angle" if first is None or first.law.rotary else "length"
-    return written_quantity(
-        value, {"cycle.duration": "time", "cycle.turns": "dimensionless"}.get(address, across)
-    )
-
-
 def _substituted(value: Any, address: str, texts: Mapping[str, str]) -> Any:
     """Plain data with the values that were expressions replaced by their texts."""
     if address in texts:
@@ -159,7 +125,8 @@ def _substituted(value: Any, address: str, texts: Mapping[str, str]) -> Any:
     if isinstance(value, dict):
         return {key: _substituted(each, f"{address}.{key}", texts) for key, each in value.items()}
     if isinstance(value, list):
-        return [_substituted(each, f"{address}.{index}", texts) for index, each in enumerate(value)]
+        ends = "xy" if {f"{address}.x", f"{address}.y"} & texts.keys() else range(len(value))
+        return [_substituted(each, f"{address}.{end}", texts) for end, each in zip(ends, value, strict=True)]
     return value
 
 

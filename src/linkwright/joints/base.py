@@ -238,12 +238,12 @@ class Joint(ABC):
         return None
 
     def written(self) -> dict[str, Any]:
-        """Values of the keys that a file needs, as plain data or as numbers in SI: those that must be there, and
-        those that are neither zero nor the default."""
+        """Values of the keys that a file needs, as plain data: those that must be there, and those that are neither
+        zero nor the default."""
         usual = {each.name: each.default for each in fields(self)}
         values = {key: (field, getattr(self, key)) for key, field in self.fields().items()}
         return {
-            key: value
+            key: field.written(value)
             for key, (field, value) in values.items()
             if field.required or (value and value != usual[key])
         }

@@ -190,11 +190,10 @@ class CamJoint(HigherPair):
             report("base_radius", Sentence("joints.cam_reach"), Sentence("joints.cam_reach_remedy"))
 
     def written(self) -> dict[str, Any]:
-        found = super().written()
         if self.program is None:
-            return found
+            return super().written()
         program = ProgramField("angle" if self.side else "length", "angle").written(self.program)
-        return {**found, "program": program}
+        return {**replace(self, program=None).written(), "program": program}
 
     def dimensions(self) -> Mapping[str, float]:
         found = {"base_radius": self.base_radius, "phase": self.phase}

@@ -107,8 +107,10 @@ class PrismaticJoint(SlidingJoint):
         return True
 
     def written(self) -> dict[str, Any]:
-        points = self.direction_points
-        return {**super().written(), "direction": list(points) if points else self.direction}
+        return {
+            **super().written(),
+            "direction": Direction().written(self.direction_points or self.direction),
+        }
 
     # structure --------------------------------------------------------------------------------
     def constrain(self, graph: ConstraintGraph) -> None:

@@ -269,6 +269,8 @@ def whole(value: float) -> bool:
 class Numbers(Field):
     """Two whole numbers above zero."""
 
+    dimension: ClassVar[str] = "dimensionless"
+
     def read(self, reader: Reader, node: Any, place: Where, given: Mapping[str, Any]) -> Pair | None:
         items = reader.items(node, place, 2, "[20, 60]")
         if items is None:

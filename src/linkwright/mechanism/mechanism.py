@@ -12,7 +12,10 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.frozen import Frozen, FrozenDict, frozen
 from linkwright.drivers.base import Driver
 from linkwright.errors import LinkwrightError, RequestError
+from linkwright.fields.base import Field, Quantities, Quantity
+from linkwright.fields.references import PLACE, Coordinates, LinkPoints
 from linkwright.joints.base import Joint
+from linkwright.joints.lower import RigidJoint, SlidingJoint, TurningJoint
 from linkwright.loads.base import Load
 from linkwright.mechanism.geometry import (
     centre,
@@ -27,12 +30,26 @@ from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.core.expressions import Expression
-    from linkwright.joints.lower import RigidJoint, SlidingJoint, TurningJoint
-
 Vec = tuple[float, float]
 #: What has dimensions of its own.
 _SORTS = ("link", "joint", "driver", "load")
 Geometry = Literal["length", "bent", "coordinates", "drawing", "point"]
+
+LINK_FIELDS: Mapping[str, Field] = {
+    "points": LinkPoints(required=True, doc="the link's points: [A, B], or {A: [x, y], …} in its own axes"),
+    "length": Quantity("length", above=0, doc="distance from the first point to the second"),
+    "lengths": Quantities("length", count=2, above=0, doc="bent link: first to second, first to third point"),
+    "angle": Quantity("angle", doc="bent link: angle from the first length to the second"),
+    "also": Coordinates(doc="further points, by coordinates in the link's axes"),
+    "mass": Quantity("mass", minimum=0, doc="mass (default 0)"),
+    "inertia": Quantity("inertia", minimum=0, doc="moment of inertia about the mass centre (default 0)"),
+    "mass_centre": Quantities("length", ("x", "y"), doc="mass centre in the link's axes (default: midway)"),
+}
+FRAME_FIELDS: Mapping[str, Field] = {
+    "points": Coordinates(required=True, doc="fixed points: {O1: [0 m, 0 m], …}"),
+}
+
+GRAVITY = Quantities("acceleration", ("x", "y"), doc="gravity in frame axes", form="[0, -9.81 m/s²]")
 
 
 @dataclass(frozen=True)
@@ -55,6 +72,10 @@ class Link:
     mass: float = 0.0
     inertia: float = 0.0
     mass_centre: Vec | None = None
+
+    def fields(self) -> Mapping[str, Field]:
+        """What a file may say about the link."""
+        return FRAME_FIELDS if self.name == "frame" else LINK_FIELDS
 
     @property
     def centre(self) -> Vec:
@@ -117,6 +138,16 @@ class Cycle:
     end: float | None = None
     turns: float | None = None
 
+    @staticmethod
+    def fields(across: str) -> dict[str, Field]:
+        """The keys of the section ``cycle``; ``across``: dimension of the first driver's coordinate."""
+        return {
+            "duration": Quantity("time", above=0, doc="time of one cycle"),
+            "from": Quantity(across, doc="first coordinate of the first driver"),
+            "to": Quantity(across, doc="last coordinate of the first driver"),
+            "turns": Quantity("dimensionless", above=0, doc="turns of the first driver"),
+        }
+
     def dimensions(self) -> dict[str, float]:
         """Addresses (``cycle.duration``, ``cycle.from``, ``cycle.to``, ``cycle.turns``) with their SI
         values."""
@@ -167,6 +198,21 @@ class Mechanism(Frozen):
             raise self._unknown(address)
         return self._dimensions[address]
 
+    @property
+    def across(self) -> str:
+        """Dimension of the first driver's coordinate: ``angle``, or ``length``."""
+        return "angle" if all(each.law.rotary for each in list(self.drivers.values())[:1]) else "length"
+
+    def declared(self, address: str) -> Field | None:
+        """What a file may hold at the address of a dimension; None of a parameter, and where there is none."""
+        if address in ("gravity.x", "gravity.y"):
+            return GRAVITY
+        sort, name = self._owners.get(address, ("", "cycle"))
+        fields = self._elements[sort][name].fields() if sort else Cycle.fields(self.across)
+        key = address.removeprefix("loads.").removeprefix(f"{name}.").partition(".")[0]
+        found = (each for own, each in fields.items() if (each.key or own) == key)
+        return next(found, PLACE if sort == "link" else None)
+
     def dimensions(self) -> dict[str, float]:
         """All addresses with their SI values, named parameters under their own names."""
         return dict(self._dimensions)
@@ -175,8 +221,8 @@ class Mechanism(Frozen):
         """A new mechanism with changed SI values.
 
         Dimensions that are expressions of changed parameters follow; a changed dimension that was an
-        expression loses it. Raises LinkwrightError for an unknown address, a value that is not finite, a length that
-        is not positive, a negative mass or inertia, a value of a joint that a file may not give it either.
+        expression loses it. Raises LinkwrightError for an unknown address, a value that is not finite, and one that a
+        file may not give it either (a length that is not positive, a negative mass or stiffness).
         """
         known = self._dimensions
         new = known | {address: self._checked(address, value) for address, value in changes.items()}
@@ -241,26 +287,21 @@ class Mechanism(Frozen):
     @cached_property
     def pins(self) -> Mapping[str, TurningJoint]:
         """The joints about which links turn."""
-        from linkwright.joints.lower import TurningJoint
-
-        found = {name: joint for name, joint in self.joints.items() if isinstance(joint, TurningJoint)}
-        return FrozenDict(found)
+        return FrozenDict(
+            {name: each for name, each in self.joints.items() if isinstance(each, TurningJoint)}
+        )
 
     @cached_property
     def guides(self) -> Mapping[str, SlidingJoint]:
         """The joints along which blocks slide."""
-        from linkwright.joints.lower import SlidingJoint
-
-        found = {name: joint for name, joint in self.joints.items() if isinstance(joint, SlidingJoint)}
-        return FrozenDict(found)
+        return FrozenDict(
+            {name: each for name, each in self.joints.items() if isinstance(each, SlidingJoint)}
+        )
 
     @cached_property
     def welds(self) -> Mapping[str, RigidJoint]:
         """The joints that make one of two links."""
-        from linkwright.joints.lower import RigidJoint
-
-        found = {name: joint for name, joint in self.joints.items() if isinstance(joint, RigidJoint)}
-        return FrozenDict(found)
+        return FrozenDict({name: each for name, each in self.joints.items() if isinstance(each, RigidJoint)})
 
     def pin_links(self, name: str) -> tuple[str, ...]:
         """The links on the pin of that name; none where there is no such pin."""
@@ -326,14 +367,10 @@ class Mechanism(Frozen):
             raise RequestError(Sentence("model.set_not_finite", address=address, value=value))
         if abs(value) > LARGEST_OF_ALL:
             raise RequestError(Sentence("model.set_beyond", address=address, value=value))
-        last = address.split(".")[-2 if address.endswith((".0", ".1")) else -1]
-        owner = address.split(".", maxsplit=1)[0]
-        if owner in self.links and last in ("length", "lengths") and value <= 0:
-            raise RequestError(Sentence("model.set_length", address=address, value=value))
-        if owner in self.links and last in ("mass", "inertia") and value < 0:
-            raise RequestError(Sentence("model.set_negative", address=address, value=value))
         sort, name = self._owners.get(address, ("", ""))
-        limit = self.joints[name].limit(address, value) if sort == "joint" else None
+        held = self.joints[name].limit(address, value) if sort == "joint" else None
+        field = self.declared(address)
+        limit = held or (field and field.limit(value))
         if limit is not None:
             raise RequestError(Sentence("model.set_outside", address=address, value=value, limit=limit))
         return value

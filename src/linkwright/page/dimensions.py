@@ -83,8 +83,8 @@ def _dimension(document: Document, address: str, value: float, geometry: bool) -
     if span is None:
         unit = _usual(kind, value)
     factor = units.unit(unit)[0] if unit else 1.0
-    last = address.split(".")[-2 if address[-2:] in (".0", ".1") else -1]
-    positive = last in ("length", "lengths") and not address.startswith("loads.")
+    declared = mechanism.declared(address)
+    positive = declared is not None and all(declared.limit(each) is not None for each in (0.0, -1.0))
     return Dimension(address, value, unit, factor, span, positive, geometry)
 
 

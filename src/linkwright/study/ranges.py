@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,8 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from linkwright import units
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import QuantityError, RequestError
-from linkwright.fields.base import Field
-from linkwright.fields.signals import InputPhase
+from linkwright.fields.signals import PhaseField
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words.sentence import Sentence
 
@@ -23,16 +21,6 @@ Floats = NDArray[np.float64]
 USUAL_COUNT = 11
 _RANGE = re.compile(r"^(?P<low>.+?)\s*\.\.\s*(?P<high>.+?)(?:\s*:\s*(?P<count>[^:]+))?$")
 _QUANTITY = re.compile(r"^([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*)$")
-_LAST = {
-    "x": "length",
-    "y": "length",
-    "length": "length",
-    "lengths": "length",
-    "mass": "mass",
-    "inertia": "inertia",
-    "direction": "angle",
-    "teeth": "dimensionless",
-}
 
 
 @dataclass(frozen=True)
@@ -133,49 +121,12 @@ def _require_unit(mechanism: Mechanism, address: str, unit: str, text: str) -> N
 
 
 def dimension_of(mechanism: Mechanism, address: str) -> units.Dimension | None:
-    """The exponents of the dimension at an address; None where they cannot be told from its name."""
-    kinds: Mapping[str, units.Dimension] = mechanism.kinds
+    """The exponents of the dimension at an address; None where there is none."""
     if address in mechanism.parameters:
-        return kinds.get(address)
-    parts = address.split(".")
-    name = _owned(mechanism, parts)
-    if name is None:
-        last = parts[-2] if parts[-1] in ("0", "1") else parts[-1]
-        name = _LAST.get(last)
+        return mechanism.kinds.get(address)
+    found = mechanism.declared(address)
+    if isinstance(found, PhaseField):
+        name: str | None = mechanism.across
+    else:
+        name = getattr(found, "dimension", None)
     return None if name is None else units.DIMENSIONS[name]
-
-
-def _owned(mechanism: Mechanism, parts: list[str]) -> str | None:
-    """The dimension of a number of a joint, a driver, a load, the cycle or gravity; None for another one."""
-    if parts[0] == "gravity":
-        return "acceleration"
-    if parts[0] == "loads":
-        load = mechanism.loads[parts[1]]
-        phase = getattr(load, "phase", None)
-        if isinstance(phase, InputPhase) and parts[2] == "phase":
-            return phase.across
-        return _declared(load.fields(), parts[2])
-    joint = mechanism.joints.get(parts[0])
-    if joint is not None and ".".join(parts) in joint.dimensions():
-        return _declared(joint.fields(), parts[1])
-    driver = mechanism.drivers.get(parts[0])
-    if driver is None and parts[0] != "cycle":
-        return None
-    first = driver or next(iter(mechanism.drivers.values()))
-    turning = mechanism.joints[first.joint].coordinate == "turn"
-    travel, rate = ("angle", "angular_velocity") if turning else ("length", "velocity")
-    kinds = {
-        "speed": rate,
-        "start": travel,
-        "from": travel,
-        "to": travel,
-        "duration": "time",
-        "turns": "dimensionless",
-    }
-    return kinds.get(parts[1])
-
-
-def _declared(fields: Mapping[str, Field], key: str) -> str | None:
-    """The declared dimension of a field by its key in files; None for one that declares none."""
-    found = next((each for own, each in fields.items() if (each.key or own) == key), None)
-    return getattr(found, "dimension", None)

@@ -14,7 +14,8 @@ from linkwright.export.base import FORMATS, Format, package
 from linkwright.export.results import Results
 from linkwright.export.tables import Column, Table, tables
 from linkwright.metrics.base import METRICS
-from linkwright.units import si_symbol
+from linkwright.study.ranges import dimension_of
+from linkwright.units import NONE, si_symbol
 from linkwright.words import say
 from linkwright.words.characters import printable
 from linkwright.words.sentence import Sentence
@@ -151,25 +152,7 @@ def _model(results: Results, word: Any) -> Iterable[Sequence[Cell]]:
     for note in (*results.motion.notes, *(results.forces.notes if results.forces is not None else ())):
         yield word("note"), note, ""
     for address, value in mechanism.dimensions().items():
-        yield address, value, _unit(results, address)
-
-
-def _unit(results: Results, address: str) -> str:
-    """SI unit of a dimension, where its address says it."""
-    mechanism = results.mechanism
-    if address in mechanism.kinds:
-        return si_symbol(mechanism.kinds[address])
-    owner, *middle, last = address.split(".")
-    if owner == "gravity":
-        return "m/s²"
-    if owner in mechanism.drivers:
-        rotary = results.motion.positions.rotary[owner]
-        return {"speed": "rad/s" if rotary else "m/s", "start": "rad" if rotary else "m"}.get(last, "")
-    if owner in mechanism.loads:
-        return ""
-    words = {"mass": "kg", "inertia": "kg·m²", "angle": "rad", "direction": "rad", "block_angle": "rad"}
-    lengths = ("length", "offset", "pin_radius", "x", "y")
-    return "m" if last in lengths or "lengths" in middle else words.get(last, "")
+        yield address, value, si_symbol(dimension_of(mechanism, address) or NONE)
 
 
 def _groups(results: Results) -> Iterable[Sequence[Cell]]:

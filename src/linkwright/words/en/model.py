@@ -78,8 +78,6 @@ WORDS = {
     "see_addresses": "see the addresses in dimensions()",
     "no_dimension": 'the mechanism has no dimension "{address}"; {hint}',
     "set_not_finite": "{address} is set to {value}; give a finite number",
-    "set_length": "{address} is set to {value:g} m; a length must be positive",
-    "set_negative": "{address} is set to {value:g}; it must not be negative",
     "set_outside": "{address} is set to {value:g} (SI); give {limit}",
     "a_mapping": "a mapping (key: value)",
     "a_value": "a single value",

@@ -77,8 +77,6 @@ WORDS = {
     "see_addresses": "地址见 dimensions()",
     "no_dimension": "机构没有尺寸“{address}”；{hint}",
     "set_not_finite": "{address} 设为 {value}；请给出有限的数",
-    "set_length": "{address} 设为 {value:g} m；长度必须为正",
-    "set_negative": "{address} 设为 {value:g}；不能为负",
     "set_outside": "{address} 设为 {value:g}（SI）；请给出{limit}",
     "a_mapping": "映射（键: 值）",
     "a_value": "单个值",
