@@ -64,6 +64,31 @@ def test_pendulums_turn_over_by_the_elliptic_integral(sense: int) -> None:
         assert found["reached_fluctuation"][index] == pytest.approx((fastest - slowest) / mean, rel=1e-9)
 
 
+def test_a_cycle_of_several_turns_of_the_motor_has_the_speeds_of_its_one_turn_of_the_crank() -> None:
+    """A motor without inertia that turns the pendulum through a chain, three times as fast: all at once."""
+    text = PENDULUM.format(speed=270, torque=-7).replace(
+        "frame: {points: {", "frame: {points: {M: [-1 m, 0 m], "
+    )
+    text = text.replace("links: {", "links: {motor: {points: [M, N], length: 0.1 m}, ").replace(
+        "turn: crank, about: O", "turn: motor, about: M"
+    )
+    chain = "{kind: chain, links: [motor, crank], teeth: [17, 51], pitch: 10 mm}"
+    machine = lw.loads(f"{text}joints: {{chain: {chain}}}")
+    inertia = np.array([0.3, 0.9, 2.0])
+    cycle = metric_cycle(machine, ["crank.inertia"], [*OWN, "exact_flywheel", "rms_input_torque"])
+    assert cycle is not None
+    assert cycle.gauss.turns == 3
+    found = cycle.evaluate({"crank.inertia": inertia})
+    assert found.certain.all()
+    pendulum = lw.loads(PENDULUM.format(speed=90, torque=-7))
+    own = lw.sweep(pendulum, {"crank.inertia": inertia}, outputs=[*OWN, "exact_flywheel", "rms_input_torque"])
+    for term, scale in zip(cycle.terms, (1.0, 3.0, 3.0, 1 / 9, 1 / 3), strict=True):
+        assert found.values[term.name] == pytest.approx(scale * own[term.name], rel=1e-9)
+        _, slope = lw.objective(machine, term.name, vary=["crank.mass"])([3.0])
+        _, expected = lw.objective(pendulum, term.name, vary=["crank.mass"])([3.0])
+        assert slope == pytest.approx(scale * expected, rel=1e-8)
+
+
 @pytest.mark.parametrize("name", OWN)
 def test_derivatives_are_those_of_the_elliptic_integral(name: str) -> None:
     machine = lw.loads(PENDULUM.format(speed=90, torque=-7))

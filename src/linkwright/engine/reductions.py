@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import cached_property
 from typing import Literal, NamedTuple, get_args
 
@@ -103,13 +104,14 @@ class Accumulation:
     ``steps``: the accumulators, each once. ``valid``: the truth output that says which
     positions enter, or None for all of them. ``after``: a program per design, evaluated after
     the last position; its parameters are parameters of ``program``, names of reductions as
-    ``output.mean`` or ``output.at_max.other``, or ``valid.count``.
+    ``output.mean`` or ``output.at_max.other``, or ``valid.count``, or in ``more``.
     """
 
     program: Program
     reductions: tuple[Reduction, ...]
     valid: str | None = None
     after: Program | None = None
+    more: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         names = set(self.program.output_names)
@@ -132,7 +134,7 @@ class Accumulation:
     @cached_property
     def read(self) -> dict[str, Reduction]:
         """The reductions that ``after`` takes, by name."""
-        own = {*self.program.parameters, VALID_COUNT}
+        own = {*self.program.parameters, *self.more, VALID_COUNT}
         following = self.after.parameters if self.after is not None else ()
         return {name: Reduction.named(name) for name in following if name not in own}
 
@@ -162,13 +164,13 @@ class Accumulation:
         parted = along_input(self.program)
         if parted is None:
             return None
-        return parted[0], Accumulation(parted[1], self.reductions, self.valid, self.after)
+        return parted[0], replace(self, program=parted[1])
 
     @cached_property
     def parameters(self) -> tuple[str, ...]:
         """The parameters that the reduced outputs and what follows depend on."""
         following = self.after.parameters if self.after is not None else ()
-        own = [name for name in following if name in self.program.parameters]
+        own = [name for name in following if name in (*self.program.parameters, *self.more)]
         return tuple(dict.fromkeys([*self.needed.parameters, *own]))
 
     @cached_property
@@ -189,7 +191,7 @@ class Accumulation:
 
     def source(self, name: str) -> tuple[str, int]:
         """Where a parameter of ``following`` comes from: ("parameter" or "step", place), or ("count", 0)."""
-        if name in self.program.parameters:
+        if name in self.parameters:
             return "parameter", self.parameters.index(name)
         if name == VALID_COUNT:
             return ("count", 0) if self.valid is None else ("step", self.column[Step("count", self.valid)])

@@ -83,7 +83,7 @@ def along_positions(
     lines = _lines(replay, {reduction: t.parameter(bar(reduction.name)) for reduction in reductions}, active)
     judged = {} if valid is None else {valid: replay.outputs[valid]}
     along = Program.of(t, {**judged, **lines})
-    return Accumulation(along, (), valid, _after_positions(program, active, along))
+    return Accumulation(along, (), valid, _after_positions(program, active, along), program.parameters)
 
 
 def with_slopes(

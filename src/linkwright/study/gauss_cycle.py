@@ -1,6 +1,6 @@
 """The cycle of many designs at Gauss points: exact means and extremes of signals that loads switch on and off.
 
-Every design's turn of the input is cut where its own loads begin or end to act, and each stretch into pieces with
+Every design's way of the input is cut where its own loads begin or end to act, and each stretch into pieces with
 sixteen Gauss points: what ``metrics/cycle_grid.py`` does for one machine. The cuts are cycle values of the design
 (limit positions, ends of phases), so derivatives pass through them.
 """
@@ -49,7 +49,8 @@ SHARE = "share of the cycle"
 class GaussCycle:
     """The stages that lead to signals at the Gauss points of every design.
 
-    ``cuts``: names of what gives the inputs, rad, of the cuts: cycle values and dimensions; ``wanted``: pieces.
+    ``cuts``: names of what gives the inputs, rad, of the cuts: cycle values and dimensions; ``wanted``: pieces of a
+    turn.
     """
 
     traced: Traced
@@ -73,12 +74,28 @@ class GaussCycle:
 
     @property
     def pieces(self) -> int:
-        """Number of pieces of a turn."""
+        """Number of pieces of the cycle."""
         return self.stretches * self._each
 
     @property
     def _each(self) -> int:
-        return math.ceil(self.wanted * max(LEAST, 1.0 / self.stretches))
+        return math.ceil(self.wanted * self.turns * max(LEAST, 1.0 / self.stretches))
+
+    @cached_property
+    def turns(self) -> int:
+        """Number of turns of the driver in the cycle."""
+        (driver,) = self.traced.mechanism.drivers.values()
+        return round(abs(driver.law.constant_speed or 0.0) * (self.traced.positions.period or 0.0) / TURN)
+
+    @property
+    def way(self) -> float:
+        """What the driver turns in the cycle, rad."""
+        return TURN * self.turns
+
+    @property
+    def by_limits(self) -> bool:
+        """Whether cuts are found as places of a single turn."""
+        return any(name != FIRST for name in self.cuts)
 
     @property
     def count(self) -> int:
@@ -90,7 +107,7 @@ class GaussCycle:
         """Inputs (n,): the uniform turn for limit stages, and how places and widths follow from the cuts."""
         shares = np.arange(self.count) / self.count
         first, time, speed = list(self.constants.values())[:3]
-        angle = first + np.sign(speed) * TURN * shares
+        angle = first + np.sign(speed) * self.way * shares
         (driver,) = self.traced.mechanism.drivers
         found = {
             f"cos:{driver}": np.cos(angle),
@@ -98,11 +115,11 @@ class GaussCycle:
             f"turn:{driver}": angle,
             "input": angle,
         }
-        return {**found, "time": time + shares * TURN / abs(speed), **self._along}
+        return {**found, "time": time + shares * self.way / abs(speed), **self._along}
 
     @property
     def constants(self) -> dict[str, float]:
-        """Input, rad, and time, s, at which the turn begins, and the driver's speed, rad/s."""
+        """Input, rad, and time, s, at which the cycle begins, and the driver's speed, rad/s."""
         known = self.traced.positions
         (driver,) = known.coordinates
         q, rate, _ = known.coordinates[driver]
@@ -152,7 +169,7 @@ class GaussCycle:
         start, sense = t.parameter(FIRST), sign(t.parameter(f"{driver}.speed"))
         shares: list[Scalar] = []
         for name in self.cuts:
-            share = (t.parameter(name) - start) * sense / TURN
+            share = (t.parameter(name) - start) * sense / self.way
             shares.append(share - floor(share))
         for end in range(len(shares) - 1, 0, -1):
             for k in range(end):
@@ -179,7 +196,7 @@ class GaussCycle:
                 place = place + t.position(f"place {k}") * cut
                 width = width + t.position(f"width {k}") * cut
         share = place - floor(place)
-        way = sign(t.parameter(f"{driver}.speed")) * TURN * share
+        way = sign(t.parameter(f"{driver}.speed")) * self.way * share
         angle = t.parameter(FIRST) + way
         time = t.parameter("first time") + way / t.parameter(f"{driver}.speed")
         found = self.traced.at_input(source, t, angle, {"input": angle, "time": time})

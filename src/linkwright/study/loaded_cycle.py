@@ -164,10 +164,15 @@ def loaded_cycle(
 
 def one_turn(traced: Traced, varied: Iterable[str]) -> bool:
     """Whether the cycle is one closed turn of the only driver, of constant speed, whatever varies."""
+    return whole_turns(traced, varied) == 1
+
+
+def whole_turns(traced: Traced, varied: Iterable[str]) -> int:
+    """Of how many turns of the only driver the cycle is, closed and of constant speed, whatever varies; else 0."""
     drivers = list(traced.mechanism.drivers.values())
     speed = drivers[0].law.constant_speed if len(drivers) == 1 else None
-    if speed is None:
-        return False
-    span = abs(speed) * (traced.positions.period or 0.0)
-    turns = traced.positions.closed and traced.positions.rotary[drivers[0].name]
-    return turns and abs(span - TURN) <= 1e-9 and f"{drivers[0].name}.speed" not in set(varied)
+    if speed is None or not traced.positions.closed or not traced.positions.rotary[drivers[0].name]:
+        return 0
+    turns = abs(speed) * (traced.positions.period or 0.0) / TURN
+    steady = abs(turns - round(turns)) * TURN <= 1e-9 and f"{drivers[0].name}.speed" not in set(varied)
+    return round(turns) if steady else 0

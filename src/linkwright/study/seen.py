@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.core.piecewise import POINTS, WEIGHTS, Floats, Peak, weights_at, weights_up_to
-from linkwright.loads.phases import TURN
 from linkwright.metrics import true_speed
 from linkwright.metrics.summary import Summary
 from linkwright.study.piece_summaries import SIDES, Reduced
@@ -51,7 +50,9 @@ class Seen:
             return np.sqrt(square)
         if part.kind == "excess":
             self._met(self.found.bounds[part.output][2], self._size(part.output))
-            return TURN * np.abs(sum(self.found.peaks[part.output, side][2] for side in SIDES[part.kind]))
+            return self.steady.way * np.abs(
+                sum(self.found.peaks[part.output, side][2] for side in SIDES[part.kind])
+            )
         sides = [self._extreme(part.output, side)[2] for side in SIDES[part.kind]]
         if part.kind == "range":
             return sides[0] + sides[1]

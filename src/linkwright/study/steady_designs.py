@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from functools import cached_property
-from math import tau
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,13 +32,15 @@ class SteadyDesigns:
     """Steady running of some designs, whose signals (designs, POINTS, pieces) are found when they are wanted.
 
     ``program`` gives the driver's effort, the equivalent inertia and the shares of the Gauss points; ``speed``: the
-    driver's, rad/s.
+    driver's, rad/s; ``way``: what it turns in the cycle, rad.
     """
 
-    def __init__(self, program: Program, known: Known, run: Run, pieces: int, speed: float) -> None:
+    def __init__(
+        self, program: Program, known: Known, run: Run, pieces: int, speed: float, way: float
+    ) -> None:
         self._stage, self._given, self._run = Stage(program, keep=SIGNALS), known, run
         self.pieces, self.sense, self.speed = pieces, (1.0 if speed > 0.0 else -1.0), abs(speed)
-        self.lift = 2.0 / speed**2
+        self.way, self.lift = way, 2.0 / speed**2
         self._known: dict[Summary, tuple[Floats, Speeds]] = {}
 
     @cached_property
@@ -73,7 +74,7 @@ class SteadyDesigns:
     @cached_property
     def work(self) -> Floats:
         """Excess of the work of the mean torque, J."""
-        return tau * integral(self.torque, self.share, self.mean)
+        return self.way * integral(self.torque, self.share, self.mean)
 
     @cached_property
     def cycles(self) -> SteadyCycles:
@@ -159,6 +160,6 @@ class SteadyDesigns:
         whole = work.sum(axis=1)
         gained += (whole.sum(axis=1, keepdims=True) - np.cumsum(whole, axis=1))[:, None, :]
         mean = np.einsum("dip,dip->d", gained, self.share)[:, None, None]
-        torque = tau * self.share * (mean - gained)
-        share = share + tau * (gained * (self.mean[:, None, None] - self.torque) + mean * self.torque)
+        torque = self.way * self.share * (mean - gained)
+        share = share + self.way * (gained * (self.mean[:, None, None] - self.torque) + mean * self.torque)
         return {EFFORT: self.sense * torque, INERTIA: inertia, SHARE: share}

@@ -137,7 +137,8 @@ class Traced:
         known, found = self.nominal.states if counted else {}, {}
         for name in counted:
             q = next(iter(self.positions.coordinates.values()))[0]
-            turns = float(np.round((known[name][-1] - known[name][0]) / (q[-1] - q[0])))
+            whole = max(1.0, np.round(abs(q[-1] - q[0]) / (2.0 * np.pi)))
+            turns = float(np.round(whole * (known[name][-1] - known[name][0]) / (q[-1] - q[0])) / whole)
             rest = known[name] - turns * q
             if np.ptp(rest) < 2.0 * CLEAR:
                 found[name] = (0.5 * float(rest.max() + rest.min()), turns)
