@@ -110,3 +110,12 @@ def test_a_gap_between_positions_is_seen() -> None:
 def test_chebyshev_spacing_is_that_of_the_polynomial() -> None:
     x = chebyshev_spacing(-1, 1, 7)
     assert np.polynomial.chebyshev.chebval(x, [0] * 7 + [1]) == pytest.approx(np.zeros(7), abs=1e-12)
+
+
+@pytest.mark.parametrize("outputs", [(0, 20, 60), (0, 25, 60), (0, 30, 90)])
+def test_round_pairs_have_four_bars_beside_those_that_they_do_not_determine(outputs: tuple[int, ...]) -> None:
+    """With equal zero angles φ = ψ holds for two of the pairs, and Freudenstein's equations are dependent: that ended
+    the search of all others."""
+    inputs, wanted = np.radians([0, 30, 60]), np.radians(outputs)
+    best = lw.function_generation(inputs, wanted).best
+    assert turned_by_motion(best, inputs, list(best.linkage.links)[2]) == pytest.approx(wanted, abs=1e-7)

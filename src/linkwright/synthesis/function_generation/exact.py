@@ -22,6 +22,8 @@ Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
 
 ZEROS = 72
+#: Share of the largest singular value below which pairs of angles do not determine a four-bar.
+DEPENDENT = 1e-13
 
 
 def freudenstein(phi: Floats, psi: Floats) -> Floats:
@@ -30,11 +32,11 @@ def freudenstein(phi: Floats, psi: Floats) -> Floats:
     A negative a or c is measured to the opposite end of its link.
     """
     rows = np.stack([np.cos(psi), np.cos(phi - psi), np.ones_like(phi)], -1)
-    normal, right = rows, np.cos(phi)[..., None]
-    if phi.shape[1] > 3:
-        normal, right = rows.swapaxes(1, 2) @ rows, rows.swapaxes(1, 2) @ right
-    p = np.linalg.solve(normal + 1e-15 * np.eye(3), right)[..., 0]
+    u, size, v = np.linalg.svd(rows, full_matrices=False)
+    across = (u.swapaxes(1, 2) @ np.cos(phi)[..., None])[..., 0]
     with np.errstate(divide="ignore", invalid="ignore"):
+        p = (v.swapaxes(1, 2) @ (across / size)[..., None])[..., 0]
+        p[size[:, 2] <= DEPENDENT * size[:, 0]] = np.nan
         c = -p[:, 1]
         a = c / p[:, 0]
         b = np.sqrt(1 + a * a + c * c - 2 * a * p[:, 2])
