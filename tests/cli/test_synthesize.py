@@ -118,3 +118,10 @@ def test_a_task_without_a_machine_is_sent_to_the_right_command(capsys: pytest.Ca
     assert said.endswith(
         "the file holds a task of synthesis and no machine; linkwright synthesize finds machines for it"
     )
+
+
+def test_what_is_met_but_for_rounding_has_no_error(capsys: pytest.CaptureFixture[str]) -> None:
+    """Three points are met exactly; 8e-35 m² was shown."""
+    assert main(["synthesize", "path", "points=[[20, 20], [20, 30], [20, 40]]", "unit=mm"]) == 0
+    out = capsys.readouterr().out
+    assert "crank-rocker      0      0  none" in out and "e-" not in out

@@ -9,6 +9,8 @@ from linkwright.words import Say, has, speaker
 from linkwright.words.sentence import in_language
 from linkwright.words.width import aligned
 
+#: Share of the longest length, or of a radian, below which a deviation is rounding.
+ROUNDING = 1e-12
 COLUMNS = ("number", "type", "error", "worst", "defects", "input", "transmission", "ratio")
 
 
@@ -47,7 +49,7 @@ def purpose(found: Synthesis, each: Candidate, language: str) -> str:
     return tell(
         "synthesize.purpose",
         task=name_said(found.task, tell).replace("_", " "),
-        error=f"{each.error:.4g}",
+        error=_errors(each)[0],
         transmission=f"{degrees(each.transmission_angle):.4g} deg",
         defects=defects,
     )
@@ -63,13 +65,19 @@ def _row(number: int, each: Candidate, tell: Say) -> list[str]:
     return [
         str(number),
         tell(f"synthesize.type.{each.grashof_type}"),
-        f"{each.error:.4g}",
-        f"{each.worst:.4g}",
+        *_errors(each),
         defects_text(each, tell),
         tell("synthesize.turns" if each.turns else "synthesize.swings"),
         f"{degrees(each.transmission_angle):.2f}°",
         f"{each.link_ratio:.3g}",
     ]
+
+
+def _errors(each: Candidate) -> tuple[str, str]:
+    """Error and worst deviation; zero where both are but rounding of the linkage's size."""
+    least = ROUNDING * min(1.0, max(each.linkage.lengths().values()))
+    exact = each.error <= least and each.worst <= least
+    return ("0", "0") if exact else (f"{each.error:.4g}", f"{each.worst:.4g}")
 
 
 def name_said(name: str, tell: Say) -> str:
