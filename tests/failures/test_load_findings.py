@@ -279,6 +279,27 @@ def test_check_names_loads_of_what_never_reverses(
     assert main(["check", str(file)]) == 0
 
 
+@pytest.mark.parametrize(
+    ("phase", "never"),
+    [
+        ("moving: B.y, direction: increasing", "B.y does not increase"),
+        ("moving: crank, direction: decreasing", "crank does not decrease"),
+        ("moving: crank, direction: increasing", ""),
+        ("moving: B.x, direction: decreasing", ""),
+        ("moving: ram, direction: increasing", 'link "ram" only slides'),
+    ],
+)
+def test_check_names_loads_that_never_act(
+    phase: str, never: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A ram on a level guide goes neither up nor down, a crank does not turn back: the load was nothing, unsaid."""
+    file = tmp_path / "press.yaml"
+    file.write_text(PRESS.replace("PHASE", phase), encoding="utf-8")
+    assert main(["check", str(file)]) == 0
+    said = capsys.readouterr().out
+    assert said.count("warning") == bool(never) and never in said
+
+
 def test_check_finds_more_of_a_stroke_than_there_is(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -15,7 +15,7 @@ from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.fields.nodes import Node
-    from linkwright.fields.signals import SwingPhase
+    from linkwright.fields.signals import MovingPhase, SwingPhase
     from linkwright.mechanism.mechanism import Mechanism
     from linkwright.structure.group import Structure
 
@@ -80,8 +80,11 @@ def findings_of(name: str) -> tuple[list[Finding], dict[str, object]]:
         return [*found, Finding("error", name, "", error.sentence, code="motion")], {}
     sure = plain or [False] * len(swings)
     unsure = [
-        load for (load, phase), each in zip(swings.items(), sure, strict=True) if phase.part or not each
+        load
+        for (load, phase), each in zip(swings.items(), sure, strict=True)
+        if getattr(phase, "part", None) or not each
     ]
+    unsure = [load for load in unsure if all(each.code != "no-motion" for each in found)]
     idle = _never_acting(name, mechanism, unsure) if unsure and not turned else []
     notes += _assumed(name, mechanism, built)
     mended = [*turned, *idle, *_of_settings(name, mechanism), *notes]
@@ -141,26 +144,40 @@ def _turned(name: str, mechanism: Mechanism) -> tuple[list[Finding], list[Findin
     return [Finding("error", name, "", refusal(motion).sentence, code="position")], notes
 
 
-def _swings(mechanism: Mechanism) -> dict[str, SwingPhase]:
-    """Phases of loads by the strokes of an output."""
-    from linkwright.fields.signals import SwingPhase
+def _swings(mechanism: Mechanism) -> dict[str, MovingPhase | SwingPhase]:
+    """Phases of loads by the strokes of an output, or while it moves one way."""
+    from linkwright.fields.signals import MovingPhase, SwingPhase
 
     phases = {load: getattr(each, "phase", None) for load, each in mechanism.loads.items()}
-    return {load: phase for load, phase in phases.items() if isinstance(phase, SwingPhase)}
+    return {load: phase for load, phase in phases.items() if isinstance(phase, MovingPhase | SwingPhase)}
 
 
 def _never_acting(name: str, mechanism: Mechanism, loads: Sequence[str]) -> list[Finding]:
-    """Loads whose phase the motion does not have: of an output that never reverses, of more than its stroke."""
+    """Loads whose phase the motion does not have: of an output that never reverses, of more than its stroke, while
+    an output moves as it never does."""
+    from linkwright.fields.signals import MovingPhase
     from linkwright.kinematics.solve import try_motion
     from linkwright.kinetostatics.signals import MotionSignals
+    from linkwright.loads.base import AT_REST
     from linkwright.loads.over_cycle import activity
 
     signals, found = MotionSignals(try_motion(mechanism, TRIED)), []
     for load in loads:
+        key, phase = f"loads.{load}.phase", getattr(mechanism.loads[load], "phase", None)
         try:
-            activity(mechanism.loads[load], signals)
+            acts = activity(mechanism.loads[load], signals).where
         except LinkwrightError as error:
-            found.append(Finding("error", name, f"loads.{load}.phase", error.sentence, code="no-motion"))
+            found.append(Finding("error", name, key, error.sentence, code="no-motion"))
+            continue
+        if (
+            isinstance(phase, MovingPhase)
+            and not (acts & (abs(signals.output(phase.output)[1]) > AT_REST)).any()
+        ):
+            told, remedy = (
+                Sentence(f"check.never_{phase.direction}", output=phase.output),
+                Sentence("check.never_do"),
+            )
+            found.append(Finding("warning", name, key, told, remedy, "no-motion"))
     return found
 
 

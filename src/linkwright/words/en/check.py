@@ -16,6 +16,9 @@ linkwright check crusher.yaml --json  findings for an editor or a script""",
     "fine": "{name}: fine ({links} moving links, mobility {mobility})",
     "fine_kind": "{name}: fine (kind {kind})",
     "faulty": "{name}: errors: {count}",
+    "never_increasing": "the load never acts: {output} does not increase anywhere in the cycle",
+    "never_decreasing": "the load never acts: {output} does not decrease anywhere in the cycle",
+    "never_do": "name an output that moves that way, or the other direction",
     "assumed": "group {signature} ({links}) has two assemblies, and neither assembly nor drawing says which: "
     '"{first}" is taken; write assembly: {{{joint}: {first}}} or {{{joint}: {second}}}',
 }

@@ -15,6 +15,9 @@ linkwright check crusher.yaml --json  供编辑器或脚本使用的结果""",
     "fine": "{name}：没有错误（{links} 个活动构件，自由度 {mobility}）",
     "fine_kind": "{name}：正确（类型 {kind}）",
     "faulty": "{name}：错误 {count} 处",
+    "never_increasing": "载荷从不作用：{output} 在循环内从不增大",
+    "never_decreasing": "载荷从不作用：{output} 在循环内从不减小",
+    "never_do": "请改用沿该方向运动的输出，或改写 direction",
     "assumed": "{signature} 杆组（{links}）有两种装配模式，assembly 与 drawing 均未指明：取“{first}”；"
     "请写 assembly: {{{joint}: {first}}} 或 {{{joint}: {second}}}",
 }
