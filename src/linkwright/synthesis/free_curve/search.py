@@ -1,6 +1,6 @@
 """The search: fewest joints first, each level from its atlas and from the designs of the levels below.
 
-A level lets many starts from its atlas descend a little, the best of them on, and keeps a pool of good designs of
+A level lets many starts from its atlas descend, the best of them further, and keeps a pool of good designs of
 different structure that err in different places. Until its share of the time is over, an attempt shakes a member of
 the pool, or hangs one more dyad on a member of the pools below, parts joints while there is room, and descends.
 Eight-bars of 8 joints are a level of their own beside the six-bars. A pool soon turns about what it has found, so all
@@ -48,8 +48,8 @@ LEVELS = (
     Level(5, 0, 0.7), Level(7, SIX_BARS, 1.5), Level(8, SIX_BARS, 2.0), Level(8, 3, 2.5, apart=True),
     Level(9, 2, 2.5), Level(10, 2, 3.5), Level(12, None, 7.0),
 )  # fmt: skip
-#: Starts that begin together, their first steps, the share of them that descends on; how many of all descend further.
-SOME, BEGUN, HALVED, CHOSEN = 200, 15, 0.33, 50
+#: Starts that begin together, how many of all descend further, and their share of a level's time.
+SOME, CHOSEN, STARTING = 200, 50, 0.5
 #: Processor seconds of a level with part 1 in a round of all levels; shares of the time after which the designs of
 #: the rounds go on together, and after which the best are polished.
 ROUND, MERGED, ENDED = 4.0, 0.85, 0.96
@@ -220,25 +220,22 @@ class Search:
                 self.progress(min(over, 1.0), pool.designs[0].value)
 
     def _starts(self, level: Level, end: float) -> Iterable[Design]:
-        """Starts of an atlas, after descents; half the time of the level at most."""
+        """The best starts of an atlas, after descents, for a part of the level's time."""
         if level.atlas is None:
             return []
         starts = self.matches[level.atlas].designs(self.draw, level.joints)
-        half = 0.5 * (time.perf_counter() + end)
-        near: list[Design] = []
+        now = time.perf_counter()
+        last, near = now + STARTING * (end - now), list[Design]()
         while some := list(islice(starts, SOME)):
-            begun = self._best(
-                some, lambda each: self.target.descend(each, BEGUN, COARSE), int(HALVED * SOME)
-            )
-            near += self._each(begun, lambda each: self.target.eased(each, 60))
+            near = sorted(near + self._each(some, self._begun), key=lambda each: each.value)[:CHOSEN]
             self.attempts += len(some)
-            if time.perf_counter() > half:
+            if time.perf_counter() > last:
                 break
-        near = sorted(near, key=lambda each: each.value)[:CHOSEN]
         return self._each(near, lambda each: self.target.checked(self.target.eased(each, 150)))
 
-    def _best(self, designs: list[Design], descent: Callable[[Design], Design], count: int) -> list[Design]:
-        return sorted(self._each(designs, descent), key=lambda each: each.value)[:count]
+    def _begun(self, design: Design) -> Design:
+        """A start after a descent: how it begins does not say where it ends."""
+        return self.target.eased(self.target.descend(design, 15, COARSE), 60)
 
     def _each(self, designs: list[Design], descent: Callable[[Design], Design]) -> list[Design]:
         """All designs after a descent, dealt to the workers."""
