@@ -19,6 +19,8 @@ NAMES = [
     ("s:ram", Output("displacement", "ram"), "ram.displacement", "ram.displacement", "ram", "length"),
     ("sv:ram", Output("slide_velocity", "ram"), "ram.velocity", "ram.velocity", None, "velocity"),
     ("fact:RRR:a|distance²", Output("fact", "RRR:a", on="distance²"), None, None, None, "dimensionless"),
+    ("load:press", Output("magnitude", "press"), None, None, None, ""),
+    ("friction:O5|jaw", Output("friction", "O5", on="jaw"), None, None, None, ""),
     ("outcome", Output("outcome"), None, None, None, "dimensionless"),
     ("r:O5|jaw.x", Output("reaction", "O5", "x", "jaw"), "reaction O5 on jaw.x", "O5 on jaw.x", None, "force"),
     ("c:ram|block", Output("couple", "ram", on="block"), "couple ram on block", "ram on block.couple", None,
@@ -46,9 +48,9 @@ def test_an_output_reads_and_writes_its_names(
 
 
 def test_what_is_no_output_has_no_kind() -> None:
-    assert kind_of("load:press") == kind_of("words:C.x") == ""
+    assert kind_of("mode:RRR") == kind_of("words:C.x") == ""
     with pytest.raises(KeyError):
-        Output.of_row("load:press")
+        Output.of_row("mode:RRR")
 
 
 def test_rows_of_kinds_are_different() -> None:

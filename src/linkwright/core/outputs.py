@@ -6,6 +6,7 @@ column. :class:`Output` writes the three and reads rows; words are read against 
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
 from functools import lru_cache
 
@@ -55,6 +56,8 @@ KINDS = {
     "guide_direction": Kind("guide", "dimensionless", "d", vector=True),
     "quality": Kind("group", "dimensionless", "quality"),
     "fact": Kind("group", "dimensionless", "fact"),
+    "unreachable": Kind("group", "dimensionless", "out"),
+    "singular": Kind("group", "dimensionless", "singular"),
     "closeness": Kind("group", "dimensionless", form="phrase"),
     "transmission_angle": Kind("group", "angle", "m", form="phrase"),
     "conditioning": Kind("group", "dimensionless", form="phrase"),
@@ -63,6 +66,8 @@ KINDS = {
     "reaction": Kind("joint", "force", "r", "F", vector=True, form="phrase"),
     "couple": Kind("joint", "torque", "c", "M", form="phrase"),
     "heat": Kind("joint", "power", form="phrase"),
+    "friction": Kind("joint", "", "friction"),
+    "magnitude": Kind("load", "", "load"),
     "load": Kind("load", "force", "lf", vector=True, form="phrase"),
     "load_place": Kind("load", "length", "lp", vector=True),
     "load_moment": Kind("load", "torque", "lm"),
@@ -112,6 +117,11 @@ def row_names(kind: str, owner: str = "", on: str = "") -> tuple[str, str]:
 def kind_of(name: str) -> str:
     """The kind of the output in a program's row of this name; empty where the row is no output."""
     return _BY_ROW.get(name.partition(":")[0].partition(".")[0], "")
+
+
+def owners_of(kind: str, names: Iterable[str]) -> list[str]:
+    """The owners of those rows that hold outputs of a kind."""
+    return [Output.of_row(name).owner for name in names if kind_of(name) == kind]
 
 
 @dataclass(frozen=True)
@@ -167,7 +177,7 @@ class Output:
 
     @property
     def dimension(self) -> str:
-        """Name of its dimension; empty of a ratio, which the driver tells."""
+        """Name of its dimension; empty where the driver, the joint or the load tells it."""
         kind = KINDS[self.kind]
         return "torque" if self.component == "m" else kind.slid if self.slides else kind.dimension
 

@@ -284,7 +284,7 @@ class _Search:
         }
         if not slides:
             return []
-        names = tuple(f"fact:{name}|sine" for name in slides)
+        names = tuple(row_name("fact", name, on="sine") for name in slides)
         size, found = mechanism_size(self.base.mechanism), []
         for (group, displacements), name, row in zip(
             slides.items(), names, self._evaluate(names), strict=True

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.core.outputs import row_name
 from linkwright.kinematics.change_points import Passage, closes
 from linkwright.kinematics.closed_loops import iterated
 from linkwright.kinematics.cycle import Positions, cycle_turns, not_back
@@ -111,7 +112,7 @@ class _Facts:
         self.motion = motion
         self.groups = motion.structure.groups
         names = [
-            f"fact:{group.name}|{fact}"
+            row_name("fact", group.name, on=fact)
             for group in self.groups
             for fact in motion.solver.motion.placed[group.name].facts
         ]
@@ -135,7 +136,9 @@ class _Facts:
             return self._lost(group, index)
         if code < 0:
             return Outcome(False, _of("singular", group), group.name, "singular")
-        facts = {name: float(self.values[f"fact:{group.name}|{name}"][place]) for name in placed.facts}
+        facts = {
+            name: float(self.values[row_name("fact", group.name, on=name)][place]) for name in placed.facts
+        }
         reason = placed.dyad.explain(facts)
         return Outcome(False, _of("apart", group, reason=reason), group.name, "unreachable")
 

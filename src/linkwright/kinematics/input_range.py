@@ -309,7 +309,9 @@ class _Search:
 
     def _guided(self) -> tuple[str, ...]:
         placed = self.solver.motion.placed
-        return tuple(f"fact:{name}|sine" for name, group in placed.items() if "sine" in group.facts)
+        return tuple(
+            row_name("fact", name, on="sine") for name, group in placed.items() if "sine" in group.facts
+        )
 
     # refinement -----------------------------------------------------------------------------------
     def _narrowed(self, stop: _Stop, distance: float) -> tuple[float, float]:

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
-from linkwright.core.outputs import Output
+from linkwright.core.outputs import Output, row_name
 from linkwright.engine.trace import Scalar
 from linkwright.engine.vector import Vec
 from linkwright.kinematics.cycle import Floats
@@ -38,7 +38,7 @@ class FrictionTerm:
     @property
     def field(self) -> str:
         """Name of the program's input that holds it."""
-        return f"friction:{self.joint}|{self.b}"
+        return row_name("friction", self.joint, on=self.b)
 
     def __str__(self) -> str:
         return self.field

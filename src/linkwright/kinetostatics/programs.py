@@ -111,7 +111,7 @@ class ForcePrograms:
         more = [name for link in turned for name in row_names("direction", link)]
         more += [row_name(kind, guide) for guide in moved for kind in SLIDE]
         early = tuple(dict.fromkeys((*self.motion.outputs.standard, *measures, *more)))
-        sizes = (f"load:{name}" for name in sorted(self.along_input))
+        sizes = (row_name("magnitude", name) for name in sorted(self.along_input))
         names = tuple(dict.fromkeys((*early, *self.outputs.standard, *asked, *sizes)))
         with self.motion.lock:
             program = Program.of(self.motion.motion.trace, {name: self._value(name) for name in names})
@@ -130,9 +130,10 @@ class ForcePrograms:
             from linkwright.kinetostatics.friction_stage import caused
 
             return caused(self._terms, self.forces, name.removeprefix(_CAUSED))
-        if name.startswith("load:"):
-            return traced_magnitude(self.motion.motion, name.removeprefix("load:"))
-        return (self.motion.outputs if Output.of_row(name).of_motion else self.outputs).value(name)
+        output = Output.of_row(name)
+        if output.kind == "magnitude":
+            return traced_magnitude(self.motion.motion, output.owner)
+        return (self.motion.outputs if output.of_motion else self.outputs).value(name)
 
 
 def force_programs(

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from linkwright.core.outputs import kind_of
+from linkwright.core.outputs import Output, kind_of, row_name
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.cycle import Floats, Positions
 from linkwright.kinematics.design import Design
@@ -103,7 +103,9 @@ def solved_at_once(
     if values is None:
         return None
     fields |= {name: values[index[name]] for name in names[-len(known.names) or len(names) :]}
-    if not all((np.abs(fields[f"load:{name}"]) <= LARGEST["torque"]).all() for name in known.fallible):
+    if not all(
+        (np.abs(fields[row_name("magnitude", name)]) <= LARGEST["torque"]).all() for name in known.fallible
+    ):
         return None
     (motion,) = motions
     return Forces(motion, solver, fields, not solver.inertia, motion.rows)
@@ -157,10 +159,9 @@ def _load_fields(motion: Motion, names: Iterable[str], signals: MotionSignals) -
 
     fields: dict[str, Floats] = {}
     for name in names:
-        kind, _, key = name.partition(":")
-        if kind == "load":
-            fields[name] = evaluate(motion.mechanism.loads[key], signals)
-        elif kind == "friction":
+        if kind_of(name) == "magnitude":
+            fields[name] = evaluate(motion.mechanism.loads[Output.of_row(name).owner], signals)
+        elif kind_of(name) == "friction":
             fields[name] = np.zeros(motion.steps)
     return fields
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from linkwright.core.outputs import Output
+from linkwright.core.outputs import Output, row_name
 from linkwright.engine.trace import Mask, Scalar, angle, cos, sin
 from linkwright.engine.vector import Vec
 from linkwright.fields.signals import MovingPhase, SwingPhase
@@ -109,7 +109,7 @@ class TracedSite:
             return self.dimension("magnitude")
         if self.along_input:
             return magnitude(self.load, self)
-        return self.motion.trace.field_input(f"load:{self.load.name}")
+        return self.motion.trace.field_input(row_name("magnitude", self.load.name))
 
     @property
     def input(self) -> Scalar:
@@ -157,7 +157,7 @@ class TracedSite:
         return self.motion.trace.parameter(constant_name(self.load.name, field))
 
     def lookup(self, x: Scalar) -> Scalar:
-        return self.motion.trace.lookup(f"load:{self.load.name}", x)
+        return self.motion.trace.lookup(row_name("magnitude", self.load.name), x)
 
     def limit_value(self, output: Output, kind: str) -> Scalar:
         return self.motion.trace.parameter(value_name(output, kind))

@@ -10,7 +10,7 @@ import numpy as np
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import Expression
-from linkwright.core.outputs import Output
+from linkwright.core.outputs import Output, row_name
 from linkwright.engine.recent import Recent
 from linkwright.engine.table import Table
 from linkwright.engine.trace import Scalar
@@ -92,10 +92,12 @@ def numbers_of_loads(loads: Iterable[Load], mechanism: Mechanism) -> AlongInput:
     parts = [phase.output for phase in phases if isinstance(phase, SwingPhase) and phase.part is not None]
     numbers = {constant_name(each.name, key): value for each in given for key, value in of_load(each).items()}
     over = {
-        f"load:{each.name}": table for each in given if (table := getattr(each, "table", None)) is not None
+        row_name("magnitude", each.name): table
+        for each in given
+        if (table := getattr(each, "table", None)) is not None
     }
     fallible = [each.name for each in given if isinstance(getattr(each, "magnitude", None), Expression)]
-    fallible += [each.name for each in given if f"load:{each.name}" in over or of_load(each)]
+    fallible += [each.name for each in given if row_name("magnitude", each.name) in over or of_load(each)]
     fallible += [each.name for each in given if interval_of_turn(each)]
     return AlongInput(
         frozenset(each.name for each in given),

@@ -115,7 +115,9 @@ def _guides(machine: Machine) -> Iterator[Plain]:
             }  # fmt: skip
         if shift:
             yield {"kind": "stub", "layer": "bodies", **ends, "shift": shift}
-        yield _stamp("blocks", ends["at"], f"d:{name}", SYMBOLS["slider"](), shift=shift)
+        yield _stamp(
+            "blocks", ends["at"], row_name("guide_direction", name), SYMBOLS["slider"](), shift=shift
+        )
 
 
 def _tube(machine: Machine, name: str) -> Plain:

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.core.outputs import SLIDE, row_name, row_names
+from linkwright.core.outputs import SLIDE, owners_of, row_name, row_names
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.program import Program
 from linkwright.engine.stage import Stage
@@ -62,7 +62,7 @@ class PagePrograms:
     def _varying(self) -> list[str]:
         """The loads whose magnitudes are no numbers."""
         fields = self._plain.forces.fields_needed() if self.forces is not None else ()
-        return [name.removeprefix("load:") for name in fields if name.startswith("load:")]
+        return owners_of("magnitude", fields)
 
     @cached_property
     def positional(self) -> AlongInput:
@@ -109,7 +109,7 @@ class PagePrograms:
         none = AlongInput(frozenset())
         if self.forces is None or self.iterated:
             return none
-        names = [f"load:{name}" for name in self._varying]
+        names = [row_name("magnitude", name) for name in self._varying]
         found = [name for name in names if along_input(self._plain, self.free, [name]) is not None]
         return along_input(self._plain, self.free, found) or none
 

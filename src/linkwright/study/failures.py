@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.outputs import Output
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import Reduction
 from linkwright.engine.sweep import sweep as engine_sweep
@@ -94,9 +95,9 @@ def _by_group(
         worst[between] = -1
     for place in np.unique(worst[worst >= 0]):
         mine = np.flatnonzero(worst == place)
-        kind, _, group = wanted[place].output.partition(":")
+        flag = Output.of_row(wanted[place].output)
         sentence = sentence_of(traced, changes_of(columns, int(mine[0])))
-        found.append(Failure(group, "unreachable" if kind == "out" else kind, numbers[mine], sentence))
+        found.append(Failure(flag.owner, flag.kind, numbers[mine], sentence))
     return found
 
 

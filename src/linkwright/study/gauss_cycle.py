@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import Expression
-from linkwright.core.outputs import Output
+from linkwright.core.outputs import Output, owners_of
 from linkwright.core.piecewise import NODES, POINTS, WEIGHTS
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import Reduction
@@ -236,7 +236,7 @@ def _edges(load: str, phase: SwingPhase) -> dict[int, str]:
 def reversing(traced: Traced, program: Program) -> tuple[Output, ...]:
     """Outputs that go to and fro, at whose limits loads on which a program depends change their signs."""
     taken = {name.split(".")[1] for name in program.parameters if name.startswith("loads.")}
-    taken |= {name.removeprefix("load:") for name in program.fields if name.startswith("load:")}
+    taken |= set(owners_of("magnitude", program.fields))
     found = (traced.mechanism.loads[name].reverses(traced.mechanism) for name in sorted(taken))
     asked = dict.fromkeys(each for each in found if each is not None)
     signals = MotionSignals(traced.nominal)

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.outputs import kind_of, owners_of
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.cycle_gradient import cycle_gradient
 from linkwright.engine.table import Tables
@@ -57,7 +58,7 @@ def known_loads(plain: Traced, fields: Iterable[str], by: tuple[str, ...]) -> Kn
         LinkwrightError: friction in which the joint forces are not linear; loads that have no value somewhere, or no
             derivative.
     """
-    rubbing = any(name.startswith("friction:") for name in fields)
+    rubbing = any(kind_of(name) == "friction" for name in fields)
     terms = plain.forces.friction.terms if rubbing else ()
     if not can_be_traced(plain.mechanism, len(terms)):
         raise LinkwrightError(Sentence("study.friction_slope", most=MOST))
@@ -69,7 +70,7 @@ def known_loads(plain: Traced, fields: Iterable[str], by: tuple[str, ...]) -> Kn
     if not given:
         return KnownLoads()
     run_forces(plain.nominal, False)
-    named = [name.removeprefix("load:") for name in given if name.startswith("load:")]
+    named = owners_of("magnitude", given)
     loads = [plain.mechanism.loads[name] for name in named]
     for load in loads:
         if not has_formula(load):

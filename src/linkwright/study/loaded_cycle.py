@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.core.dataclass import dataclass
-from linkwright.core.outputs import Output
+from linkwright.core.outputs import Output, kind_of, owners_of
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.reductions import VALID_COUNT, Reduction, Results
 from linkwright.engine.stage import Backend, Stage
@@ -85,10 +85,10 @@ def along_input(traced: Traced, varied: Collection[str], fields: Iterable[str]) 
     Formulas of strokes hold over a single turn of one driver of constant speed.
     """
     mechanism, given = traced.mechanism, tuple(fields)
-    rubbing = any(name.startswith("friction:") for name in given)
+    rubbing = any(kind_of(name) == "friction" for name in given)
     if rubbing:
         given = traced.forces.fields_needed()
-    names = [name.removeprefix("load:") for name in given if name.startswith("load:")]
+    names = owners_of("magnitude", given)
     terms = traced.forces.friction.terms if rubbing else ()
     if len(names) + len(terms) < len(given) or not can_be_traced(mechanism, len(terms)):
         return None

@@ -11,6 +11,7 @@ from typing import Literal
 
 import numpy as np
 
+from linkwright.core.outputs import row_name
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.llvm_backend import CompiledProgram, compile_program
 from linkwright.engine.machine_code import available
@@ -192,7 +193,7 @@ class _Followed:
         self.tables = loads.tables
         rubbing = traced.forces.programs.friction
         self.friction = {} if rubbing is None else rubbing.sizes
-        self.fields = (*(f"load:{name}" for name in sorted(loads.names)), *self.friction)
+        self.fields = (*(row_name("magnitude", name) for name in sorted(loads.names)), *self.friction)
         self.known = {**constants(traced), **loads.constants}
         self._own = threading.local()
 
@@ -212,7 +213,9 @@ class _Followed:
     def sizes(self) -> dict[str, Scalar]:
         """Their magnitudes, by the names of the fields that forces know them by."""
         motion = self.traced.solver.motion
-        loads = {f"load:{name}": traced_magnitude(motion, name) for name in sorted(self.loads.names)}
+        loads = {
+            row_name("magnitude", name): traced_magnitude(motion, name) for name in sorted(self.loads.names)
+        }
         return {**loads, **self.friction}
 
     @cached_property
@@ -223,7 +226,7 @@ class _Followed:
         if rubbing is not None:
             found = self.traced.solver.motion.trace.logic("and", found, rubbing.certain)
         for name in self.loads.fallible:
-            has = absolute(self.sizes[f"load:{name}"]) < inf
+            has = absolute(self.sizes[row_name("magnitude", name)]) < inf
             found = self.traced.solver.motion.trace.logic("and", found, has)
         return found
 

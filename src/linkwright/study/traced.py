@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.core.outputs import row_name
 from linkwright.engine.program import Program
 from linkwright.engine.replay import inlined
 from linkwright.engine.trace import Mask, Scalar, Trace, absolute, cos, select, sin
@@ -160,7 +161,7 @@ class Traced:
         return found
 
     def failure_flags(self) -> dict[str, Scalar]:
-        """Per group 1 where it is the first that fails, by ``out:GROUP`` (reach) and ``singular:GROUP``."""
+        """Per group 1 where it is the first that fails, by the rows of ``unreachable`` and ``singular``."""
         motion = self.solver.motion
         flags: dict[str, Scalar] = {}
         before: Mask = True
@@ -169,8 +170,8 @@ class Traced:
             if placed.valid is True:
                 continue
             bad = logic("and", before, _not(placed.valid))
-            flags[f"out:{name}"] = select(logic("and", bad, _not(placed.reached)), 1.0, 0.0)
-            flags[f"singular:{name}"] = select(logic("and", bad, placed.reached), 1.0, 0.0)
+            flags[row_name("unreachable", name)] = select(logic("and", bad, _not(placed.reached)), 1.0, 0.0)
+            flags[row_name("singular", name)] = select(logic("and", bad, placed.reached), 1.0, 0.0)
             before = logic("and", before, placed.valid)
         return flags
 

@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.outputs import owners_of
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
 from linkwright.engine.trace import Scalar
@@ -102,12 +103,12 @@ class KnownForces:
             self.on[link].append(known)
 
     def _announce(self, step: Step, name: str, link: str, *, idle: bool = False) -> None:
-        kind, _, rest = name.partition(":")
-        if kind == "friction" and rest:
-            text = self.book.say("worked.friction_acts", joint=rest.split("|")[0], link=link)
+        joint = self._rubbing(name)
+        if joint:
+            text = self.book.say("worked.friction_acts", joint=joint, link=link)
         else:
             text = self.book.say("worked.load_idle" if idle else "worked.load_acts", name=name, link=link)
-        if not idle or kind != "friction":
+        if not (idle and joint):
             step.say(text)
 
     def _couple(self, step: Step, name: str, label: str, link: str, torque: float) -> Term:
@@ -166,10 +167,12 @@ class KnownForces:
                 return
         step.give(angle, "°")
 
+    def _rubbing(self, name: str) -> str:
+        """The joint whose friction goes by a name; empty where a load does."""
+        return "" if name in self.book.mechanism.loads else "".join(owners_of("friction", [name]))
+
     def _label(self, name: str, link: str) -> str:
-        kind, _, rest = name.partition(":")
-        if kind == "friction" and rest:
-            joint = rest.split("|")[0]
+        if joint := self._rubbing(name):
             return f"f{joint}{self.book.numbers[link]}"
         several = sum(1 for other, each, _ in self._found if other == name and each in self.on) > 1
         return f"{name}{self.book.numbers[link]}" if several else name
