@@ -115,7 +115,7 @@ class Diagram:
         canvas: Any = _canvas(form)(self.figure)
         stream = io.BytesIO()
         date = {"svg": {"Date": None}, "pdf": {"CreationDate": None}, "png": {"Software": "Linkwright"}}[form]
-        with style(self.language), _no_boxes():
+        with style(self.language), _no_boxes(), _laid_out(self.figure, dpi):
             canvas.print_figure(stream, format=form, dpi=dpi, metadata=date, facecolor="white")
         return stream.getvalue()
 
@@ -146,6 +146,21 @@ def _no_boxes() -> Iterator[None]:
             yield
         except UserWarning as problem:
             raise RequestError(Sentence("picture.no_glyph", problem=problem, remedy=REMEDY)) from None
+
+
+@contextmanager
+def _laid_out(figure: Figure, dpi: float) -> Iterator[None]:
+    """A figure whose parts have their places at so many dots per inch, for which it would be drawn a first time."""
+    engine, dots = figure.get_layout_engine(), figure.dpi
+    if engine is not None:
+        figure.dpi = dpi
+        engine.execute(figure)
+        figure.dpi = dots
+        figure.set_layout_engine(None)
+    try:
+        yield
+    finally:
+        figure.set_layout_engine(engine)
 
 
 def new_figure(size: tuple[float, float]) -> Figure:
