@@ -98,9 +98,9 @@ class Follower:
             q = self._newton(guess, self.law(t)[0])
             if q is None:
                 return None
-            length = self._size(q - here.q)
-            longest = LONGEST / self.care * max(1.0, self._size(here.q))
-            if length > longest or self._size(q - guess) > CORRECTION / self.care * length + 1e-11:
+            length, far = self._size(q - here.q), max(1.0, self._size(here.q))
+            longest, rounding = LONGEST / self.care * far, 1e-11 * far
+            if length > longest or self._size(q - guess) > CORRECTION / self.care * length + rounding:
                 return None
             there = self._state(t, q)
         except (Unreachable, np.linalg.LinAlgError):
@@ -109,18 +109,18 @@ class Follower:
             return None
         rule = h / 2 * (here.v + there.v) - h * h / 12 * (there.a - here.a)
         gap = self._size(q - here.q - rule)
-        return there if gap <= HERMITE / self.care * length + 1e-11 else None
+        return there if gap <= HERMITE / self.care * length + rounding else None
 
     def _newton(self, guess: Array, u: Array) -> Array | None:
-        q, before = guess.copy(), np.inf
+        q, before, far = guess.copy(), np.inf, max(1.0, self._size(guess))
         for _ in range(8):
             step = np.linalg.solve(self.system.jacobian(q)[:, 3:], -self.system.residual(q, u))
             q[1:] += step.reshape(-1, 3)
             length = self._size(step.reshape(-1, 3))
-            if length < 1e-13:
+            if length < 1e-13 * far:
                 return q
             if length > 0.5 * before:
-                return q if length < 1e-11 else None
+                return q if length < 1e-11 * far else None
             before = length
         return None
 

@@ -363,6 +363,7 @@ def _compare_forces(
     size = max(float(np.nanmax(np.abs(reference.q[:, 1:, :2]))), 1e-3)
     sizes = [np.abs(w.force).max(axis=1) + np.abs(w.torque) / size for w in expected.wrenches]
     sizes.append(_inertia_scale(mechanism, reference, size))
+    sizes += _damping_scales(mechanism, reference, size)
     largest = np.max(sizes, axis=0) + 1e-6
     _judge_numbers(found, where, condition, {"force": largest, "moment": largest * size}, verdict)
     _judge_checks(forces, reference, where, condition, largest, verdict)
@@ -378,11 +379,18 @@ def _inertia_scale(mechanism: Any, reference: Motion, size: float) -> Array:
     return np.asarray(heaviest * _motion_floors(reference)["acceleration"])
 
 
+def _damping_scales(mechanism: Any, reference: Motion, size: float) -> list[Array]:
+    """Forces of dampers at this mechanism's speeds, each (n,): ends that stay together part by their rounding."""
+    speed = _motion_floors(reference)["velocity"]
+    arms = {"damper": 1.0, "torsion_damper": size**2}
+    return [a.damping * speed / arms[a.kind] for a in mechanism.loads.values() if a.kind in arms]
+
+
 def _judge_checks(
     forces: Any, reference: Motion, where: Any, condition: Array, largest: Array, verdict: Verdict
 ) -> None:
     """The package's own checks must be as small as its numbers are right."""
-    fast = np.abs(reference.qd[where, 1:, :2]).max(axis=(1, 2)) + 1e-9
+    fast = _motion_floors(reference)["velocity"][where]
     limits = {"power_residual": largest[where] * fast, "balance_residual": largest[where]}
     for name, scale in limits.items():
         value = np.abs(getattr(forces, name)[where])
