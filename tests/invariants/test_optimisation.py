@@ -54,6 +54,29 @@ def test_an_optimum_known_in_closed_form(press: Path) -> None:
     assert [line.split(":")[0].strip() for line in changed] == ["crank", "rod"]
 
 
+def test_limit_positions_as_objective_and_demand(press: Path) -> None:
+    """The ram between l - r and l + r: at least 150 mm and 60 mm of stroke leave l + r = 210 mm."""
+    press.write_text(
+        SLIDER.replace("minimize: r + l", "minimize: limit_position guide max").replace(
+            "r/l: at most 0.2", "limit_position guide min: at least 150 mm"
+        )
+    )
+    found = lw.optimize(press, evaluations=600)
+    assert found.best.numbers["limit_position guide max"] == pytest.approx(0.210, rel=1e-6)
+    assert found.best.values["crank.length"] == pytest.approx(0.030, rel=1e-5)
+
+
+@pytest.mark.parametrize("number", ["peak_jerk", "energy_fluctuation"])
+def test_numbers_with_dimensions_of_their_own(number: str) -> None:
+    """Energy and jerk are no quantities of files; both grow with the crank, so the shortest is the best."""
+    load = "loads: {work: {kind: force, on: ram, at: B, opposes: velocity, magnitude: 400 N}}"
+    mechanism = lw.loads(SLIDER.split("optimize:", maxsplit=1)[0] + load)
+    found = lw.optimize(mechanism, vary={"crank.length": "20..80 mm"}, minimize=number, evaluations=60)
+    assert found.best.values["crank.length"] == pytest.approx(0.020, rel=1e-9)
+    alone = lw.metrics(lw.solve_forces(mechanism.with_dimensions({"crank.length": 0.020})))
+    assert found.best.numbers[number] == pytest.approx(alone.value(number), rel=1e-9)
+
+
 def test_whole_numbers_and_catalogues(press: Path) -> None:
     vary = {
         "crank.length": {"values": "20, 28, 33, 45 mm"},

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 
-from linkwright.units import SI_UNITS
+from linkwright.units import DIMENSIONS, NONE, SI_UNITS, Dimension, unit
 
 #: Dimensions that only design numbers have, with their SI units.
 FURTHER: Mapping[str, str] = {
@@ -27,6 +27,13 @@ NOTHING: Mapping[str, float] = {"angle": 1e-9, "length": 1e-15}
 def si_unit(dimension: str) -> str:
     """SI unit of a dimension; raises KeyError for one that is not known."""
     return FURTHER[dimension] if dimension in FURTHER else SI_UNITS[dimension]
+
+
+def powers(dimension: str) -> Dimension:
+    """Powers of metre, kilogram, second and radian in a dimension; raises KeyError for one that is not known."""
+    if dimension in DIMENSIONS:
+        return DIMENSIONS[dimension]
+    return unit(FURTHER[dimension])[1] if FURTHER[dimension] else NONE
 
 
 def shown_unit(dimension: str) -> str:

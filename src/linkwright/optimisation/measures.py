@@ -21,6 +21,7 @@ from linkwright.kinematics.cycle import over_cycle
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.base import Number
 from linkwright.metrics.outputs import mechanism_outputs
+from linkwright.metrics.quantities import powers
 from linkwright.metrics.summary import is_summary, one, wanted
 from linkwright.optimisation.paths import PathErrors
 from linkwright.optimisation.problem import Problem
@@ -142,15 +143,15 @@ class Measures:
         if self.cycle is not None:
             term = next(each for each in self.cycle.terms if each.name == name)
             if term.dimension:
-                return units.DIMENSIONS[term.dimension]
+                return powers(term.dimension)
             summary = one(term.parts[0])
             angle = summary.kind in ("argmin", "argmax")
-            return units.DIMENSIONS["angle" if angle else self.cycle.quantities[summary.output].dimension]
+            return powers("angle" if angle else self.cycle.quantities[summary.output].dimension)
         found = criterion(name).measure(self._alternative(self.mechanism))
         if found is None and not is_summary(name):
             metric = metric_of(name)
-            return units.DIMENSIONS[OWN[name][0] if metric is None else metric[0].dimension]
-        return units.DIMENSIONS[found.dimension] if found is not None else units.NONE
+            return powers(OWN[name][0] if metric is None else metric[0].dimension)
+        return powers(found.dimension) if found is not None else units.NONE
 
     def __call__(self, columns: Mapping[str, Floats]) -> dict[str, Floats]:
         """Values (designs,) of every text, by columns (designs,) of addresses; NaN where a design does not move."""
