@@ -2,7 +2,7 @@
 
 #: By the English words of the schema.
 MEANINGS = {
-    "add format: 1 as the first line": "第一行写 format: 1",
+    "1, in the first line": "第一行写 format: 1",
     "name of the mechanism": "机构的名称",
     "what it is for, one sentence": "用途，一句话",
     "where it is taken from": "资料来源",
@@ -70,7 +70,7 @@ MEANINGS = {
     "pressure angle in mesh (default 20 deg)": "啮合角（默认 20 deg）",
     "the link that carries the guide": "导路所在的构件",
     "point of the guide link on the guide line": "导路构件上、位于导路线上的点",
-    "direction: an angle in the guide link's axes, or two points [P, Q]":
+    "an angle in the guide link's axes, or two points [P, Q]":
         "方向：在导路构件坐标系中的角度，或两点 [P, Q]",
     "the link that slides": "滑动的构件",
     "point of the block that follows the line": "滑块上沿导路运动的点",

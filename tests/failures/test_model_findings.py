@@ -353,3 +353,11 @@ def test_an_assembly_that_nothing_says_is_noted(tmp_path: Path, capsys: pytest.C
         file.write_text(MODEL + line, encoding="utf-8")
         assert main(["check", str(file)]) == 0
         assert ("note: group RRR (coupler, rocker)" in capsys.readouterr().out) is noted
+
+
+def test_a_wheel_on_the_frame_needs_no_mass_beside_its_inertia() -> None:
+    """Its mass centre stands still; a link whose mass centre moves has a mass as well."""
+    wheel = MODEL.replace("  crank:", "  wheel: {points: [O1], inertia: 0.01 kg·m²}\n  crank:")
+    assert not [each for each in read_text(wheel, "m.yaml")[1] if "without mass" in each.message]
+    (found,) = findings(changed("length: 1 m}", "length: 1 m, inertia: 0.01 kg·m²}"))
+    assert "without mass" in found.message

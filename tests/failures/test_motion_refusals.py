@@ -16,6 +16,7 @@ from tests.invariants.test_limits_range import tied
 import linkwright as lw
 from linkwright.kinematics.assembly import AssemblyError
 from linkwright.kinematics.input_range import input_range
+from linkwright.kinematics.outcome import PositionError
 from linkwright.kinematics.passing import plainly_passed
 from linkwright.kinematics.rank import rank_sentence
 from linkwright.mechanism.mechanism import Cycle, Mechanism
@@ -163,3 +164,34 @@ def test_a_crank_that_comes_near_to_its_end_is_not_said_to_pass(
 ) -> None:
     mechanism = make()
     assert (plainly_passed(mechanism, lw.structure(mechanism), steps) is not None) is passed
+
+
+TWO_CYLINDERS = """
+format: 1
+name: Two cylinders
+frame: {points: {O: [0 m, 0 m], C: [0 m, -1 m]}}
+links:
+  boom: {points: {O: [0 m, 0 m], E: [3 m, 0 m], H: [1 m, 0 m], K: [2 m, 0 m]}}
+  stick: {points: {E: [0 m, 0 m], L: [0 m, 0.5 m]}}
+  barrel1: {points: [C]}
+  rod1: {points: [H]}
+  barrel2: {points: [K]}
+  rod2: {points: [L]}
+joints:
+  lift: {kind: prismatic, guide: barrel1, through: C, direction: 0 deg, block: rod1, at: H}
+  dig: {kind: prismatic, guide: barrel2, through: K, direction: 0 deg, block: rod2, at: L}
+drawing: {H: [1 m, 0 m], E: [3 m, 0 m], K: [2 m, 0 m], L: [3 m, 0.5 m]}
+drivers:
+  raise: {slide: lift, position: "1.4 m + 0.1 m*sin(2*pi*t/(1 s))"}
+  curl: {slide: dig, position: "1.4 m + 0.2 m*sin(2*pi*t/(1 s))"}
+cycle: {duration: 1 s}
+"""
+
+
+def test_of_several_drivers_the_range_of_the_one_that_fails_is_told() -> None:
+    """K and E are 1 m apart, E and L 0.5 m: the second cylinder goes from 0.5 to 1.5 m, and 1.6 m are asked for; the
+    first one's range was told."""
+    with pytest.raises(PositionError) as caught:
+        lw.solve_motion(lw.loads(TWO_CYLINDERS))
+    assert "with the other drivers at their start the rod2 can slide from 0.5 m to 1.5 m" in str(caught.value)
+    assert "其余原动件停在起始位置时" in caught.value.say("zh")

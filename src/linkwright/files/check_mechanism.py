@@ -125,7 +125,9 @@ def _unlikely_inertias(reader: Reader, root: MappingNode, mechanism: Mechanism) 
             continue
         size = _size(link)
         largest = link.mass * (2.0 * size) ** 2
-        if link.inertia <= largest or (link.mass and not size):
+        if link.inertia <= largest or (
+            not size and (link.mass or set(link.points) <= set(mechanism.frame.points))
+        ):
             continue
         if link.mass:
             radius = math.sqrt(link.inertia / link.mass)

@@ -176,7 +176,8 @@ def refusal(motion: Motion) -> PositionError:
     where = _where(motion, first)
     if len(failed) > 1:
         where = Sentence("motion.of_positions", where=where, failed=len(failed), steps=motion.steps)
-    told = list(motion.notes) if outcome.kind == "barred" else range_sentence(motion.mechanism)
+    links = next((each.links for each in motion.structure.groups if each.name == outcome.group), ())
+    told = list(motion.notes) if outcome.kind == "barred" else range_sentence(motion.mechanism, tuple(links))
     said = Sentence(
         "motion.refused_told" if told else "motion.refused",
         name=motion.mechanism.name,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
 
@@ -131,12 +131,22 @@ def input_range(mechanism: Mechanism, driver: str | None = None) -> InputRange:
     return InputRange(name, mechanism.drivers[name].link, search.rotary, low, high)
 
 
-def range_sentence(mechanism: Mechanism) -> str:
-    """The first driver's range as a sentence for a refusal; empty where there is none to tell. Never raises."""
-    try:
-        return input_range(mechanism).explain()
-    except (LinkwrightError, ArithmeticError, ValueError):
-        return ""
+def range_sentence(mechanism: Mechanism, links: Sequence[str] = ()) -> str:
+    """A driver's range as a sentence for a refusal; empty where there is none to tell. Never raises.
+
+    Of several drivers it is that of the first whose range the group of ``links`` ends, the others at their start.
+    """
+    for driver in mechanism.drivers:
+        try:
+            found = input_range(mechanism, driver)
+        except (LinkwrightError, ArithmeticError, ValueError):
+            continue
+        if len(mechanism.drivers) == 1:
+            return found.explain()
+        groups = [end.group for end in (found.low, found.high) if end is not None]
+        if any(isinstance(each, Sentence) and each.values.get("links") == tuple(links) for each in groups):
+            return Sentence("range.others_still", told=found.explain())
+    return ""
 
 
 @dataclass(frozen=True)

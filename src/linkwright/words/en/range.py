@@ -8,6 +8,7 @@ WORDS = {
     "low": "from {low}",
     "high": "to {high}",
     "low_high": "from {low} to {high}",
+    "others_still": "with the other drivers at their start {told}",
     "both_ends": "at both ends {group} {how}",
     "at": "at {place} {group} {how}",
     "group": "group {signature} ({links})",

@@ -8,6 +8,7 @@ WORDS = {
     "low": "由 {low} 起",
     "high": "至 {high} 止",
     "low_high": "在 {low} 到 {high} 之间",
+    "others_still": "其余原动件停在起始位置时，{told}",
     "both_ends": "在两端{group}{how}",
     "at": "在 {place} 处{group}{how}",
     "group": " {signature} 杆组（{links}）",
