@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
 import numpy as np
 
 from linkwright.core.outputs import Output
@@ -42,8 +44,8 @@ def turns_fully(motion: Motion, output: Output) -> bool:
     return bool(abs(angle[-1] + step - angle[0]) > np.pi)
 
 
-def free_points(mechanism: Mechanism) -> tuple[str, ...]:
-    """Points of moving links that are no joint's: coupler points, tool points; as ``link.point``."""
+def free_points(mechanism: Mechanism, without: Collection[str] = ()) -> tuple[str, ...]:
+    """Points of links, ``without`` some, that are no joint's: coupler points, tool points; as ``link.point``."""
     used = set(mechanism.joints)
     for joint in mechanism.guides.values():
         used |= {joint.through, joint.at, *(joint.direction_points or ())}
@@ -51,11 +53,11 @@ def free_points(mechanism: Mechanism) -> tuple[str, ...]:
         f"{name}.{point}"
         for name, link in mechanism.links.items()
         for point in link.points
-        if point not in used
+        if name not in without and point not in used
     )
 
 
 def coupler_points(mechanism: Mechanism) -> tuple[str, ...]:
     """Free points of links that no joint holds to the frame."""
     held = {link for joint in mechanism.joints.values() if "frame" in joint.joined for link in joint.joined}
-    return tuple(name for name in free_points(mechanism) if name.split(".")[0] not in held)
+    return free_points(mechanism, held)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
+from linkwright.core.outputs import Output
 from linkwright.groups.base import Dyad
 from linkwright.kinematics.groups import dyad_shape, in_one_step, whole_form
 from linkwright.structure.group import Group, TreeJoint
@@ -61,7 +62,7 @@ class Places:
             rounds = round((turn.amount - formula.value) / 360.0)
             turns = number(360.0 * abs(rounds), degrees=True)
             formula = formula - turns if rounds < 0 else formula + turns
-            step.find(turn, formula, "°", f"{link}.angle [rad]")
+            step.find(turn, formula, "°", Output("angle", link).heading)
 
     def follow(self, step: Step, joint: TreeJoint) -> None:
         """Notes the angle of a link that a guide, a weld or a driver turns."""
@@ -100,7 +101,7 @@ class Places:
         if slide.joint in self.slid:
             return
         self.slid.add(slide.joint)
-        step.find(slide.s, formula, "m", f"{slide.joint}.displacement [m]")
+        step.find(slide.s, formula, "m", Output("displacement", slide.joint).heading)
 
     # a group --------------------------------------------------------------------------------
     def place(self, step: Step, group: Group) -> None:
@@ -316,10 +317,10 @@ class Places:
         for joint in group.unknowns:
             if joint.slides:
                 self.slid.add(joint.joint)
-                step.give(self.book.slide(joint.joint).s, "m", f"{joint.joint}.displacement [m]")
+                step.give(self.book.slide(joint.joint).s, "m", Output("displacement", joint.joint).heading)
             else:
                 self.angles.add(joint.child)
-                step.give(self.book.turn(joint.child), "°", f"{joint.child}.angle [rad]")
+                step.give(self.book.turn(joint.child), "°", Output("angle", joint.child).heading)
 
     def _held(self, group: Group) -> dict[str, Term]:
         """Angles of links that turn with an unknown one, and the directions of guides on moving links."""

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.outputs import Output
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.groups import in_one_step
 from linkwright.kinetostatics.forces import Forces
@@ -237,7 +238,9 @@ class Reactions:
         block = joint.child == joint.connection.b
         forward = slide.along.dot(needed)
         term = symbol(f"F_{joint.driver}", f"F_{{{tex(joint.driver)}}}", self._effort(joint.driver))
-        step.find(term, -forward if block else forward, "N", f"{joint.driver}.effort [N]")
+        step.find(
+            term, -forward if block else forward, "N", Output("effort", joint.driver, slides=True).heading
+        )
         push = slide.along.times(term)
         return push if block else -push
 
@@ -252,14 +255,14 @@ class Reactions:
             found = total([each.moment(place) for each in acting])
             term = symbol(f"M_{joint.driver}", f"M_{{{tex(joint.driver)}}}", self._effort(joint.driver))
             step.say(book.say("worked.driver_torque", point=joint.joint))
-            step.find(term, -found if own else found, "N·m", f"{joint.driver}.effort [N·m]")
+            step.find(term, -found if own else found, "N·m", Output("effort", joint.driver).heading)
             return place, term if own else -term
         place = self._block_point(joint)
         formula = -total([each.moment(place) for each in acting])
         n = book.numbers[joint.child]
         value = float(self.forces.couple(joint.joint, on=joint.child)[book.index])
         term = symbol(f"M_{joint.joint},{n}", f"M_{{{tex(joint.joint)},{n}}}", value)
-        step.find(term, formula, "N·m", f"{joint.joint} on {joint.child}.couple [N·m]")
+        step.find(term, formula, "N·m", Output("couple", joint.joint, on=joint.child).heading)
         return place, ZERO if formula.is_zero else term
 
     def _block_point(self, joint: TreeJoint) -> Pair:

@@ -50,8 +50,7 @@ def main_output(motion: Motion) -> Output | str:
     for found in (slides, [each for each in outputs if output_link(mechanism, each) not in geared]):
         if found:
             return max(found, key=lambda each: order.index(output_link(mechanism, each)))
-    free = [point for point in points if point.partition(".")[0] not in geared]
-    if free:
+    if free := free_points(mechanism, geared):
         return free[-1]
     moving = [link for link in reversed(order) if size(motion.link(link).angular_velocity) > 1e-9]
     moving.sort(key=lambda link: link in geared)
