@@ -42,8 +42,8 @@ M, WINDOWS, STEP = 64, (16, 23, 33, 46, 64), 1 / 36
 #: Least sin² of a transmission angle in the atlas, positions of a draw, least radius of a curve in cranks.
 LIMIT, POSITIONS, RADIUS = 0.08, 72, 0.15
 BLOCK = 4096
-#: Of the curves nearest to a target so many are as likely.
-EVENLY = 1000
+#: So many curves nearest to a target come first; of the next so many are about as likely.
+NEAREST, EVENLY = 200, 1000
 #: Parts tried by distance, steps from one to the next; range of the crank where a whole curve lies on an open target.
 PARTS, WHOLE = ((15, 4), (22, 4), (32, 6), (45, 8), (64, 64)), 6.27
 #: Positions of a turn from which a part's crank angles are read, round to the first one; their angles, rad.
@@ -138,11 +138,13 @@ class Matches:
     laid: Callable[[int], Laid]
 
     def designs(self, draw: Draw, most: int) -> Iterator[Design]:
-        """Designs with at most so many joints in a random order, the nearer the likelier early."""
+        """Designs with at most so many joints: the nearest, then all others drawn, the nearer the likelier early."""
         joints = np.array([len(each) // 4 for each in self.atlas.structures])
         order = np.argsort(self.distances, kind="stable")
         rows = order[joints[self.atlas.which[order, 0]] <= most]
-        for i in rows[np.argsort(draw.exponential(size=len(rows)) * (EVENLY + np.arange(len(rows))))]:
+        drawn = draw.exponential(size=len(rows)) * (EVENLY + np.arange(len(rows)))
+        drawn[:NEAREST] = 0.0
+        for i in rows[np.argsort(drawn, kind="stable")]:
             yield self.atlas.design(i, self.laid(i))
 
 
