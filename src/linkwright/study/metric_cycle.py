@@ -153,6 +153,21 @@ class MetricCycle:
             _outputs(part for text, part in self.parts.items() if text not in found_apart)
         )
         self.quantities |= {text: self._on_stroke(text, part) for text, part in on_strokes.items()}
+        self.constant = self._constants()
+        self.limited |= {text: text for text in self.constant}
+
+    def _constants(self) -> dict[str, Program]:
+        """The means of lengths and the like, which no position changes, as formulas of the dimensions."""
+        found = {}
+        for text, part in self.parts.items():
+            if part.kind == "mean" and text not in self.limited:
+                value = self.quantities[part.output].value
+                program = Program.of(self.traced.solver.motion.trace, {text: value})
+                if not (program.positions or program.fields or program.states):
+                    found[text] = program
+        for text in found:
+            self.quantities.pop(self.parts[text].output, None)
+        return found
 
     def _on_stroke(self, text: str, part: Summary) -> Quantity:
         """A transmission angle while an output goes one way, else the largest one that there is."""
@@ -267,6 +282,9 @@ class MetricCycle:
         cutting = self.gauss.cutting()
         limits = limit_stages(self.traced, self.outputs, valued=self.loads.valued)
         parts = self.gauss.part_stages()
+        parts += [
+            Stage(each, {text: Reduction(text, "first")}, steps=1) for text, each in self.constant.items()
+        ]
         return [*limits, *parts, *([] if cutting is None else [cutting])]
 
     @cached_property
