@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Mapping
-from dataclasses import field, replace
+from dataclasses import field
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.core.dataclass import dataclass
@@ -172,7 +172,7 @@ class Coordinates(Field):
         mapping = reader.mapping(node, place)
         if mapping is None:
             return None
-        owner = replace(place, address=place.address.rpartition(".")[0])
+        owner = place.outside()
         found: dict[str, tuple[float, float] | None] = {}
         for entry in mapping.entries:
             name = reader.name(entry.key, owner.child(entry.key.text), "point")

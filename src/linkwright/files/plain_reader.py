@@ -53,9 +53,9 @@ class Place:
             f"{self.key}.{name}" if self.key else name, f"{self.address}.{name}" if self.address else name
         )
 
-    def nested(self, name: str) -> Place:
-        """A key below that the address leaves out."""
-        return Place(f"{self.key}.{name}" if self.key else name, self.address)
+    def outside(self) -> Place:
+        """The same key, where the address leaves out its last name."""
+        return Place(self.key, self.address.rpartition(".")[0])
 
 
 class PlainReader:

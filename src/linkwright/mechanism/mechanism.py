@@ -268,7 +268,7 @@ class Mechanism(Frozen):
         vars(made).update(found)
         return made
 
-    @property
+    @cached_property
     def _elements(self) -> dict[str, Mapping[str, Any]]:
         """All that has dimensions of its own, by sort and name."""
         links = {"frame": self.frame, **self.links}
@@ -368,9 +368,10 @@ class Mechanism(Frozen):
         if abs(value) > LARGEST_OF_ALL:
             raise RequestError(Sentence("model.set_beyond", address=address, value=value))
         sort, name = self._owners.get(address, ("", ""))
-        held = self.joints[name].limit(address, value) if sort == "joint" else None
-        field = self.declared(address)
-        limit = held or (field and field.limit(value))
+        if sort == "joint":
+            limit = self.joints[name].limit(address, value)
+        else:
+            limit = None if (field := self.declared(address)) is None else field.limit(value)
         if limit is not None:
             raise RequestError(Sentence("model.set_outside", address=address, value=value, limit=limit))
         return value
