@@ -85,6 +85,13 @@ class Remark:
     key: str = ""
 
 
+def below(node: Node | None, *keys: str) -> Node | None:
+    """The node at a path of keys; None where there is none."""
+    for key in keys:
+        node = node.get(key) if isinstance(node, Mapping) else None
+    return node
+
+
 def noun(node: Node | None) -> str:
     """What the node is, in words, for messages."""
     if isinstance(node, Mapping):

@@ -8,7 +8,7 @@ from functools import partial
 from linkwright.core.outputs import Output
 from linkwright.errors import Severity
 from linkwright.fields.nodes import Mapping as MappingNode
-from linkwright.fields.nodes import Node
+from linkwright.fields.nodes import below
 from linkwright.files.reader import Reader
 from linkwright.joints.base import Joint
 from linkwright.mechanism.mechanism import Link, Mechanism, Vec
@@ -40,17 +40,11 @@ def _all_read(reader: Reader, root: MappingNode, mechanism: Mechanism) -> bool:
     return links and bool(mechanism.links) and all(name in mechanism.joints for name in declared)
 
 
-def _link_node(root: MappingNode, name: str) -> Node | None:
-    links = root.get("links")
-    return links.get(name) if isinstance(links, MappingNode) else None
-
-
 def _unused_parameters(reader: Reader, root: MappingNode, mechanism: Mechanism) -> None:
-    section = root.get("parameters")
     for name in mechanism.parameters:
-        if name not in reader.used and isinstance(section, MappingNode):
+        if name not in reader.used:
             reader.finding(
-                section.get(name),
+                below(root, "parameters", name),
                 f"parameters.{name}",
                 "parameter_unused",
                 "unused",
@@ -66,7 +60,7 @@ def _lonely_links(reader: Reader, root: MappingNode, mechanism: Mechanism) -> No
             of_link[name].append(joint)
     for name, link in mechanism.links.items():
         joints = of_link[name]
-        key, node = f"links.{name}", _link_node(root, name)
+        key, node = f"links.{name}", below(root, "links", name)
         if not joints:
             points = ", ".join(link.points)
             reader.finding(node, key, "link_unused", "unused", name=name, points=points)
@@ -89,7 +83,7 @@ def _islands(reader: Reader, root: MappingNode, mechanism: Mechanism) -> None:
     joined = [name for name in apart if any(name in joint.joined for joint in mechanism.joints.values())]
     if joined:
         reader.finding(
-            _link_node(root, joined[0]),
+            below(root, "links", joined[0]),
             f"links.{joined[0]}",
             "unconnected",
             "not-connected",
@@ -108,7 +102,7 @@ def _near_points(reader: Reader, root: MappingNode, mechanism: Mechanism) -> Non
             alike = sorted(folded[point.casefold()] - own)
             if alike and reader.names.owners(point) == [name]:
                 reader.finding(
-                    _link_node(root, name),
+                    below(root, "links", name),
                     f"links.{name}.points",
                     "lone_spelling",
                     "near-name",
@@ -135,22 +129,20 @@ def _unlikely_inertias(reader: Reader, root: MappingNode, mechanism: Mechanism) 
             problem = Sentence("model.gyration_large", said=said, size=number(size, 4))
         else:
             problem = Sentence("model.inertia_without_mass")
-        node = _link_node(root, name)
-        at = node.get("inertia") if isinstance(node, MappingNode) else None
+        at = below(root, "links", name, "inertia")
         remedy = Sentence("model.check_inertia")
-        reader.error(at or node, f"links.{name}.inertia", problem, remedy, "unlikely", severity="warning")
+        reader.error(at, f"links.{name}.inertia", problem, remedy, "unlikely", severity="warning")
 
 
 def _missing_inertias(reader: Reader, root: MappingNode, mechanism: Mechanism) -> None:
     """Links that turn and have a mass, but no word about their moment of inertia, which then counts as zero."""
     sliding = _sliding(mechanism)
     for name, link in mechanism.links.items() if mechanism.drivers else ():
-        node = _link_node(root, name)
-        if not isinstance(node, MappingNode) or name in sliding or not link.mass or node.get("inertia"):
+        if name in sliding or not link.mass or below(root, "links", name, "inertia"):
             continue
-        at, remedy, mass = node.get("mass") or node, Sentence("model.add_inertia"), number(link.mass, 6)
-        reader.finding(at, f"links.{name}.inertia", "no_inertia", "no-inertia", remedy, severity="warning",
-                       link=name, mass=mass)  # fmt: skip
+        message = Sentence("model.no_inertia", link=name, mass=number(link.mass, 6))
+        at, remedy = below(root, "links", name, "mass"), Sentence("model.add_inertia")
+        reader.error(at, f"links.{name}.inertia", message, remedy, "no-inertia", severity="warning")
 
 
 def _sliding(mechanism: Mechanism) -> set[str]:
@@ -167,15 +159,13 @@ def _phases_of_no_motion(reader: Reader, root: MappingNode, mechanism: Mechanism
     """Loads that act by the angle of a link that only slides: it never reverses, so that a stroke of it is an error;
     while it moves is never, which is odd.
     """
-    sliding, loads = _sliding(mechanism), root.get("loads")
+    sliding = _sliding(mechanism)
     for name, load in mechanism.loads.items():
         output: Output | None = getattr(getattr(load, "phase", None), "output", None)
         if output is None or output.kind != "angle" or output.owner not in sliding:
             continue
-        node = loads.get(name) if isinstance(loads, MappingNode) else None
-        node = node.get("phase") if isinstance(node, MappingNode) else None
-        key = "moving" if isinstance(node, MappingNode) and node.get("moving") else "of"
-        at = node.get(key) if isinstance(node, MappingNode) else None
+        key = "moving" if below(root, "loads", name, "phase", "moving") else "of"
+        at = below(root, "loads", name, "phase", key)
         guides = [joint for joint in mechanism.guides if output.owner in mechanism.joints[joint].joined]
         message = Sentence("model.phase_of_sliding", link=output.owner)
         remedy = (

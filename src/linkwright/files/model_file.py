@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from linkwright.errors import Finding, ModelError
-from linkwright.fields.nodes import Mapping, Node, Scalar
+from linkwright.fields.nodes import Node, Scalar, below
 from linkwright.files.compose import compose
 from linkwright.files.read_model import read_model
 from linkwright.files.source import gallery_names, read_source
@@ -74,7 +74,7 @@ def read_tree(
 
 def declared_kind(root: Node | None) -> str | None:
     """The kind of calculation that a tree declares; None of a model."""
-    node = root.get("kind") if isinstance(root, Mapping) else None
+    node = below(root, "kind")
     return node.text if isinstance(node, Scalar) else None
 
 

@@ -9,7 +9,7 @@ from typing import Any
 from linkwright.drivers.base import LAWS, Driver, Law
 from linkwright.fields.base import Field
 from linkwright.fields.nodes import Mapping as MappingNode
-from linkwright.fields.nodes import Node
+from linkwright.fields.nodes import Node, below
 from linkwright.fields.references import LinkName
 from linkwright.files.plain_reader import Place
 from linkwright.files.reader import Reader
@@ -33,7 +33,7 @@ def scan_input(reader: Reader, root: MappingNode) -> None:
     several = root.get("drivers")
     if node is None and isinstance(several, MappingNode) and several.entries:
         node = several.entries[0].value
-    reader.input_rotary = not (isinstance(node, MappingNode) and node.get("slide") is not None)
+    reader.input_rotary = below(node, "slide") is None
 
 
 def read_drivers(reader: Reader, root: MappingNode, joints: Mapping[str, Joint]) -> dict[str, Driver]:

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from linkwright.fields.nodes import Mapping as MappingNode
-from linkwright.fields.nodes import Node, Scalar, Sequence
+from linkwright.fields.nodes import Node, Scalar, Sequence, below
 from linkwright.fields.references import Coordinates
 from linkwright.files.plain_reader import NAME, Place
 from linkwright.files.reader import Reader
@@ -21,7 +21,7 @@ MOST_LINKS = 1000
 
 def legible(node: Node | None) -> bool:
     """Whether all points that a link's node may have can be read from it."""
-    points = node.get("points") if isinstance(node, MappingNode) else None
+    points = below(node, "points")
     if isinstance(points, Sequence):
         return all(isinstance(item, Scalar) and NAME.fullmatch(item.text) for item in points.items)
     return isinstance(points, MappingNode)
@@ -46,7 +46,7 @@ def read_frame(reader: Reader, node: Node | None) -> Link:
     if node is None:
         reader.finding(None, "frame", "no_frame", "missing-key")
         return Link("frame", "coordinates", {})
-    points = node.get("points") if isinstance(node, MappingNode) else None
+    points = below(node, "points")
     if isinstance(points, Sequence):
         reader.finding(points, "frame.points", "frame_no_coordinates", "type")
         return Link("frame", "coordinates", {})
@@ -64,7 +64,7 @@ def read_drawing(reader: Reader, node: Node | None, frame: Link) -> dict[str, Ve
     everywhere = list(dict.fromkeys(point for points in reader.names.links.values() for point in points))
     drawing: dict[str, Vec] = {}
     for name, place in found.items():
-        value = node.get(name) if isinstance(node, MappingNode) else None
+        value = below(node, name)
         if not reader.known(value or node, f"drawing.{name}", "point", name, everywhere) or place is None:
             continue
         fixed = frame.points.get(name)

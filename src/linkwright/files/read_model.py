@@ -13,7 +13,7 @@ from linkwright.core import expressions
 from linkwright.errors import Finding, QuantityError
 from linkwright.fields.base import Count, Field, Free, Text
 from linkwright.fields.nodes import Mapping as MappingNode
-from linkwright.fields.nodes import Node, Scalar
+from linkwright.fields.nodes import Node, Scalar, below
 from linkwright.files.check_mechanism import check_whole
 from linkwright.files.plain_reader import Place, TooManyFindings
 from linkwright.files.read_drivers import read_cycle, read_drivers, scan_input
@@ -103,20 +103,19 @@ def _sections(reader: Reader, root: MappingNode, source: str) -> Mechanism:
     check_whole(reader, root, mechanism)
     if unread:
         return mechanism
-    drawing, section = Drawing(mechanism), root.get("joints")
+    drawing = Drawing(mechanism)
     for name, joint in joints.items():
-        report = partial(_report, reader, section, name)
+        report = partial(_report, reader, root, name)
         joints[name] = joint.settled(mechanism, report).drawn(drawing)
     return replace(mechanism, joints=joints)
 
 
 def _report(
-    reader: Reader, section: Node | None, joint: str, key: str, problem: Sentence, remedy: Sentence
+    reader: Reader, root: MappingNode, joint: str, key: str, problem: Sentence, remedy: Sentence
 ) -> None:
     """A finding about a key of a joint."""
-    node = section.get(joint) if isinstance(section, MappingNode) else None
-    held = node.get(key) if isinstance(node, MappingNode) else None
-    reader.error(held or node, Place(f"joints.{joint}", joint).child(key), problem, remedy, "range")
+    at = below(root, "joints", joint, key) or below(root, "joints", joint)
+    reader.error(at, f"joints.{joint}.{key}", problem, remedy, "range")
 
 
 def _only(root: MappingNode, fields: Mapping[str, Field]) -> MappingNode:
