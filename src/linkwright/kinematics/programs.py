@@ -8,6 +8,7 @@ from collections.abc import Hashable, Mapping
 from functools import cached_property
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.outputs import Output
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
 from linkwright.engine.recent import Recent
@@ -43,6 +44,7 @@ class MotionPrograms:
         self.structure = structure
         self.manner = manner
         self.point_keys: dict[str, str] = {}
+        self.meanings: dict[str, Output] = {}
         self.lock = threading.RLock()
         self._programs: dict[tuple[str, ...], NumpyProgram] = {}
 

@@ -64,7 +64,8 @@ class Analysis:
         self._limits: dict[Output, tuple[Limit, ...]] = {}
         self._outermost: dict[Output, list[Limit]] = {}
         self._words: dict[str, None] = {}
-        self._outputs: dict[str, Output] = {}
+        self._outputs = motion.solver.programs.meanings
+        self._strokes: dict[Summary, Extreme | None] = {}
         self._met: dict[tuple[str, str], tuple[float, float] | None] = {}
         self._parts: dict[str, Extreme] = {}
 
@@ -147,7 +148,10 @@ class Analysis:
     def ask(self, parts: Iterable[str]) -> None:
         """Says which summaries will be wanted, so that their outputs are evaluated together."""
         for summary in map(one, parts):
-            output = strokes.signal_of(summary) if summary.kind in strokes.KINDS.values() else summary.output
+            output = summary.output
+            if summary.kind in strokes.KINDS.values():
+                output = strokes.signal_of(summary)
+                self._strokes.setdefault(summary)
             if summary.kind not in true_speed.KINDS and self._meant(output).kind != "angle":
                 self._words[words_name(output)] = None
 
@@ -193,7 +197,7 @@ class Analysis:
         if kind in true_speed.KINDS:
             return true_speed.of_machine(summary, self)
         if kind in strokes.KINDS.values():
-            return strokes.of_machine(summary, self)
+            return self._on_stroke(summary)
         if kind in _TOGETHER and (known := self._known(summary.output, kind)):
             return known
         output, signal = self.output(summary.output), self.signal(summary.output)
@@ -216,6 +220,16 @@ class Analysis:
             return replace(largest, value=abs(largest.value))
         found = high if kind == "argmax" else low
         return replace(found, value=found.input)
+
+    def _on_stroke(self, part: Summary) -> Extreme:
+        """A part over a stroke, found at once with those of all that were asked for."""
+        found = self._strokes.get(part)
+        if found is None:
+            missing = [each for each in {**self._strokes, part: None} if self._strokes.get(each) is None]
+            self._strokes |= zip(missing, strokes.of_machine(missing, self), strict=True)
+            found = self._strokes[part]
+        assert found is not None
+        return found
 
     def _excess(self, signal: Callable[[Motion | Forces], Floats]) -> float:
         """Largest difference of the integral over the first driver's way of a signal's lack of its mean."""
@@ -392,11 +406,12 @@ class Analysis:
         grid = self.grid
         if wanted and grid is not None and all(grid.start <= start < end for _, (start, end) in wanted):
             found = grid.extremes_between(kind, [(grid.curve(signal, of), span) for signal, span in wanted])
-            if all(each.smooth for each in found):
-                return [
-                    Extreme(each.value, each.place, self.resolver.input_at(each.place), True)
-                    for each in found
-                ]
+            return [
+                Extreme(each.value, each.place, self.resolver.input_at(each.place), True)
+                if each.smooth
+                else self._extreme_between(signal, kind, of, *span)
+                for each, (signal, span) in zip(found, wanted, strict=True)
+            ]
         return [self._extreme_between(signal, kind, of, *span) for signal, span in wanted]
 
     def _extreme_between(
