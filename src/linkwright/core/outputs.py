@@ -7,7 +7,6 @@ column. :class:`Output` writes the three and reads rows; words are read against 
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import replace
 from functools import lru_cache
 
 from linkwright.core.dataclass import dataclass
@@ -114,6 +113,7 @@ def row_names(kind: str, owner: str = "", on: str = "") -> tuple[str, str]:
     return row_name(kind, owner, "x", on), row_name(kind, owner, "y", on)
 
 
+@lru_cache(4096)
 def kind_of(name: str) -> str:
     """The kind of the output in a program's row of this name; empty where the row is no output."""
     return _BY_ROW.get(name.partition(":")[0].partition(".")[0], "")
@@ -163,7 +163,7 @@ class Output:
     @property
     def rate(self) -> Output:
         """Its derivative in time; raises KeyError for what has none."""
-        return replace(self, kind=_RATES[self.kind], written="")
+        return Output(_RATES[self.kind], self.owner, self.component, self.on, self.slides)
 
     @property
     def of_motion(self) -> bool:

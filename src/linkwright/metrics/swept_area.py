@@ -39,7 +39,7 @@ class SweptArea(Metric):
         tracks = {key: _track(motion, key) for key in moving}
         hulls = {name: convex_hull(np.vstack([tracks[key] for key in own])) for name, own in keys.items()}
         frame = np.array(list(motion.mechanism.frame.points.values())).reshape(-1, 2)
-        whole = convex_hull(np.vstack([*tracks.values(), frame]))
+        whole = convex_hull(np.vstack([*hulls.values(), frame]))
         width, height = (shown(float(side), "length") for side in np.ptp(whole, axis=0))
         remark = Remark("swept_area.box", {"width": width, "height": height})
         yield self.value(analysis, motion.mechanism.name, area(whole), remarks=(remark,), exact=False)
