@@ -149,7 +149,7 @@ class Analysis:
         """Says which summaries will be wanted, so that their outputs are evaluated together."""
         for summary in map(one, parts):
             output = summary.output
-            if summary.kind in strokes.KINDS.values():
+            if summary.kind in strokes.WAYS:
                 output = strokes.signal_of(summary)
                 self._strokes.setdefault(summary)
             if summary.kind not in true_speed.KINDS and self._meant(output).kind != "angle":
@@ -196,7 +196,7 @@ class Analysis:
         kind = summary.kind
         if kind in true_speed.KINDS:
             return true_speed.of_machine(summary, self)
-        if kind in strokes.KINDS.values():
+        if kind in strokes.WAYS:
             return self._on_stroke(summary)
         if kind in _TOGETHER and (known := self._known(summary.output, kind)):
             return known

@@ -125,7 +125,8 @@ class Metric(ABC):
     length); ``better``: the direction in which designs improve, if there is one; ``limit``: the recommended value,
     SI; ``source``: where definition and limit are from; ``needs_forces``: whether joint forces must be solved;
     ``rank``: what matters first stands first in tables (output 1, transmission 2, torque 3, reactions 4, shaking 5);
-    ``on_request``: only where it is asked for by name.
+    ``on_request``: only where it is asked for by name; ``own_values``: one machine's ``values`` are found in a way of
+    their own, beside the ``numbers`` of many designs.
     """
 
     name: ClassVar[str]
@@ -136,6 +137,7 @@ class Metric(ABC):
     needs_forces: ClassVar[bool] = False
     rank: ClassVar[float] = 9.0
     on_request: ClassVar[bool] = False
+    own_values: ClassVar[bool] = False
 
     @property
     def unit(self) -> str:

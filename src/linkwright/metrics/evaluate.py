@@ -38,7 +38,8 @@ def metrics(result: Motion | Forces, names: Iterable[str] | str | None = None) -
     chosen = {name: METRICS[name]() for name in (_usual() if asked is None else asked)}
     applying = {name for name, metric in chosen.items() if metric.applies(analysis)}
     for name in applying:
-        chosen[name].asked(analysis)
+        if not chosen[name].own_values:
+            chosen[name].asked(analysis)
     for name, metric in chosen.items():
         if name in applying:
             rows += metric.evaluate(analysis)

@@ -105,6 +105,7 @@ class Grashof(Metric):
     name = "grashof"
     dimension = "length"
     source = "Grashof 1883; Norton, Design of Machinery, sec. 2.12: s + l ≤ p + q"
+    own_values = True
 
     def suits(self, analysis: Analysis) -> bool:
         return bool(four_bars(analysis.motion.mechanism))

@@ -18,6 +18,7 @@ class LimitPosition(Metric):
     name = "limit_position"
     dimension = "angle"
     source = "IFToMM terminology: the output's velocity is zero"
+    own_values = True
 
     def suits(self, analysis: Analysis) -> bool:
         return super().suits(analysis) and any(analysis.limits(output) for output in analysis.outputs)

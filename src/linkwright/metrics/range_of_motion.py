@@ -111,6 +111,7 @@ class DeadPoint(Metric):
     name = "dead_point"
     dimension = "angle"
     source = "IFToMM terminology: transmission angle zero"
+    own_values = True
 
     def numbers(self, analysis: Analysis) -> Iterator[Number]:
         """Those of outputs in their outermost limit positions, where one driver turns steadily through the cycle."""

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
 #: Kinds of these parts, by the limits with which their strokes begin.
 KINDS = {"max": "falling", "min": "rising"}
+WAYS = frozenset(KINDS.values())
 #: No transmission angle is larger.
 LARGEST = pi / 2
 

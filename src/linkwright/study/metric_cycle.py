@@ -443,7 +443,7 @@ def _outputs(parts: Iterable[Summary]) -> Iterator[str]:
     for part in parts:
         if part.kind in true_speed.KINDS:
             yield from (true_speed.EFFORT, true_speed.INERTIA)
-        elif part.kind in strokes.KINDS.values():
+        elif part.kind in strokes.WAYS:
             yield strokes.signal_of(part)
         elif part.kind not in _PLACES:
             yield part.output
@@ -451,7 +451,7 @@ def _outputs(parts: Iterable[Summary]) -> Iterator[str]:
 
 def _strokes(texts: Iterable[str]) -> dict[str, Summary]:
     """The parts over the strokes of an output."""
-    return {text: part for text in texts if (part := one(text)).kind in strokes.KINDS.values()}
+    return {text: part for text in texts if (part := one(text)).kind in strokes.WAYS}
 
 
 def _without_more_limits(each: Term, analysis: Analysis, turns: int) -> bool:
