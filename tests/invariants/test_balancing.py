@@ -29,7 +29,14 @@ driver: {turn: crank, about: O, speed: 100 rad/s}
 """
 
 
-@pytest.mark.parametrize("text", [FOURBAR, SLIDER])
+#: The same with the crank in axes of which neither pin is the origin.
+ASIDE = SLIDER.replace(
+    "crank: {points: [O, A], length: 0.05 m,",
+    "crank: {points: {O: [0.3 m, 0.1 m], A: [0.34 m, 0.13 m]}, mass_centre: [0.32 m, 0.12 m],",
+)
+
+
+@pytest.mark.parametrize("text", [FOURBAR, SLIDER, ASIDE])
 def test_full_balance_leaves_no_shaking_force(text: str) -> None:
     found = lw.balance(lw.loads(text), radius=0.08)
     before = np.abs(found.before.shaking_force).max()

@@ -17,8 +17,10 @@ from linkwright.kinematics.between import Between
 from linkwright.kinematics.branch import CORRECTION, MISFIT, _Walk, follow, straight
 from linkwright.kinematics.certificate import End, certify, cubic
 from linkwright.kinematics.continuation import Followed, Follower, _Journey
+from linkwright.kinematics.design import Design
 from linkwright.kinematics.explain import branch_notes
 from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.solver import MotionSolver
 from linkwright.study import iterated_groups
 
 Floats = NDArray[np.float64]
@@ -394,3 +396,21 @@ def test_on_a_line_of_two_drivers_what_is_reached_is_reached_from_either_side() 
     assert one.ok.tolist() == two.ok.tolist() == [True, *[False] * 7, True]
     for link in one.mechanism.links:
         assert two.link(link).direction == pytest.approx(one.link(link).direction, abs=1e-9, nan_ok=True)
+
+
+def test_times_of_a_later_turn_are_those_of_the_first(triad: Motion) -> None:
+    """Also within the first step, behind which the first position of the next turn lies."""
+    names, step = tuple(f"w:{link}" for link in triad.mechanism.links), triad.time[1] - triad.time[0]
+    times = triad.time[0] + step * np.array([0.4, 7.3, 35.6])
+    first = Between(triad).evaluate(names, np.array([0, 7, 35]), times)
+    later = Between(triad).evaluate(names, np.array([0, 7, 35]), times + triad.positions.period)
+    assert np.isfinite(first).all() and later == pytest.approx(first, rel=1e-9)
+
+
+def test_another_design_has_a_way_of_its_own(triad: Motion) -> None:
+    solver = MotionSolver(triad.mechanism)
+    changes = {"crank.A.x": 0.9 * triad.mechanism.dimensions()["crank.A.x"]}
+    other = solver.states(triad.positions, Design(triad.mechanism, solver.assembly.modes, changes))
+    there = followed(lw.solve_motion(triad.mechanism.with_dimensions(changes), steps=36))
+    agree(other, there)
+    agree(solver.states(triad.positions), followed(triad))

@@ -314,6 +314,15 @@ def test_two_reversals_of_a_rate_that_is_a_cubic_are_always_found(
     assert [each.kind for each in found] == ["max" if bent(each.time) < 0.0 else "min" for each in found]
 
 
+@pytest.mark.parametrize(("half", "expected"), [(1e-3, [1.7]), (5e-3, [0.995, 1.005, 1.7])])
+def test_a_way_back_to_nowhere_before_a_single_reversal_is_none(half: float, expected: list[float]) -> None:
+    """Back by (4/3) 0.7 ε³ on a way of 0.7⁴/12 between the reversals: 5e-8 and 6e-6 of it."""
+    terms = np.polynomial.Polynomial.fromroots([1.0 - half, 1.0 + half, 1.7])
+    law = " + ".join(f"({c!r})*(t/(1 s))^{k + 1}/{k + 1}" for k, c in enumerate(map(float, terms.coef)))
+    found = limit_positions(lw.solve_motion(driven(f'position: "1 m*({law})"'), steps=20), "guide")
+    assert [each.time for each in found] == pytest.approx(expected, abs=1e-8)
+
+
 @pytest.mark.parametrize("least", [1e-7, 0.01, 0.3])
 def test_a_rate_that_comes_near_to_zero_between_two_positions_is_none(least: float) -> None:
     law = f'position: "1 m*((t/(1 s) - 0.96)^3/3 + {least * 1e-3}*t/(1 s))"'

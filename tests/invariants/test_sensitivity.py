@@ -314,3 +314,21 @@ def test_what_passes_through_zero_at_a_position_keeps_its_slope_there(way: Any) 
     assert found.curve("A.y")[0] == 0.0
     assert found.slope("A.y", "frame.O.y").tolist() == pytest.approx([1.0] * 8, rel=1e-14)
     assert found.gradient("A.y mean") == pytest.approx([1.0], rel=1e-14)
+
+
+def test_a_structure_has_derivatives_at_its_one_position() -> None:
+    """Two bars at 45° carry 20 N downwards at their pin: a compression of F/√2 in each."""
+    text = """
+format: 1
+name: two bars
+frame: {points: {O: [0 m, 0 m], Q: [2 m, 0 m]}}
+links:
+  left: {points: [O, C], length: 1.4142135623730951 m}
+  right: {points: [Q, C], length: 1.4142135623730951 m}
+assembly: {C: left}
+loads: {weight: {kind: force, on: left, at: C, direction: -90 deg, magnitude: 20 N}}
+"""
+    found = sensitivity(lw.loads(text), of=["reaction O on left"], by=["loads.weight.magnitude"])
+    assert found.input.tolist() == [0.0]
+    slope = found.slope("reaction O on left", "loads.weight.magnitude")
+    assert slope == pytest.approx([np.sqrt(0.5)], rel=1e-12)

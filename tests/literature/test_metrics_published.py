@@ -42,10 +42,13 @@ def test_slider_crank_of_the_printing_press(steps: int) -> None:
     working, returning = acos((r - e) / rod), acos((r + e) / rod)
     table = of("slider_crank_offset", steps)
     assert table.value("quick_return_ratio") == pytest.approx((pi + theta) / (pi - theta), rel=1e-12)
+    assert table["quick_return_ratio", "guide"].at % (2 * pi) == pytest.approx(asin(e / (rod + r)), abs=1e-9)
     stroke = sqrt((rod + r) ** 2 - e**2) - sqrt((rod - r) ** 2 - e**2)
     assert table.value("stroke") == pytest.approx(stroke, abs=1e-11)
     strokes = [row.value for row in table["transmission_angle_of_stroke"]]
     assert strokes == pytest.approx([working, returning], abs=1e-9)
+    places = [row.at for row in table["transmission_angle_of_stroke"]]
+    assert places == pytest.approx([pi / 2, 3 * pi / 2], abs=1e-4)
     smallest = table["transmission_angle", "rod+slider"]
     assert smallest.value == pytest.approx(returning, abs=1e-9)
     assert degrees(smallest.at) % 360 == pytest.approx(270, abs=1e-4)

@@ -115,6 +115,13 @@ def test_a_program_is_repeated_where_its_velocity_goes_on() -> None:
     )
 
 
+def test_a_program_that_begins_and_ends_with_the_same_velocity_goes_on_with_it() -> None:
+    even = "program: [{rise: 90 deg, over: 1.5 s, law: constant_velocity}]"
+    found = lw.loads(MODEL.replace("LAW", even)).drivers["turn"].law
+    assert found.span() == (-math.inf, math.inf)
+    assert found.coordinate(np.array([4.0]))[0] == pytest.approx(math.radians(240), abs=1e-12)
+
+
 def test_a_program_that_ends_in_motion_says_nothing_beyond_its_end() -> None:
     found = lw.loads(MODEL.replace("LAW", THROW)).drivers["turn"].law
     q, rate, _ = found.coordinate(np.array([0.0, 1.0, 1.5]))

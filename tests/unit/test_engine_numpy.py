@@ -10,7 +10,7 @@ import pytest
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
 from linkwright.engine.scalar_backend import ScalarProgram
-from linkwright.engine.trace import Trace, absolute, select, sin, sqrt, stop
+from linkwright.engine.trace import Trace, absolute, power, select, sin, sqrt, stop
 
 
 def formulas(a, b, c, x, y, f):  # type: ignore[no-untyped-def]
@@ -103,6 +103,18 @@ def test_division_by_zero_and_negative_roots_follow_ieee() -> None:
     for i, value in enumerate(x_values):
         np.testing.assert_array_equal(scalar.step([0.0], [float(value)])[0], want[:, i])
     assert NumpyProgram(program).run([-3.0], {"x": x_values})[0, :2].tolist() == [-math.inf, math.inf]
+
+
+def test_powers_of_nought_follow_ieee() -> None:
+    t = Trace()
+    program = Program.of(t, {"p": power(t.position("x"), t.position("y"))})
+    x, y = (
+        np.array(row)
+        for row in zip(*[(a, b) for a in (0.0, -0.0) for b in (-1.0, -3.0, -2.0, -0.5)], strict=True)
+    )
+    want = [math.inf] * 4 + [-math.inf, -math.inf, math.inf, math.inf]
+    assert NumpyProgram(program).run([], {"x": x, "y": y})[0].tolist() == want
+    assert [ScalarProgram(program).step([], [a, b])[0][0] for a, b in zip(x, y, strict=True)] == want
 
 
 def newton_root() -> Program:

@@ -46,6 +46,7 @@ def test_strands_touch_both_pulleys_and_cross_where_the_belt_does(
         ("disc", "one", pytest.approx(radii[0])),
         ("disc", "two", pytest.approx(radii[1])),
     ]
+    assert [each.turned for each in discs] == [0.0, 0.0]
     assert [each.at for each in discs] == [pytest.approx((0.03, 0.01)), pytest.approx((0.02, -0.05))]
     sides = []
     for strand in (first, second):

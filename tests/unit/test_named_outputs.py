@@ -52,7 +52,8 @@ class Solved:
         program = Program.of(trace, {"carrier": quantity.carrier, "value": quantity.value})
         numbers = self.motion.design.parameters
         given = [numbers[name] for name in program.parameters]
-        rows = NumpyProgram(program).run(given, self.motion.positions.arrays, length=self.motion.steps)
+        arrays, states = self.motion.positions.arrays, self.motion.states or None
+        rows = NumpyProgram(program).run(given, arrays, states=states, length=self.motion.steps)
         return rows[0], rows[1], quantity.shown(rows[0])
 
 
@@ -294,6 +295,36 @@ def test_other_words_are_refused_with_what_was_meant(shaper: Solved, name: str, 
     with pytest.raises(lw.LinkwrightError) as caught:
         shaper.named.quantity(name)
     assert said in str(caught.value)
+
+
+@pytest.mark.parametrize("name", ["class_four_group", "fourth_order_group"])
+def test_conditioning_is_the_determinant_of_the_cuts_rates(name: str) -> None:
+    """Each column by turning or pushing all that hangs from one joint a little, and looking how far the cuts open."""
+    motion = lw.solve_motion(lw.load(f"gallery:{name}"), steps=7)
+    group = next(each for each in motion.structure.groups if len(each.cuts) > 1)
+    named = Named(force_programs(motion_programs(motion.mechanism, AS_IT_IS)), lambda link: 0.0)
+    case = Solved(motion, lw.solve_forces(motion), named)
+    for cut in group.cuts:
+        assert not cut.slides
+    columns = []
+    for step in group.unknowns:
+        assert step.turns
+        pivot = motion.point(step.joint).position
+        column = []
+        for cut in group.cuts:
+            gap = np.zeros((motion.steps, 2))
+            for sense, end in ((1.0, cut.a), (-1.0, cut.b)):
+                place = motion.point(cut.joint).position
+                if step in group.path(end):
+                    arm, (c, s) = place - pivot, (np.cos(1e-6), np.sin(1e-6))
+                    place = pivot + arm @ np.array([[c, s], [-s, c]])
+                gap = gap + sense * place
+            column.append(gap / 1e-6)
+        columns.append(np.concatenate(column, axis=1))
+    matrix = np.stack(columns, axis=2)
+    wanted = np.abs(np.linalg.det(matrix / np.linalg.norm(matrix, axis=1, keepdims=True)))
+    quantity = case.named.quantity(f"conditioning {group.cuts[0].joint}")
+    assert case.row(quantity)[2] == pytest.approx(wanted, rel=1e-5)
 
 
 def test_no_jerk_is_known_of_a_driver_with_a_law_of_its_own() -> None:

@@ -217,7 +217,6 @@ class ClosedLoops:
     # solving --------------------------------------------------------------------------------
     def newton(self, y: Floats, iterations: int = 8) -> Floats | None:
         """The root near y (n + d,) with the same drivers, to rounding; None where Newton's method fails."""
-        last = np.inf
         y = y.copy()
         for _ in range(iterations):
             at = self.turned(y)
@@ -229,9 +228,8 @@ class ClosedLoops:
             size = self.largest(step)
             if not size < 1e3:
                 return None
-            if size < 1e-8 and (size < 1e-13 or size * size < 1e-16 or size > 0.3 * last):
+            if size < 1e-8:
                 return y
-            last = size
         return None
 
     def polished(self, y: Floats, iterations: int = 3) -> tuple[Floats, Floats]:
