@@ -10,7 +10,7 @@ from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinematics.solve import MotionRun
 from linkwright.kinematics.solver import MotionSolver
-from linkwright.kinetostatics.run import forces_at_once
+from linkwright.kinetostatics.run import forces_at_once, run_forces
 from linkwright.metrics import metrics
 from linkwright.metrics.summary import wanted
 from linkwright.study.limit_stages import constants, limit_stages, near_limits
@@ -84,7 +84,7 @@ def test_loads_traced_with_the_motion_are_those_found_from_it(load: str) -> None
     """One evaluation of motion, limits, loads and forces, beside magnitudes found from the motion on arrays."""
     mechanism = machine(load)
     run = MotionRun(MotionSolver(mechanism), over_cycle(mechanism, 360))
-    together, apart = forces_at_once(run, False), lw.solve_forces(lw.solve_motion(mechanism))
+    together, apart = forces_at_once(run, False), run_forces(lw.solve_motion(mechanism), False)
     assert together is not None
     for name, expected in apart.fields.items():
         assert together.fields[name] == pytest.approx(expected, rel=1e-13, abs=1e-13 * np.abs(expected).max())

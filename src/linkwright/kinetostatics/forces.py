@@ -278,8 +278,8 @@ def solve_forces(source: Motion | Mechanism, *, static: bool = False, steps: int
     Raises:
         LinkwrightError: a load that cannot be evaluated, friction that does not converge or locks.
     """
-    from linkwright.kinetostatics.run import forces_of_run, run_forces
+    from linkwright.kinetostatics.run import forces_of_motion, forces_of_run
 
     if isinstance(source, Motion):
-        return run_forces(source, static)
+        return forces_of_motion(source, static)
     return forces_of_run(MotionRun(MotionSolver(source), over_cycle(source, steps)), static)

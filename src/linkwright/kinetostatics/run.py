@@ -46,6 +46,14 @@ def run_forces(
     return _evaluated(motion, solver, fields, static)
 
 
+def forces_of_motion(motion: Motion, static: bool) -> Forces:
+    """Forces of a motion; over a cycle in one evaluation with it if that is possible, else as :func:`run_forces`."""
+    solver, found = ForceSolver(motion.solver, inertia=not static), None
+    if motion.positions.cycle and not motion.modes and motion.ok.all():
+        found = solved_at_once(solver, motion.design, motion.positions, lambda _: motion)
+    return _with_notes(found) if found else run_forces(motion, static, solver)
+
+
 def forces_of_run(run: MotionRun, static: bool, failures: str = "raise") -> Forces:
     """Motion and forces over the positions of a run, in one evaluation where that is possible, else in turn.
 
@@ -84,17 +92,22 @@ def solved_at_once(
     known = traced_loads(design.mechanism, solver.motion.programs)
     whole = ForceSolver(solver.motion, inertia=solver.inertia, along_input=known.names)
     names, program = whole.programs.at_once(measures, asked)
-    index, motions, fields = solver.motion.programs.places(names), list[Motion](), dict[str, Floats]()
+    index, found, fields = (
+        solver.motion.programs.places(names),
+        list[tuple[Motion, Rows]](),
+        dict[str, Floats](),
+    )
 
     def late(values: Floats) -> dict[str, Any] | None:
-        motion = motion_of(Rows(values, index))
+        rows = Rows(values, index)
+        motion = motion_of(rows)
         if motion is None:
             return None
         signals = signals_of(motion)
         limits, middles = known.limits(signals), known.middles(signals)
         if limits is None or middles is None:
             return None
-        motions.append(motion)
+        found.append((motion, rows))
         fields.update(_load_fields(motion, program.program.fields, signals))
         return {**limits, **middles, **fields}
 
@@ -107,8 +120,8 @@ def solved_at_once(
         (np.abs(fields[row_name("magnitude", name)]) <= LARGEST["torque"]).all() for name in known.fallible
     ):
         return None
-    (motion,) = motions
-    return Forces(motion, solver, fields, not solver.inertia, motion.rows)
+    ((motion, rows),) = found
+    return Forces(motion, solver, fields, not solver.inertia, rows)
 
 
 def _evaluated(motion: Motion, solver: ForceSolver, fields: dict[str, Floats], static: bool) -> Forces:
