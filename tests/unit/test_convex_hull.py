@@ -21,8 +21,9 @@ def _tracks(count: int, seed: int) -> np.ndarray:
 @pytest.mark.parametrize("count", [2, 10, 360])
 def test_hull_is_that_of_scipy(count: int, seed: int) -> None:
     points = _tracks(count, seed) + 100.0 * (seed % 3)
-    corners, known = convex_hull(points), ConvexHull(points)
-    assert area(corners) == pytest.approx(known.volume, rel=1e-9)
+    places, known = convex_hull(points @ [1, 1j]), ConvexHull(points)
+    assert area(places) == pytest.approx(known.volume, rel=1e-9)
+    corners = np.stack([places.real, places.imag], axis=1)
     assert set(map(tuple, corners.tolist())) <= set(map(tuple, points.tolist()))
     side = np.roll(corners, -1, axis=0) - corners
     ahead = points[:, None] - corners
@@ -32,8 +33,8 @@ def test_hull_is_that_of_scipy(count: int, seed: int) -> None:
 @pytest.mark.parametrize("count", [1, 3, 900])
 def test_points_on_one_line_or_on_one_place_have_no_area(count: int) -> None:
     along = np.linspace(0.0, 1.0, count)
-    assert area(convex_hull(np.stack([along, 2.0 * along], axis=1))) == pytest.approx(0.0, abs=1e-12)
-    assert area(convex_hull(np.full((count, 2), 0.3))) == 0.0
+    assert area(convex_hull((1.0 + 2.0j) * along)) == pytest.approx(0.0, abs=1e-12)
+    assert area(convex_hull(np.full(count, 0.3 + 0.3j))) == 0.0
 
 
 @pytest.mark.parametrize("turn", [0.0, 0.3, -1.1])

@@ -33,8 +33,10 @@ from linkwright.metrics.summary import Summary, one
 
 Result: TypeAlias = "Motion | Forces | Analysis"
 Kind = Literal["max", "min"]
+#: By kind of summary values and times (s) of some outputs, and whether polynomials meet these.
+Columns: TypeAlias = dict[str, tuple[list[float], list[float], list[bool]]]
 #: Summaries that are found of all outputs at once.
-_TOGETHER = ("max", "min", "mean", "rms")
+_TOGETHER = frozenset({"max", "min", "peak", "mean", "rms"})
 
 
 @dataclass(frozen=True)
@@ -66,7 +68,7 @@ class Analysis:
         self._words: dict[str, None] = {}
         self._outputs = motion.solver.programs.meanings
         self._strokes: dict[Summary, Extreme | None] = {}
-        self._met: dict[tuple[str, str], tuple[float, float] | None] = {}
+        self._met: dict[str, tuple[int, Columns]] = {}
         self._parts: dict[str, Extreme] = {}
 
     @classmethod
@@ -200,10 +202,9 @@ class Analysis:
             return self._on_stroke(summary)
         if kind in _TOGETHER and (known := self._known(summary.output, kind)):
             return known
-        output, signal = self.output(summary.output), self.signal(summary.output)
-        nothing = Extreme(float("nan"), float("nan"), float("nan"), True)
-        if output is not None and kind in ("argmax", "argmin", "range"):
+        if kind in ("argmax", "argmin", "range") and (output := self.output(summary.output)):
             return self._of_limits(output, kind)
+        nothing, signal = Extreme(float("nan"), float("nan"), float("nan"), True), self.signal(summary.output)
         if kind in ("mean", "rms"):
             return replace(nothing, value=(self.mean_of if kind == "mean" else self.rms_of)(signal))
         if kind == "excess":
@@ -251,25 +252,25 @@ class Analysis:
         return self.extreme(signal, side) if self.forces is None else self.extreme(signal, side, of="forces")
 
     def _known(self, output: str, kind: str) -> Extreme | None:
-        """A maximum, minimum, mean or root mean square of an output, where polynomials meet it, found at once with
+        """One of the summaries of an output that are found together, where polynomials meet it, found at once with
         those of all that were asked for."""
-        if self._meant(output).kind == "angle":
-            return None
         name = words_name(output)
-        if (name, kind) not in self._met:
-            missing = tuple(each for each in {**self._words, name: None} if (each, kind) not in self._met)
-            self._met |= self._summaries(missing)
-        found = self._met[name, kind]
-        if found is None:
+        if name not in self._met:
+            if self._meant(output).kind == "angle" or self.grid is None:
+                return None
+            missing = tuple(each for each in {**self._words, name: None} if each not in self._met)
+            columns = self._summaries(self.grid, missing)
+            self._met |= {each: (k, columns) for k, each in enumerate(missing)}
+        k, columns = self._met[name]
+        values, times, met = columns[kind]
+        if not met[k]:
             return None
-        value, time = found
-        return Extreme(value, time, time if isnan(time) else self.resolver.input_at(time), True)
+        return Extreme(
+            values[k], times[k], times[k] if isnan(times[k]) else self.resolver.input_at(times[k]), True
+        )
 
-    def _summaries(self, names: tuple[str, ...]) -> dict[tuple[str, str], tuple[float, float] | None]:
-        """Values and times, s, by name and kind; None where polynomials do not meet the output."""
-        grid = self.grid
-        if grid is None:
-            return {(name, kind): None for name in names for kind in _TOGETHER}
+    def _summaries(self, grid: CycleGrid, names: tuple[str, ...]) -> Columns:
+        """The summaries of some outputs."""
         solved = grid.motion if self.forces is None else grid.forces
         rows = np.stack(solved.rows.fetch(names, lambda missing: self._read(missing, solved)))
         pieces, count = rows.reshape(len(names), -1, POINTS), len(names)
@@ -279,26 +280,23 @@ class Analysis:
             sizes = np.sqrt(squares)
         values = np.ascontiguousarray(pieces.swapaxes(1, 2))
         both = np.concatenate([values, -values])
-        piece, place, top, rough = largest(both, both.max(axis=1))
+        tops = both.max(axis=1)
+        piece, place, top, rough = largest(both, tops)
         time = grid.edges[piece] + 0.5 * (place + 1.0) * np.diff(grid.edges)[piece]
-        steady = top[:count] + top[count:] <= ROUNDING * np.abs(top[:count])
-        time[np.tile(steady, 2)] = grid.start
-        smooth = rough <= np.tile(grid.tolerance * np.abs(values).max(axis=(1, 2)), 2)
-        never = np.full(count, np.nan)
-        found: dict[tuple[str, str], tuple[float, float] | None] = {}
-        for kind, columns in zip(
-            _TOGETHER,
-            (
-                (top[:count], time[:count], smooth[:count]),
-                (-top[count:], time[count:], smooth[count:]),
-                (means, never, met),
-                (sizes, never, even),
-            ),
-            strict=True,
-        ):
-            for name, size, at, good in zip(names, *(column.tolist() for column in columns), strict=True):
-                found[name, kind] = (size, at) if good else None
-        return found
+        high, low = top[:count], -top[count:]
+        time[np.tile(high - low <= ROUNDING * np.abs(high), 2)] = grid.start
+        highest = tops.max(axis=1)
+        smooth = rough <= np.tile(grid.tolerance * np.maximum(highest[:count], highest[count:]), 2)
+        first, last, never = time[:count], time[count:], np.full(count, np.nan)
+        above, below, upwards = smooth[:count], smooth[count:], np.abs(high) >= np.abs(low)
+        found = {
+            "max": (high, first, above),
+            "min": (low, last, below),
+            "peak": (np.abs(np.where(upwards, high, low)), np.where(upwards, first, last), above & below),
+            "mean": (means, never, met),
+            "rms": (sizes, never, even),
+        }
+        return {kind: (a.tolist(), b.tolist(), c.tolist()) for kind, (a, b, c) in found.items()}
 
     def output(self, words: str) -> Output | None:
         """The output of the mechanism that words mean."""

@@ -7,12 +7,14 @@ from numpy.typing import NDArray
 
 from linkwright.kinematics.cycle import Floats
 
+#: Points and vectors, x + i y.
+Places = NDArray[np.complex128]
+
 #: Rounds in which points that are no corners are left out all at once.
 ROUNDS = 6
 #: Of more points than this those inside a polygon are left out first, of yet more those inside a finer one, too.
 MANY, MORE = 400, 1000
-_AROUND = np.linspace(0.0, 2.0 * np.pi, 24, endpoint=False)
-_DIRECTIONS = np.stack([np.cos(_AROUND), np.sin(_AROUND)], axis=1)
+_DIRECTIONS = np.exp(2j * np.pi * np.arange(24) / 24.0)
 
 
 def cross(a: Floats, b: Floats) -> Floats:
@@ -20,35 +22,37 @@ def cross(a: Floats, b: Floats) -> Floats:
     return np.asarray(a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0])
 
 
-def convex_hull(points: Floats) -> Floats:
-    """Corners (m, 2) of the convex hull of points (n, 2), counter-clockwise (Andrew's monotone chains)."""
-    some = _outer(points) if len(points) > MANY else points
-    ordered = np.sort(some[:, 0] + 1j * some[:, 1])
-    ordered = np.concatenate([ordered[:1], ordered[1:][ordered[1:] != ordered[:-1]]])
-    corners = ordered if len(ordered) < 3 else np.concatenate([_half(ordered), _half(ordered[::-1])])
-    return np.stack([corners.real, corners.imag], axis=1)
+def convex_hull(points: Places) -> Places:
+    """Corners (m,) of the convex hull of points (n,), counter-clockwise (Andrew's monotone chains)."""
+    ordered = np.sort(_outer(points) if len(points) > MANY else points)
+    ordered = ordered[np.append(True, ordered[1:] != ordered[:-1])]
+    return ordered if len(ordered) < 3 else np.concatenate([_half(ordered), _half(ordered[::-1])])
 
 
-def _outer(points: Floats) -> Floats:
-    """The points (m, 2) that do not lie clearly inside a polygon of those farthest in some directions, and where they
+def _outer(points: Places) -> Places:
+    """The points (m,) that do not lie clearly inside a polygon of those farthest in some directions, and where they
     are many of those farthest beyond its sides."""
-    along = np.ascontiguousarray(points.T)
-    ring, slack = points[(_DIRECTIONS @ along).argmax(axis=1)], 1e-12 * float(np.abs(along).max())
+    ring, slack = points[_along(_DIRECTIONS, points).argmax(axis=1)], 1e-12 * float(np.abs(points).max())
     for _ in range(1 if len(points) < MORE else 2):
         side = ring[[*range(1, len(ring)), 0]] - ring
-        length = np.hypot(side[:, 0], side[:, 1])
-        ring, side, length = ring[length > 0.0], side[length > 0.0], length[length > 0.0]
+        ring, side = ring[side != 0.0], side[side != 0.0]
         if len(ring) < 3:
             return points
-        outward = np.stack([side[:, 1] / length, -side[:, 0] / length], axis=1)
-        reach, edge = outward @ along, (ring * outward).sum(axis=1) - slack
+        outward = -1j * side
+        reach = _along(outward, points)
+        edge = (outward.conj() * ring).real - slack * np.abs(side)
         beyond = (reach >= edge[:, None]).any(axis=0)
-        points, along, reach = points[beyond], along[:, beyond], reach[:, beyond]
-        ring = np.stack([ring, points[reach.argmax(axis=1)]], axis=1).reshape(-1, 2)
+        points, reach = points[beyond], reach[:, beyond]
+        ring = np.stack([ring, points[reach.argmax(axis=1)]], axis=1).ravel()
     return points
 
 
-def _half(chain: NDArray[np.complex128]) -> NDArray[np.complex128]:
+def _along(directions: Places, points: Places) -> Floats:
+    """Products (k, n) of vectors (k,) with vectors (n,)."""
+    return np.asarray(directions.view(float).reshape(-1, 2) @ points.view(float).reshape(-1, 2).T)
+
+
+def _half(chain: Places) -> Places:
     """The corners below a chain that goes to the right, all but the last: none is what does not lie below the line
     between two others, first of all points at the same time, then of those beside what was left out."""
     for _ in range(ROUNDS):
@@ -71,17 +75,17 @@ def _half(chain: NDArray[np.complex128]) -> NDArray[np.complex128]:
     return chain[there][:-1]
 
 
-def _bends(chain: NDArray[np.complex128]) -> NDArray[np.bool_]:
+def _bends(chain: Places) -> NDArray[np.bool_]:
     """Where a chain bends to the left, its ends left out."""
     step = chain[1:] - chain[:-1]
     along, across = step.real, step.imag
     return np.asarray(along[:-1] * across[1:] - across[:-1] * along[1:] > 0.0)
 
 
-def area(corners: Floats) -> float:
-    """Area of a polygon (m, 2), m², counter-clockwise positive."""
-    x, y = (corners[1:] - corners[0]).T
-    return 0.5 * float(x[:-1] @ y[1:] - y[:-1] @ x[1:])
+def area(corners: Places) -> float:
+    """Area of a polygon (m,), m², counter-clockwise positive."""
+    gap = corners - corners[0]
+    return 0.5 * float(np.vdot(gap[:-1], gap[1:]).imag)
 
 
 def crossings(path: Floats) -> list[tuple[float, float]]:

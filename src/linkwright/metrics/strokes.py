@@ -5,17 +5,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from itertools import islice, pairwise
+from collections.abc import Sequence
+from itertools import pairwise
 from math import pi
 from typing import TYPE_CHECKING
 
 from linkwright.metrics.summary import Summary
 
 if TYPE_CHECKING:
-    from linkwright.kinematics.cycle import Floats
-    from linkwright.kinematics.motion import Motion
-    from linkwright.kinetostatics.forces import Forces
     from linkwright.metrics.analysis import Analysis, Extreme
 
 #: Kinds of these parts, by the limits with which their strokes begin.
@@ -36,26 +33,32 @@ def output_of(part: Summary) -> str:
 
 
 def of_machine(parts: Sequence[Summary], analysis: Analysis) -> list[Extreme]:
-    """Such parts of one machine, each the smallest of all its strokes that way."""
-    each_wanted = [_wanted(part, analysis) for part in parts]
+    """Such parts of one machine, each the smallest of all its strokes that way: of the stroke in which it lies the
+    smallest of the cycle."""
+    found: dict[tuple[Summary, int], Extreme | None] = {}
+    period, sought = analysis.motion.positions.period or 0.0, []
+    for part in parts:
+        lowest = analysis.part(f"{signal_of(part)} min")
+        for k, (start, end) in enumerate(_strokes(part, analysis, period)):
+            found[part, k] = lowest
+            if not lowest.exact or not any(start <= lowest.time + lap <= end for lap in (0.0, period)):
+                sought.append(((part, k), (analysis.signal(signal_of(part)), (start, end))))
     of = "motion" if analysis.forces is None else "forces"
-    found = iter(analysis.extremes_between("min", [one for wanted in each_wanted for one in wanted], of))
+    smallest = analysis.extremes_between("min", [wanted for _, wanted in sought], of)
+    found |= zip((key for key, _ in sought), smallest, strict=True)
     return [
-        min((each for each in islice(found, len(wanted)) if each is not None), key=lambda each: each.value)
-        for wanted in each_wanted
+        min((one for (each, _), one in found.items() if each == part and one), key=lambda one: one.value)
+        for part in parts
     ]
 
 
-def _wanted(
-    part: Summary, analysis: Analysis
-) -> list[tuple[Callable[[Motion | Forces], Floats], tuple[float, float]]]:
-    """The signal with the beginning and the end, s, of every stroke that way."""
+def _strokes(part: Summary, analysis: Analysis, period: float) -> list[tuple[float, float]]:
+    """The beginning and the end, s, of every stroke that way."""
     output = analysis.output(output_of(part))
     assert output is not None
-    limits, period = analysis.limits(output), analysis.motion.positions.period or 0.0
-    signal = analysis.signal(signal_of(part))
+    limits = analysis.limits(output)
     return [
-        (signal, (first.time, last.time + (0.0 if last.time > first.time else period)))
+        (first.time, last.time + (0.0 if last.time > first.time else period))
         for first, last in pairwise([*limits, limits[0]])
         if KINDS[first.kind] == part.kind
     ]

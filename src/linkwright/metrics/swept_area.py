@@ -9,11 +9,10 @@ from typing import ClassVar
 import numpy as np
 
 from linkwright.core.outputs import row_names
-from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Better, Metric, MetricValue, Remark
-from linkwright.metrics.plane import area, convex_hull
+from linkwright.metrics.plane import Places, area, convex_hull
 from linkwright.metrics.quantities import shown
 
 
@@ -34,20 +33,23 @@ class SweptArea(Metric):
             name: [motion.point(f"{name}.{point}").name for point in link.points]
             for name, link in motion.mechanism.links.items()
         }
-        moving = dict.fromkeys(chain.from_iterable(keys.values()))
-        motion.evaluate_together(chain.from_iterable(row_names("position", key) for key in moving))
-        tracks = {key: _track(motion, key) for key in moving}
-        hulls = {name: convex_hull(np.vstack([tracks[key] for key in own])) for name, own in keys.items()}
-        frame = np.array(list(motion.mechanism.frame.points.values())).reshape(-1, 2)
-        whole = convex_hull(np.vstack([*hulls.values(), frame]))
-        width, height = (shown(float(side), "length") for side in np.ptp(whole, axis=0))
+        tracks = _tracks(motion, tuple(dict.fromkeys(chain.from_iterable(keys.values()))))
+        hulls = {
+            name: convex_hull(np.concatenate([tracks[key] for key in own])) for name, own in keys.items()
+        }
+        frame = [complex(*place) for place in motion.mechanism.frame.points.values()]
+        whole = convex_hull(np.concatenate([*hulls.values(), frame]))
+        width, height = (shown(float(np.ptp(side)), "length") for side in (whole.real, whole.imag))
         remark = Remark("swept_area.box", {"width": width, "height": height})
         yield self.value(analysis, motion.mechanism.name, area(whole), remarks=(remark,), exact=False)
         for name, corners in hulls.items():
             yield self.value(analysis, name, area(corners), exact=False)
 
 
-def _track(motion: Motion, key: str) -> Floats:
-    """The places of a point, (n, 2) m; one where it is at rest."""
-    places: Floats = motion.vector("position", key)[motion.ok]
-    return places[:1] if (places == places[0]).all() else places
+def _tracks(motion: Motion, keys: tuple[str, ...]) -> dict[str, Places]:
+    """The places of points, (n,) m; one where a point is at rest."""
+    names = tuple(name for key in keys for name in row_names("position", key))
+    rows = np.array(motion.rows.fetch(names, motion.evaluate))[:, motion.ok]
+    places = rows[::2] + 1j * rows[1::2]
+    moving = (places != places[:, :1]).any(axis=1).tolist()
+    return {key: row if moves else row[:1] for key, row, moves in zip(keys, places, moving, strict=True)}
