@@ -310,7 +310,11 @@ def _factor_suggestion(part: str) -> str | None:
     found = _FACTOR.fullmatch(part)
     if found and found.group(1) in UNITS:
         return part
-    return SPELLINGS.get(part) or nearest(part.rstrip("0123456789^²³"), list(UNITS))
+    if part in SPELLINGS:
+        return SPELLINGS[part]
+    base = part.rstrip("0123456789^²³")
+    offer, exponent = nearest(base, list(UNITS)), part[len(base) :]
+    return offer and offer + ("^" + exponent if exponent.isascii() and exponent.isdigit() else exponent)
 
 
 @cache

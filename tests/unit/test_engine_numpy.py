@@ -108,10 +108,7 @@ def test_division_by_zero_and_negative_roots_follow_ieee() -> None:
 def test_powers_of_nought_follow_ieee() -> None:
     t = Trace()
     program = Program.of(t, {"p": power(t.position("x"), t.position("y"))})
-    x, y = (
-        np.array(row)
-        for row in zip(*[(a, b) for a in (0.0, -0.0) for b in (-1.0, -3.0, -2.0, -0.5)], strict=True)
-    )
+    x, y = np.repeat([0.0, -0.0], 4), np.tile([-1.0, -3.0, -2.0, -0.5], 2)
     want = [math.inf] * 4 + [-math.inf, -math.inf, math.inf, math.inf]
     assert NumpyProgram(program).run([], {"x": x, "y": y})[0].tolist() == want
     assert [ScalarProgram(program).step([], [a, b])[0][0] for a, b in zip(x, y, strict=True)] == want

@@ -110,7 +110,7 @@ def test_formatting_in_a_chosen_unit() -> None:
         ("5 r/h", "angular_velocity", 2, 'unknown unit "r/h"; did you mean "rev/h"?'),
         ("5 kgm2/s", "inertia", 2, 'unknown unit "kgm2/s"; did you mean "kg·m²/s"?'),
         ("5 newton*metre", "torque", 2, 'unknown unit "newton*metre"; did you mean "N·m"?'),
-        ("5 kg·mm^2/sec2", "torque", 2, 'unknown unit "kg·mm^2/sec2"; did you mean "kg·mm^2/s²"?'),
+        ("5 kg·mm^2/sec2", "torque", 10, 'unknown unit "kg·mm^2/sec2"; did you mean "kg·mm^2/s^2"?'),
         ("5 KN*mm", "torque", 2, 'unknown unit "KN*mm"; did you mean "kN·mm"?'),
         ("5 U/min", "angular_velocity", 2, 'unknown unit "U/min"; did you mean "rpm"?'),
         ("5 mm3", "volume", 4, 'unknown unit "mm3"; did you mean "mm³"?'),
