@@ -6,7 +6,7 @@ from sums or differences of opposite values to the coefficients (POINTS, HALF), 
 differences to the sums and differences of opposite looks (POINTS each), at PLACES the places of these, at FORWARD and
 BACKWARD the factors of Clenshaw's recurrence (POINTS each). ``jobs``: six whole numbers of
 each: signal (-1: the integral of the lack of the job before), powers, excess, largest, smallest, number of its first
-extreme.
+extreme. What is found is one number of all designs after another, ``apart`` each from the next.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ HUGE, TINY, BELOW_ONE = 1e300, 1e-40, 1.0 - 1e-15
 STEPS = 4
 
 
-def bounds(row: Reals, pieces: int, tables: Reals, seen: Reals, found: Reals) -> None:
+def bounds(row: Reals, pieces: int, tables: Reals, seen: Reals, found: Reals, apart: int) -> None:
     """The largest and the smallest value of every piece and the size of its last orders, (3, pieces), and of all."""
     most, fewest, rough, spoilt = spread(-HUGE), spread(HUGE), spread(0.0), spread(0.0)
     b = 0
@@ -78,11 +78,11 @@ def bounds(row: Reals, pieces: int, tables: Reals, seen: Reals, found: Reals) ->
         spoilt = spoilt + 0.0 * c0
         b += LANES
     found[0] = -least(-most)
-    found[1] = least(fewest)
-    found[2] = -least(-rough) + total(spoilt)
+    found[apart] = least(fewest)
+    found[2 * apart] = -least(-rough) + total(spoilt)
 
 
-def powers(row: Reals, share: Reals, pieces: int, tables: Reals, found: Reals) -> None:
+def powers(row: Reals, share: Reals, pieces: int, tables: Reals, found: Reals, apart: int) -> None:
     """Means of the signal and of its square, and the size of the last orders of the square in the piece met worst."""
     mean, square, rough = spread(0.0), spread(0.0), spread(0.0)
     b = 0
@@ -101,9 +101,9 @@ def powers(row: Reals, share: Reals, pieces: int, tables: Reals, found: Reals) -
             c2 = c2 + tables[3 * i + 2] * both
         rough = higher(rough, higher(higher(c0, -c0), higher(higher(c1, -c1), higher(c2, -c2))))
         b += LANES
-    found[3] = total(mean)
-    found[4] = total(square)
-    found[5] = -least(-rough)
+    found[3 * apart] = total(mean)
+    found[4 * apart] = total(square)
+    found[5 * apart] = -least(-rough)
 
 
 def integral(row: Reals, share: Reals, pieces: int, tables: Reals, mean: float, room: Reals) -> None:
@@ -158,7 +158,8 @@ def contenders(
 
 def reduced(
     designs: int, code: int, block: Wholes, stride: int, signals: Reals, share: Reals, pieces: int, jobs: Wholes,
-    count: int, extremes: int, tables: Reals, room: Reals, found: Reals, rows: Reals, capacity: int, ids: Wholes,
+    count: int, extremes: int, tables: Reals, room: Reals, found: Reals, apart: int, rows: Reals, capacity: int,
+    ids: Wholes,
 ) -> int:  # fmt: skip
     """Signals of one design after another by the compiled program, then its jobs; the number of contenders for
     extremes. Ends early where these may not find room; ``ids[2 · capacity]``: designs done.
@@ -175,21 +176,21 @@ def reduced(
         block[PARAMETERS] = block[PARAMETERS] + stride
         for j in range(count):
             job = jobs + GIVEN * j
-            result = found + FOUND * (d * count + j)
+            result = found + (FOUND * j * apart + d)
             row = room + 0
             if job[0] >= 0:
                 row = signals + POINTS * pieces * job[0]
-            bounds(row, pieces, tables, seen, result)
+            bounds(row, pieces, tables, seen, result, apart)
             if job[1] > 0:
-                powers(row, share, pieces, tables, result)
-            owner = d * extremes + job[5]
+                powers(row, share, pieces, tables, result, apart)
+            owner = job[5] * apart + d
             if job[3] > 0:
                 at = contenders(row, pieces, seen, 1.0, result[0], owner, rows, capacity, ids, at)
-                owner += 1
+                owner += apart
             if job[4] > 0:
-                at = contenders(row, pieces, seen, -1.0, -result[1], owner, rows, capacity, ids, at)
+                at = contenders(row, pieces, seen, -1.0, -result[apart], owner, rows, capacity, ids, at)
             if job[2] > 0:
-                integral(row, share, pieces, tables, result[3], room)
+                integral(row, share, pieces, tables, result[3 * apart], room)
     return at
 
 

@@ -171,60 +171,60 @@ class PieceSummaries:
 
     def _compiled(self, code: CompiledProgram, table: Floats, run: Run) -> Reduced:
         jobs, names, owners = self._jobs
-        numbers = np.zeros((len(table), len(jobs), piece_kernels.FOUND))
-        peaks = np.empty((4, len(table), max(1, len(owners))))
-        done, room = 0, _Room(self, len(owners), min(CHUNK, len(table)))
+        numbers = np.empty((len(jobs), piece_kernels.FOUND, len(table)))
+        peaks = np.empty((4, len(owners), len(table)))
+        done, room = 0, _Room(self, len(jobs), len(owners), min(CHUNK, len(table)))
         while done < len(table):
-            part = slice(done, done + CHUNK)
-            done += self._chunk(code, table[part], run, numbers[part], peaks[:, part], room)
-        found = {name: numbers[:, k] for k, name in enumerate(names) if name}
+            count = self._chunk(code, table[done : done + CHUNK], run, room)
+            numbers[..., done : done + count] = room.numbers[..., :count]
+            peaks[..., done : done + count] = room.best[..., :count]
+            done += count
+        found = {name: numbers[k] for k, name in enumerate(names) if name}
         return Reduced(
-            {name: (found[name][:, 0], found[name][:, 1], found[name][:, 2]) for name in self.signals},
-            {name: (found[name][:, 3], found[name][:, 4], found[name][:, 5]) for name in self.powers},
+            {name: tuple(found[name][:3]) for name in self.signals},
+            {name: tuple(found[name][3:]) for name in self.powers},
             {
-                owner: (peaks[0, :, k].astype(np.intp), peaks[1, :, k], peaks[2, :, k], peaks[3, :, k])
+                owner: (peaks[0, k].astype(np.intp), peaks[1, k], peaks[2, k], peaks[3, k])
                 for k, owner in enumerate(owners)
             },
         )
 
-    def _chunk(
-        self, code: CompiledProgram, table: Floats, run: Run, numbers: Floats, peaks: Floats, room: _Room
-    ) -> int:
+    def _chunk(self, code: CompiledProgram, table: Floats, run: Run, room: _Room) -> int:
         """Some designs from the first on, as many as find room; how many."""
         jobs, _, owners = self._jobs
         kernels, tables = piece_kernels.kernels(), _tables()
-        extremes, capacity, ids = len(owners), room.capacity, room.ids
+        extremes, capacity, ids, apart = len(owners), room.capacity, room.ids, room.apart
         address, block = code.one_by_one(table, run.positions, room.signals, tables=run.tables)
         share = room.signals[self.program.output_names.index(self.share)]
         count = kernels(
             "reduced", len(table), address, address_of(block), table.strides[0], address_of(room.signals),
             address_of(share), self.pieces, address_of(jobs), len(jobs), extremes, address_of(tables),
-            address_of(room.work), address_of(numbers), address_of(room.rows), capacity, address_of(ids),
+            address_of(room.work), address_of(room.numbers), apart, address_of(room.rows), capacity, address_of(ids),
         )  # fmt: skip
-        done = int(ids[2 * capacity])
         if count:
             kernels(
                 "peaks", count, address_of(room.rows), capacity, address_of(tables), address_of(room.vectors),
                 address_of(room.looked),
             )  # fmt: skip
             kernels(
-                "gathered", count, address_of(ids), address_of(room.looked), capacity, done * extremes,
+                "gathered", count, address_of(ids), address_of(room.looked), capacity, extremes * apart,
                 address_of(room.best),
             )  # fmt: skip
-            peaks[:, :done] = room.best[: 4 * done * extremes].reshape(4, done, extremes)
-        return done
+        return int(ids[2 * capacity])
 
 
 class _Room:
-    """Arrays that the kernels write, for a number of designs at a time."""
+    """Arrays that the kernels write, for a number of designs at a time; ``apart``: room for these, and some more so
+    that what is found of one design does not meet in the cache."""
 
-    def __init__(self, of: PieceSummaries, extremes: int, designs: int) -> None:
-        self.capacity = -(-extremes * max(of.pieces, _ROOM * designs) // 8) * 8 + 8
+    def __init__(self, of: PieceSummaries, jobs: int, extremes: int, designs: int) -> None:
+        self.capacity, self.apart = -(-extremes * max(of.pieces, _ROOM * designs) // 8) * 8 + 8, designs + 8
         self.signals = np.empty((len(of.program.outputs), POINTS * of.pieces))
         self.work = np.empty((2 * POINTS + 4) * of.pieces)
+        self.numbers = np.zeros((jobs, piece_kernels.FOUND, self.apart))
         self.rows, self.looked = np.empty((POINTS, self.capacity)), np.empty((3, self.capacity))
         self.ids = np.empty(2 * self.capacity + 1, dtype=np.int64)
-        self.vectors, self.best = np.empty((4, POINTS, 8)), np.empty(4 * designs * extremes)
+        self.vectors, self.best = np.empty((4, POINTS, 8)), np.empty((4, extremes, self.apart))
 
 
 @cache
