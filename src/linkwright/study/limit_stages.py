@@ -28,7 +28,7 @@ STEP, ASSEMBLED = "step of the input", "assembled at limits"
 #: How near the sum of directions of neighbouring places comes to the longest; others lack some (π/n)² of it.
 TOGETHER = 1e-7
 #: Newton steps (halvings among them), and the change of the input in the last one that ends the search well, rad.
-STEPS, CONVERGED = 16, 1e-10
+STEPS, CONVERGED = 10, 1e-10
 #: Newton steps from a limit of a design to that of one near it; how near to a position, rad, one counts as on it.
 NEAR_STEPS, AT = 5, 1e-9
 #: Steps to the edge of a part of a stroke, which may be far from the middle of it.

@@ -154,20 +154,20 @@ class MetricCycle:
         )
         self.quantities |= {text: self._on_stroke(text, part) for text, part in on_strokes.items()}
         self.constant = self._constants()
-        self.limited |= {text: text for text in self.constant}
+        self.limited |= {text: text for text in self.constant.output_names}
 
-    def _constants(self) -> dict[str, Program]:
+    def _constants(self) -> Program:
         """The means of lengths and the like, which no position changes, as formulas of the dimensions."""
-        found = {}
+        trace, found = self.traced.solver.motion.trace, dict[str, Scalar]()
         for text, part in self.parts.items():
             if part.kind == "mean" and text not in self.limited:
                 value = self.quantities[part.output].value
-                program = Program.of(self.traced.solver.motion.trace, {text: value})
+                program = Program.of(trace, {text: value})
                 if not (program.positions or program.fields or program.states):
-                    found[text] = program
+                    found[text] = value
         for text in found:
             self.quantities.pop(self.parts[text].output, None)
-        return found
+        return Program.of(trace, found)
 
     def _on_stroke(self, text: str, part: Summary) -> Quantity:
         """A transmission angle while an output goes one way, else the largest one that there is."""
@@ -282,9 +282,8 @@ class MetricCycle:
         cutting = self.gauss.cutting()
         limits = limit_stages(self.traced, self.outputs, valued=self.loads.valued)
         parts = self.gauss.part_stages()
-        parts += [
-            Stage(each, {text: Reduction(text, "first")}, steps=1) for text, each in self.constant.items()
-        ]
+        if names := self.constant.output_names:
+            parts.append(Stage(self.constant, {text: Reduction(text, "first") for text in names}, steps=1))
         return [*limits, *parts, *([] if cutting is None else [cutting])]
 
     @cached_property

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import replace
 from functools import cache, cached_property
 from typing import Any
 
@@ -80,21 +81,38 @@ class PieceSummaries:
     ) -> None:
         self.pieces, self.share = pieces, share
         asked = list(summaries)
-        self.excess = tuple(dict.fromkeys(each.output for each in asked if each.kind == "excess"))
-        means = [each.output for each in asked if each.kind in ("mean", "rms")]
-        self.powers = tuple(dict.fromkeys([*means, *self.excess]))
-        self.sides = tuple(
-            dict.fromkeys((each.output, side) for each in asked for side in SIDES.get(each.kind, ()))
-        )
-        self.signals = tuple(dict.fromkeys([*(each.output for each in asked), *alone]))
         plain = {each.output for each in asked if each.kind not in _OF_SQUARES}.union(alone, [share])
         self.program, self.squared = _squared(program, plain)
+        first = {place: name for name, place in reversed(self.program.outputs)}
+        #: Outputs with the first ones that are the same signals, which alone are reduced.
+        self.same = {name: first[place] for name, place in self.program.outputs}
+        wanted = [replace(each, output=self.same[each.output]) for each in asked]
+        self.excess = tuple(dict.fromkeys(each.output for each in wanted if each.kind == "excess"))
+        means = [each.output for each in wanted if each.kind in ("mean", "rms")]
+        self.powers = tuple(dict.fromkeys([*means, *self.excess]))
+        self.sides = tuple(
+            dict.fromkeys((each.output, side) for each in wanted for side in SIDES.get(each.kind, ()))
+        )
+        self.signals = tuple(dict.fromkeys(self.same[name] for name in [*(e.output for e in asked), *alone]))
 
     def reduced(self, table: Floats, run: Run) -> Reduced:
         """Of the designs with these parameters."""
         code = code_for(self.program, None, run, len(table))
         found = self._by_arrays(table, run) if code is None else self._compiled(code, table, run)
-        return self._rooted(found)
+        return self._rooted(self._of_all(found))
+
+    def _of_all(self, found: Reduced) -> Reduced:
+        """The same for outputs that are the same signals."""
+        return Reduced(
+            {name: found.bounds[one] for name, one in self.same.items() if one in found.bounds},
+            {name: found.powers[one] for name, one in self.same.items() if one in found.powers},
+            {
+                (name, side): found.peaks[one, side]
+                for name, one in self.same.items()
+                for side in _SIGNS
+                if (one, side) in found.peaks
+            },
+        )
 
     def _rooted(self, found: Reduced) -> Reduced:
         """The same of roots where their squares were reduced; roughness stays a share of the size."""
