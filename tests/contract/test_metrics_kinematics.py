@@ -37,7 +37,6 @@ def test_turning_and_mirroring_change_nothing(turn: float, mirror: float) -> Non
         "limit_position",
         "dead_point",
         "instant_centre",
-        "swept_area",
         "peak_shaking_moment",
     }
     for name in sorted(free & set(first.names)):
@@ -147,11 +146,6 @@ def test_range_of_a_four_bar_whose_crank_cannot_turn() -> None:
     assert table.value("range_of_motion") == pytest.approx(2 * end, rel=1e-9)
     stops = sorted((row.value + pi) % (2 * pi) - pi for row in table["dead_point"] if row.warnings)
     assert stops == pytest.approx([-end, end], abs=1e-9)
-
-
-def test_swept_area_of_a_turning_crank() -> None:
-    table = metrics(lw.solve_motion(four_bar(), steps=3600), "swept_area")
-    assert table["swept_area", "crank"].value == pytest.approx(pi, rel=1e-5)
 
 
 def test_bearing_value_of_a_pin() -> None:

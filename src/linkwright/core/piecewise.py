@@ -24,7 +24,7 @@ NODES, WEIGHTS = np.polynomial.legendre.leggauss(POINTS)
 _ORDERS = np.arange(POINTS)
 #: From values at the nodes to coefficients of Legendre polynomials, (nodes, orders); to the slope at the nodes.
 TO_LEGENDRE = ((_ORDERS[:, None] + 0.5) * np.polynomial.legendre.legvander(NODES, POINTS - 1).T * WEIGHTS).T
-_TO_SLOPE = TO_LEGENDRE @ np.polynomial.legendre.legval(NODES, np.polynomial.legendre.legder(np.eye(POINTS)))
+TO_SLOPE = TO_LEGENDRE @ np.polynomial.legendre.legval(NODES, np.polynomial.legendre.legder(np.eye(POINTS)))
 #: To the last three of these coefficients.
 TO_LAST = TO_LEGENDRE[:, -3:]
 #: Weights of the barycentric formula (Berrut and Trefethen, SIAM Review 46(3), 2004).
@@ -243,7 +243,7 @@ def _highest(values: Floats, tops: Floats) -> Peak:
     which, look = best // LOOKS, best % LOOKS
     series, top = near[rows, which], seen[rows, which, look]
     low, high = PLACES[np.maximum(look - 1, 0)], PLACES[np.minimum(look + 1, LOOKS - 1)]
-    place = _summits(series @ _TO_SLOPE, low, high, PLACES[look])
+    place = _summits(series @ TO_SLOPE, low, high, PLACES[look])
     found = _at(series, place)
     place = np.where(found > top, place, PLACES[look])
     return order[rows, which], place, np.maximum(found, top), tails(series)
@@ -251,7 +251,8 @@ def _highest(values: Floats, tops: Floats) -> Peak:
 
 def weights_at(place: Floats) -> Floats:
     """Weights (k, POINTS) of the values at the Gauss points in the polynomials' values at places (k,) of a piece."""
-    return _at(np.broadcast_to(np.eye(POINTS), (len(place), POINTS, POINTS)).swapaxes(0, 1), place).T
+    share = _shares(place)
+    return np.asarray(share / share.sum(axis=-1, keepdims=True))
 
 
 def weights_up_to(place: Floats) -> Floats:
@@ -274,15 +275,19 @@ def at_nodes(function: Function, edges: Floats) -> Floats:
 
 def _at(values: Floats, x: Floats) -> Floats:
     """Polynomials (..., k) through values (..., k, POINTS) at places (k,) of the reference piece."""
-    gap = x[:, None] - NODES
-    share = _BARYCENTRIC / np.where(gap == 0.0, 1e-300, gap)
+    share = _shares(x)
     return np.asarray((share * values).sum(axis=-1) / share.sum(axis=-1))
+
+
+def _shares(x: Floats) -> Floats:
+    gap = x[:, None] - NODES
+    return np.asarray(_BARYCENTRIC / np.where(gap == 0.0, 1e-300, gap))
 
 
 def _summits(slopes: Floats, low: Floats, high: Floats, start: Floats) -> Floats:
     """Where polynomials (k, POINTS) pass from above to below zero between places of the reference piece, by
     safeguarded Newton steps from ``start``; the end of the stretch to which they point where they do not."""
-    both, x = np.stack([slopes, slopes @ _TO_SLOPE]), start
+    both, x = np.stack([slopes, slopes @ TO_SLOPE]), start
     for _ in range(60):
         value, slope = _at(both, x)
         rising = value > 0.0

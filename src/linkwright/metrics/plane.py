@@ -22,29 +22,40 @@ def cross(a: Floats, b: Floats) -> Floats:
     return np.asarray(a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0])
 
 
+def hull_corners(points: Places) -> NDArray[np.intp]:
+    """Numbers (m,) of the corners of the convex hull of points (n,), counter-clockwise (Andrew's monotone chains)."""
+    number = _outer(points) if len(points) > MANY else np.arange(len(points))
+    number = number[np.argsort(points[number], kind="stable")]
+    ordered = points[number]
+    number = number[np.append(True, ordered[1:] != ordered[:-1])]
+    if len(number) < 3:
+        return np.asarray(number)
+    below, above = _half(points[number]), _half(points[number[::-1]])
+    return np.asarray(np.concatenate([number[below], number[::-1][above]]))
+
+
 def convex_hull(points: Places) -> Places:
-    """Corners (m,) of the convex hull of points (n,), counter-clockwise (Andrew's monotone chains)."""
-    ordered = np.sort(_outer(points) if len(points) > MANY else points)
-    ordered = ordered[np.append(True, ordered[1:] != ordered[:-1])]
-    return ordered if len(ordered) < 3 else np.concatenate([_half(ordered), _half(ordered[::-1])])
+    """These corners (m,)."""
+    return np.asarray(points[hull_corners(points)])
 
 
-def _outer(points: Places) -> Places:
-    """The points (m,) that do not lie clearly inside a polygon of those farthest in some directions, and where they
-    are many of those farthest beyond its sides."""
-    ring, slack = points[_along(_DIRECTIONS, points).argmax(axis=1)], 1e-12 * float(np.abs(points).max())
+def _outer(points: Places) -> NDArray[np.intp]:
+    """Numbers (m,) of the points that do not lie clearly inside a polygon of those farthest in some directions, and
+    where they are many of those farthest beyond its sides."""
+    number, far = np.arange(len(points)), _along(_DIRECTIONS, points)
+    ring, slack = points[far.argmax(axis=1)], 1e-12 * float(np.abs(points).max())
     for _ in range(1 if len(points) < MORE else 2):
         side = ring[[*range(1, len(ring)), 0]] - ring
         ring, side = ring[side != 0.0], side[side != 0.0]
         if len(ring) < 3:
-            return points
+            return number
         outward = -1j * side
-        reach = _along(outward, points)
+        reach = _along(outward, points[number])
         edge = (outward.conj() * ring).real - slack * np.abs(side)
         beyond = (reach >= edge[:, None]).any(axis=0)
-        points, reach = points[beyond], reach[:, beyond]
-        ring = np.stack([ring, points[reach.argmax(axis=1)]], axis=1).ravel()
-    return points
+        number, reach = number[beyond], reach[:, beyond]
+        ring = np.stack([ring, points[number[reach.argmax(axis=1)]]], axis=1).ravel()
+    return number
 
 
 def _along(directions: Places, points: Places) -> Floats:
@@ -52,17 +63,18 @@ def _along(directions: Places, points: Places) -> Floats:
     return np.asarray(directions.view(float).reshape(-1, 2) @ points.view(float).reshape(-1, 2).T)
 
 
-def _half(chain: Places) -> Places:
-    """The corners below a chain that goes to the right, all but the last: none is what does not lie below the line
-    between two others, first of all points at the same time, then of those beside what was left out."""
+def _half(chain: Places) -> NDArray[np.intp]:
+    """Numbers of the corners below a chain that goes to the right, all but the last: none is what does not lie below
+    the line between two others, first of all points at the same time, then of those beside what was left out."""
+    number = np.arange(len(chain))
     for _ in range(ROUNDS):
-        bends = _bends(chain)
+        bends = _bends(chain[number])
         if bends.all():
-            return chain[:-1]
-        chain = chain[np.concatenate([[True], bends, [True]])]
-    places, last = chain.tolist(), len(chain) - 1
+            return number[:-1]
+        number = number[np.concatenate([[True], bends, [True]])]
+    places, last = chain[number].tolist(), len(number) - 1
     before, after, there = [*range(-1, last)], [*range(1, last + 2)], [True] * (last + 1)
-    doubtful = (np.flatnonzero(~_bends(chain)) + 1).tolist()
+    doubtful = (np.flatnonzero(~_bends(chain[number])) + 1).tolist()
     while doubtful:
         k = doubtful.pop()
         if not there[k] or not 0 < k < last:
@@ -72,7 +84,7 @@ def _half(chain: Places) -> Places:
         if not a.real * b.imag - a.imag * b.real > 0.0:
             there[k], after[i], before[j] = False, j, i
             doubtful += [i, j]
-    return chain[there][:-1]
+    return number[there][:-1]
 
 
 def _bends(chain: Places) -> NDArray[np.bool_]:

@@ -7,49 +7,133 @@ from itertools import chain
 from typing import ClassVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from linkwright.core.outputs import row_names
+from linkwright.core.piecewise import POINTS, nodes
+from linkwright.errors import LinkwrightError
+from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.names import point_key
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Better, Metric, MetricValue, Remark
-from linkwright.metrics.plane import Places, area, convex_hull
+from linkwright.metrics.cycle_grid import PIECES
+from linkwright.metrics.outputs import output_link
+from linkwright.metrics.plane import area, convex_hull
 from linkwright.metrics.quantities import shown
+from linkwright.metrics.range_of_motion import intervals
+from linkwright.metrics.swept_hull import Curves, SweptHull
 
 
-@METRICS.register("swept_area")
-class SweptArea(Metric):
-    """Area of the convex hull of all points of the links over all positions, m²: an upper bound of the swept area."""
+class HullArea(Metric):
+    """Area of the convex hull of the curves of some points, to 1e-6 of it, however many positions are solved; where
+    these follow no law in time, of the positions alone, and not ``exact``."""
 
-    name = "swept_area"
     dimension = "area"
-    source = "convex hull by Andrew's monotone chain"
+    source = "convex hull by Andrew's monotone chain; arcs by Gauss's formula"
     better: ClassVar[Better | None] = "lower"
+
+    def subjects(self, mechanism: Mechanism) -> dict[str, tuple[str, ...]]:
+        """The points of every subject, by their canonical names."""
+        raise NotImplementedError
 
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:
         motion = analysis.motion
         if not motion.ok.any():
             return
-        keys = {
-            name: [motion.point(f"{name}.{point}").name for point in link.points]
-            for name, link in motion.mechanism.links.items()
-        }
-        tracks = _tracks(motion, tuple(dict.fromkeys(chain.from_iterable(keys.values()))))
-        hulls = {
-            name: convex_hull(np.concatenate([tracks[key] for key in own])) for name, own in keys.items()
-        }
-        frame = [complex(*place) for place in motion.mechanism.frame.points.values()]
-        whole = convex_hull(np.concatenate([*hulls.values(), frame]))
-        width, height = (shown(float(np.ptp(side)), "length") for side in (whole.real, whole.imag))
-        remark = Remark("swept_area.box", {"width": width, "height": height})
-        yield self.value(analysis, motion.mechanism.name, area(whole), remarks=(remark,), exact=False)
-        for name, corners in hulls.items():
-            yield self.value(analysis, name, area(corners), exact=False)
+        curves, keys = _curves(analysis), points(motion.mechanism)
+        for subject, own in self.subjects(motion.mechanism).items():
+            if curves is None:
+                places = np.concatenate([motion.vector("position", key)[motion.ok] for key in own])
+                corners = convex_hull(places.view(np.complex128)[:, 0])
+                size, sides = area(corners), np.ptp(corners.view(float).reshape(-1, 2), axis=0)
+            else:
+                hull = SweptHull(curves, [keys.index(key) for key in own])
+                size, sides = hull.area, hull.box
+            box = {
+                name: shown(side, "length")
+                for name, side in zip(("width", "height"), sides.tolist(), strict=True)
+            }
+            remarks = (Remark("swept_area.box", {**box}),)
+            yield self.value(analysis, subject, size, exact=curves is not None, remarks=remarks)
 
 
-def _tracks(motion: Motion, keys: tuple[str, ...]) -> dict[str, Places]:
-    """The places of points, (n,) m; one where a point is at rest."""
-    names = tuple(name for key in keys for name in row_names("position", key))
-    rows = np.array(motion.rows.fetch(names, motion.evaluate))[:, motion.ok]
-    places = rows[::2] + 1j * rows[1::2]
-    moving = (places != places[:, :1]).any(axis=1).tolist()
-    return {key: row if moves else row[:1] for key, row, moves in zip(keys, places, moving, strict=True)}
+@METRICS.register("swept_area")
+class SweptArea(HullArea):
+    """Area of the convex hull of the curves of all points of frame and links, m²: a bound of what they sweep."""
+
+    name = "swept_area"
+
+    def subjects(self, mechanism: Mechanism) -> dict[str, tuple[str, ...]]:
+        return {mechanism.name: points(mechanism)}
+
+
+@METRICS.register("swept_area_of_link")
+class SweptAreaOfLink(HullArea):
+    """Area of the convex hull of the curves of every link's points, m²: a bound of what it sweeps."""
+
+    name = "swept_area_of_link"
+    on_request = True
+
+    def subjects(self, mechanism: Mechanism) -> dict[str, tuple[str, ...]]:
+        return {name: points_of(mechanism, name) for name in mechanism.links}
+
+
+def points(mechanism: Mechanism) -> tuple[str, ...]:
+    """The canonical names of all points of frame and links."""
+    return tuple(
+        dict.fromkeys(key for name in ("frame", *mechanism.links) for key in points_of(mechanism, name))
+    )
+
+
+def points_of(mechanism: Mechanism, link: str) -> tuple[str, ...]:
+    """The canonical names of a link's points."""
+    names = (point_key(mechanism, f"{link}.{point}") for point in mechanism.link(link).points)
+    return tuple(dict.fromkeys(names))
+
+
+def _curves(analysis: Analysis) -> Curves | None:
+    """The curves of all points; None where nothing lies between the positions."""
+    grid, keys = analysis.grid, points(analysis.motion.mechanism)
+    if grid is not None:
+        values = _places(grid.motion, keys)
+        piece, last = np.arange(values.shape[2]), values.shape[2] - 1
+        spans, opened = _spans(analysis, grid.motion, values), not analysis.closed
+        return Curves(values, (piece == 0) & opened, (piece == last) & opened, spans)
+    if not analysis.resolver.possible or analysis.motion.steps < 2:
+        return None
+    stretches = intervals(analysis)
+    # by the cosine of a place, since points come to the ends of their range with infinite rates
+    turn = np.cos(nodes(np.linspace(np.pi, 2.0 * np.pi, PIECES + 1)).ravel())
+    times = [0.5 * (start + end) + 0.5 * (end - start) * turn for start, end in stretches]
+    try:
+        motion = analysis.resolver.motion(np.concatenate(times)) if times else analysis.motion
+    except LinkwrightError:
+        return None
+    if not times or not motion.ok.all():
+        return None
+    piece = np.arange(PIECES * len(times)) % PIECES
+    whole = np.tile([0, len(piece) * POINTS], (len(keys), 1))
+    return Curves(_places(motion, keys), piece == 0, piece == PIECES - 1, whole)
+
+
+def _spans(analysis: Analysis, motion: Motion, values: Floats) -> NDArray[np.intp]:
+    """The nodes of every curve from one end of its way to the other, where it is run to and fro by a link that turns
+    or slides on the frame; one of a point at rest."""
+    mechanism, found = motion.mechanism, np.tile([0, motion.steps], (len(values), 1))
+    keys = points(mechanism)
+    for output in analysis.outputs:
+        way = motion.read(output)
+        if output.kind != "angle" or np.ptp(way) < 2.0 * np.pi:
+            ends = sorted((int(way.argmin()), int(way.argmax())))
+            own = points_of(mechanism, output_link(mechanism, output))
+            found[[keys.index(key) for key in own]] = ends[0], ends[1] + 1
+    found[(values == values[:, :, :1, :1]).all(axis=(1, 2, 3))] = 0, 1
+    return found
+
+
+def _places(motion: Motion, keys: tuple[str, ...]) -> Floats:
+    """The places of points, (points, 2, pieces, POINTS) m."""
+    motion.evaluate_together(chain.from_iterable(row_names("position", key) for key in keys))
+    return np.stack([motion.vector("position", key).T.reshape(2, -1, POINTS) for key in keys])

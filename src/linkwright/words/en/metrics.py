@@ -132,8 +132,10 @@ linkwright metrics crusher.yaml --output numbers.csv""",
     "instant_centre.at": "at ({x}, {y})",
     "instant_centre.infinite": "at infinity: the two links do not turn against each other",
     "swept_area.label": "area needed (convex hull)",
-    "swept_area.meaning": "Area of the convex hull of all points over all positions, an upper bound of the "
-    "swept area.",
+    "swept_area.meaning": "Area of the convex hull of the curves of all points, an upper bound of the swept area.",
+    "swept_area_of_link.label": "area needed by a link (convex hull)",
+    "swept_area_of_link.meaning": "Area of the convex hull of the curves of a link's points, an upper bound "
+    "of what it sweeps.",
     "swept_area.box": "{width} wide, {height} high",
     "range_of_motion.label": "range of motion of the input",
     "range_of_motion.meaning": "Extent of the input within the cycle over which the mechanism can be "

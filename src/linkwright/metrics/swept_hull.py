@@ -1,0 +1,182 @@
+"""Convex hull of curves that are polynomials piece by piece: its area, and the derivatives of that by the curves.
+
+The boundary consists of arcs of the curves and of lines that touch two curves. The hull of all nodes tells which
+arcs follow each other; a side of it between two arcs is moved outwards until it touches both, and the arcs between
+the places of contact are integrated, ½∮ p × dp. Places of contact may be held while the curves move: the area changes
+by what is of second order in them (envelope theorem).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.core.dataclass import dataclass
+from linkwright.core.piecewise import NODES, POINTS, TO_SLOPE, weights_at
+from linkwright.kinematics.cycle import Floats
+from linkwright.metrics.plane import cross, hull_corners
+
+Places = NDArray[np.intp]
+
+#: Newton steps towards the places of contact at most, and the last one's size where they end before.
+STEPS, CLOSE = 6, 1e-7
+#: How far beyond a piece, and from a node, a curve is followed, in halves of the piece's width.
+BEYOND, NEAR = 0.02, 0.6
+#: Places of contact nearer than this share of a side are one: a side of an arc, not one between two.
+SAME = 0.1
+#: Nodes of a piece that are enough within an arc.
+_KEPT = np.isin(np.arange(POINTS), (0, 5, 10, POINTS - 1))
+_INNER, _SHARES = np.polynomial.legendre.leggauss(3)
+
+
+@dataclass(frozen=True)
+class Curves:
+    """Curves as ``values`` (curves, 2, pieces, POINTS), m, at the Gauss points of pieces that follow each other;
+    ``begins``, ``ends``: pieces (pieces,) with nothing before or behind them; ``spans`` (curves, 2): the first node
+    and that behind the last one of what suffices of every curve, as of one that is run to and fro."""
+
+    values: Floats
+    begins: NDArray[np.bool_]
+    ends: NDArray[np.bool_]
+    spans: Places
+
+
+@dataclass(frozen=True)
+class Contacts:
+    """Places on curves: numbers of nodes (k,), places in their pieces (k,), -1 to 1, and points there (k, 2), m."""
+
+    number: Places
+    place: Floats
+    point: Floats
+
+
+class SweptHull:
+    """The convex hull of some of the curves, ``chosen`` by their numbers.
+
+    ``area``: m², to 1e-6 of it, to 1e-9 where no arc comes out between two nodes alone.
+    """
+
+    def __init__(self, curves: Curves, chosen: Sequence[int]) -> None:
+        self._curves, self._pieces = curves, curves.values.shape[2]
+        self._values = curves.values - curves.values[chosen[0], :, :1, :1]
+        self._nodes = np.ascontiguousarray(self._values.transpose(0, 2, 3, 1)).reshape(-1, 2)
+        numbers = np.arange(len(self._nodes)).reshape(len(self._values), -1)
+        own = np.concatenate([numbers[k, slice(*curves.spans[k])] for k in chosen])
+        self._corners = own[hull_corners(self._nodes.view(np.complex128)[own, 0])]
+        self._first, self._last = self._sides(self._thinned(self._corners))
+        self.area = self._area()
+
+    def _thinned(self, corners: Places) -> Places:
+        """Corners without those between others of the same curve that are no farther than its next nodes: those amid
+        arcs, which may have the nodes of several passages."""
+        curve, place = corners // POINTS // self._pieces, self._nodes[corners]
+        beside = [self._nodes[np.clip(corners + k, 0, len(self._nodes) - 1)] - place for k in (-1, 1)]
+        near = 2.0 * np.maximum(*((each * each).sum(axis=1) for each in beside))
+        arc = ~_KEPT[corners % POINTS]
+        for shift in (-1, 1):
+            way = np.roll(place, shift, axis=0) - place
+            arc &= (np.roll(curve, shift) == curve) & ((way * way).sum(axis=1) <= near)
+        return np.asarray(corners[~arc])
+
+    def _sides(self, corners: Places) -> tuple[Contacts, Contacts]:
+        """Where the curve at the beginning, and that at the end of every side touches a line along it."""
+        begin, end = corners, np.roll(corners, -1)
+        first, last = NODES[begin % POINTS], NODES[end % POINTS]
+        arc = begin // POINTS == end // POINTS
+        arc &= np.abs(last - first) <= 2.0 * NEAR
+        first[arc] = last[arc] = 0.5 * (first + last)[arc]
+        free = np.flatnonzero(~arc)
+        along = self._nodes[end[free]] - self._nodes[begin[free]]
+        near = SAME * np.hypot(*along.T)
+        first[free], last[free] = self._touching(begin[free], end[free], along, near)
+        return self._contacts(begin, first), self._contacts(end, last)
+
+    def _touching(
+        self, begin: Places, end: Places, along: Floats, near: Floats | float
+    ) -> tuple[Floats, Floats]:
+        """Places near some nodes where lines touch the curves, by Newton's steps: ``along`` what is given, or along
+        the side between both places of contact where that is longer than ``near``."""
+        number, half = np.concatenate([begin, end]), len(begin)
+        place, piece = NODES[number % POINTS], number // POINTS % self._pieces
+        low, high = np.maximum(place - NEAR, -1.0 - BEYOND), np.minimum(place + NEAR, 1.0 + BEYOND)
+        low = np.where(self._curves.begins[piece], np.maximum(low, -1.0), low)
+        high = np.where(self._curves.ends[piece], np.minimum(high, 1.0), high)
+        values = self._pieces_of(number)
+        rates = values @ TO_SLOPE
+        every = np.concatenate([values, rates, rates @ TO_SLOPE], axis=1)
+        point, rate, bend = np.split(_at(every, weights_at(place)), 3, axis=1)
+        for _ in range(STEPS):
+            both = np.concatenate([along, along])
+            with np.errstate(all="ignore"):
+                turn, speed = cross(both, bend), cross(both, rate)
+                step = np.where(turn > 0.0, -speed / turn, 0.0)
+            before, place = place, np.clip(place + step, low, high)
+            if np.abs(place - before).max(initial=0.0) <= CLOSE:
+                break
+            point, rate, bend = np.split(_at(every, weights_at(place)), 3, axis=1)
+            between = point[half:] - point[:half]
+            along = np.where((np.hypot(*between.T) > near)[:, None], between, along)
+        return place[:half], place[half:]
+
+    def _contacts(self, number: Places, place: Floats) -> Contacts:
+        return Contacts(number, place, _at(self._pieces_of(number), weights_at(place)))
+
+    def _pieces_of(self, number: Places) -> Floats:
+        """Curves (k, 2, POINTS) from the origin, in the pieces of some nodes."""
+        curve, piece = np.divmod(number // POINTS, self._pieces)
+        return np.asarray(self._values[curve, :, piece])
+
+    @property
+    def _arcs(self) -> tuple[Places, Floats, Floats]:
+        """Nodes' numbers, places (k,) and widths of the parts of arcs behind the sides, in halves of pieces."""
+        start, end = self._last.place, np.roll(self._first.place, -1)
+        half = 0.5 * (end - start)
+        place = 0.5 * (start + end)[:, None] + half[:, None] * _INNER
+        return np.repeat(self._last.number, len(_INNER)), place.ravel(), (half[:, None] * _SHARES).ravel()
+
+    def _area(self) -> float:
+        number, place, width = self._arcs
+        values, at = self._pieces_of(number), weights_at(place)
+        along = width @ cross(_at(values, at), _at(values, at @ TO_SLOPE.T))
+        return 0.5 * float(along + cross(self._first.point, self._last.point).sum())
+
+    @property
+    def box(self) -> Floats:
+        """Width and height, (2,) m."""
+        found = self._nodes[self._corners]
+        low, high = found.argmin(axis=0), found.argmax(axis=0)
+        number = self._corners[[low[0], high[0], low[1], high[1]]]
+        along = np.array([[0.0, -1.0], [0.0, 1.0], [1.0, 0.0], [-1.0, 0.0]])
+        place, _ = self._touching(number, number, along, np.inf)
+        left, right, bottom, top = self._contacts(number, place).point
+        return np.array([right[0] - left[0], top[1] - bottom[1]])
+
+    def weights(self) -> Floats:
+        """Derivatives (curves, 2, pieces, POINTS) of the area by the values of all curves, those in spans alone."""
+        curves, _, pieces, _ = self._values.shape
+        found = np.zeros((curves * pieces, 2, POINTS))
+        for contacts, other, sign in ((self._first, self._last, -0.5), (self._last, self._first, 0.5)):
+            _add(found, contacts.number, weights_at(contacts.place), sign * _turned(other.point))
+        number, place, width = self._arcs
+        values, at, half = self._pieces_of(number), weights_at(place), 0.5 * width[:, None]
+        slope = at @ TO_SLOPE.T
+        _add(found, number, at, -half * _turned(_at(values, slope)))
+        _add(found, number, slope, half * _turned(_at(values, at)))
+        return found.reshape(curves, pieces, 2, POINTS).transpose(0, 2, 1, 3)
+
+
+def _add(found: Floats, number: Places, weights: Floats, factor: Floats) -> None:
+    """Weights (k, POINTS), times factors (k, 2), to those of the pieces in which some nodes are."""
+    np.add.at(found, number // POINTS, factor[:, :, None] * weights[:, None, :])
+
+
+def _at(values: Floats, weights: Floats) -> Floats:
+    """Polynomials (k, j, POINTS) with weights (k, POINTS) of their values, (k, j)."""
+    return np.asarray(np.einsum("kjp,kp->kj", values, weights))
+
+
+def _turned(vectors: Floats) -> Floats:
+    """Vectors (k, 2) turned by a right angle: a × b = turned(a) · b."""
+    return np.stack([-vectors[:, 1], vectors[:, 0]], axis=1)

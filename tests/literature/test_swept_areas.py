@@ -1,0 +1,99 @@
+"""Hulls of what machines sweep: closed forms, and hulls of points that are placed here, finely sampled."""
+
+from math import acos, pi
+
+import numpy as np
+import pytest
+from scipy.spatial import ConvexHull
+
+import linkwright as lw
+from linkwright.metrics import metrics
+
+SLIDER = """
+format: 1
+name: press
+frame: {points: {O: [0 m, 0 m]}}
+links:
+  crank: {points: [O, A], length: 0.3 m}
+  rod: {points: [A, B], length: 1 m}
+  plate: {points: {B: [0 m, 0 m], P: [0 m, 0.4 m], Q: [0.5 m, 0.4 m], R: [0.5 m, 0 m]}}
+joints: {guide: {kind: prismatic, guide: frame, through: O, direction: 0 deg, block: plate, at: B}}
+driver: {turn: crank, about: O, speed: 2 rad/s}
+assembly: {B: forward}
+"""
+FOUR_BAR = """
+format: 1
+name: four-bar
+frame: {{points: {{O: [0 m, 0 m], Q: [4 m, 0 m]}}}}
+links:
+  crank: {{points: [O, A], length: {crank} m}}
+  coupler: {{points: {{A: [0 m, 0 m], B: [3 m, 0 m], P: [1.4 m, 1.2 m]}}}}
+  rocker: {{points: [Q, B], length: 3 m}}
+assembly: {{B: left}}
+driver: {{turn: crank, about: O, speed: 1 rad/s}}
+"""
+
+
+def area(machine: lw.Mechanism, subject: str = "", steps: int = 24) -> float:
+    """The swept area of the machine or of a link, of a motion with so many positions."""
+    motion = lw.solve_motion(machine, steps=steps, failures="mark")
+    if not subject:
+        return metrics(motion, "swept_area").value("swept_area")
+    return metrics(motion, "swept_area_of_link")["swept_area_of_link", subject].value
+
+
+def hull_of(crank: float, angle: np.ndarray) -> float:
+    """Hull of all points of the four-bar with the crank at some angles, by the intersection of two circles."""
+    a = crank * np.exp(1j * angle)
+    apart = 4.0 - a
+    along = 0.5 * np.abs(apart)  # coupler and rocker of one length: above the middle
+    b = a + 0.5 * apart + 1j * apart / np.abs(apart) * np.sqrt(9.0 - along**2)
+    p = a + (b - a) / 3.0 * (1.4 + 1.2j)
+    every = np.concatenate([a, b, p, [0.0, 4.0]])
+    return float(ConvexHull(np.stack([every.real, every.imag], axis=1)).volume)
+
+
+def test_a_turning_bar_sweeps_its_disc() -> None:
+    machine = lw.loads(FOUR_BAR.format(crank=1))
+    assert area(machine, "crank", 7) == pytest.approx(pi, rel=1e-12)
+    assert area(machine, "crank", 1000) == pytest.approx(pi, rel=1e-12)
+
+
+def test_a_plate_on_a_guide_sweeps_its_rectangle_longer_by_the_stroke() -> None:
+    """The machine: the crank's disc beside that rectangle, from O - 0.3 m to R in its outer dead point at 1.8 m."""
+    machine = lw.loads(SLIDER)
+    assert area(machine, "plate", 13) == pytest.approx((0.5 + 0.6) * 0.4, rel=1e-12)
+    table = metrics(lw.solve_motion(machine, steps=13), "swept_area")
+    assert table["swept_area"][0].sentence == "2100 mm wide, 700 mm high"
+    place = np.exp(1j * np.linspace(0.0, 2.0 * pi, 20_001))
+    disc = np.stack([0.3 * place.real, 0.3 * place.imag], axis=1)
+    corners = [(0.7, 0.0), (0.7, 0.4), (1.8, 0.4), (1.8, 0.0), (0.0, 0.0)]
+    assert area(machine, steps=13) == pytest.approx(ConvexHull(np.vstack([disc, corners])).volume, rel=1e-7)
+
+
+@pytest.mark.parametrize("crank", [0.5, 1.0, 1.9])
+def test_a_four_bar_needs_the_hull_of_its_curves(crank: float) -> None:
+    known = hull_of(crank, np.linspace(0.0, 2.0 * pi, 40_001))
+    machine = lw.loads(FOUR_BAR.format(crank=crank))
+    assert area(machine) == pytest.approx(known, rel=2e-8)
+    assert area(machine, steps=5) == pytest.approx(area(machine, steps=1003), rel=1e-12)
+
+
+def test_a_crank_that_cannot_turn_sweeps_what_it_reaches() -> None:
+    """Up to coupler and rocker stretched, 6 m from the rocker's pivot, which the points come to as roots."""
+    end = acos((2.5**2 + 4.0**2 - 6.0**2) / (2.0 * 2.5 * 4.0))
+    known = hull_of(2.5, end * np.cos(np.linspace(0.0, pi, 40_001)))
+    machine = lw.loads(FOUR_BAR.format(crank=2.5))
+    sector = 2.5**2 * (end - np.sin(end) * np.cos(end))
+    assert area(machine, "crank", 40) == pytest.approx(sector, rel=1e-9)
+    assert area(machine, steps=40) == pytest.approx(known, rel=2e-8)
+    assert area(machine, steps=40) == pytest.approx(area(machine, steps=371), rel=1e-9)
+
+
+def test_some_inputs_are_a_way_and_one_is_a_place() -> None:
+    """Whatever lies between the inputs counts; of one position the hull of its points is left."""
+    machine = lw.loads(FOUR_BAR.format(crank=1))
+    for inputs, way in (([0.2, 1.1], np.linspace(0.2, 1.1, 4001)), ([0.7], np.array([0.7]))):
+        found = metrics(lw.solve_motion(machine, at=inputs), "swept_area")["swept_area"][0]
+        assert found.value == pytest.approx(hull_of(1.0, way), rel=1e-7)
+        assert found.exact == (len(inputs) > 1)
