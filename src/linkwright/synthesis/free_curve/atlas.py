@@ -53,14 +53,16 @@ ANGLE = np.linspace(0, 2 * np.pi, CRANK + 1)
 #: First point and number of a part's steps; with the image it lies on and the turn of the picture.
 Part = tuple[int, int]
 Laid = tuple[Part, bool, float]
-#: Joints of each atlas; numbers of dyads in it, with the structures of each and the draws of each structure.
+#: Joints of each atlas, and whether its dyads slide (1); numbers of dyads in it, with the structures of each and the
+#: draws of each structure.
 LEVELS = (
-    (5, ((1, 1, 40000),)),
-    (8, ((2, 100, 960),)),
-    (10, ((3, 300, 400), (4, 200, 300))),
-    (8, ((3, 200, 400),)),
+    (5, 0, ((1, 1, 40000),)),
+    (8, 0, ((2, 100, 960),)),
+    (10, 0, ((3, 300, 400), (4, 200, 300))),
+    (8, 0, ((3, 200, 400),)),
+    (5, 1, ((1, 2, 15000),)),
 )
-EDITION = 4
+EDITION = 5
 
 
 @dataclass(frozen=True, eq=False)
@@ -225,10 +227,12 @@ def _complex(curves: NDArray[np.int8]) -> Complexes:
 
 def make(level: int) -> Atlas:
     """The atlas of a level, from its own seed: the same everywhere."""
-    joints, kinds = LEVELS[level]
+    joints, slides, kinds = LEVELS[level]
     draw = np.random.default_rng(level + 1)
     found = [
-        (nodes, draws) for dyads, count, draws in kinds for nodes in _structures(dyads, joints, count, draw)
+        (nodes, draws)
+        for dyads, count, draws in kinds
+        for nodes in _structures(dyads, joints, slides, count, draw)
     ]
     kept: list[tuple[Floats, NDArray[np.int8]] | None] = [None] * len(found)
     seeds = draw.integers(1 << 60, size=len(found))
@@ -248,11 +252,11 @@ def make(level: int) -> Atlas:
     )
 
 
-def _structures(dyads: int, joints: int, count: int, draw: np.random.Generator) -> list[Whole]:
+def _structures(dyads: int, joints: int, slides: int, count: int, draw: Draw) -> list[Whole]:
     """So many different structures."""
     found: dict[bytes, Whole] = {}
     while len(found) < count:
-        nodes = random_structure(dyads, joints, draw)
+        nodes = random_structure(dyads, joints, draw, slides=slides)
         found.setdefault(nodes.tobytes(), nodes)
     return list(found.values())
 
@@ -295,7 +299,7 @@ def _path(level: int) -> Path | None:
 def _read(path: Path, level: int) -> Atlas:
     with np.load(path, allow_pickle=False) as file:
         which, curves, structures, numbers = (file[key] for key in ("which", "curves", "structures", "x"))
-    count, joints = sum(each[1] for each in LEVELS[level][1]), structures[:, 0]
+    count, joints = sum(each[1] for each in LEVELS[level][2]), structures[:, 0]
     nodes = tuple(np.ascontiguousarray(row[1 : 1 + 4 * row[0]]) for row in structures)
     rows = np.bincount(which[:, 0], minlength=count)
     ends = np.cumsum(rows * 2 * (joints - 2))

@@ -13,7 +13,7 @@ from linkwright.engine.machine_code import available
 from linkwright.synthesis.demands import whole
 from linkwright.synthesis.free_curve.curve_file import read_curve
 from linkwright.synthesis.free_curve.drawn import drawing
-from linkwright.synthesis.free_curve.linkages import KINDS, Placed, linkage_of
+from linkwright.synthesis.free_curve.linkages import Placed, kind_of, linkage_of
 from linkwright.synthesis.free_curve.nodes import Complexes, Design, node_paths
 from linkwright.synthesis.free_curve.search import JOINTS, Search
 from linkwright.synthesis.free_curve.target import EVEN, Target, even_points, symmetric_distance
@@ -51,8 +51,9 @@ def free_curve(
         file: the curve in a file instead: two columns of numbers (``.csv``, ``.txt``), or the first path of an
             ``.svg``; ``file_unit``: length of one unit there, m.
         closed: whether the last point joins the first; not given: where they are the same point.
-        joints: most joints (pivots, pins, points of links and the drawing point), 5 to 12: a four-bar has 5, a
-            six-bar up to 8; with 10 there are eight- and ten-bars, with 12 twelve-bars as well.
+        joints: most joints (pivots, pins, slides, points of links and the drawing point), 5 to 12: a four-bar, a
+            slider-crank and a crank with a swinging block have 5, a six-bar up to 8; with 10 there are eight- and
+            ten-bars, with 12 twelve-bars as well.
         transmission_angle: least of every dyad over the whole turn, rad.
         size: greatest distance of any joint from the curve's centroid over the turn, in rms radii of the curve.
         error: an error that is good enough: linkages within it come with the fewest links first; 0: the least
@@ -186,6 +187,6 @@ def _candidate(design: Design, target: Target) -> Candidate:
         "fastest_at_1_Hz": how.fastest, "fastest_to_mean": how.unevenness,
     }  # fmt: skip
     return Candidate(
-        linkage, mean / target.radius, KINDS[links], (), True, -angle, max(lengths) / min(lengths),
+        linkage, mean / target.radius, kind_of(design), (), True, -angle, max(lengths) / min(lengths),
         most / target.radius, _shown(curve, target.closed), values,
     )  # fmt: skip

@@ -3,8 +3,11 @@
 A linkage is a list of nodes, four whole numbers each: kind, two earlier nodes i and j, branch. Node 0 is the crank's
 pivot in the origin, node 1 its pin at distance 1; every further node has two numbers of x: PIVOT (its place), DYAD
 (logarithms of its lengths to i and j, on the side ``branch``), POINT (complex w: Pi + w (Pj - Pi), a point of a
-link). The last node draws. After the nodes x holds the turn of the picture, the first crank angle and the range of
-the crank (the last two for open curves only).
+link), SLIDER (logarithm of its distance from i, direction of the guide through j, which is a GUIDE: like a pivot, but
+no pin), BLOCK (logarithm of its distance from i along the rod that slides through the block at j, distance of that
+line from i). The last node draws. Every node is one joint: of a SLIDER the GUIDE stands for the slide, of a BLOCK the
+node itself. After the nodes x holds the turn of the picture, the first crank angle and the range of the crank (the
+last two for open curves only).
 
 Objective: mean nearest distance from curve to target plus that from target to curve, each √(d² + ε²), after the
 curve has been laid on the target by its centroid and rms radius (weighted by arc length), plus κ times the mean over
@@ -42,8 +45,15 @@ from linkwright.synthesis.free_curve.distances import (
     target_to_curve,
     weigh,
 )
+from linkwright.synthesis.free_curve.sliding import (
+    SLIDING,
+    block_back,
+    place_block,
+    place_slider,
+    slider_back,
+)
 
-PIVOT, DYAD, POINT = 0, 1, 2
+PIVOT, GUIDE, POINT, DYAD, SLIDER, BLOCK = 0, 1, 2, 3, 4, 5
 TURN, FAR = 6.283185307179586, 1e9
 
 
@@ -113,18 +123,24 @@ def place(nodes: Wholes, count: int, n: int, N: int, closed: int, x: Reals, X: R
     for k in range(2, count):
         kind, a, b = nodes[4 * k], x[2 * k - 4], x[2 * k - 3]
         i, j, own = nodes[4 * k + 1] * N, nodes[4 * k + 2] * N, k * N
-        if kind == PIVOT:
+        if kind <= GUIDE:
             for t in range(0, N, 8):
                 store(X + own, t, a)
                 store(Y + own, t, b)
         if kind == POINT:
             place_point(N, a, b, X + i, Y + i, X + j, Y + j, X + own, Y + own)
+        side = 1.0 * nodes[4 * k + 3]
         if kind == DYAD:
-            side = 1.0 * nodes[4 * k + 3]
             found = place_dyad(N, exp(a), exp(b), side, X + i, Y + i, X + j, Y + j, X + own, Y + own)
             low = min(low, found)
-            if low < 1e-4:
-                return -1.0
+        if kind == SLIDER:
+            found = place_slider(N, exp(a), b, side, X + i, Y + i, X + j, Y + j, X + own, Y + own)
+            low = min(low, found)
+        if kind == BLOCK:
+            found = place_block(N, exp(a), b, side, X + i, Y + i, X + j, Y + j, X + own, Y + own)
+            low = min(low, found)
+        if low < 1e-4:
+            return -1.0
     return low
 
 
@@ -273,7 +289,7 @@ def nodes_back(
         k = count + 1 - back
         kind, a, b = nodes[4 * k], x[2 * k - 4], x[2 * k - 3]
         i, j, own = nodes[4 * k + 1] * N, nodes[4 * k + 2] * N, k * N
-        if kind == PIVOT:
+        if kind <= GUIDE:
             ga, gb = spread(0.0), spread(0.0)
             for t in range(0, N, 8):
                 ga += load(gX, own + t)
@@ -284,6 +300,10 @@ def nodes_back(
             point_back(N, a, b, X, Y, gX, gY, i, j, own, g + (2 * k - 4))
         if kind == DYAD:
             lack += dyad_back(N, exp(a), exp(b), kappa, limit, X, Y, gX, gY, i, j, own, g + (2 * k - 4))
+        if kind == SLIDER:
+            lack += slider_back(N, exp(a), b, kappa, limit, X, Y, gX, gY, i, j, own, g + (2 * k - 4))
+        if kind == BLOCK:
+            lack += block_back(N, exp(a), b, kappa, limit, X, Y, gX, gY, i, j, own, g + (2 * k - 4))
     return lack
 
 
@@ -437,7 +457,7 @@ def kernels() -> Kernels:
 
     return Kernels(
         [
-            turn_crank, place_crank, place_dyad, place_point, place, *DISTANCES, too_large, lengths_back,
+            turn_crank, place_crank, place_dyad, place_point, *SLIDING, place, *DISTANCES, too_large, lengths_back,
             align_back, dyad_back, point_back, nodes_back, range_back, deviation, restart, update, descend,
             *SAMPLING, *PROMISES, *LIKENESS,
         ]

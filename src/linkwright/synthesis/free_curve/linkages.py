@@ -7,11 +7,12 @@ from string import ascii_uppercase
 
 import numpy as np
 
-from linkwright.synthesis.free_curve.kernels import DYAD, PIVOT, POINT
-from linkwright.synthesis.free_curve.nodes import Complexes, Design, Node, node_paths
+from linkwright.synthesis.free_curve.kernels import BLOCK, GUIDE, PIVOT, POINT, SLIDER
+from linkwright.synthesis.free_curve.nodes import Complexes, Design, Node, node_paths, rods_of
 from linkwright.synthesis.free_curve.target import EVEN, Target, even_points
-from linkwright.synthesis.linkage import Linkage
+from linkwright.synthesis.linkage import Guide, Linkage
 
+SLIDES = {SLIDER: "slider_crank", BLOCK: "crank_swinging_block"}
 KINDS = {4: "four_bar", 6: "six_bar", 8: "eight_bar", 10: "ten_bar", 12: "twelve_bar"}
 
 
@@ -54,21 +55,47 @@ def linkage_of(placed: Placed) -> Linkage:
     begin = first + span if design.mirror else first
     pose = placed(node_paths(design.nodes, design.x, np.array([begin]))[0][:, 0])
     points = {name: complex(place) for name, place in zip(names, pose, strict=True)}
-    frame = tuple(names[k] for k, row in enumerate(design.rows) if row[0] == PIVOT and k != 1)
+    frame = tuple(names[k] for k, row in enumerate(design.rows) if row[0] in (PIVOT, GUIDE) and k != 1)
+    links = _links(design.rows, names)
     return Linkage(
-        KINDS.get(design.links, "linkage"), points, frame, _links(design.rows, names), ("crank", "O"),
+        kind_of(design), points, frame, links, ("crank", "O"), _guides(placed, names, links),
         span=None if closed else (ends[0], ends[1]),
     )  # fmt: skip
 
 
+def kind_of(design: Design) -> str:
+    """What a linkage is called: by its number of links, one of four links by its slide."""
+    slides = [SLIDES[row[0]] for row in design.rows if row[0] in SLIDES]
+    return slides[0] if slides and design.links == 4 else KINDS[design.links]
+
+
+def _guides(placed: Placed, names: list[str], links: dict[str, tuple[str, ...]]) -> dict[str, Guide]:
+    """The prismatic joints; their blocks are the links of a single point."""
+    rows, x, found = placed.design.rows, placed.design.x, dict[str, Guide]()
+    blocks = {points[0]: name for name, points in links.items() if len(points) == 1}
+    for k, (kind, i, j, _) in enumerate(rows):
+        name = f"slide{len(found) + 1}" if found else "slide"
+        if kind == SLIDER:
+            direction = placed.turn(float(x[2 * k - 3]))
+            found[name] = Guide("frame", names[j], direction, blocks[names[k]], names[k])
+        elif kind == BLOCK:
+            rod = next(name for name, points in links.items() if points[:2] == (names[i], names[k]))
+            offset = float(x[2 * k - 3]) * abs(placed.factor) * (-1 if placed.design.mirror else 1)
+            found[name] = Guide(rod, names[i], (names[i], names[k]), blocks[names[j]], names[j], offset)
+    return found
+
+
 def _links(rows: list[Node], names: list[str]) -> dict[str, tuple[str, ...]]:
     links: dict[tuple[int, int], list[int]] = {(0, 1): [0, 1]}
+    blocks = []
     for k, (kind, i, j, _) in enumerate(rows):
-        if kind == DYAD:
-            links[i, k], links[j, k] = [i, k], [j, k]
-        elif kind == POINT:
+        links |= {(end, k): [end, k] for end in rods_of(rows[k])}
+        if kind == POINT:
             links[i, j].append(k)
-    named = zip(_link_names(), links.values(), strict=False)
+        elif kind in SLIDES:
+            blocks.append([k if kind == SLIDER else j])
+    named = [*zip(_link_names(), links.values(), strict=False)]
+    named += [(f"block{number + 1}" if number else "block", each) for number, each in enumerate(blocks)]
     return {name: tuple(names[k] for k in nodes) for name, nodes in named}
 
 
@@ -89,7 +116,7 @@ def node_names(rows: list[Node]) -> list[str]:
             names.append("O")
         elif k == 1:
             names.append("A")
-        elif row[0] == PIVOT:
+        elif row[0] in (PIVOT, GUIDE):
             pivots += 1
             names.append(f"O{pivots}")
         else:

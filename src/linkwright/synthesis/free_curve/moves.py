@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from linkwright.synthesis.free_curve.kernels import DYAD, PIVOT, POINT
+from linkwright.synthesis.free_curve.kernels import BLOCK, DYAD, GUIDE, PIVOT, POINT, SLIDER
 from linkwright.synthesis.free_curve.nodes import (
     Design,
     Draw,
@@ -23,6 +23,8 @@ from linkwright.synthesis.free_curve.nodes import (
 TURN = 96
 #: Where a new node comes, which entry of that row then names it (0: none), the node and its two numbers.
 Parting = tuple[int, int, Node, tuple[float, float]]
+#: Which of the two nodes of a dyad are pins.
+PINNED = {DYAD: (1, 2), SLIDER: (1,), BLOCK: (1, 2)}
 
 
 def with_dyad(design: Design, draw: Draw, most: int) -> Design | None:
@@ -43,6 +45,8 @@ def with_dyad(design: Design, draw: Draw, most: int) -> Design | None:
         place = paths[far]
     elif choice == 1:
         far = int(draw.integers(1, last))
+        if rows[far][0] in (GUIDE, BLOCK):
+            return None
         place = paths[far]
     elif choice == 2:
         path = paths[last]
@@ -102,19 +106,19 @@ def with_joint(design: Design, draw: Draw) -> Design:
 
 def _partings(rows: list[Node], x: Floats) -> Iterator[Parting]:
     """All joints that can be parted."""
-    uses = np.bincount([end for row in rows if row[0] == DYAD for end in row[1:3]], minlength=len(rows))
+    pinned = [(at, end) for at, row in enumerate(rows) for end in PINNED.get(row[0], ())]
+    uses = np.bincount([rows[at][end] for at, end in pinned], minlength=len(rows))
     uses[0] += 1
-    for at, row in enumerate(rows):
-        for end in (1, 2) if row[0] == DYAD else ():
-            joint, other = row[end], row[3 - end]
-            shared = uses[joint] > 1 or rows[joint][0] == DYAD
-            if shared and rows[joint][0] == PIVOT and joint != 1:
-                place = (float(x[2 * joint - 4]), float(x[2 * joint - 3])) if joint else (0.0, 0.0)
-                yield at, end, (PIVOT, 0, 0, 1), place
-            elif shared:
-                for pair, share in _places(rows[:at], joint, x):
-                    if other not in pair and (rows[other][0] != POINT or rows[other][1:3] != pair):
-                        yield at, end, (POINT, *pair, 1), share
+    for at, end in pinned:
+        joint, other = rows[at][end], rows[at][3 - end]
+        shared = uses[joint] > 1 or rows[joint][0] in (DYAD, SLIDER)
+        if shared and rows[joint][0] == PIVOT and joint != 1:
+            place = (float(x[2 * joint - 4]), float(x[2 * joint - 3])) if joint else (0.0, 0.0)
+            yield at, end, (PIVOT, 0, 0, 1), place
+        elif shared:
+            for pair, share in _places(rows[:at], joint, x):
+                if other not in pair and (rows[other][0] != POINT or rows[other][1:3] != pair):
+                    yield at, end, (POINT, *pair, 1), share
     if rows[-1][0] == DYAD:
         for end in rows[-1][1:3]:
             yield len(rows), 0, (POINT, end, len(rows) - 1, 1), (1.0, 0.0)

@@ -1,7 +1,7 @@
 """A linkage as a list of nodes: its structure, its positions, and random structures.
 
 Each node has a kind, two earlier nodes and a branch; see ``kernels.py``. Bars = 2 + 2 dyads; joints counts all nodes:
-pivots, pins, points of links and the drawing point.
+pivots, pins, slides, points of links and the drawing point.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.core.dataclass import dataclass
-from linkwright.synthesis.free_curve.kernels import DYAD, FAR, PIVOT, POINT, kernels
+from linkwright.synthesis.free_curve.kernels import BLOCK, DYAD, FAR, GUIDE, PIVOT, POINT, SLIDER, kernels
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
@@ -19,6 +19,12 @@ Node = tuple[int, int, int, int]
 Draw = np.random.Generator
 
 FOUR_BAR: tuple[Node, ...] = ((PIVOT, 0, 0, 1), (PIVOT, 0, 0, 1), (PIVOT, 0, 0, 1), (DYAD, 1, 2, 1))
+#: Structures of one dyad, with 5 joints: four-bar, slider-crank, and a coupler that slides through a swinging block.
+ONE_DYAD: tuple[tuple[Node, ...], ...] = (
+    (*FOUR_BAR, (POINT, 1, 3, 1)),
+    (*FOUR_BAR[:2], (GUIDE, 0, 0, 1), (SLIDER, 1, 2, 1), (POINT, 1, 3, 1)),
+    (*FOUR_BAR[:3], (BLOCK, 1, 2, 1), (POINT, 1, 3, 1)),
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,7 +53,7 @@ class Design:
     @property
     def links(self) -> int:
         """Number of bars with the frame."""
-        return 2 + 2 * int((self.nodes[::4] == DYAD).sum())
+        return 2 + 2 * int((self.nodes[::4] >= DYAD).sum())
 
     @property
     def rows(self) -> list[Node]:
@@ -71,10 +77,22 @@ def node_paths(nodes: Whole, x: Floats, crank: Floats) -> tuple[Complexes, float
     for k in range(2, count):
         kind, i, j, branch = nodes[4 * k : 4 * k + 4]
         a, b = x[2 * k - 4 : 2 * k - 2]
-        if kind == PIVOT:
+        if kind in (PIVOT, GUIDE):
             paths[k] = a + 1j * b
         elif kind == POINT:
             paths[k] = paths[i] + (a + 1j * b) * (paths[j] - paths[i])
+        elif kind == SLIDER:
+            way = np.exp(1j * b)
+            from_guide = (paths[i] - paths[j]) * way.conjugate()
+            square = np.exp(2 * a) - from_guide.imag**2
+            least = min(least, float(np.min(square) * np.exp(-2 * a)))
+            paths[k] = paths[j] + way * (from_guide.real + branch * np.sqrt(np.maximum(square, 0)))
+        elif kind == BLOCK:
+            span = paths[j] - paths[i]
+            square = np.abs(span) ** 2
+            least = min(least, float(np.min(1 - b**2 / square)))
+            along = branch * np.sqrt(np.maximum(square - b**2, 0))
+            paths[k] = paths[i] + np.exp(a) * span * (along - 1j * b) / square
         else:
             first, second, span = np.exp(a), np.exp(b), paths[j] - paths[i]
             apart = np.abs(span)
@@ -100,7 +118,12 @@ def turned_paths(nodes: Whole, x: Floats, count: int) -> Complexes | None:
 
 def links_of(rows: list[Node]) -> list[tuple[int, int]]:
     """Moving links as pairs of nodes; the crank first."""
-    return [(0, 1)] + [(end, k) for k, row in enumerate(rows) if row[0] == DYAD for end in row[1:3]]
+    return [(0, 1)] + [(end, k) for k, row in enumerate(rows) for end in rods_of(row)]
+
+
+def rods_of(row: Node) -> tuple[int, ...]:
+    """Nodes that a dyad's rods join with its own: both where it has no slide."""
+    return row[1:3] if row[0] == DYAD else row[1:2] if row[0] > DYAD else ()
 
 
 def pivots_of(rows: list[Node]) -> list[int]:
@@ -115,8 +138,13 @@ def carriers(rows: list[Node], node: int) -> set[tuple[int, int]]:
     return {pair for pair in links_of(rows) if node in pair}
 
 
-def random_structure(dyads: int, most: int, draw: Draw) -> Whole:
-    """A four-bar with random further dyads on it, at most ``most`` nodes, the last one draws, none idle."""
+def random_structure(dyads: int, most: int, draw: Draw, slides: int = 0) -> Whole:
+    """A four-bar with random further dyads on it, at most ``most`` nodes, the last one draws, none idle.
+
+    ``slides`` 1: a slider-crank or a crank with a swinging block instead, of one dyad.
+    """
+    if dyads == 1:
+        return flat(list(ONE_DYAD[slides + int(draw.integers(1 + slides))]))
     while True:
         rows: list[Node] | None = list(FOUR_BAR)
         for left in range(dyads - 2, -1, -1):
@@ -124,8 +152,8 @@ def random_structure(dyads: int, most: int, draw: Draw) -> Whole:
                 rows = _with_dyad(rows, draw, most - len(rows) - left - int(draw.random() < 0.7))
         if rows is None:
             continue
-        if dyads == 1 or (draw.random() < 0.75 and len(rows) < most):
-            end = rows[-1][1 + (int(draw.integers(2)) if dyads > 1 else 0)]
+        if draw.random() < 0.75 and len(rows) < most:
+            end = rows[-1][1 + int(draw.integers(2))]
             rows.append((POINT, end, len(rows) - 1, 1))
         spare = most - len(rows)
         if spare >= 0 and len(_needed(rows)) == len(rows) and draw.random() < 0.3**spare:

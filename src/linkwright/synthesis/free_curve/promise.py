@@ -24,9 +24,12 @@ from linkwright.synthesis.free_curve.distances import (
     weigh,
 )
 from linkwright.synthesis.free_curve.kernels import (
+    BLOCK,
     DYAD,
+    GUIDE,
     PIVOT,
     POINT,
+    SLIDER,
     TURN,
     place,
     place_dyad,
@@ -108,9 +111,16 @@ def first_use(nodes: Wholes, count: int, k: int) -> int:
         kind = nodes[4 * row]
         if kind != PIVOT and nodes[4 * row + 1] == k:
             return row
-        if kind == DYAD and nodes[4 * row + 2] == k:
+        if kind >= DYAD and kind != SLIDER and nodes[4 * row + 2] == k:
             return row
     return count
+
+
+def slides(kind: int) -> int:
+    """1 where a node is the place of a slide: no pin can be there."""
+    if kind == GUIDE:
+        return 1
+    return 1 if kind == BLOCK else 0
 
 
 def grow(
@@ -128,7 +138,7 @@ def grow(
             i, j = nodes[4 * row + 1], nodes[4 * row + 2]
             made[4 * to + 1] = at + shift - 1 if i == hung else i if i < at else i + shift
             made[4 * to + 2] = j if j < at else j + shift
-            if nodes[4 * row] == DYAD and j == hung:
+            if nodes[4 * row] >= DYAD and nodes[4 * row] != SLIDER and j == hung:
                 made[4 * to + 2] = at + shift - 1
             if nodes[4 * row] == PIVOT:
                 made[4 * to + 1] = 0
@@ -207,6 +217,9 @@ def drawn_dyad(
             if nodes[4 * far] == DYAD:
                 j = far
                 i = nodes[4 * far + 1] if r[3] < 0.5 else nodes[4 * far + 2]
+            if nodes[4 * far] > DYAD:
+                j = far
+                i = nodes[4 * far + 1]
             made[4 * at] = POINT
             made[4 * at + 1] = i
             made[4 * at + 2] = j
@@ -223,7 +236,7 @@ def drawn_dyad(
             store(fx, t, load(X, far * N + t))
             store(fy, t, load(Y, far * N + t))
     own = hung * N
-    if far == hung:
+    if far == hung or slides(nodes[4 * hung]) == 1 or (new == 0 and slides(nodes[4 * far]) == 1):
         return -1
     if lengths(N, X + own, Y + own, fx, fy, 1.0 * side, r[6], r[7], limit, rest, more) < 0.0:
         return -1
@@ -323,6 +336,6 @@ def misses(
 
 
 PROMISES = (
-    dot, take_off, lay, misses, column, remainder, first_use, grow, lengths, drawn_dyad,
+    dot, take_off, lay, misses, column, remainder, first_use, slides, grow, lengths, drawn_dyad,
     own_columns, promises,
 )  # fmt: skip

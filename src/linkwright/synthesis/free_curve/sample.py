@@ -5,7 +5,15 @@ from __future__ import annotations
 from math import cos, exp, log, sin, sqrt
 
 from linkwright.engine.kernel import Reals, Wholes
-from linkwright.synthesis.free_curve.kernels import DYAD, PIVOT, POINT, TURN, place_dyad, place_point
+from linkwright.synthesis.free_curve.kernels import (
+    BLOCK,
+    DYAD,
+    POINT,
+    TURN,
+    place_dyad,
+    place_point,
+)
+from linkwright.synthesis.free_curve.sliding import place_block, place_slider
 
 
 def spans(N: int, px: Reals, py: Reals, qx: Reals, qy: Reals, out: Reals) -> None:
@@ -52,6 +60,28 @@ def even_points(zx: Reals, zy: Reals, N: int, M: int, Z: Reals) -> float:
     return radius
 
 
+def draw_slide(
+    kind: int, N: int, a: float, b: float, px: Reals, py: Reals, qx: Reals, qy: Reals, x: Reals, y: Reals,
+    out: Reals, own: Reals,
+) -> float:  # fmt: skip
+    """A sliding dyad from two uniform numbers, its own numbers, drawn after the range that it must span."""
+    if kind == BLOCK:
+        spans(N, px, py, qx, qy, out)
+        if out[0] < 0.02 * out[1]:
+            return -1.0
+        own[0] = log(out[1])
+        own[1] = out[0] * 0.98 * (2.0 * b - 1.0)
+        return place_block(N, out[1], own[1], 1.0, px, py, qx, qy, x, y)
+    c, s, far = cos(TURN * b), sin(TURN * b), 0.0
+    for t in range(N):
+        h = c * (py[t] - qy[t]) - s * (px[t] - qx[t])
+        far = max(far, h * h)
+    r = sqrt(far) * (1.02 + 1.5 * a * a)
+    own[0] = log(r)
+    own[1] = TURN * b
+    return place_slider(N, r, own[1], 1.0, px, py, qx, qy, x, y)
+
+
 def draw_linkage(nodes: Wholes, count: int, N: int, x: Reals, r: Reals, limit: float, room: Reals) -> float:
     """From uniform numbers r a linkage x that turns fully with sin² μ ≥ ``limit``, placed in ``room``; -1: none.
 
@@ -79,8 +109,14 @@ def draw_linkage(nodes: Wholes, count: int, N: int, x: Reals, r: Reals, limit: f
             found = place_dyad(N, first, second, side, X + i, Y + i, X + j, Y + j, X + own, Y + own)
             if found < limit:
                 return -1.0
+        elif kind > DYAD:
+            found = draw_slide(
+                kind, N, a, b, X + i, Y + i, X + j, Y + j, X + own, Y + own, out, x + (2 * k - 4)
+            )
+            if found < limit:
+                return -1.0
         else:
-            size = 0.3 * exp(3.0 * a) if kind == PIVOT else 0.15 * exp(2.9 * a)
+            size = 0.15 * exp(2.9 * a) if kind == POINT else 0.3 * exp(3.0 * a)
             px, py = size * cos(TURN * b), size * sin(TURN * b)
             x[2 * k - 4] = px
             x[2 * k - 3] = py
@@ -105,4 +141,4 @@ def draw_linkages(
             radius[c] = even_points(room + own, room + count * N + own, N, M, Z + 2 * c * M)
 
 
-SAMPLING = (spans, even_points, draw_linkage, draw_linkages)
+SAMPLING = (spans, even_points, draw_slide, draw_linkage, draw_linkages)

@@ -42,11 +42,13 @@ class Level(NamedTuple):
     apart: bool = False
 
 
-SIX_BARS = 1
-#: Eight-bars of 8 joints have a pool apart from six-bars, as in one pool each would crowd out the other.
+SIX_BARS, SLIDING = 1, 4
+ONE_DYAD = 0, SLIDING
+#: Eight-bars of 8 joints have a pool apart from six-bars, linkages of one sliding dyad from four-bars, as in one pool
+#: each would crowd out the other.
 LEVELS = (
-    Level(5, 0, 0.7), Level(7, SIX_BARS, 1.5), Level(8, SIX_BARS, 2.0), Level(8, 3, 2.5, apart=True),
-    Level(9, 2, 2.5), Level(10, 2, 3.5), Level(12, None, 7.0),
+    Level(5, 0, 0.5), Level(5, SLIDING, 0.5, apart=True), Level(7, SIX_BARS, 1.5), Level(8, SIX_BARS, 2.0),
+    Level(8, 3, 2.5, apart=True), Level(9, 2, 2.5), Level(10, 2, 3.5), Level(12, None, 7.0),
 )  # fmt: skip
 #: Starts that begin together, how many of all descend further, and their share of a level's time.
 SOME, CHOSEN, STARTING = 200, 50, 0.5
@@ -173,7 +175,7 @@ class Search:
         """As many rounds as the time holds, after the atlases have been looked up."""
         used = {level.atlas for level in self.best if level.atlas is not None}
         self.matches = {
-            each: atlas(each).matches(self.target) if each else atlas(each).nearest(self.target)
+            each: (atlas(each).nearest if each in ONE_DYAD else atlas(each).matches)(self.target)
             for each in used
         }
         over = (time.perf_counter() - self.begin) / self.seconds
