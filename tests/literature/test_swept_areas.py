@@ -97,3 +97,51 @@ def test_some_inputs_are_a_way_and_one_is_a_place() -> None:
         found = metrics(lw.solve_motion(machine, at=inputs), "swept_area")["swept_area"][0]
         assert found.value == pytest.approx(hull_of(1.0, way), rel=1e-7)
         assert found.exact == (len(inputs) > 1)
+
+
+def test_gradients_of_the_disc_and_of_the_plate() -> None:
+    """π r² and (0.5 + 2 r) 0.4 by the crank's length."""
+    bar = lw.objective(lw.loads(FOUR_BAR.format(crank=1)), "swept_area_of_link crank", vary=["crank.length"])
+    plate = lw.objective(lw.loads(SLIDER), "swept_area_of_link plate", vary=["crank.length"])
+    for f, at, slope in ((bar, 0.9, 1.8 * pi), (plate, 0.2, 0.8)):
+        value, gradient = f(np.array([at]))
+        assert value == pytest.approx(pi * at**2 if f is bar else 0.36, rel=1e-12)
+        assert gradient[0] == pytest.approx(slope, rel=1e-11)
+
+
+def test_areas_and_gradients_of_many_four_bars() -> None:
+    """Against the hulls of finely sampled curves and fourth-order differences of them."""
+    machine, cranks, step = lw.loads(FOUR_BAR.format(crank=1)), np.array([0.6, 1.0, 1.7]), 1e-3
+    turn = np.linspace(0.0, 2.0 * pi, 40_001)
+    f = lw.objective(machine, {"swept_area": 2.0, "transmission_angle": 0.0}, vary=["crank.length"])
+    values, gradients = f.many(cranks[:, None])
+    swept = lw.sweep(machine, {"crank.length": cranks}, outputs=["swept_area", "swept_area_of_link"])
+    for k, crank in enumerate(cranks):
+        known = [hull_of(crank + each * step, turn) for each in (-2, -1, 0, 1, 2)]
+        assert swept["swept_area"][k] == pytest.approx(known[2], rel=2e-8)
+        assert values[k] == pytest.approx(2.0 * known[2], rel=2e-8)
+        slope = (known[0] - 8.0 * known[1] + 8.0 * known[3] - known[4]) / (12.0 * step)
+        assert gradients[k, 0] == pytest.approx(2.0 * slope, rel=1e-5)
+        alone = area(machine.with_dimensions({"crank.length": crank}), "coupler")
+        assert swept["swept_area_of_link"][k] == pytest.approx(alone, rel=1e-9)
+
+
+def test_one_swept_area_for_studies_sweeps_and_comparisons() -> None:
+    machine, cranks = lw.loads(FOUR_BAR.format(crank=1)), np.linspace(0.8, 1.2, 9)
+    found = lw.study(machine, {"crank.length": cranks}, metrics=["swept_area"])
+    swept = lw.sweep(machine, {"crank.length": cranks}, outputs=["swept_area"])
+    assert found["swept_area"] == pytest.approx(swept["swept_area"], rel=1e-12)
+    other = machine.with_dimensions({"crank.length": 1.2})
+    compared = lw.compare([machine, other], output="rocker", metrics=["swept_area"])
+    assert [each.value for each in compared.rows[0].values] == pytest.approx([area(machine), area(other)])
+
+
+def test_machines_without_a_gradient_of_their_swept_area_say_so() -> None:
+    for machine, address in (
+        (lw.loads(FOUR_BAR.format(crank=2.5)), "crank.length"),
+        (lw.load("gallery:triad"), "crank.A.x"),
+    ):
+        with pytest.raises(
+            lw.LinkwrightError, match=r"swept_area of .* has a gradient where one driver turns"
+        ):
+            lw.objective(machine, "swept_area", vary=[address])

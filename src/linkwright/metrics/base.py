@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import field
 from math import isinf, isnan
 from typing import Any, ClassVar, Literal
@@ -12,6 +12,7 @@ import numpy as np
 
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.trace import Scalar
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis, Extreme, Result
 from linkwright.metrics.quantities import shown, si_unit
 from linkwright.registry import Registry
@@ -191,6 +192,10 @@ class Metric(ABC):
     def numbers(self, analysis: Analysis) -> Iterable[Number]:
         """Its values as formulas; ``analysis``: of the machine, or of the one from which designs start."""
         return ()
+
+    def swept(self, mechanism: Mechanism) -> Mapping[str, tuple[str, ...]]:
+        """The points of every subject, where its value is the area of the hull of their curves."""
+        return {}
 
     def asked(self, analysis: Analysis) -> tuple[Number, ...]:
         """These formulas, found once per analysis, whose outputs are evaluated together with all that are asked for

@@ -34,16 +34,12 @@ class HullArea(Metric):
     source = "convex hull by Andrew's monotone chain; arcs by Gauss's formula"
     better: ClassVar[Better | None] = "lower"
 
-    def subjects(self, mechanism: Mechanism) -> dict[str, tuple[str, ...]]:
-        """The points of every subject, by their canonical names."""
-        raise NotImplementedError
-
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:
         motion = analysis.motion
         if not motion.ok.any():
             return
         curves, keys = _curves(analysis), points(motion.mechanism)
-        for subject, own in self.subjects(motion.mechanism).items():
+        for subject, own in self.swept(motion.mechanism).items():
             if curves is None:
                 places = np.concatenate([motion.vector("position", key)[motion.ok] for key in own])
                 corners = convex_hull(places.view(np.complex128)[:, 0])
@@ -65,7 +61,7 @@ class SweptArea(HullArea):
 
     name = "swept_area"
 
-    def subjects(self, mechanism: Mechanism) -> dict[str, tuple[str, ...]]:
+    def swept(self, mechanism: Mechanism) -> dict[str, tuple[str, ...]]:
         return {mechanism.name: points(mechanism)}
 
 
@@ -76,7 +72,7 @@ class SweptAreaOfLink(HullArea):
     name = "swept_area_of_link"
     on_request = True
 
-    def subjects(self, mechanism: Mechanism) -> dict[str, tuple[str, ...]]:
+    def swept(self, mechanism: Mechanism) -> dict[str, tuple[str, ...]]:
         return {name: points_of(mechanism, name) for name in mechanism.links}
 
 

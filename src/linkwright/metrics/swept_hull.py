@@ -55,7 +55,7 @@ class Contacts:
 class SweptHull:
     """The convex hull of some of the curves, ``chosen`` by their numbers.
 
-    ``area``: m², to 1e-6 of it, to 1e-9 where no arc comes out between two nodes alone.
+    ``area``: m², to 1e-6 of it, to 1e-9 where arcs are run once and none comes out between two nodes alone.
     """
 
     def __init__(self, curves: Curves, chosen: Sequence[int]) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,11 +13,21 @@ from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import solve_forces
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import Analysis
-from linkwright.study.metric_cycle import metric_cycle
-from linkwright.study.terms import measured
+from linkwright.study.metric_cycle import MetricCycle, metric_cycle
+from linkwright.study.swept_designs import SweptDesigns, swept_designs
+from linkwright.study.terms import Asked, measured
 from linkwright.words.sentence import Sentence
 
 Floats = NDArray[np.float64]
+
+
+def side_by_side(
+    mechanism: Mechanism, varied: Iterable[str], names: Sequence[str], asked: Asked | None = None
+) -> list[MetricCycle | SweptDesigns]:
+    """What finds those design numbers that are found of all designs at once; ``asked``: see ``terms.term``."""
+    by = tuple(varied)
+    found = (metric_cycle(mechanism, by, names, asked=asked), swept_designs(mechanism, by, names))
+    return [each for each in found if each is not None and each.terms]
 
 
 def numbers_of(
@@ -39,15 +49,17 @@ def numbers_of(
     count = len(next(iter(columns.values())))
     values = {name: np.full(count, np.nan) for name in names}
     dimensions: dict[str, str] = {}
-    cycle = metric_cycle(mechanism, columns, names)
-    sure = np.zeros(count, dtype=np.bool_)
-    if cycle is not None and cycle.terms:
-        part = {address: column[designs] for address, column in columns.items()}
-        found = cycle.evaluate(part, threads=threads, backend=backend)
-        sure[designs] = found.certain
+    cycles = side_by_side(mechanism, columns, names)
+    part = {address: column[designs] for address, column in columns.items()}
+    certain = np.full(len(designs), bool(cycles))
+    for cycle in cycles:
+        known = cycle.evaluate(part, threads=threads, backend=backend)
+        certain &= known.certain
         for each in cycle.terms:
-            values[each.name][designs[found.certain]] = found.values[each.name][found.certain]
+            values[each.name][designs[known.certain]] = known.values[each.name][known.certain]
             dimensions[each.name] = each.dimension
+    sure = np.zeros(count, dtype=np.bool_)
+    sure[designs] = certain
     rest = [name for name in names if name not in dimensions]
     failed: dict[int, str] = {}
     for index in designs.tolist() if rest else designs[~sure[designs]].tolist():

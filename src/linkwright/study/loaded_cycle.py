@@ -24,7 +24,7 @@ from linkwright.loads.magnitude import followed, within_turn
 from linkwright.loads.phases import TURN
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.study.limit_stages import constants, limit_stages
-from linkwright.study.traced import VALID, Traced
+from linkwright.study.traced import VALID, Traced, design_table
 
 Floats = NDArray[np.float64]
 #: The output that is the sum of magnitudes which may not exist, and that is 1 where friction is not certain.
@@ -64,9 +64,7 @@ class LoadedCycle:
     def table(self, part: Mapping[str, Floats]) -> Floats:
         """What the cycle program takes of the designs with the given columns, (designs, dimensions)."""
         known = {**self.traced.solver.nominal.parameters, **constants(self.traced), **self.loads.constants}
-        designs = len(next(iter(part.values())))
-        columns = [part[name] if name in part else known[name] for name in self.cycle.dimensions]
-        return np.stack([np.broadcast_to(each, designs) for each in columns], axis=1)
+        return design_table(self.cycle.dimensions, known, part)
 
 
 def with_loads(plain: Traced, known: AlongInput) -> Traced:

@@ -35,7 +35,7 @@ from linkwright.study.piece_summaries import SIDES, PieceSummaries
 from linkwright.study.seen import Seen
 from linkwright.study.steady_designs import REST, SIGNALS, SteadyDesigns
 from linkwright.study.terms import Asked, Term, all_parts, term
-from linkwright.study.traced import VALID, Traced
+from linkwright.study.traced import VALID, Traced, design_table
 
 Floats = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -312,13 +312,7 @@ class MetricCycle:
     def _table(self, cycle: CycleProgram, columns: Mapping[str, Floats]) -> Floats:
         known = {**self.traced.solver.nominal.parameters, **self.gauss.constants, **self.loads.constants}
         known |= {STEP: self.gauss.way / self.gauss.count, "positions": float(self.gauss.count)}
-        designs = len(next(iter(columns.values())))
-        rows = [columns[name] if name in columns else known[name] for name in cycle.dimensions]
-        return (
-            np.stack([np.broadcast_to(row, designs) for row in rows], axis=1)
-            if rows
-            else np.empty((designs, 0))
-        )
+        return design_table(cycle.dimensions, known, columns)
 
     # gradients --------------------------------------------------------------------------------------
     def gradient(

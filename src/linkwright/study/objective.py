@@ -32,8 +32,9 @@ from linkwright.metrics.summary import KINDS, Summary, is_metric, reductions, wa
 from linkwright.study.limit_stages import constants, limit_stages
 from linkwright.study.loaded_cycle import along_input, friction_doubt, with_loads
 from linkwright.study.metric_cycle import MetricCycle, metric_cycle
+from linkwright.study.swept_designs import SweptDesigns, swept, swept_designs
 from linkwright.study.terms import refuse_obstacle
-from linkwright.study.traced import CLEAR, VALID, Traced
+from linkwright.study.traced import CLEAR, VALID, Traced, design_table
 from linkwright.study.vary import checked_addresses, refuse_moved_positions
 from linkwright.units import LARGEST
 from linkwright.words.sentence import Sentence
@@ -100,9 +101,7 @@ class OverPositions:
         return np.asarray(found[self.gradient.value])
 
     def _table(self, columns: Mapping[str, Floats]) -> Floats:
-        count = len(next(iter(columns.values())))
-        rows = [columns.get(name, self.known[name]) for name in self.gradient.cycle.dimensions]
-        return np.stack([np.broadcast_to(row, count) for row in rows], axis=1)
+        return design_table(self.gradient.cycle.dimensions, self.known, columns)
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,7 +109,7 @@ class OverMetrics:
     """Registered design numbers with their weights."""
 
     names: tuple[str, ...]
-    cycle: MetricCycle
+    cycle: MetricCycle | SweptDesigns
     weights: Mapping[str, float]
     backend: Backend
 
@@ -207,8 +206,12 @@ def objective(
     others = {term: weight for term, weight in given.items() if term not in numbers}
     compiled: Backend = "llvm" if backend == "auto" and available() else backend
     parts: list[Part] = []
-    if numbers or not others:
-        parts.append(of_metrics(mechanism, names, numbers, steps, compiled))
+    hulls = {name: weight for name, weight in numbers.items() if swept(name, mechanism)}
+    formulas = {name: weight for name, weight in numbers.items() if name not in hulls}
+    if hulls:
+        parts.append(of_metrics(mechanism, names, hulls, steps, compiled))
+    if formulas or not given:
+        parts.append(of_metrics(mechanism, names, formulas, steps, compiled))
     if others:
         parts.append(_of_positions(mechanism, names, others, steps, at, compiled))
     idle = [name for name in names if not any(name in part.names for part in parts)]
@@ -221,7 +224,13 @@ def objective(
 def of_metrics(
     mechanism: Mechanism, names: tuple[str, ...], weights: Mapping[str, float], steps: int, backend: Backend
 ) -> Part:
-    """The weighted sum of registered metrics; raises RequestError where it has no gradient."""
+    """The weighted sum of registered metrics, all of them areas of hulls or none; raises RequestError where it has no
+    gradient."""
+    if any(swept(name, mechanism) for name in weights):
+        hulls = swept_designs(mechanism, names, weights)
+        if hulls is None:
+            raise RequestError(Sentence("study.objective_swept", names=tuple(weights), name=mechanism.name))
+        return OverMetrics(hulls.dimensions, hulls, weights, backend)
     cycle = metric_cycle(mechanism, names, weights, steps=steps)
     if cycle is None:
         raise RequestError(_refusal(mechanism, steps))

@@ -22,9 +22,9 @@ from linkwright.metrics.summary import is_summary
 from linkwright.registry import offered
 from linkwright.study.alternatives import Alternative, has_loads, output_of_machine
 from linkwright.study.criteria import Criterion, NoSuchSubject, criteria
+from linkwright.study.design_numbers import side_by_side
 from linkwright.study.designs import sweep
 from linkwright.study.failures import Failure
-from linkwright.study.metric_cycle import metric_cycle
 from linkwright.study.ranges import Range, parse_range
 from linkwright.study.sampling import grid, sobol
 from linkwright.study.terms import Asked
@@ -289,15 +289,15 @@ class _Work:
         if len(designs) < FEW:
             return {}
         wanted = Asked(self.output, self.fluctuation)
-        cycle = metric_cycle(self.mechanism, self.columns, [each.name for each in asked], asked=wanted)
-        if cycle is None:
-            return {}
-        found = cycle.evaluate({address: column[designs] for address, column in self.columns.items()})
-        sure = set(designs[found.certain].tolist())
-        for term in cycle.terms:
-            self.values[term.name][designs[found.certain]] = found.values[term.name][found.certain]
-            self.dimensions[term.name] = term.dimension
-        return {term.name: sure for term in cycle.terms}
+        part = {address: column[designs] for address, column in self.columns.items()}
+        sure: dict[str, set[int]] = {}
+        for cycle in side_by_side(self.mechanism, self.columns, [each.name for each in asked], wanted):
+            found = cycle.evaluate(part)
+            for term in cycle.terms:
+                self.values[term.name][designs[found.certain]] = found.values[term.name][found.certain]
+                self.dimensions[term.name] = term.dimension
+                sure[term.name] = set(designs[found.certain].tolist())
+        return sure
 
     def _closed(self) -> bool:
         """Whether there is a group with a closed form."""

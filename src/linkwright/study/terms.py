@@ -187,9 +187,16 @@ def _chosen(
     """The numbers of one subject, or all."""
     wanted = subject or ("" if metric.needs_forces else preferred)
     mine = tuple(number for number in numbers if number.subject == wanted)
-    if subject and not mine:
-        raise _no_subject(name, subject, (number.subject for number in numbers))
+    chosen_subjects(name, subject, (number.subject for number in numbers))
     return mine or tuple(numbers)
+
+
+def chosen_subjects(name: str, subject: str, known: Iterable[str]) -> tuple[str, ...]:
+    """Of the known subjects the asked one, or all; raises RequestError where it is none of them."""
+    every = tuple(known)
+    if subject and subject not in every:
+        raise _no_subject(name, subject, every)
+    return (subject,) if subject else every
 
 
 def all_parts(terms: Iterable[Term]) -> tuple[str, ...]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
 from typing import Any
@@ -113,12 +113,7 @@ class Traced:
 
     def table(self, program: Program, columns: Mapping[str, Floats]) -> Floats:
         """The parameters of the designs with the given columns, (designs, parameters)."""
-        designs = len(next(iter(columns.values())))
-        table = np.repeat(self.numbers(program)[None, :], designs, axis=0)
-        for place, name in enumerate(program.parameters):
-            if name in columns:
-                table[:, place] = columns[name]
-        return table
+        return design_table(program.parameters, self.solver.nominal.parameters, columns)
 
     # one driver that turns ------------------------------------------------------------------------------
     def at_input(
@@ -190,6 +185,15 @@ class Traced:
         gaps = np.diff(np.append(around, around[0] + 2 * np.pi))
         widest = int(np.argmax(gaps))
         return float(around[widest] + 0.5 * gaps[widest] - np.pi)
+
+
+def design_table(names: Sequence[str], known: Mapping[str, float], columns: Mapping[str, Floats]) -> Floats:
+    """What a program takes of some designs, (designs, names): the columns (designs,), else what is known of all."""
+    count = len(next(iter(columns.values())))
+    table = np.empty((count, len(names)))
+    for place, name in enumerate(names):
+        table[:, place] = columns[name] if name in columns else known[name]
+    return table
 
 
 def _not(mask: Mask) -> Mask:

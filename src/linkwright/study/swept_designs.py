@@ -1,0 +1,176 @@
+"""Swept areas of many designs, with gradients: curves of all designs from one evaluation, each one's hull alone."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.core.outputs import Output
+from linkwright.core.piecewise import POINTS
+from linkwright.engine.cycle import CycleProgram
+from linkwright.engine.cycle_gradient import CycleGradient, cycle_gradient
+from linkwright.engine.program import Program
+from linkwright.engine.reductions import Reduction
+from linkwright.engine.stage import Backend, Stage
+from linkwright.engine.trace import Scalar
+from linkwright.kinematics.cycle import over_cycle
+from linkwright.kinetostatics.named import Quantity
+from linkwright.kinetostatics.traced_loads import AlongInput
+from linkwright.mechanism.mechanism import Mechanism
+from linkwright.metrics.cycle_grid import PIECES
+from linkwright.metrics.swept_area import points
+from linkwright.metrics.swept_hull import Curves, SweptHull
+from linkwright.study.gauss_cycle import GaussCycle
+from linkwright.study.loaded_cycle import whole_turns
+from linkwright.study.metric_cycle import Found
+from linkwright.study.terms import Term, chosen_subjects, metric_of
+from linkwright.study.traced import VALID, Traced, design_table
+
+Floats = NDArray[np.float64]
+
+#: Designs whose curves are kept at the same time.
+BLOCK = 256
+_PASSED, _TOTAL = "passed", "total"
+
+
+def swept(name: str, mechanism: Mechanism) -> dict[str, tuple[str, ...]]:
+    """The points of the subjects of a registered number that is the area of a hull; none for another."""
+    metric, subject = metric_of(name) or (None, "")
+    known = {} if metric is None else metric().swept(mechanism)
+    return {each: known[each] for each in (chosen_subjects(name, subject, known) if known else ())}
+
+
+def swept_designs(mechanism: Mechanism, varied: Iterable[str], names: Iterable[str]) -> SweptDesigns | None:
+    """The areas of hulls among some design numbers, ``swept_area``, ``swept_area_of_link jaw``; None where none is,
+    or the designs cannot go side by side: the cycle is no whole number of turns of one driver of constant speed,
+    groups have no closed form, or the way passes change points."""
+    asked, addresses = [name for name in names if swept(name, mechanism)], tuple(varied)
+    if not asked:
+        return None
+    traced = Traced(mechanism, addresses, over_cycle(mechanism, 360))
+    placed = traced.solver.motion.placed.values()
+    if any(each.next_states for each in placed) or not whole_turns(traced, addresses):
+        return None
+    if not traced.nominal.ok.all() or traced.nominal.modes or not traced.countable:
+        return None
+    return SweptDesigns(traced, asked)
+
+
+class SweptDesigns:
+    """Areas of hulls of one mechanism's designs; of several links the largest. Made by :func:`swept_designs`."""
+
+    def __init__(self, traced: Traced, names: Iterable[str]) -> None:
+        self.traced, self._keys = traced, points(traced.mechanism)
+        self.terms = tuple(Term(name, (), "area", "lower") for name in names)
+        number = {key: k for k, key in enumerate(self._keys)}
+        groups = [swept(each.name, traced.mechanism).values() for each in self.terms]
+        self._chosen = [[[number[key] for key in own] for own in subjects] for subjects in groups]
+        self._gauss = GaussCycle.of(traced, AlongInput(frozenset()), PIECES)
+        places = self._places()
+        self._rows = tuple(places)
+        self._trace, self._signals = self._gauss.signals(places)
+
+    def _places(self) -> dict[str, Quantity]:
+        found = {}
+        for key in self._keys:
+            place = self.traced.solver.outputs.point(key)[0]
+            for axis, value in (("x", place.x), ("y", place.y)):
+                output = Output("position", key, axis)
+                found[output.row] = Quantity(output.name, output, output.dimension, value)
+        return found
+
+    @cached_property
+    def _curves_of(self) -> CycleProgram:
+        """The places of all points at the Gauss points, as fields."""
+        found = {name: self._signals[name] for name in (*self._rows, VALID)}
+        reductions = {_PASSED: Reduction(self._rows[0], "first")}
+        stage = Stage(Program.of(self._trace, found), reductions, valid=VALID, complete=True, keep=self._rows)
+        return CycleProgram((stage,))
+
+    @cached_property
+    def _backwards(self) -> CycleGradient:
+        """The sum of all places with known weights."""
+        total: Scalar = 0.0
+        for name in self._rows:
+            total = total + self._trace.field_input(f"by {name}") * self._signals[name]
+        found = {_TOTAL: total, VALID: self._signals[VALID]}
+        stage = Stage(
+            Program.of(self._trace, found), {_TOTAL: Reduction(_TOTAL, "sum")}, valid=VALID, complete=True
+        )
+        return cycle_gradient(CycleProgram((stage,)), _TOTAL, self.dimensions)
+
+    @property
+    def dimensions(self) -> tuple[str, ...]:
+        """Those of the varied dimensions on which the areas depend."""
+        free = self.traced.solver.manner.free
+        return tuple(name for name in self._curves_of.dimensions if name in free)
+
+    def evaluate(
+        self, columns: Mapping[str, Floats], *, threads: int | None = None, backend: Backend = "auto"
+    ) -> Found:
+        """The areas of the designs with the given columns, (designs,) each."""
+        values, _ = self._found(columns, None, threads, backend)
+        rows = dict(zip((each.name for each in self.terms), values, strict=True))
+        return Found(rows, np.asarray(np.isfinite(values).all(axis=0)))
+
+    def gradient(
+        self,
+        weights: Mapping[str, float],
+        columns: Mapping[str, Floats],
+        by: Iterable[str],
+        *,
+        threads: int | None = 1,
+        backend: Backend = "auto",
+    ) -> tuple[Floats, Floats]:
+        """A weighted sum of areas (designs,) and its gradient (designs, by); NaN of designs that do not pass."""
+        factors = np.array([weights[each.name] for each in self.terms])
+        values, fields = self._found(columns, factors, threads, backend)
+        names = [f"by {name}" for name in self._rows]
+        _, slopes = self._backwards.evaluate(
+            self._table(self._backwards.cycle, columns),
+            self._gauss.positions,
+            dict(zip(names, fields.swapaxes(0, 1), strict=True)),
+            threads=threads,
+            backend=backend,
+        )
+        places = [self._backwards.wrt.index(name) for name in by]
+        return factors @ values, slopes[:, places]
+
+    def _found(
+        self, columns: Mapping[str, Floats], factors: Floats | None, threads: int | None, backend: Backend
+    ) -> tuple[Floats, Floats]:
+        """Areas (terms, designs), and where they are weighted the derivatives (designs, rows, n) of their sum."""
+        table = self._table(self._curves_of, columns)
+        values = np.full((len(self.terms), len(table)), np.nan)
+        fields = np.zeros((len(table) if factors is not None else 0, len(self._rows), self._gauss.count))
+        for first in range(0, len(table), BLOCK):
+            part = table[first : first + BLOCK]
+            ((_, known, _),) = self._curves_of.blocks(
+                part, self._gauss.positions, threads=threads, backend=backend
+            )
+            rows = np.stack([known.fields[name] for name in self._rows], axis=1)
+            for k in np.flatnonzero(np.isfinite(known.values[_PASSED])).tolist():
+                curves = self._curves(rows[k])
+                for number, chosen in enumerate(self._chosen):
+                    hull = max((SweptHull(curves, own) for own in chosen), key=lambda each: each.area)
+                    values[number, first + k] = hull.area
+                    if factors is not None:
+                        weights = hull.weights().swapaxes(2, 3).reshape(len(self._rows), -1)
+                        fields[first + k] += factors[number] * weights
+        return values, fields
+
+    def _curves(self, rows: Floats) -> Curves:
+        """The curves of a design's points, (rows, n)."""
+        pieces = self._gauss.pieces
+        values = rows.reshape(len(self._keys), 2, POINTS, pieces).swapaxes(2, 3)
+        never = np.zeros(pieces, dtype=bool)
+        still = (values == values[:, :, :1, :1]).all(axis=(1, 2, 3))
+        last = np.where(still, 1, self._gauss.count)
+        return Curves(values, never, never, np.stack([np.zeros_like(last), last], axis=1))
+
+    def _table(self, cycle: CycleProgram, columns: Mapping[str, Floats]) -> Floats:
+        known = {**self.traced.solver.nominal.parameters, **self._gauss.constants}
+        return design_table(cycle.dimensions, known, columns)
