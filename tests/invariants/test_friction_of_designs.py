@@ -64,6 +64,8 @@ def compare(machine: lw.Mechanism, address: str, factors: list[float], accuracy:
         ("swing_conveyor", "crank.length"),
         ("shaper_quick_return", "crank.length"),
         ("slider_crank_inline", "rod.length"),
+        ("triad", "plate.R.x"),
+        ("stephenson_sixbar_triad", "bar.length"),
     ],
 )
 def test_sweeps_with_friction_in_every_joint_equal_single_designs(

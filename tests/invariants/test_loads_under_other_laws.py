@@ -1,5 +1,7 @@
 """Loads of many designs at once under laws and over cycles of every kind: those of each design alone."""
 
+from importlib.resources import files
+
 import numpy as np
 import pytest
 from tests.unit.test_load_magnitudes import SLIDER
@@ -7,6 +9,7 @@ from tests.unit.test_load_magnitudes import SLIDER
 import linkwright as lw
 from linkwright.study.one_by_one import OneByOne
 
+GALLERY = files("linkwright.gallery")
 TO_AND_FRO, UNEVEN, SEVERAL_TURNS = (
     'position: "2 rad*sin(3*t/(1 s))"',
     'position: "3 rad*t/(1 s) + 0.3 rad*sin(t/(1 s))"',
@@ -67,6 +70,27 @@ def test_designs_of_two_drivers_go_at_once(monkeypatch: pytest.MonkeyPatch) -> N
     monkeypatch.setattr(OneByOne, "rows", lambda *_, **__: pytest.fail("found one by one"))
     for driver in ("first", "second"):
         compare(lw.loads(TWO_DRIVERS), "arm.length", driver)
+
+
+@pytest.mark.parametrize(
+    "load",
+    [
+        'at: R, direction: 30 deg, magnitude: "20 N + 400 N/m*R.x + 9 N*sin(plate)"',
+        "at: R, direction: 30 deg, ramp: [40 N, 10 N], phase: {input: [330 deg, 130 deg]}",
+        "at: R, direction: 30 deg, table: {over: input, x: [0 deg, 90 deg, 360 deg], y: [1 N, 30 N, 1 N]}",
+        "at: R, direction: 30 deg, table: {over: time, x: [0 s, 0.2 s, 1 s], y: [1 N, 30 N, 8 N]}",
+        "at: R, opposes: velocity, magnitude: 30 N",
+    ],
+)
+def test_designs_without_closed_form_take_their_loads_at_once(
+    load: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    text = GALLERY.joinpath("triad.yaml").read_text(encoding="utf-8")
+    mechanism = lw.loads(
+        text.replace("gravity:", f"loads: {{work: {{kind: force, on: plate, {load}}}}}\ngravity:")
+    )
+    monkeypatch.setattr(OneByOne, "rows", lambda *_, **__: pytest.fail("found one by one"))
+    compare(mechanism, "plate.R.x", "driver")
 
 
 @pytest.mark.parametrize(

@@ -16,8 +16,10 @@ from linkwright.engine.sweep import sweep as engine_sweep
 from linkwright.engine.trace import Scalar, select
 from linkwright.kinematics.cycle import Positions, over_cycle
 from linkwright.kinematics.step_rule import StepRule
+from linkwright.kinetostatics.traced_loads import AlongInput
 from linkwright.mechanism.geometry import mechanism_size
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.study.loaded_cycle import along_input, doubtful, doubts, with_loads
 from linkwright.study.traced import NEAREST, VALID, Traced
 from linkwright.study.vary import positions_steps
 
@@ -48,9 +50,10 @@ class Following:
     A design is followed forwards; positions behind a barred one count as not reached.
     """
 
-    def __init__(self, traced: Traced, names: tuple[str, ...]) -> None:
+    def __init__(self, traced: Traced, names: tuple[str, ...], loads: AlongInput) -> None:
         self.traced = traced
         self.names = names
+        self.loads = loads
         self.finer = self._needed()
         self.ways: dict[int, _Way] = {}
 
@@ -60,8 +63,9 @@ class Following:
         wanted: Sequence[Reduction],
         threads: int | None,
         backend: Backend,
-    ) -> Results:
-        """Reductions (designs,) of designs with the given columns."""
+    ) -> tuple[Results, NDArray[np.intp]]:
+        """Reductions (designs,) of designs with the given columns, and the numbers of those of which friction is not
+        certain, or loads have no value somewhere."""
         results = self._way(self.finer).reduced(columns, wanted, threads, backend)
         failed = np.flatnonzero(results["valid.count"] != self.traced.positions.count)
         if len(failed):
@@ -69,11 +73,11 @@ class Following:
             again = self._way(self.finer * FINER).reduced(part, wanted, threads, backend)
             for name, column in again.items():
                 results[name][failed] = column
-        return results
+        return results, doubtful(results, self.loads, self.traced.positions.count)
 
     def _way(self, finer: int) -> _Way:
         if finer not in self.ways:
-            self.ways[finer] = _Way(self.traced, self.names, finer)
+            self.ways[finer] = _Way(self.traced, self.names, finer, self.loads)
         return self.ways[finer]
 
     def _needed(self) -> int:
@@ -87,24 +91,31 @@ class Following:
         return max(1, int(np.ceil(largest / WANTED)))
 
 
-def following(traced: Traced, names: Iterable[str]) -> Following:
-    """The program for some outputs; what was made for the same mechanism lately serves again."""
-    asked = tuple(dict.fromkeys(names))
+def following(traced: Traced, names: Iterable[str], fields: Iterable[str]) -> Following | None:
+    """The program for some outputs, with the loads and the friction behind its ``fields``; what was made for the same
+    mechanism lately serves again. None where these cannot be traced, or go by limit positions."""
+    asked, given = tuple(dict.fromkeys(names)), tuple(fields)
     key = (traced.solver.manner, traced.positions.key, asked)
-    return _followings.get(traced.mechanism, key, lambda: Following(traced, asked))
+    return _followings.get(traced.mechanism, key, lambda: _found(traced, asked, given))
 
 
-_followings: Recent[Mechanism, Following] = Recent(8)
+def _found(traced: Traced, asked: tuple[str, ...], fields: tuple[str, ...]) -> Following | None:
+    loads = along_input(traced, traced.solver.manner.free, fields)
+    return None if loads is None or loads.outputs else Following(traced, asked, loads)
+
+
+_followings: Recent[Mechanism, Following | None] = Recent(8)
 
 
 class _Way:
     """The program over positions that are ``finer`` times as many as asked."""
 
-    def __init__(self, traced: Traced, names: tuple[str, ...], finer: int) -> None:
-        self.finer = finer
+    def __init__(self, traced: Traced, names: tuple[str, ...], finer: int, loads: AlongInput) -> None:
+        self.finer, self.loads = finer, loads
         mechanism, asked = traced.mechanism, traced.positions
         self.positions: Positions = over_cycle(mechanism, positions_steps(asked) * finer)
-        self.traced = Traced(mechanism, traced.solver.manner.free, self.positions, iterations=ITERATIONS)
+        plain = Traced(mechanism, traced.solver.manner.free, self.positions, iterations=ITERATIONS)
+        self.traced = with_loads(plain, loads)
         count = self.positions.count
         step = self.positions.time[1] - self.positions.time[0] if count > 1 else 0.0
         self.arrays = {
@@ -122,6 +133,8 @@ class _Way:
         outputs: dict[str, Scalar | bool] = {name: each.carrier for name, each in quantities.items()}
         following = {**self.rule.following, "alive": select(passed, 1.0, 0.0)}
         outputs |= {NEAREST: self.traced.nearest, VALID: counts, MARGIN: self.rule.margin}
+        self.doubts = doubts(self.traced, loads)
+        outputs |= self.doubts
         self.program = Program.of(trace, outputs, following)
         self.approach = Approach(self.traced, traced.nominal.states)
 
@@ -141,14 +154,16 @@ class _Way:
         }
         found = engine_sweep(
             self.program,
-            self.traced.table(self.program, columns),
+            self.traced.table(self.program, columns, self.loads.constants),
             self.arrays,
-            wanted,
+            [*wanted, Reduction(MARGIN, "min"), *(Reduction(name, "sum") for name in self.doubts)],
+            tables=self.loads.tables,
             start=np.stack([start[name] for name in self.program.states], axis=1),
             valid=VALID,
             threads=threads,
             backend=_quicker(backend),
         )
+        found |= {name: found.pop(f"{name}.sum") for name in self.doubts}
         for name, column in found.items():
             if name.endswith((".argmin", ".argmax")):
                 found[name] = np.where(column < 0, column, column // self.finer)

@@ -51,15 +51,7 @@ class LoadedCycle:
             threads=threads,
             backend=backend,
         )
-        doubt = np.zeros(len(next(iter(part.values()))))
-        for each in self.loads.outputs:
-            doubt += results[f"doubt:{each}"]
-        if self.loads.fallible:
-            doubt += 0.0 * results[SIZES]
-        if self.loads.rubbing:
-            doubt += results[RUBBING]
-        doubt[results[VALID_COUNT] != self.traced.positions.count] = 0.0
-        return results, np.flatnonzero(~(doubt == 0.0))
+        return results, doubtful(results, self.loads, self.traced.positions.count, self.loads.outputs)
 
     def table(self, part: Mapping[str, Floats]) -> Floats:
         """What the cycle program takes of the designs with the given columns, (designs, dimensions)."""
@@ -73,7 +65,12 @@ def with_loads(plain: Traced, known: AlongInput) -> Traced:
         return plain
     manner = plain.solver.manner
     return Traced(
-        plain.mechanism, manner.free, plain.positions, along_input=known.names, rubbing=known.rubbing
+        plain.mechanism,
+        manner.free,
+        plain.positions,
+        iterations=manner.iterations,
+        along_input=known.names,
+        rubbing=known.rubbing,
     )
 
 
@@ -137,6 +134,32 @@ def friction_doubt(traced: Traced) -> Scalar:
     return 0.0 if friction is None else select(friction.certain, 0.0, 1.0)
 
 
+def doubts(traced: Traced, loads: AlongInput) -> dict[str, Scalar]:
+    """Traced values whose sums tell where loads have no value, and where friction is not certain."""
+    found: dict[str, Scalar] = {}
+    if loads.fallible:
+        found[SIZES] = loads.sizes(traced.solver.motion)
+    if loads.rubbing:
+        found[RUBBING] = friction_doubt(traced)
+    return found
+
+
+def doubtful(
+    results: Results, loads: AlongInput, count: int, limits: Iterable[Output] = ()
+) -> NDArray[np.intp]:
+    """Numbers of the designs that pass all ``count`` positions, but with limits or friction that are not certain, or
+    loads that have no value somewhere."""
+    doubt = np.zeros(len(results[VALID_COUNT]))
+    for each in limits:
+        doubt += results[f"doubt:{each}"]
+    if loads.fallible:
+        doubt += 0.0 * results[SIZES]
+    if loads.rubbing:
+        doubt += results[RUBBING]
+    doubt[results[VALID_COUNT] != count] = 0.0
+    return np.flatnonzero(~(doubt == 0.0))
+
+
 def loaded_cycle(
     traced: Traced, varied: Collection[str], names: Iterable[str], reductions: Iterable[Reduction]
 ) -> LoadedCycle | None:
@@ -149,11 +172,7 @@ def loaded_cycle(
         stages = limit_stages(over_input, known.outputs, valued=known.valued)
     except LinkwrightError:
         return None
-    made, more = {each.name: each for each in reductions}, dict[str, Scalar]()
-    if known.fallible:
-        more[SIZES] = known.sizes(over_input.solver.motion)
-    if known.rubbing:
-        more[RUBBING] = friction_doubt(over_input)
+    made, more = {each.name: each for each in reductions}, doubts(over_input, known)
     program = over_input.program(over_input.quantities(names), more=more)
     made |= {name: Reduction(name, "sum") for name in more}
     stages.append(Stage(program, made, valid=VALID, count=VALID_COUNT))

@@ -69,20 +69,19 @@ class SweepRun:
         self.unloaded: dict[int, str] = {}
         self.through: set[int] = set()
         self._programs: dict[tuple[tuple[str, ...], int], tuple[list[Quantity], Program]] = {}
-        alone = self.program.fields or self.traced.nominal.modes
-        self.follow = following(self.traced, names) if self.program.states and not alone else None
-        self.alone = bool(alone)
-        self.margins: Floats | None = None
-        if self.follow is not None:
-            self.reductions.append(Reduction(MARGIN, "min"))
-            self.margins = np.full(self.designs, np.nan)
+        self.alone = bool(self.program.fields or self.traced.nominal.modes)
+        self.follow = None
+        if self.program.states and not self.traced.nominal.modes and not (self.alone and manner.partial):
+            self.follow = following(self.traced, names, self.program.fields)
+        self.margins = None if self.follow is None else np.full(self.designs, np.nan)
 
     def swept(self) -> tuple[Counts, dict[Summary, Floats]]:
         """Assembled positions (designs,), and every summary (designs,)."""
         assembled = np.zeros(self.designs, dtype=np.int64)
         values = {summary: np.empty(self.designs) for summary in self.asked}
         for first, end in chunks(
-            self.designs, LOADED_BLOCK if self.alone and self._loaded is None else BLOCK
+            self.designs,
+            LOADED_BLOCK if self.alone and self.follow is None and self._loaded is None else BLOCK,
         ):
             results = self._block(
                 {address: column[first:end] for address, column in self.columns.items()}, first
@@ -146,13 +145,15 @@ class SweepRun:
         return rows[0] if rows else np.zeros(1)
 
     def _block(self, part: Mapping[str, Floats], first: int) -> Results:
-        if self.follow is not None:
-            return self.follow.block(part, self.reductions, self.manner.threads, self.manner.backend)
         numbers = np.arange(first, first + len(next(iter(part.values()))))
+        if self.follow is not None:
+            found = self.follow.block(part, self.reductions, self.manner.threads, self.manner.backend)
+            return self._noted(self._again(*found, part), numbers)
         if self.traced.nominal.modes:
             return self._noted(self._one_by_one(self._flipping, part), numbers)
         if self.alone and self._loaded is not None:
-            results = self._noted(self._with_loads(self._loaded, part), numbers)
+            found = self._loaded.evaluate(part, self.manner.threads, self.manner.backend)
+            results = self._noted(self._again(*found, part), numbers)
         elif self.alone:
             results = self._noted(self._one_by_one(self._single, part), numbers)
         else:
@@ -173,9 +174,10 @@ class SweepRun:
             return None
         return loaded_cycle(self.traced, self.columns, tuple(self.quantities), self.reductions)
 
-    def _with_loads(self, loaded: LoadedCycle, part: Mapping[str, Floats]) -> tuple[Results, dict[int, str]]:
-        """All designs together; those whose limit positions are not certain one by one."""
-        results, doubtful = loaded.evaluate(part, self.manner.threads, self.manner.backend)
+    def _again(
+        self, results: Results, doubtful: NDArray[np.intp], part: Mapping[str, Floats]
+    ) -> tuple[Results, dict[int, str]]:
+        """The results of all designs together, those of which something is not certain found one by one."""
         if not len(doubtful):
             return results, {}
         again, failed = self._one_by_one(self._single, {a: c[doubtful] for a, c in part.items()})

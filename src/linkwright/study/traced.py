@@ -111,9 +111,13 @@ class Traced:
         nominal = self.solver.nominal.parameters
         return np.array([nominal[name] for name in program.parameters])
 
-    def table(self, program: Program, columns: Mapping[str, Floats]) -> Floats:
-        """The parameters of the designs with the given columns, (designs, parameters)."""
-        return design_table(program.parameters, self.solver.nominal.parameters, columns)
+    def table(
+        self, program: Program, columns: Mapping[str, Floats], known: Mapping[str, float] | None = None
+    ) -> Floats:
+        """The parameters of the designs with the given columns, (designs, parameters); ``known``: of those that are
+        no dimensions."""
+        numbers = {**self.solver.nominal.parameters, **(known or {})}
+        return design_table(program.parameters, numbers, columns)
 
     # one driver that turns ------------------------------------------------------------------------------
     def at_input(
