@@ -17,6 +17,7 @@ from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import Forces
 from linkwright.machine.energy import EnergyFluctuation, of_energy
 from linkwright.machine.torque_curve import TURN, TorqueCurve
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis
 from linkwright.words.sentence import Sentence
 
@@ -46,16 +47,11 @@ def equivalent_torque(forces: Forces) -> Floats:
 
 def _inertia_and_slope(motion: Motion) -> tuple[Floats, Floats]:
     energy, power = np.zeros(motion.steps), np.zeros(motion.steps)
-    links = motion.mechanism.links.items()
-    names = {
-        name: [each for kind in ("velocity", "acceleration") for each in row_names(kind, f"{name}.@centre")]
-        for name, link in links
-        if link.mass
-    }
-    motion.evaluate_together(chain.from_iterable(names.values()))
-    for name, link in links:
+    centres = _rates_of_centres(motion.mechanism)
+    motion.evaluate_together(chain.from_iterable(centres.values()))
+    for name, link in motion.mechanism.links.items():
         if link.mass:
-            vx, vy, ax, ay = motion.rows.fetch(tuple(names[name]), motion.evaluate)
+            vx, vy, ax, ay = motion.rows.fetch(centres[name], motion.evaluate)
             energy += link.mass * (vx * vx + vy * vy)
             power += link.mass * (vx * ax + vy * ay)
         if link.inertia:
@@ -66,6 +62,15 @@ def _inertia_and_slope(motion: Motion) -> tuple[Floats, Floats]:
     with np.errstate(all="ignore"):
         inertia = energy / rate**2
         return np.asarray(inertia), np.asarray(2.0 * (power - inertia * rate * second) / rate**3)
+
+
+def _rates_of_centres(mechanism: Mechanism) -> dict[str, tuple[str, ...]]:
+    """Velocity and acceleration of every mass centre among a program's outputs, by link."""
+    return {
+        name: (*row_names("velocity", f"{name}.@centre"), *row_names("acceleration", f"{name}.@centre"))
+        for name, link in mechanism.links.items()
+        if link.mass
+    }
 
 
 def _torque(forces: Forces, inertia: Floats, slope: Floats) -> Floats:
@@ -148,7 +153,9 @@ def equivalent(forces: Forces) -> Equivalent:
     rate = steady_rate(motion)
     direction = float(np.sign(rate))
     period = abs(rate) * (motion.positions.period or 0.0)
-    begin, grid = float(motion.time[0]), Analysis.of(forces).grid
+    begin, analysis = float(motion.time[0]), Analysis.of(forces)
+    analysis.ask_rows(chain.from_iterable(_rates_of_centres(motion.mechanism).values()))
+    grid = analysis.grid
     if grid is None:
         raise LinkwrightError(Sentence("running.not_between", name=motion.mechanism.name))
 

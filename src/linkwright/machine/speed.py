@@ -9,7 +9,17 @@ from functools import cached_property, partial
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
-from linkwright.core.piecewise import WEIGHTS, Extreme, Floats, Function, Integral, Piecewise, at_nodes, nodes
+from linkwright.core.piecewise import (
+    WEIGHTS,
+    Extreme,
+    Floats,
+    Function,
+    Integral,
+    Piecewise,
+    at_nodes,
+    extremes_of,
+    nodes,
+)
 from linkwright.errors import LinkwrightError
 from linkwright.machine.speeds import Speeds, SteadyCycles, in_pieces
 from linkwright.machine.torque_curve import TorqueCurve
@@ -96,8 +106,10 @@ class SteadyCycle:
     def __init__(self, work: Integral, own: Function, speed: float) -> None:
         self.work, self.own, self.speed = work, own, speed
         inertia = at_nodes(own, work.edges)
-        self._least = Piecewise(work.edges, work.at_nodes).extreme("min").value
-        self._lightest = Piecewise(work.edges, inertia).extreme("min").value
+        curves = (Piecewise(work.edges, values) for values in (work.at_nodes, inertia))
+        self._least, self._lightest = (
+            each.value for each in extremes_of([(curve, "min") for curve in curves])
+        )
         self._first = self._cycles(work.edges, work.at_nodes, inertia)
         self._known: dict[float, _Solved] = {}
 

@@ -34,15 +34,25 @@ class Speeds:
         with np.errstate(invalid="ignore", divide="ignore"):
             return np.sqrt(self.kinetic / self.inertia)
 
-    @cached_property
+    @property
     def fastest(self) -> Peak:
         """The largest speed over the mean: piece, place in it, value, size of the last orders."""
-        return largest(self.values, self.values.max(axis=1))
+        return self._extremes[0]
 
-    @cached_property
+    @property
     def slowest(self) -> Peak:
         """The same of the smallest one; the value is negative."""
-        return largest(-self.values, -self.values.min(axis=1))
+        return self._extremes[1]
+
+    @cached_property
+    def _extremes(self) -> tuple[Peak, Peak]:
+        both, designs = np.concatenate([self.values, -self.values]), len(self.values)
+        piece, place, value, rough = largest(both, both.max(axis=1))
+        first, last = slice(designs), slice(designs, None)
+        return (
+            (piece[first], place[first], value[first], rough[first]),
+            (piece[last], place[last], value[last], rough[last]),
+        )
 
     @property
     def fluctuation(self) -> Floats:

@@ -66,6 +66,7 @@ class Analysis:
         self._limits: dict[Output, tuple[Limit, ...]] = {}
         self._outermost: dict[Output, list[Limit]] = {}
         self._words: dict[str, None] = {}
+        self._rows: dict[str, None] = {}
         self._outputs = motion.solver.programs.meanings
         self._strokes: dict[Summary, Extreme | None] = {}
         self._met: dict[str, tuple[int, Columns]] = {}
@@ -156,6 +157,10 @@ class Analysis:
                 self._strokes.setdefault(summary)
             if summary.kind not in true_speed.KINDS and self._meant(output).kind != "angle":
                 self._words[words_name(output)] = None
+
+    def ask_rows(self, names: Iterable[str]) -> None:
+        """Says which outputs, by their names in programs, will be wanted of the :attr:`grid`."""
+        self._rows |= dict.fromkeys(names)
 
     def signal(self, output: str) -> Callable[[Motion | Forces], Floats]:
         """An output in words (see ``kinetostatics.named``) as a function of motion or forces, (n,)."""
@@ -322,7 +327,7 @@ class Analysis:
     @cached_property
     def grid(self) -> CycleGrid | None:
         """The cycle at Gauss points; None where not all of it is reached, or nothing lies between its positions."""
-        return cycle_grid(self.resolver, self.motion, self.forces, tuple(self._words))
+        return cycle_grid(self.resolver, self.motion, self.forces, (*self._words, *self._rows))
 
     def mean_of(self, signal: Callable[..., Floats]) -> float:
         """Mean over the time of the cycle of what the forces (without them, the motion) give, (n,).
