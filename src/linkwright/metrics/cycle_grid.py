@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
@@ -232,15 +232,12 @@ class CycleGrid:
         if self._forces and solved.motion.rows is not solved.rows:
             all_rows.append(solved.motion.rows)
         for rows in all_rows:
-            kinds: dict[str, list[int]] = {}
-            for name, place in rows.index.items():
-                kind = kind_of(name)
-                if kind in _ALIKE:
-                    kinds.setdefault(_ALIKE[kind], []).append(place)
-            for places in kinds.values():
-                values = rows.values[places]
-                size = float(np.abs(values).max()) or 1.0
-                found = np.maximum(found, tails(values.reshape(len(places), -1, POINTS)).max(axis=0) / size)
+            last, sizes = (
+                tails(rows.values.reshape(len(rows.values), -1, POINTS)),
+                np.abs(rows.values).max(axis=1),
+            )
+            for places in _alike.get(rows.index, None, partial(_places_of, rows.index)):
+                found = np.maximum(found, last[places].max(axis=0) / (float(sizes[places].max()) or 1.0))
         return found
 
     # places where loads jump ------------------------------------------------------------------------
@@ -283,6 +280,18 @@ class CycleGrid:
             return np.empty(0)
         before = where[steps]
         return ends(lambda at: self.resolver.active(load, at) == before, time[steps], time[steps + 1])
+
+
+def _places_of(index: Mapping[str, int]) -> list[list[int]]:
+    """The rows of outputs whose sizes are compared, by their sorts."""
+    found: dict[str, list[int]] = {}
+    for name, place in index.items():
+        if sort := _ALIKE.get(kind_of(name)):
+            found.setdefault(sort, []).append(place)
+    return list(found.values())
+
+
+_alike: Recent[Mapping[str, int], list[list[int]]] = Recent(64)
 
 
 def _twice(curve: Piecewise, period: float) -> Piecewise:

@@ -10,7 +10,7 @@ from linkwright.errors import RequestError
 from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import ROUNDING, Forces
 from linkwright.metrics.analysis import Analysis
-from linkwright.metrics.base import METRICS, MetricValue
+from linkwright.metrics.base import METRICS, Metric, MetricValue
 from linkwright.metrics.quantities import NOTHING
 from linkwright.metrics.table import MetricsTable
 from linkwright.words.sentence import Sentence
@@ -35,7 +35,7 @@ def metrics(result: Motion | Forces, names: Iterable[str] | str | None = None) -
     asked = None if names is None else [names] if isinstance(names, str) else list(names)
     rows: list[MetricValue] = []
     skipped: list[str] = []
-    chosen = {name: METRICS[name]() for name in (_usual() if asked is None else asked)}
+    chosen = {name: metric() for name, metric in _chosen(asked).items()}
     applying = {name for name, metric in chosen.items() if metric.applies(analysis)}
     for name in applying:
         if not chosen[name].own_values:
@@ -74,10 +74,12 @@ def _without_rounding(rows: Sequence[MetricValue]) -> list[MetricValue]:
     ]
 
 
-def _usual() -> list[str]:
-    """What is evaluated when nobody says what, the most important first."""
-    names = [name for name, metric in METRICS.items() if not metric.on_request]
-    return sorted(names, key=lambda name: METRICS[name].rank)
+def _chosen(asked: Iterable[str] | None) -> dict[str, type[Metric]]:
+    """What is evaluated; when nobody says what, the most important first."""
+    if asked is not None:
+        return {name: METRICS[name] for name in asked}
+    usual = ((name, metric) for name, metric in METRICS.items() if not metric.on_request)
+    return dict(sorted(usual, key=lambda each: each[1].rank))
 
 
 def _refusal(name: str, analysis: Analysis) -> str:

@@ -98,6 +98,11 @@ def _length(mechanism: Mechanism, link: str, a: str, b: str) -> float:
     return hypot(xb - xa, yb - ya)
 
 
+def _loops(analysis: Analysis) -> tuple[FourBar, ...]:
+    mechanism = analysis.motion.mechanism
+    return analysis.motion.kept("four-bars", lambda: four_bars(mechanism))
+
+
 @METRICS.register("grashof")
 class Grashof(Metric):
     """p + q - (s + l) of every four-bar loop with the frame, with its type and the conditions that it rests on."""
@@ -108,15 +113,15 @@ class Grashof(Metric):
     own_values = True
 
     def suits(self, analysis: Analysis) -> bool:
-        return bool(four_bars(analysis.motion.mechanism))
+        return bool(_loops(analysis))
 
     def numbers(self, analysis: Analysis) -> Iterator[Number]:
-        for loop in four_bars(analysis.motion.mechanism):
+        for loop in _loops(analysis):
             parts = (f"distance {link}.{a} {link}.{b} mean" for link, (a, b) in loop.pins.items())
             yield Number(loop.name, tuple(parts), _margin)
 
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:
-        for loop in four_bars(analysis.motion.mechanism):
+        for loop in _loops(analysis):
             s, p, q, longest = (shown(v, "length") for v in sorted(loop.lengths.values()))
             numbers: dict[str, object] = {"s": s, "l": longest, "p": p, "q": q, "shortest": loop.shortest}
             remark = Remark(f"grashof.{loop.type}", numbers, warning=loop.type == "change_point")

@@ -27,7 +27,7 @@ class QuickReturnRatio(Metric):
 
     def suits(self, analysis: Analysis) -> bool:
         steady = analysis.whole and bool(np.ptp(analysis.input_rate) <= 1e-9 * abs(analysis.input_rate[0]))
-        return super().suits(analysis) and steady and any(_returning(analysis))
+        return super().suits(analysis) and steady and bool(_returning(analysis))
 
     def numbers(self, analysis: Analysis) -> Iterator[Number]:
         cycle = float(analysis.input_rate[0]) * (analysis.motion.positions.period or 0.0)
@@ -46,12 +46,12 @@ class CrankAngleBetweenLimits(QuickReturnRatio):
     angle = True
 
 
-def _returning(analysis: Analysis) -> Iterator[Output]:
+def _returning(analysis: Analysis) -> tuple[Output, ...]:
     """The outputs with two outermost positions in a closed cycle."""
-    for output in analysis.outputs:
-        ends = analysis.outermost(output)
-        if len(ends) == 2 and ends[0].kind != ends[1].kind and analysis.motion.positions.period is not None:
-            yield output
+    if analysis.motion.positions.period is None:
+        return ()
+    ends = {output: [each.kind for each in analysis.outermost(output)] for output in analysis.outputs}
+    return tuple(output for output, kinds in ends.items() if sorted(kinds) == ["max", "min"])
 
 
 def _slow(cycle: float, first: Scalar, last: Scalar) -> Scalar:

@@ -25,6 +25,8 @@ STILL = 1e-9
 def edges(analysis: Analysis) -> tuple[tuple[float, int], ...]:
     """Times, s, at which the mechanism comes into (+1) or gets out of (-1) reach, found by halving."""
     motion, passed = analysis.motion, analysis.resolver.passed
+    if passed.all():
+        return ()
     change = np.diff(passed.astype(int))
     where = np.flatnonzero(change)
     inside = np.where(change[where] < 0, motion.time[where], motion.time[where + 1])
@@ -64,7 +66,9 @@ def _reached(analysis: Analysis, start: float, end: float) -> tuple[float, float
     """Coordinates of the first driver between which it moves in a stretch of time, in the order of the motion where
     it does not turn back."""
     law = next(iter(analysis.motion.mechanism.drivers.values())).law
-    time = np.linspace(start, end, 1 if law.constant_speed is not None else len(analysis.motion.time))
+    if law.constant_speed is not None:
+        return law.at(start), law.at(end)
+    time = np.linspace(start, end, len(analysis.motion.time))
     sign = np.sign(law.coordinate(time)[1])
     turns = np.flatnonzero(sign[:-1] * sign[1:] < 0.0)
     at = zeros(lambda t: law.coordinate(t)[1:], time[turns], time[turns + 1], sign[turns])
@@ -76,8 +80,10 @@ def _reached(analysis: Analysis, start: float, end: float) -> tuple[float, float
 def _drives(analysis: Analysis, time: float) -> bool:
     """Whether the one driver moves at a time, so that an output at rest is one that could not drive."""
     laws = [driver.law for driver in analysis.motion.mechanism.drivers.values()]
+    if len(laws) != 1 or laws[0].constant_speed is not None:
+        return len(laws) == 1 and bool(laws[0].constant_speed)
     rates = np.abs(laws[0].coordinate(np.append(analysis.motion.time, time))[1])
-    return len(laws) == 1 and bool(rates[-1] > STILL * rates.max())
+    return bool(rates[-1] > STILL * rates.max())
 
 
 @METRICS.register("range_of_motion")

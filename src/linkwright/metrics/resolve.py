@@ -70,6 +70,8 @@ class Resolver:
     @cached_property
     def passed(self) -> NDArray[np.bool_]:
         """Which positions are reached, or lie on change points that the motion passes, (n,)."""
+        if not len(self.changes):
+            return self._motion.ok
         time = self._motion.time
         apart = np.abs(time[:, None] - self.changes).min(axis=1, initial=np.inf)
         return np.asarray(self._motion.ok | (apart < 1e-9 * (np.ptp(time) or 1.0)))
