@@ -15,7 +15,7 @@ from linkwright.engine.recent import Recent
 from linkwright.engine.scalar_backend import ScalarProgram
 from linkwright.kinematics.analysed import analysed
 from linkwright.kinematics.outputs import MotionOutputs
-from linkwright.kinematics.shape import shape
+from linkwright.kinematics.shape import Form, shape
 from linkwright.kinematics.trace import MotionTrace, trace_motion
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.structure import Structure
@@ -94,7 +94,7 @@ def motion_programs(mechanism: Mechanism, manner: Manner) -> MotionPrograms:
     Raises:
         StructureError: as :func:`linkwright.structure.structure`.
     """
-    key = (shape(mechanism, manner.free), manner.flipping, manner.iterations)
+    key = Form((shape(mechanism, manner.free), manner.flipping, manner.iterations))
     with _lock:
         if key in _kept:
             _kept.move_to_end(key)

@@ -28,7 +28,7 @@ def shape(mechanism: Mechanism, free: frozenset[str] = frozenset()) -> Hashable:
         form,
         free,
         tuple(map(_QUARTERS.get, numbers.values())) if not free else _known(numbers, free),
-        tuple([_coinciding(link) for link in (mechanism.frame, *mechanism.links.values())]),
+        tuple([link.coinciding for link in (mechanism.frame, *mechanism.links.values())]),
         tuple([_ahead(mechanism, mechanism.joints[name]) for name in guides]),
         mechanism.size,
     )
@@ -81,13 +81,6 @@ def _known(numbers: Mapping[str, float], free: frozenset[str]) -> tuple[int | No
 
 def _link(link: Link) -> Hashable:
     return link.name, link.geometry, tuple(link.points), link.mass_centre is None
-
-
-def _coinciding(link: Link) -> tuple[int, ...]:
-    """Of points at one place the number of the first, none where all lie apart."""
-    first, places = dict[Hashable, int](), link.points.values()
-    apart = len(set(places)) == len(places)
-    return () if apart else tuple([first.setdefault(place, i) for i, place in enumerate(places)])
 
 
 def _ahead(mechanism: Mechanism, joint: Any) -> bool:

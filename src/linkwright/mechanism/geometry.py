@@ -95,12 +95,11 @@ def mechanism_size(mechanism: Mechanism) -> float:
 
     A power of two, so that dividing by it does not round, and so that small changes of a design do not change it.
     """
-    links = [*mechanism.links.values(), mechanism.frame]
-    reach = [abs(c) for link in links for point in link.points.values() for c in point]
+    reach = [link.reach for link in (mechanism.frame, *mechanism.links.values())]
     reach += [abs(c) for point in mechanism.drawing.values() for c in point]
     reach += [abs(getattr(joint, "offset", 0.0)) for joint in mechanism.joints.values()]
     for driver in mechanism.drivers.values():
         if mechanism.joints[driver.joint].coordinate == "slide":
             reach.append(abs(driver.law.at(0.0)))
-    largest = max([*reach, 0.0])
+    largest = max(reach)
     return 2.0 ** math.frexp(largest)[1] if largest > 0.0 else 1.0

@@ -83,6 +83,19 @@ class Link:
         x, y = centre(self, self.points, self.dimensions().__getitem__)
         return float(x), float(y)
 
+    @cached_property
+    def reach(self) -> float:
+        """The largest coordinate of a point, m."""
+        return max((abs(each) for place in self.points.values() for each in place), default=0.0)
+
+    @cached_property
+    def coinciding(self) -> tuple[int, ...]:
+        """Of points at one place the number of the first, none where all lie apart."""
+        first, places = dict[Vec, int](), self.points.values()
+        if len(set(places)) == len(places):
+            return ()
+        return tuple([first.setdefault(place, i) for i, place in enumerate(places)])
+
     def geometry_dimensions(self) -> dict[str, float]:
         """Addresses of the dimensions that place the points, with their SI values."""
         found: dict[str, float] = {}
