@@ -179,9 +179,12 @@ class Integral:
 
     def __init__(self, of: Piecewise) -> None:
         self.of = of
-        self._series = of.values @ TO_LEGENDRE
         self._before = np.concatenate([[0.0], np.cumsum(0.5 * of.width * (of.values @ WEIGHTS))])
         self.total = float(self._before[-1])
+
+    @cached_property
+    def _series(self) -> Floats:
+        return self.of.values @ TO_LEGENDRE
 
     @property
     def edges(self) -> Floats:
