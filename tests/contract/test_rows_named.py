@@ -1,23 +1,25 @@
-"""Rows of programs are written and read by the type of outputs, nowhere else."""
+"""Rows of programs are written and read by the type of outputs, their inputs by that of inputs, nowhere else."""
 
 from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
 from pathlib import Path
+from typing import get_args
 
 import pytest
 
 import linkwright
+from linkwright.core.inputs import Kind
 from linkwright.core.outputs import KINDS
 
 ROOT = Path(linkwright.__file__).parent
-PREFIXES = tuple(f"{kind.row}:" for kind in KINDS.values() if kind.row)
+PREFIXES = tuple(f"{each}:" for each in (*(kind.row for kind in KINDS.values() if kind.row), *get_args(Kind)))
 TAKING = ("startswith", "removeprefix", "partition", "split", "rsplit", "rpartition")
 
 
 def told(text: str) -> Iterator[int]:
-    """Lines that put a row together, or take one apart: ``f"r:{joint}"``, ``name.startswith("r:")``."""
+    """Lines that put a row or an input together, or take one apart: ``f"r:{joint}"``, ``name.startswith("r:")``."""
     for node in ast.walk(ast.parse(text)):
         if isinstance(node, ast.JoinedStr):
             first = node.values[0] if node.values else None
@@ -42,7 +44,7 @@ def test_rows_are_written_and_read_in_one_place() -> None:
 
 @pytest.mark.parametrize(
     "line",
-    ['f"r:{joint}|{link}"', 'name.startswith("w:")', 'a.startswith(("p:", "q:"))'],
+    ['f"r:{joint}|{link}"', 'f"mode:{group}"', 'name.startswith("w:")', 'a.startswith(("p:", "q:"))'],
 )
 def test_a_row_is_found(line: str) -> None:
     assert list(told(line))

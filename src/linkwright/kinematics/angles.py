@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 
+from linkwright.core.inputs import Input
 from linkwright.engine.trace import Scalar, angle, nearest_turn
 from linkwright.joints.pose import Pose
 from linkwright.kinematics.dimensions import Dimensions
@@ -16,7 +17,7 @@ from linkwright.structure.group import Group, TreeJoint
 
 def turn_state(link: str) -> str:
     """Name of the state that carries the turns of a link."""
-    return f"turn:{link}"
+    return Input("turn", link).name
 
 
 def geared(group: Group) -> bool:
@@ -93,7 +94,7 @@ class Angles:
         if step.turns:
             assert step.driver is not None
             own = step.child == self.dimensions.mechanism.drivers[step.driver].link
-            turn = self.dimensions.trace.position(f"turn:{step.driver}")
+            turn = self.dimensions.trace.position(Input("turn", step.driver).name)
             return self(step.parent) + turn if own else self(step.parent) - turn
         joint = self.dimensions.mechanism.joints[step.joint]
         return self(step.parent) + joint.turned(step, self.dimensions)

@@ -6,6 +6,7 @@ import math
 from functools import cached_property
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.inputs import Input, mode_inputs, turned
 from linkwright.engine.program import Program
 from linkwright.engine.recent import Recent
 from linkwright.engine.scalar_backend import ScalarProgram
@@ -206,8 +207,7 @@ class _Probe:
 
     def _values(self, modes: dict[str, float], inputs: dict[str, float]) -> dict[str, float]:
         values = dict(self.motion.mechanism.dimensions())
-        values |= {f"mode:{name}": sign for name, sign in modes.items()}
+        values |= mode_inputs(modes)
         for name, q in inputs.items():
-            values |= {f"cos:{name}": math.cos(q), f"sin:{name}": math.sin(q), f"slide:{name}": q}
-            values[f"turn:{name}"] = q
+            values |= {**turned(name, q, math.cos, math.sin), Input("slide", name).name: q}
         return values

@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.inputs import mode_inputs
 from linkwright.core.outputs import row_name
 from linkwright.core.search import edge, ends, lowest
 from linkwright.engine.recent import Recent
@@ -409,7 +410,7 @@ class _Search:
         if self.followed is not None:
             q = np.stack([row[0] for row in positions.coordinates.values()], axis=1)
             states = self.followed.states if places is None else self.followed.between(turn, q)
-        modes = {f"mode:{group}": self._signs(group, turn) for group in self.solver.manner.flipping}
+        modes = mode_inputs({group: self._signs(group, turn) for group in self.solver.manner.flipping})
         return self.solver.evaluate(names, positions, states, modes)
 
     def _signs(self, group: str, place: Floats) -> Floats:
@@ -435,7 +436,7 @@ def signs(passing: Sequence[Passage], modes: Mapping[str, float], place: Floats 
     """Sign of every flipping group's mode at places (or a count of positions), the first one as the file says."""
     groups = dict.fromkeys(p.group for p in passing if p.touches)
     place = np.arange(float(place)) if isinstance(place, int) else place
-    return {f"mode:{group}": _sign(passing, group, modes[group], place) for group in groups}
+    return mode_inputs({group: _sign(passing, group, modes[group], place) for group in groups})
 
 
 def closes(passing: Sequence[Passage]) -> bool:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.frozen import Frozen
+from linkwright.core.inputs import Input, turned
 from linkwright.core.outputs import row_name, row_names
 from linkwright.engine.scalar_backend import ScalarProgram
 from linkwright.kinematics.angles import geared, turn_state
@@ -298,9 +299,8 @@ def _turns(way: Floats) -> Floats:
 def _named(inputs: Mapping[str, float], rotary: Sequence[bool] | NDArray[np.bool_]) -> dict[str, float]:
     values: dict[str, float] = {}
     for (name, q), turns in zip(inputs.items(), rotary, strict=True):
-        turned = {f"cos:{name}": math.cos(q), f"sin:{name}": math.sin(q), f"turn:{name}": q}
-        values |= turned if turns else {f"slide:{name}": q}
-        values |= {f"rate:{name}": 0.0, f"second:{name}": 0.0}
+        values |= turned(name, q, math.cos, math.sin) if turns else {Input("slide", name).name: q}
+        values |= {Input("rate", name).name: 0.0, Input("second", name).name: 0.0}
     return values
 
 

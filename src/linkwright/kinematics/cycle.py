@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.inputs import Input, turned
 from linkwright.drivers.base import Driver
 from linkwright.engine.recent import Recent
 from linkwright.errors import LinkwrightError
@@ -79,11 +80,10 @@ class Positions:
         found: dict[str, Floats] = {"time": self.time}
         for name, (q, rate, second) in self.coordinates.items():
             if self.rotary[name]:
-                found[f"cos:{name}"], found[f"sin:{name}"] = np.cos(q), np.sin(q)
-                found[f"turn:{name}"] = q
+                found |= turned(name, q, np.cos, np.sin)
             else:
-                found[f"slide:{name}"] = q
-            found[f"rate:{name}"], found[f"second:{name}"] = rate, second
+                found[Input("slide", name).name] = q
+            found |= {Input("rate", name).name: rate, Input("second", name).name: second}
             found.setdefault("input", q)
         return found
 
@@ -128,10 +128,10 @@ def at_one_time(mechanism: Mechanism, time: float) -> dict[str, float]:
         q, speed = driver.law.at(time), driver.law.constant_speed
         assert speed is not None
         if driver.law.rotary:
-            found |= {f"cos:{name}": cos(q), f"sin:{name}": sin(q), f"turn:{name}": q}
+            found |= turned(name, q, cos, sin)
         else:
-            found[f"slide:{name}"] = q
-        found |= {f"rate:{name}": speed, f"second:{name}": 0.0}
+            found[Input("slide", name).name] = q
+        found |= {Input("rate", name).name: speed, Input("second", name).name: 0.0}
         found.setdefault("input", q)
     return found
 

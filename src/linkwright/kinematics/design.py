@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from linkwright.core.inputs import mode_inputs
 from linkwright.mechanism.mechanism import Mechanism
 
 
@@ -30,6 +31,5 @@ class Design:
     def parameters(self) -> dict[str, float]:
         """Values of all parameters of the programs: dimensions and signs of the assembly modes."""
         if self._parameters is None:
-            signs = {f"mode:{name}": sign for name, sign in self.modes.items()}
-            self._parameters = {**self.mechanism.dimensions(), **signs}
+            self._parameters = {**self.mechanism.dimensions(), **mode_inputs(self.modes)}
         return self._parameters

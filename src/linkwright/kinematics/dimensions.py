@@ -7,6 +7,7 @@ from math import cos as cosine
 from math import sin as sine
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.inputs import Input
 from linkwright.drivers.base import Driver
 from linkwright.engine.trace import Scalar, Trace, cos, sin
 from linkwright.engine.vector import Vec
@@ -129,13 +130,13 @@ def driver_input(driver: Driver, dimensions: Dimensions) -> DriverInput:
         rate: Scalar = trace.parameter(f"{driver.name}.speed")
         second: Scalar = 0.0
     else:
-        rate = trace.position(f"rate:{driver.name}")
-        second = trace.position(f"second:{driver.name}")
+        rate = trace.position(Input("rate", driver.name).name)
+        second = trace.position(Input("second", driver.name).name)
     if dimensions.mechanism.joints[driver.joint].coordinate == "turn":
         return DriverInput(turned(driver.name, trace), None, rate, second)
-    return DriverInput(None, trace.position(f"slide:{driver.name}"), rate, second)
+    return DriverInput(None, trace.position(Input("slide", driver.name).name), rate, second)
 
 
 def turned(name: str, trace: Trace) -> Vec:
     """Cosine and sine of a driver's angle."""
-    return Vec(trace.position(f"cos:{name}"), trace.position(f"sin:{name}"))
+    return Vec(trace.position(Input("cos", name).name), trace.position(Input("sin", name).name))

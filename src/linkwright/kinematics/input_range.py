@@ -10,6 +10,7 @@ from functools import cached_property
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.inputs import mode_groups
 from linkwright.core.outputs import row_name
 from linkwright.core.search import edge
 from linkwright.errors import LinkwrightError, RequestError
@@ -300,7 +301,7 @@ class _Search:
         return _Stop(float(q[last]), float(bad), signs_there, unknowns, change=change, quality=quality)
 
     def _solver(self, modes: Mapping[str, object]) -> MotionSolver:
-        return self.solver.with_flips(name.removeprefix("mode:") for name in modes) if modes else self.solver
+        return self.solver.with_flips(mode_groups(modes)) if modes else self.solver
 
     def _sines(self, positions: Positions, states: Mapping[str, Floats]) -> Floats:
         """Sines between guides of groups with one mode, positive as at the beginning; (groups, n)."""

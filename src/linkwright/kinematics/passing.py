@@ -7,6 +7,7 @@ from itertools import chain
 from math import ceil, cos, inf, isfinite, nan, sin, tau
 from typing import TYPE_CHECKING
 
+from linkwright.core.inputs import mode_inputs, turned
 from linkwright.core.outputs import Output, kind_of, row_name
 from linkwright.engine.program import Program
 from linkwright.engine.scalar_backend import ScalarProgram
@@ -122,14 +123,14 @@ def _turned(
     ((name, driver),) = mechanism.drivers.items()
     outputs = MotionOutputs(motion)
     program = Program.of(motion.trace, {each: outputs.value(each) for each in (*names, "outcome")})
-    modes = {f"mode:{group}": sign for group, sign in assemble(mechanism, structure).modes.items()}
+    modes = mode_inputs(assemble(mechanism, structure).modes)
     known = {**mechanism.dimensions(), **modes}
     numbers, scalar = [known[each] for each in program.parameters], ScalarProgram(program)
     count = steps * ceil(tau / steps / FINE)
     start, found = driver.law.at(0.0), []
     for k in range(count):
         q = start + tau * k / count
-        inputs = {f"cos:{name}": cos(q), f"sin:{name}": sin(q), f"turn:{name}": q}
+        inputs = turned(name, q, cos, sin)
         found.append(scalar.step(numbers, [inputs.get(each, inf) for each in program.positions])[0])
         if found[-1][-1] != 0.0:
             return None

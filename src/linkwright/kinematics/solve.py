@@ -9,6 +9,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
+from linkwright.core.inputs import mode_groups
 from linkwright.kinematics.change_points import (
     Passage,
     cut_off,
@@ -103,7 +104,7 @@ class MotionRun:
         if any(p.touches for p in found):
             modes = signs(found, self.solver.assembly.modes, self.positions.count)
         if modes:
-            self.solver = self.solver.with_flips(name.removeprefix("mode:") for name in modes)
+            self.solver = self.solver.with_flips(mode_groups(modes))
         breaks = frozenset() if followed is None else followed.breaks
         breaks |= {p.before for p in found if p.kind == "end"}
         names = stored or self.solver.outputs.standard
@@ -199,8 +200,8 @@ def reached_modes(solver: MotionSolver, positions: Positions) -> tuple[dict[str,
         return {}, ()
     turns, share = np.divmod((positions.time - begin) / duration, 1.0)
     found = signs(passing, solver.assembly.modes, share * LOOKS)
-    for name, row in found.items():
-        count = sum(p.group == name.removeprefix("mode:") and p.touches for p in passing)
+    for group, row in zip(mode_groups(found), found.values(), strict=True):
+        count = sum(p.group == group and p.touches for p in passing)
         if count % 2:
             row[turns % 2 == 1] *= -1.0
     return found, passage_notes(passing, turn)

@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import field
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.inputs import Input
 from linkwright.engine.trace import Mask, Scalar, absolute, maximum, minimum, reciprocal, select
 from linkwright.engine.vector import Vec
 from linkwright.joints.pose import Rotor
@@ -80,8 +81,8 @@ class StepRule:
         """Change since the position before, correction, misfit of both ends' rates (rad, shares); the next start."""
         name, h = state_name(placed.group, joint), self.step
         rate, second = placed.rates[joint], placed.seconds[joint]
-        rate_before = self._state(f"rate:{name}", 0.0, rate)
-        second_before = self._state(f"second:{name}", 0.0, second)
+        rate_before = self._state(Input("rate", name).name, 0.0, rate)
+        second_before = self._state(Input("second", name).name, 0.0, second)
         predicted = moved(value, h * rate + 0.5 * (h * h) * second)
         if isinstance(value, Rotor):
             scale = 1.0

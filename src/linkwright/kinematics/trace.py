@@ -6,6 +6,7 @@ from collections.abc import Set
 from dataclasses import field
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.inputs import Input
 from linkwright.engine.trace import Mask, Scalar, Trace, select
 from linkwright.engine.vector import Vec
 from linkwright.joints.pose import FRAME_POSE, FRAME_STATE, Pose, State
@@ -73,7 +74,7 @@ def trace_motion(
         shape = dyad_shape(group)
         if shape is None or not shape[0].words[0]:
             return 1.0
-        name = f"mode:{group.name}"
+        name = Input("mode", group.name).name
         return trace.position(name) if group.name in modes_vary else trace.parameter(name)
 
     angles = motion.angles = Angles(structure.groups, dimensions, motion.poses)

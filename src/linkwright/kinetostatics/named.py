@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.inputs import Input
 from linkwright.core.outputs import Output
 from linkwright.engine.trace import Scalar, Value, absolute, atan, minimum, slope, sqrt
 from linkwright.engine.vector import Vec
@@ -130,11 +131,12 @@ class Named:
                 raise RequestError(Sentence("study.no_jerk", name=name, driver=driver.name))
             given = self.motion.motion.drivers[driver.name]
             if given.turn is None:
-                seeds[trace.position(f"slide:{driver.name}")] = given.rate
+                seeds[trace.position(Input("slide", driver.name).name)] = given.rate
             else:
-                seeds[trace.position(f"turn:{driver.name}")] = given.rate
-                seeds[trace.position(f"cos:{driver.name}")] = -given.turn.y * given.rate
-                seeds[trace.position(f"sin:{driver.name}")] = given.turn.x * given.rate
+                turn, cosine, sine = (Input(kind, driver.name).name for kind in ("turn", "cos", "sin"))
+                seeds[trace.position(turn)] = given.rate
+                seeds[trace.position(cosine)] = -given.turn.y * given.rate
+                seeds[trace.position(sine)] = given.turn.x * given.rate
         return slope(value, seeds)
 
     def _angle(self, name: str, output: Output) -> Quantity:

@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from linkwright.core.inputs import mode_inputs
 from linkwright.core.outputs import row_name
 from linkwright.engine.javascript import javascript
 from linkwright.engine.portable import Kernels
@@ -133,10 +134,11 @@ def _positions(programs: PagePrograms) -> Plain:
     """Inputs per position; a single driver of constant speed is said by its law."""
     positions, mechanism = programs.motion.positions, programs.mechanism
     modes = list(programs.motion.modes)
+    signs = mode_inputs(programs.traced.solver.assembly.modes)
     arrays = programs.arrays()
     found: Plain = {
         "count": positions.count, "closed": positions.closed, "period": positions.period, "steady": None,
-        "modes": {name: float(programs.traced.solver.assembly.modes[name.removeprefix("mode:")]) for name in modes},
+        "modes": {name: float(signs[name]) for name in modes},
     }  # fmt: skip
     drivers = list(mechanism.drivers.values())
     name = drivers[0].name if drivers else ""

@@ -9,6 +9,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.core.inputs import mode_groups
 from linkwright.core.outputs import SLIDE, owners_of, row_name, row_names
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.program import Program
@@ -134,7 +135,7 @@ class PagePrograms:
             along_input=self.followed.names | traced_names(self._positional_loads, self.motion),
         )
         if self.motion.modes:
-            groups = frozenset(name.removeprefix("mode:") for name in self.motion.modes)
+            groups = frozenset(mode_groups(self.motion.modes))
             found.solver.manner = replace(found.solver.manner, flipping=groups)
         return found
 

@@ -12,6 +12,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.core.inputs import Input, turned
 from linkwright.core.search import lowest
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
@@ -170,6 +171,5 @@ class ChangePoints:
         inputs: dict[str, Floats] = {}
         for name, driver in self.traced.mechanism.drivers.items():
             value = driver.law.coordinate(at.ravel())[0].reshape(at.shape)
-            inputs |= {f"cos:{name}": np.cos(value), f"sin:{name}": np.sin(value), f"slide:{name}": value}
-            inputs[f"turn:{name}"] = value
+            inputs |= {**turned(name, value, np.cos, np.sin), Input("slide", name).name: value}
         return inputs

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import Expression
+from linkwright.core.inputs import turned
 from linkwright.core.outputs import Output, owners_of
 from linkwright.core.piecewise import NODES, POINTS, WEIGHTS
 from linkwright.engine.program import Program
@@ -109,13 +110,8 @@ class GaussCycle:
         first, time, speed = list(self.constants.values())[:3]
         angle = first + np.sign(speed) * self.way * shares
         (driver,) = self.traced.mechanism.drivers
-        found = {
-            f"cos:{driver}": np.cos(angle),
-            f"sin:{driver}": np.sin(angle),
-            f"turn:{driver}": angle,
-            "input": angle,
-        }
-        return {**found, "time": time + shares * self.way / abs(speed), **self._along}
+        found = turned(driver, angle, np.cos, np.sin)
+        return {**found, "input": angle, "time": time + shares * self.way / abs(speed), **self._along}
 
     @property
     def constants(self) -> dict[str, float]:

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.core.inputs import mode_inputs
 from linkwright.engine.trace import Mask
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.design import Design
@@ -61,8 +62,8 @@ class OneByOne:
 
     def inputs(self, names: tuple[str, ...], motion: Motion) -> dict[str, Floats]:
         """The inputs (n,) by name; raises LinkwrightError where a load fails for this design."""
-        modes = motion.solver.assembly.modes
-        found = {f"mode:{name}": np.full(motion.steps, sign) for name, sign in modes.items()}
+        signs = mode_inputs(motion.solver.assembly.modes)
+        found = {name: np.full(motion.steps, sign) for name, sign in signs.items()}
         found |= {**motion.states, **motion.modes, REACHED: motion.ok.astype(float)}
         if any(name not in found for name in names):
             found |= run_forces(motion, False).fields

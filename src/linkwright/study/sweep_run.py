@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.inputs import Input, mode_groups
 from linkwright.engine.llvm_backend import compile_program
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
@@ -246,8 +247,9 @@ class SweepRun:
 def _fed(program: Program) -> Program:
     """The same program with states and signs of assembly modes as inputs per design and position."""
     program = states_as_fields(program) if program.states else program
+    modes = {Input("mode", group).name for group in mode_groups(program.positions)}
     nodes = tuple(
-        node._replace(op="field") if node.op == "position" and node.name.startswith("mode:") else node
+        node._replace(op="field") if node.op == "position" and node.name in modes else node
         for node in program.nodes
     )
     return Program(nodes, program.outputs, program.next_states)

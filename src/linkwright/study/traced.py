@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.core.inputs import mode_inputs, turned
 from linkwright.core.outputs import row_name
 from linkwright.engine.program import Program
 from linkwright.engine.replay import inlined
@@ -81,9 +82,8 @@ class Traced:
         """Inputs per position; with ``flipping`` the signs of the assembly modes of the mechanism as it is."""
         found = dict(self.positions.arrays)
         if self.solver.manner.flipping:
-            signs = self.solver.assembly.modes
-            count = self.positions.count
-            found |= {f"mode:{name}": np.full(count, sign) for name, sign in signs.items()}
+            signs, count = mode_inputs(self.solver.assembly.modes), self.positions.count
+            found |= {name: np.full(count, sign) for name, sign in signs.items()}
             found |= self.nominal.modes
         return found
 
@@ -125,7 +125,7 @@ class Traced:
     ) -> dict[str, Any]:
         """The outputs of a program of the motion at the input x, rad, of the only driver; ``more`` inputs by name."""
         (driver,) = self.mechanism.drivers
-        given = {f"cos:{driver}": cos(x), f"sin:{driver}": sin(x), f"turn:{driver}": x, **(more or {})}
+        given = {**turned(driver, x, cos, sin), **(more or {})}
         given |= {name: first + turns * x for name, (first, turns) in self.lines.items()}
         return inlined(program, trace, given)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
+from linkwright.core.inputs import Input
 from linkwright.core.outputs import Output
 from linkwright.groups.base import Dyad
 from linkwright.kinematics.groups import dyad_shape, in_one_step, whole_form
@@ -139,7 +140,7 @@ class Places:
 
     def mode(self, group: Group) -> int:
         """+1 or -1: the assembly mode in this position."""
-        rows = self.book.motion.modes.get(f"mode:{group.name}")
+        rows = self.book.motion.modes.get(Input("mode", group.name).name)
         if rows is not None:
             return 1 if rows[self.book.index] > 0 else -1
         return 1 if self.book.motion.design.modes.get(group.name, 1.0) > 0 else -1
