@@ -65,7 +65,7 @@ GOES_ON, RECENT = (0.5, 0.25), 200
 #: Designs err alike whose misses have a product above this; as many of them stay in a pool.
 NICHE, CROWD = 0.9, 4
 #: Weight of the penalties, and the angle (rad) above the least one, in the steps of the polish.
-POLISH = ((10.0, 0.005), (300.0, 0.005), (10000.0, 0.004))
+POLISH = ((10.0, 0.005), (300.0, 0.003), (10000.0, 0.0015))
 
 
 @dataclass
