@@ -170,6 +170,59 @@ def test_designs_driven_the_other_way_equal_single_ones(load: str) -> None:
             assert numbers.values[name][k] == pytest.approx(table.value(name), rel=3e-8)
 
 
+#: A motor without mass that turns the crank through wheels, three times as fast and the other way.
+GEARED = (
+    MODEL.replace("frame: {points: {", "frame: {points: {M: [-0.4 m, 0 m], ")
+    .replace("links:\n", "links:\n  motor: {points: [M]}\n")
+    .replace("joints: {", "joints: {gears: {kind: gear, links: [motor, crank], teeth: [20, 60]}, ")
+    .replace("{turn: crank, about: O, speed: 120 rpm", "{turn: motor, about: M, speed: 360 rpm")
+)
+BY_LIMITS = ("ramp while moving", "between limits", "last share", "first way", "free ends")
+
+
+@pytest.mark.parametrize("load", [*BY_LIMITS, "input", "table"])
+def test_cycles_of_three_turns_of_the_motor_go_side_by_side(load: str) -> None:
+    """Where limits tell the phase, the motor's torque is a third of that of the crank turned directly."""
+    mechanism = lw.loads(GEARED.replace("LOAD", LOADS[load]))
+    direct = lw.loads(MODEL.replace("LOAD", LOADS[load]).replace("120 rpm", "-120 rpm"))
+    lengths = np.array([0.7, 0.712])
+    run = SweepRun(
+        mechanism, {BY: lengths}, wanted(OUTPUTS), over_cycle(mechanism, 360), Manner(backend="numpy")
+    )
+    assert run._loaded is not None and not len(run._loaded.evaluate({BY: lengths}, 1, "numpy")[1])
+    _, found = run.swept()
+    cycle = metric_cycle(mechanism, [BY], ["rms_input_torque", "peak_reaction A"])
+    assert cycle is not None and cycle.gauss.turns == 3
+    numbers = cycle.evaluate({BY: lengths}, backend="numpy")
+    assert numbers.certain.all()
+    for k, length in enumerate(lengths):
+        forces = lw.solve_forces(mechanism.with_dimensions({BY: float(length)}))
+        rms = found[wanted(OUTPUTS)[0]][k]
+        assert rms == pytest.approx(np.sqrt((forces.input_torque**2).mean()), rel=1e-12)
+        of_crank = metrics(lw.solve_forces(direct.with_dimensions({BY: float(length)})))
+        for table, share in ((metrics(forces), 1.0), *([(of_crank, 3.0)] if load in BY_LIMITS else [])):
+            torque, force = table.value("rms_input_torque"), table.value("peak_reaction", "A")
+            assert share * numbers.values["rms_input_torque"][k] == pytest.approx(torque, rel=3e-8)
+            assert numbers.values["peak_reaction A"][k] == pytest.approx(force, rel=3e-8)
+    prepared = lw.prepare(mechanism, vary=[BY]).solve({BY: 0.712}).input_torque
+    assert prepared == pytest.approx(forces.input_torque, rel=1e-11, abs=1e-9)
+    objective, step = lw.objective(mechanism, {"driver.effort rms": 1.0}, vary=[BY]), 1e-6
+    values, slopes = objective.many(0.7 + step * np.array([[0.0], [-2.0], [-1.0], [1.0], [2.0]]))
+    assert slopes[0, 0] == pytest.approx(
+        values[1:] @ [1, -8, 8, -1] / (12 * step), rel=1e-6, abs=1e-7 * values[0]
+    )
+
+
+def test_the_true_speed_of_a_motor_whose_cycle_is_three_turns_is_that_of_its_crank() -> None:
+    direct = MODEL.replace("120 rpm", "-120 rpm").replace("inertia: 0.01 kg", "inertia: 3 kg")
+    geared = GEARED.replace("inertia: 0.01 kg", "inertia: 3 kg")
+    load, names, lengths = LOADS["last share"], ["speed_fluctuation", "slowest_speed"], [0.7, 0.712]
+    found = lw.sweep(lw.loads(geared.replace("LOAD", load)), {BY: lengths}, outputs=names)
+    alone = lw.sweep(lw.loads(direct.replace("LOAD", load)), {BY: lengths}, outputs=names)
+    assert found["speed_fluctuation"] == pytest.approx(alone["speed_fluctuation"], rel=1e-8)
+    assert found["slowest_speed"] == pytest.approx(3.0 * alone["slowest_speed"], rel=1e-8)
+
+
 def test_a_design_whose_load_has_no_value_is_told() -> None:
     """The table ends where the longer rod brings the piston."""
     mechanism = machine("table of output")

@@ -57,6 +57,10 @@ class One:
     def heading(self) -> float:
         return float(self.signals.rate)
 
+    @property
+    def lap(self) -> float:
+        return TURN
+
     def stroke(self, phase: MovingPhase | SwingPhase) -> tuple[Mask, Scalar]:
         return stroke_of_turn(self, phase)
 

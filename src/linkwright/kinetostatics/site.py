@@ -18,6 +18,8 @@ def limit_name(output: object, kind: str) -> str:
     return f"limit:{output}:{kind}"
 
 
+#: The parameter that is how far the input turns in a closed cycle, rad.
+LAP = "lap of the input"
 #: Before the name of a load whose magnitude is traced, but for its phase, which is known per position.
 ACTS = "acts"
 
@@ -39,7 +41,7 @@ def middle_name(a: str, b: str) -> str:
 
 def of_cycle(name: str) -> bool:
     """Whether a parameter is found from the motion over the cycle."""
-    return name.startswith(("limit:", "value:", "middle:"))
+    return name == LAP or name.startswith(("limit:", "value:", "middle:"))
 
 
 def angle_between(motion: MotionTrace, a: str, b: str) -> Scalar:
@@ -161,6 +163,10 @@ class TracedSite:
 
     def limit_value(self, output: Output, kind: str) -> Scalar:
         return self.motion.trace.parameter(value_name(output, kind))
+
+    @property
+    def lap(self) -> Scalar:
+        return self.motion.trace.parameter(LAP)
 
     def limit(self, output: Output, kind: str) -> Scalar:
         return self.motion.trace.parameter(limit_name(output, kind))

@@ -19,7 +19,7 @@ from linkwright.kinematics.programs import MotionPrograms
 from linkwright.kinematics.trace import MotionTrace
 from linkwright.kinetostatics.friction import Swinging
 from linkwright.kinetostatics.signals import MotionSignals
-from linkwright.kinetostatics.site import TracedSite, constant_name, limit_name, middle_name, value_name
+from linkwright.kinetostatics.site import LAP, TracedSite, constant_name, limit_name, middle_name, value_name
 from linkwright.loads.base import Load
 from linkwright.loads.magnitude import angles_of, divides, followed, interval_of_turn, is_constant, magnitude
 from linkwright.loads.magnitude import constants as of_load
@@ -58,14 +58,15 @@ class AlongInput:
         return sum((traced_magnitude(motion, name) for name in self.fallible), 0.0)
 
     def limits(self, signals: MotionSignals) -> dict[str, float] | None:
-        """Limit positions and the values there; None where the cycle is no single turn of the input, or an output has
-        others than two."""
+        """Limit positions and the values there; None where the cycle is no whole number of turns of the input, or an
+        output has others than two."""
         found: dict[str, float] = {}
         for output in self.outputs:
-            ends = signals.limit_inputs(output)
-            apart = abs(remainder(ends[0][0] - ends[1][0], TURN)) if len(ends) == 2 else 0.0
-            if apart < CLOSE or abs(abs(signals.whole.drift) - TURN) > CLOSE:
+            ends, lap = signals.limit_inputs(output), abs(signals.whole.drift)
+            apart = abs(remainder(ends[0][0] - ends[1][0], lap)) if len(ends) == 2 and lap > CLOSE else 0.0
+            if apart < CLOSE or abs(remainder(lap, TURN)) > CLOSE:
                 return None
+            found[LAP] = lap
             found |= {limit_name(output, kind): at for at, kind in ends}
         for output in self.valued:
             found |= {value_name(output, each.kind): each.value for each in signals.limits(output)}

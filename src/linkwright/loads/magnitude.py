@@ -82,7 +82,12 @@ class Course(Protocol):
 
 
 class Turning(Course, Protocol):
-    """The same of a closed turn of constant speed, over which an output has one limit of each kind."""
+    """The same of closed turns of constant speed, over which an output has one limit of each kind."""
+
+    @property
+    def lap(self) -> Scalar:
+        """How far the input turns in them, rad."""
+        ...
 
     def limit(self, output: Output, kind: str) -> Scalar:
         """The input, rad, at which it has it."""
@@ -241,14 +246,14 @@ def phase_passed(load: Load, course: Course) -> tuple[Mask, Scalar, Mask]:
 
 
 def stroke_of_turn(course: Turning, phase: MovingPhase | SwingPhase) -> tuple[Mask, Scalar]:
-    """``Course.stroke`` by the limits of a turn."""
-    return _within(*_way(course, phase))
+    """``Course.stroke`` by the limits of a lap."""
+    return _within(*_way(course, phase), course.lap)
 
 
 def moving_of_turn(course: Turning, phase: MovingPhase) -> tuple[Mask, Scalar]:
-    """``Course.moving`` by the limits of a turn."""
+    """``Course.moving`` by the limits of a lap."""
     gone, length = _way(course, phase)
-    way = turned(gone)
+    way = turned(gone, course.lap)
     return (way > NEAR * TURN) & (way < length - NEAR * TURN), way / length
 
 
@@ -256,7 +261,7 @@ def _way(course: Turning, phase: MovingPhase | SwingPhase) -> tuple[Scalar, Scal
     """Way of the input since one limit of an output, and from there to the other one, rad."""
     sense = sign(course.heading)
     begin, until = (course.limit(phase.output, kind) for kind in (phase.start, phase.end))
-    return sense * (course.input - begin), turned(sense * (until - begin))
+    return sense * (course.input - begin), turned(sense * (until - begin), course.lap)
 
 
 def part_ends(phase: SwingPhase, course: Course) -> tuple[Scalar, Scalar, Scalar]:
@@ -302,10 +307,10 @@ def _between(course: Course) -> tuple[Mask, Scalar, Mask]:
     return acts, select(length > 0.0, share, 1.0 - share), absolute(gap) <= TURN + NEAR
 
 
-def _within(gone: Scalar, length: Scalar) -> tuple[Mask, Scalar]:
-    """Whether what is gone of a turn lies within a length, and its share; the ends belong to it."""
-    way = turned(gone)
-    passed = select(way > TURN * (1.0 - NEAR), way - TURN, way)
+def _within(gone: Scalar, length: Scalar, lap: Scalar = TURN) -> tuple[Mask, Scalar]:
+    """Whether what is gone of a lap lies within a length, and its share; the ends belong to it."""
+    way = turned(gone, lap)
+    passed = select(way > lap - NEAR * TURN, way - lap, way)
     return passed <= length + NEAR * TURN, _share(passed / length)
 
 
@@ -313,6 +318,6 @@ def _share(ratio: Scalar) -> Scalar:
     return minimum(maximum(ratio, 0.0), 1.0)
 
 
-def turned(angle: Scalar) -> Scalar:
-    """An angle modulo one turn, 0 to 2π."""
-    return angle - TURN * floor(angle / TURN)
+def turned(angle: Scalar, lap: Scalar = TURN) -> Scalar:
+    """An angle modulo one lap, of one turn unless given: from 0 to that, rad."""
+    return angle - lap * floor(angle / lap)

@@ -23,6 +23,7 @@ from linkwright.kinematics.step_rule import StepRule
 from linkwright.kinematics.trace import MotionTrace
 from linkwright.kinetostatics.closure import dyads, transmission
 from linkwright.kinetostatics.forces import Forces, solve_forces
+from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.kinetostatics.site import TracedSite, guide_state
 from linkwright.kinetostatics.traced_loads import AlongInput, numbers_of_loads
 from linkwright.loads.base import Load
@@ -110,8 +111,11 @@ class PagePrograms:
         none = AlongInput(frozenset())
         if self.forces is None or self.iterated:
             return none
-        names = [row_name("magnitude", name) for name in self._varying]
-        found = [name for name in names if along_input(self._plain, self.free, [name]) is not None]
+        found, signals = [], MotionSignals(self.motion)
+        for name in (row_name("magnitude", name) for name in self._varying):
+            known = along_input(self._plain, self.free, [name])
+            if known is not None and known.limits(signals) is not None:
+                found.append(name)
         return along_input(self._plain, self.free, found) or none
 
     @cached_property

@@ -50,28 +50,32 @@ SHARE = "share of the cycle"
 class GaussCycle:
     """The stages that lead to signals at the Gauss points of every design.
 
-    ``cuts``: names of what gives the inputs, rad, of the cuts: cycle values and dimensions; ``wanted``: pieces of a
-    turn.
+    ``cuts``: names of what gives the inputs, rad, of the cuts, cycle values and dimensions, with the turns after
+    which they come again, none where they do once; ``wanted``: pieces of a turn.
     """
 
     traced: Traced
-    cuts: tuple[str, ...]
+    cuts: tuple[tuple[str, int], ...]
     wanted: int
 
     @classmethod
     def of(cls, traced: Traced, loads: AlongInput, wanted: int) -> GaussCycle:
         """For the loads whose magnitudes are traced, and the friction."""
-        found: dict[str, None] = {}
+        found: dict[tuple[str, int], None] = {}
         for name in sorted(loads.names):
             found |= dict.fromkeys(_cuts(traced.mechanism.loads[name]))
         for term in loads.swinging:
-            found |= dict.fromkeys(limit_name(term, kind) for kind in ("max", "min"))
+            found |= dict.fromkeys((limit_name(term, kind), 0) for kind in ("max", "min"))
         return cls(traced, tuple(found), wanted)
 
     @property
     def stretches(self) -> int:
         """Number of stretches between cuts."""
-        return max(1, len(self.cuts))
+        return max(1, sum(len(self._laps(every)) for _, every in self.cuts))
+
+    def _laps(self, every: int) -> range:
+        """Turns after which a cut comes again within the cycle."""
+        return range(0, self.turns, every or self.turns)
 
     @property
     def pieces(self) -> int:
@@ -92,11 +96,6 @@ class GaussCycle:
     def way(self) -> float:
         """What the driver turns in the cycle, rad."""
         return TURN * self.turns
-
-    @property
-    def by_limits(self) -> bool:
-        """Whether cuts are found as places of a single turn."""
-        return any(name != FIRST for name in self.cuts)
 
     @property
     def count(self) -> int:
@@ -148,25 +147,29 @@ class GaussCycle:
 
     def part_stages(self) -> list[Stage]:
         """The stages that find where parts of strokes begin and end."""
-        found = []
+        found, known = [], dict(self.cuts)
         for load in self.traced.mechanism.loads.values():
             phase = getattr(load, "phase", None)
             if isinstance(phase, SwingPhase):
                 edges = _edges(load.name, phase).items()
-                found += [part_edge(self.traced, load, phase, k) for k, name in edges if name in self.cuts]
+                found += [part_edge(self.traced, load, phase, k) for k, name in edges if name in known]
         return found
 
     def cutting(self) -> Stage | None:
-        """The stage that brings the cuts into order, as shares of the turn from its beginning."""
+        """The stage that brings the cuts into order, as shares of the cycle from its beginning."""
         if not self.cuts:
             return None
         t = Trace()
         (driver,) = self.traced.mechanism.drivers
         start, sense = t.parameter(FIRST), sign(t.parameter(f"{driver}.speed"))
         shares: list[Scalar] = []
-        for name in self.cuts:
-            share = (t.parameter(name) - start) * sense / self.way
-            shares.append(share - floor(share))
+        for name, every in self.cuts:
+            period = every or self.turns
+            share = (t.parameter(name) - start) * sense / (TURN * period)
+            first = (share - floor(share)) * (period / self.turns)
+            for lap in self._laps(every):
+                share = first + lap / self.turns
+                shares.append(share - floor(share) if lap or period > self.turns else share)
         for end in range(len(shares) - 1, 0, -1):
             for k in range(end):
                 shares[k], shares[k + 1] = (
@@ -240,17 +243,18 @@ def reversing(traced: Traced, program: Program) -> tuple[Output, ...]:
     return tuple(each for each, speed in speeds.items() if speed.min() < 0.0 < speed.max())
 
 
-def _cuts(load: Load) -> Iterable[str]:
-    """What gives the inputs at which a load jumps or kinks."""
+def _cuts(load: Load) -> Iterable[tuple[str, int]]:
+    """What gives the inputs at which a load jumps or kinks, with the turns after which it does so again."""
     phase, magnitude, table = (getattr(load, name, None) for name in ("phase", "magnitude", "table"))
     if isinstance(phase, InputPhase):
-        yield from (f"loads.{load.name}.phase.input.{k}" for k in (0, 1))
+        yield from ((f"loads.{load.name}.phase.input.{k}", 1) for k in (0, 1))
     if isinstance(phase, SwingPhase | MovingPhase):
-        yield from (limit_name(phase.output, kind) for kind in ("max", "min"))
+        yield from ((limit_name(phase.output, kind), 0) for kind in ("max", "min"))
     if isinstance(phase, SwingPhase):
-        yield from _edges(load.name, phase).values()
+        yield from ((name, 0) for name in _edges(load.name, phase).values())
     if isinstance(magnitude, Expression) and magnitude.names & {"t", "input"}:
-        yield FIRST
+        yield FIRST, 0
     if isinstance(table, Table) and not isinstance(table.over, Output):
-        yield FIRST
-        yield from (f"knot {load.name} {k}" for k in range(len(table.x)))
+        yield FIRST, 0
+        every = max(1, round((table.x[-1] - table.x[0]) / TURN)) if table.over == "input" else 0
+        yield from ((f"knot {load.name} {k}", every) for k in range(len(table.x)))

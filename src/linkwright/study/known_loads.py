@@ -30,8 +30,7 @@ from linkwright.loads.base import Load
 from linkwright.loads.magnitude import angles_of, has_formula
 from linkwright.loads.over_cycle import activity
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.study.limit_stages import constants, limit_stages
-from linkwright.study.loaded_cycle import one_turn
+from linkwright.study.limit_stages import constants, limit_stages, whole_turns
 from linkwright.study.traced import Traced
 from linkwright.words.sentence import Sentence
 
@@ -96,17 +95,18 @@ def _moving(
     """Limit positions and values there, with their derivatives; None where others are not certain to be missing."""
     if all(getattr(load, "phase", None) is None for load in loads):
         return {}, {}
-    if not one_turn(plain, ()) or plain.solver.motion.next_states or plain.solver.manner.flipping:
+    if not whole_turns(plain) or plain.solver.motion.next_states or plain.solver.manner.flipping:
         return None
     cycle = CycleProgram(tuple(limit_stages(plain, along.outputs, valued=along.valued)))
     middles = _middle_numbers(plain, along)
-    known = {**plain.solver.nominal.parameters, **constants(plain), **along.constants, **middles}
+    numbers = constants(plain)
+    known = {**plain.solver.nominal.parameters, **numbers, **along.constants, **middles}
     table = np.array([[known[name] for name in cycle.dimensions]])
     arrays = plain.positions.arrays
     found = cycle.evaluate(table, arrays, tables=along.tables, backend="numpy") if along.outputs else {}
     if any(found[f"doubt:{output}"][0] != 0.0 for output in along.outputs):
         return None
-    numbers, slopes = {}, {}
+    slopes = {}
     own = [name for name in by if name in cycle.dimensions]
     for name in found:
         if name.startswith(("limit:", "value:")):

@@ -6,6 +6,7 @@ The extremes over the positions bracket the limits; safeguarded Newton steps wit
 from __future__ import annotations
 
 from collections.abc import Iterable
+from math import pi
 
 import numpy as np
 
@@ -13,11 +14,11 @@ from linkwright.core.outputs import Output
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import Reduction
 from linkwright.engine.stage import Stage
-from linkwright.engine.trace import Mask, Scalar, Trace, absolute, minimum, select, sign, sin, sqrt
+from linkwright.engine.trace import Mask, Scalar, Trace, absolute, cos, minimum, select, sign, sin, sqrt
 from linkwright.fields.signals import SwingPhase
 from linkwright.kinematics.names import program_names
 from linkwright.kinetostatics.friction import FrictionTerm, Swinging
-from linkwright.kinetostatics.site import TracedSite, limit_name, output_value, value_name
+from linkwright.kinetostatics.site import LAP, TracedSite, limit_name, output_value, value_name
 from linkwright.loads.base import Load
 from linkwright.loads.magnitude import part_ends, turned
 from linkwright.loads.phases import NEAR, TURN
@@ -72,8 +73,7 @@ def _course(traced: Traced, output: Swinging) -> Scalar:
 def _seen(traced: Traced, outputs: Iterable[Swinging], judged: bool) -> Stage:
     """The inputs of the positions with the largest and the smallest value; where ``judged`` how many positions have a
     growing value, and the sum of their directions on the circle of inputs."""
-    trace = traced.solver.motion.trace
-    (driver,) = traced.mechanism.drivers
+    trace, around = traced.solver.motion.trace, _direction(traced)
     found: dict[str, Scalar | bool] = {"input": trace.position("input"), VALID: traced.counted_for_certain}
     wanted: dict[str, Reduction] = {}
     for each in outputs:
@@ -84,9 +84,7 @@ def _seen(traced: Traced, outputs: Iterable[Swinging], judged: bool) -> Stage:
         }
         if judged:
             grows = select(rates(traced, each)[0] > 0.0, 1.0, 0.0)
-            sums = {"grows": grows} | {
-                part: grows * trace.position(f"{part}:{driver}") for part in ("cos", "sin")
-            }
+            sums = {"grows": grows, **{part: grows * place for part, place in around.items()}}
             found |= {f"{part}:{each}": value for part, value in sums.items()}
             wanted |= {f"sum {part}:{each}": Reduction(f"{part}:{each}", "sum") for part in sums}
     program, count = Program.of(trace, found), ASSEMBLED if judged else ""
@@ -94,6 +92,16 @@ def _seen(traced: Traced, outputs: Iterable[Swinging], judged: bool) -> Stage:
         t = Trace()
         program = Program.of(t, traced.at_input(program, t, t.position("input")))
     return Stage(program, wanted, valid=VALID, count=count)
+
+
+def _direction(traced: Traced) -> dict[str, Scalar]:
+    """Where a position lies on the circle that stands for the whole cycle."""
+    trace, turns = traced.solver.motion.trace, whole_turns(traced)
+    if turns > 1:
+        angle = trace.position("input") * (1.0 / turns)
+        return {"cos": cos(angle), "sin": sin(angle)}
+    (driver,) = traced.mechanism.drivers
+    return {part: trace.position(f"{part}:{driver}") for part in ("cos", "sin")}
 
 
 def _refined(traced: Traced, output: Swinging, kind: str, valued: bool) -> Stage:
@@ -159,7 +167,9 @@ def part_edge(traced: Traced, load: Load, phase: SwingPhase, which: int) -> Stag
     first = absolute(low) + absolute(high) <= 0.0
     begins, ends = (t.parameter(limit_name(phase.output, kind)) for kind in (phase.start, phase.end))
     low0 = select(first, begins, low)
-    high0 = select(first, begins + sign(speed) * turned(sign(speed) * (ends - begins)), high)
+    high0 = select(
+        first, begins + sign(speed) * turned(sign(speed) * (ends - begins), t.parameter(LAP)), high
+    )
     before = there["gap"] < 0.0
     low1, high1 = select(first, low0, select(before, x, low0)), select(first, high0, select(before, high0, x))
     newton = x - there["gap"] / there["rate"] * speed
@@ -208,14 +218,15 @@ def agree(traced: Traced, outputs: Iterable[Output]) -> Mask:
     found: Mask = True
     for output in outputs:
         (driver,) = traced.mechanism.drivers
-        sense, step = sign(motion.trace.parameter(f"{driver}.speed")), motion.trace.parameter(STEP)
+        sense = sign(motion.trace.parameter(f"{driver}.speed"))
+        step, lap = motion.trace.parameter(STEP), motion.trace.parameter(LAP)
         highest, lowest = (motion.trace.parameter(limit_name(output, kind)) for kind in ("max", "min"))
-        way = turned(sense * (motion.trace.position("input") - highest))
-        length = turned(sense * (lowest - highest))
+        way = turned(sense * (motion.trace.position("input") - highest), lap)
+        length = turned(sense * (lowest - highest), lap)
         gone = way - length
         follows = rates(traced, output)[0] * gone >= 0.0
-        beside = minimum(minimum(way, TURN - way), absolute(gone)) <= AT
-        apart = minimum(length, TURN - length) > step
+        beside = minimum(minimum(way, lap - way), absolute(gone)) <= AT
+        apart = minimum(length, lap - length) > step
         found = logic("and", found, logic("and", apart, logic("or", follows, beside)))
     return found
 
@@ -227,7 +238,7 @@ def _doubt(traced: Traced, outputs: Iterable[Swinging]) -> Stage:
     sin(mπ/n)/sin(π/n), and no others reach it.
     """
     t = Trace()
-    half = 0.5 * t.parameter(STEP)
+    half = pi / t.parameter("positions")
     doubts: dict[str, Scalar] = {}
     for each in outputs:
         grows, across, up = (t.parameter(f"sum {part}:{each}") for part in ("grows", "cos", "sin"))
@@ -241,7 +252,20 @@ def _doubt(traced: Traced, outputs: Iterable[Swinging]) -> Stage:
     return Stage(Program.of(t, doubts), {name: Reduction(name, "first") for name in doubts}, steps=1)
 
 
-def constants(traced: Traced) -> dict[str, float]:
-    """What the stages take besides dimensions: the step between positions, rad, and their number."""
-    count = traced.positions.count
-    return {STEP: 2.0 * np.pi / count, "positions": float(count)}
+def constants(traced: Traced, count: int | None = None) -> dict[str, float]:
+    """What the stages take besides dimensions: how far the input turns in the cycle and from one of ``count``
+    positions to the next, rad, and their number, by default that of the study."""
+    count = traced.positions.count if count is None else count
+    lap = TURN * max(1, whole_turns(traced))
+    return {LAP: lap, STEP: lap / count, "positions": float(count)}
+
+
+def whole_turns(traced: Traced, varied: Iterable[str] = ()) -> int:
+    """Of how many turns of the only driver the cycle is, closed and of constant speed, whatever varies; else 0."""
+    drivers = list(traced.mechanism.drivers.values())
+    speed = drivers[0].law.constant_speed if len(drivers) == 1 else None
+    if speed is None or not traced.positions.closed or not traced.positions.rotary[drivers[0].name]:
+        return 0
+    turns = abs(speed) * (traced.positions.period or 0.0) / TURN
+    steady = abs(turns - round(turns)) * TURN <= 1e-9 and f"{drivers[0].name}.speed" not in set(varied)
+    return round(turns) if steady else 0

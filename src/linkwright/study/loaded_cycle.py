@@ -21,9 +21,8 @@ from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.kinetostatics.traced_loads import AlongInput, numbers_of_loads
 from linkwright.loads.base import Load
 from linkwright.loads.magnitude import followed, within_turn
-from linkwright.loads.phases import TURN
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.study.limit_stages import constants, limit_stages
+from linkwright.study.limit_stages import constants, limit_stages, whole_turns
 from linkwright.study.traced import VALID, Traced, design_table
 
 Floats = NDArray[np.float64]
@@ -77,7 +76,7 @@ def with_loads(plain: Traced, known: AlongInput) -> Traced:
 def along_input(traced: Traced, varied: Collection[str], fields: Iterable[str]) -> AlongInput | None:
     """The loads behind a program's inputs per position; None where some input is no load that can be traced.
 
-    Formulas of strokes hold over a single turn of one driver of constant speed.
+    Formulas of strokes hold over whole turns of one driver of constant speed.
     """
     mechanism, given = traced.mechanism, tuple(fields)
     rubbing = any(kind_of(name) == "friction" for name in given)
@@ -95,7 +94,7 @@ def along_input(traced: Traced, varied: Collection[str], fields: Iterable[str]) 
     loads = [mechanism.loads[name] for name in sorted(names)]
     if not all(followed(load, mechanism) for load in loads):
         return None
-    if not one_turn(traced, varied) and (
+    if not whole_turns(traced, varied) and (
         any(map(within_turn, loads)) or _moves_phases(loads, varied, mechanism)
     ):
         return None
@@ -177,19 +176,3 @@ def loaded_cycle(
     made |= {name: Reduction(name, "sum") for name in more}
     stages.append(Stage(program, made, valid=VALID, count=VALID_COUNT))
     return LoadedCycle(over_input, CycleProgram(tuple(stages)), known)
-
-
-def one_turn(traced: Traced, varied: Iterable[str]) -> bool:
-    """Whether the cycle is one closed turn of the only driver, of constant speed, whatever varies."""
-    return whole_turns(traced, varied) == 1
-
-
-def whole_turns(traced: Traced, varied: Iterable[str]) -> int:
-    """Of how many turns of the only driver the cycle is, closed and of constant speed, whatever varies; else 0."""
-    drivers = list(traced.mechanism.drivers.values())
-    speed = drivers[0].law.constant_speed if len(drivers) == 1 else None
-    if speed is None or not traced.positions.closed or not traced.positions.rotary[drivers[0].name]:
-        return 0
-    turns = abs(speed) * (traced.positions.period or 0.0) / TURN
-    steady = abs(turns - round(turns)) * TURN <= 1e-9 and f"{drivers[0].name}.speed" not in set(varied)
-    return round(turns) if steady else 0

@@ -29,8 +29,8 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import Analysis, strokes, true_speed
 from linkwright.metrics.summary import Summary, one
 from linkwright.study.gauss_cycle import PIECES, SHARE, GaussCycle, reversing
-from linkwright.study.limit_stages import STEP, limit_stages, rates
-from linkwright.study.loaded_cycle import along_input, whole_turns, with_loads
+from linkwright.study.limit_stages import constants, limit_stages, rates, whole_turns
+from linkwright.study.loaded_cycle import along_input, with_loads
 from linkwright.study.piece_summaries import SIDES, PieceSummaries
 from linkwright.study.seen import Seen
 from linkwright.study.steady_designs import REST, SIGNALS, SteadyDesigns
@@ -62,9 +62,9 @@ def metric_cycle(
     changed, as cycle values; those that apply to it and are formulas of summaries. Terms are taken as they are.
 
     ``steps``: of the motion by which it is judged what applies; ``asked``: see ``terms.term``. None where the
-    designs cannot go side by side: the cycle is no whole number of turns of one driver of constant speed, or loads go
-    by limits or intervals in several turns, groups have no closed form, the way passes change points, loads do not
-    follow the input, or polynomials do not meet the machine itself. What is found for a machine is kept.
+    designs cannot go side by side: the cycle is no whole number of turns of one driver of constant speed, groups
+    have no closed form, the way passes change points, loads do not follow the input, or polynomials do not meet the
+    machine itself. What is found for a machine is kept.
     """
     given, addresses = tuple(names), tuple(varied)
     key = (addresses, given, steps, asked)
@@ -80,13 +80,13 @@ def _metric_cycle(
 ) -> MetricCycle | None:
     plain = Traced(mechanism, addresses, over_cycle(mechanism, steps))
     placed = plain.solver.motion.placed.values()
-    if any(each.next_states for each in placed) or not (turns := whole_turns(plain, addresses)):
+    if any(each.next_states for each in placed) or not whole_turns(plain, addresses):
         return None
     if not plain.nominal.ok.all() or plain.nominal.modes or not plain.countable:
         return None
     analysis = Analysis.of(solve_forces(plain.nominal))
     offered = (each if isinstance(each, Term) else term(each, analysis, asked) for each in given)
-    terms = [each for each in offered if each is not None and _without_more_limits(each, analysis, turns)]
+    terms = [each for each in offered if each is not None and _without_more_limits(each, analysis)]
     program = plain.program(plain.quantities(_outputs(map(one, all_parts(terms)))))
     loads = along_input(plain, addresses, program.fields)
     if loads is None:
@@ -99,8 +99,6 @@ def _metric_cycle(
     coarsest = None
     for pieces in PIECES:
         gauss = GaussCycle.of(traced, loads, pieces)
-        if turns > 1 and gauss.by_limits:
-            return None
         found = MetricCycle(traced, gauss, terms, analysis, loads)
         sure, running = found.met(nominal)
         if running.all():
@@ -311,7 +309,7 @@ class MetricCycle:
 
     def _table(self, cycle: CycleProgram, columns: Mapping[str, Floats]) -> Floats:
         known = {**self.traced.solver.nominal.parameters, **self.gauss.constants, **self.loads.constants}
-        known |= {STEP: self.gauss.way / self.gauss.count, "positions": float(self.gauss.count)}
+        known |= constants(self.traced, self.gauss.count)
         return design_table(cycle.dimensions, known, columns)
 
     # gradients --------------------------------------------------------------------------------------
@@ -447,10 +445,10 @@ def _strokes(texts: Iterable[str]) -> dict[str, Summary]:
     return {text: part for text in texts if (part := one(text)).kind in strokes.WAYS}
 
 
-def _without_more_limits(each: Term, analysis: Analysis, turns: int) -> bool:
-    """Whether the outputs whose limits a term takes have no others than two, in a single turn."""
+def _without_more_limits(each: Term, analysis: Analysis) -> bool:
+    """Whether the outputs whose limits a term takes have no others than two."""
     parts = [one(text) for text in each.parts]
     words = [part.output for part in parts if part.kind in _PLACES]
     words += [strokes.output_of(part) for part in _strokes(each.parts).values()]
     outputs = [output for output in map(analysis.output, words) if output is not None]
-    return all(turns == 1 and len(analysis.limits(output)) == 2 for output in outputs)
+    return all(len(analysis.limits(output)) == 2 for output in outputs)

@@ -110,8 +110,8 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
     "gradient, as where it almost stands still; find its numbers without one, by sweep or study",
     "objective_loads": "{name!r} has friction beside wheels, racks or cams, or (for design numbers) on a guide that "
     "is pressed from both sides, loads that divide by an output, follow a link that turns through or act against the "
-    "rotation of two moving links, or phases between limit positions over other cycles than one turn at constant "
-    "speed or design numbers over other ones than whole turns, so no gradient of many designs is found; for outputs "
+    "rotation of two moving links, or phases or design numbers over other cycles than whole turns at constant "
+    "speed, so no gradient of many designs is found; for outputs "
     "use sensitivity, which takes one design at a time, for design numbers study",
     "objective_reverses": "{name!r}: the load {load!r} has the sign of the rate of {output}, which changes it "
     "{count} times in a turn, where gradients of design numbers take two changes; for outputs use sensitivity, for "

@@ -96,7 +96,7 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
     "请用 sweep 或 study 求其数值",
     "objective_loads": "{name!r} 除齿轮、齿条或凸轮外还含有摩擦，或（求设计指标时）有摩擦的导路两侧交替受压，"
     "或载荷以输出为除数、取决于整转构件的转角、与两个活动构件的相对转动反向，"
-    "或在原动件并非匀速转一整周的循环上用到极限位置之间的阶段，或在并非匀速整数周的循环上用到设计指标，"
+    "或在原动件并非匀速转整数周的循环上用到载荷的阶段或设计指标，"
     "因此不能成批求梯度；输出的梯度请用 sensitivity（逐个方案计算），设计指标请用 study",
     "objective_reverses": "{name!r}：载荷“{load}”的符号取自 {output} 的变化率，它在一转中变号 {count} 次，"
     "而设计指标的梯度只容许两次；输出的梯度请用 sensitivity，设计指标请用 study",
