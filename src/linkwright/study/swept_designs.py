@@ -24,7 +24,7 @@ from linkwright.metrics.cycle_grid import PIECES
 from linkwright.metrics.swept_area import points
 from linkwright.metrics.swept_hull import Curves, SweptHull
 from linkwright.study.gauss_cycle import GaussCycle
-from linkwright.study.loaded_cycle import whole_turns
+from linkwright.study.limit_stages import whole_turns
 from linkwright.study.metric_cycle import Found
 from linkwright.study.terms import Term, chosen_subjects, metric_of
 from linkwright.study.traced import VALID, Traced, design_table
