@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.spatial import ConvexHull
 
-from linkwright.metrics.plane import area, convex_hull, cross, crossings
+from linkwright.core.plane import area, convex_hull, cross, crossings
 
 
 def _tracks(count: int, seed: int) -> np.ndarray:

@@ -9,7 +9,6 @@ import pytest
 from linkwright.plot.drawing.style import CSS
 from linkwright.plot.svg.element import element, group, number
 from linkwright.plot.symbols.base import SYMBOLS, hatching, placed
-from linkwright.plot.symbols.bodies import convex_hull
 
 NEEDED = {
     "fixed_pivot", "pin", "slider", "ground_guide", "moving_guide", "weld", "plate", "gear", "rack", "cam",
@@ -60,8 +59,8 @@ def test_hatching_stays_on_its_side() -> None:
 
 
 def test_hull_of_a_quadrangle_leaves_out_the_inner_point() -> None:
-    corners = convex_hull(np.array([(0, 0), (4, 0), (4, 3), (0, 3), (2, 1), (2, 0)], dtype=float))
-    assert {tuple(row) for row in corners} == {(0, 0), (4, 0), (4, 3), (0, 3)}
+    (ink,) = SYMBOLS["plate"](corners=[(0, 0), (4, 0), (4, 3), (0, 3), (2, 1), (2, 0)]).ink
+    assert {tuple(row) for row in ink} == {(0, 0), (4, 0), (4, 3), (0, 3)}
 
 
 def test_placed_is_a_rigid_motion() -> None:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.plane import cross, crossings
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion
@@ -18,7 +19,6 @@ from linkwright.kinetostatics.forces import Forces
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Metric, MetricValue, Number, Remark
 from linkwright.metrics.outputs import coupler_points
-from linkwright.metrics.plane import cross, crossings
 from linkwright.metrics.quantities import shown
 from linkwright.words.sentence import Sentence
 

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from linkwright.core.outputs import row_names
 from linkwright.core.piecewise import POINTS, nodes
+from linkwright.core.plane import area, convex_hull
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion
@@ -20,7 +21,6 @@ from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Better, Metric, MetricValue, Remark
 from linkwright.metrics.cycle_grid import PIECES
 from linkwright.metrics.outputs import output_link
-from linkwright.metrics.plane import area, convex_hull
 from linkwright.metrics.quantities import shown
 from linkwright.metrics.range_of_motion import intervals
 from linkwright.metrics.swept_hull import Curves, SweptHull

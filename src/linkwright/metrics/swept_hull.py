@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.piecewise import NODES, POINTS, TO_SLOPE, weights_at
+from linkwright.core.plane import cross, hull_corners
 from linkwright.kinematics.cycle import Floats
-from linkwright.metrics.plane import cross, hull_corners
 
 Places = NDArray[np.intp]
 

@@ -51,15 +51,10 @@ class TransmissionAngle(Metric):
 
 
 @METRICS.register("transmission_angle_of_stroke")
-class TransmissionAngleOfStroke(Metric):
+class TransmissionAngleOfStroke(TransmissionAngle):
     """Smallest transmission angle of a dyad on the strokes of its output from its largest value on, and back."""
 
     name = "transmission_angle_of_stroke"
-    rank = 2
-    dimension = "angle"
-    source = SOURCE
-    better: ClassVar[Better | None] = "higher"
-    limit = LIMIT
 
     def suits(self, analysis: Analysis) -> bool:
         return super().suits(analysis) and analysis.whole and bool(_driven_dyads(analysis))
@@ -70,9 +65,6 @@ class TransmissionAngleOfStroke(Metric):
                 signal = f"transmission_angle {group.name} on {output.owner}.{output.kind}"
                 subject = f"{group.name}: {output} {first.kind}→{last.kind}"
                 yield Number(subject, (f"{signal} {KINDS[first.kind]}",))
-
-    def remarks(self, value: float, at: float, analysis: Analysis) -> tuple[Remark, ...]:
-        return low(value)
 
 
 def _driven_dyads(analysis: Analysis) -> list[tuple[Group, Output]]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.kinematics.cycle import Floats
+from linkwright.core.piecewise import Floats
 
 #: Points and vectors, x + i y.
 Places = NDArray[np.complex128]
