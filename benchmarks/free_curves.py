@@ -126,15 +126,15 @@ def measured(
     target = Target(curve, closed, math.radians(options.angle), options.size)
     begin = time.process_time()
     search = searching.Search(target, options.joints, options.seconds, seed)
-    designs, best = search.run(), dict.fromkeys(searching.JOINTS, (math.nan, math.nan, math.nan))
+    designs, best = search.run(), dict.fromkeys(searching.JOINTS, (math.inf, math.nan, math.nan))
     spent, turn = time.process_time() - begin, np.linspace(0, 2 * np.pi, 3601)
-    for each in sorted(designs, key=target.deviation, reverse=True):
+    for each in designs:
         least, size = node_paths(each.nodes, each.x, turn)[1], Placed(each, target).size()
         angle = math.degrees(math.asin(math.sqrt(max(least, 0))))
         if angle >= options.angle and size <= options.size:
             drawn = Placed(each, target).curve(8000)
-            best |= {most: (curve_distance(drawn, curve, closed), angle, size)
-                     for most in searching.JOINTS if each.joints <= most}  # fmt: skip
+            row = curve_distance(drawn, curve, closed), angle, size
+            best |= {most: min(best[most], row) for most in searching.JOINTS if each.joints <= most}
     cells = [f"{error:9.5f} ({angle:4.1f} deg, {size:3.1f})" for error, angle, size in best.values()]
     return [each[0] for each in best.values()], "".join(
         cells

@@ -139,15 +139,18 @@ class Matches:
     distances: NDArray[np.floating[Any]]
     laid: Callable[[int], Laid]
 
-    def designs(self, draw: Draw, most: int) -> Iterator[Design]:
-        """Designs with at most so many joints: the nearest, then all others drawn, the nearer the likelier early."""
+    def order(self, draw: Draw, most: int) -> NDArray[np.intp]:
+        """Linkages with at most so many joints: the nearest, then all others drawn, the nearer the likelier early."""
         joints = np.array([len(each) // 4 for each in self.atlas.structures])
         order = np.argsort(self.distances, kind="stable")
         rows = order[joints[self.atlas.which[order, 0]] <= most]
         drawn = draw.exponential(size=len(rows)) * (EVENLY + np.arange(len(rows)))
         drawn[:NEAREST] = 0.0
-        for i in rows[np.argsort(drawn, kind="stable")]:
-            yield self.atlas.design(i, self.laid(i))
+        return np.asarray(rows[np.argsort(drawn, kind="stable")])
+
+    def design(self, i: int) -> Design:
+        """A linkage laid on the target."""
+        return self.atlas.design(i, self.laid(i))
 
 
 def parts(closed: bool) -> list[Part]:

@@ -20,7 +20,7 @@ adjoint needs two cross products over u × v.
 from __future__ import annotations
 
 from functools import cache
-from math import cos, exp, fabs, sin
+from math import cos, exp, sin
 
 from linkwright.engine.kernel import (
     Kernels,
@@ -357,100 +357,10 @@ def deviation(
     return found
 
 
-def restart(H: Reals, g: Reals, d: int, step: float) -> None:
-    """The inverse Hessian of a first step."""
-    for a in range(d):
-        for b in range(d):
-            H[a * d + b] = 0.0
-        H[a * d + a] = step / (fabs(g[a]) + 1e-3)
-
-
-def update(H: Reals, s: Reals, y: Reals, Hy: Reals, d: int) -> int:
-    """The update of Broyden, Fletcher, Goldfarb and Shanno; 0 where the curvature is not positive."""
-    sy, yHy = 0.0, 0.0
-    for a in range(d):
-        sy += s[a] * y[a]
-    if sy < 1e-14:
-        return 0
-    for a in range(d):
-        v = 0.0
-        for b in range(d):
-            v += H[a * d + b] * y[b]
-        Hy[a] = v
-        yHy += v * y[a]
-    for a in range(d):
-        for b in range(d):
-            H[a * d + b] += (1.0 + yHy / sy) * s[a] * s[b] / sy - (Hy[a] * s[b] + s[a] * Hy[b]) / sy
-    return 1
-
-
-def descend(
-    nodes: Wholes, count: int, n: int, N: int, closed: int, x: Reals, target: Reals, m: int, near: Wholes,
-    options: Reals, room: Reals, iterations: int, kept: int,
-) -> float:  # fmt: skip
-    """Quasi-Newton descent; a weak Wolfe bisection suits the kinks of a distance (Lewis and Overton 2013).
-
-    ``kept`` 1: it begins with the inverse Hessian that the last descent of the same numbers left in ``room``.
-    """
-    d = 2 * (count - 2) + 3
-    H, g = room, room + d * d
-    gn, s, xn, y, Hy, rest = g + d, g + 2 * d, g + 3 * d, g + 4 * d, g + 5 * d, g + 8 * d
-    f = deviation(nodes, count, n, N, closed, x, target, m, near, options, rest, g)
-    if f >= FAR:
-        return f
-    first = 1 - kept
-    if kept == 0:
-        restart(H, g, d, 0.02)
-    for _ in range(iterations):
-        slope, big = 0.0, 0.0
-        for a in range(d):
-            v = 0.0
-            for b in range(d):
-                v -= H[a * d + b] * g[b]
-            s[a] = v
-            slope += v * g[a]
-            big = max(big, fabs(v))
-        accepted, t, lo, hi, fn = 0, min(1.0, 0.3 / (big + 1e-300)), 0.0, -1.0, FAR
-        if slope < -1e-12:
-            for trial in range(25):
-                for a in range(d):
-                    xn[a] = x[a] + t * s[a]
-                fn = deviation(nodes, count, n, N, closed, xn, target, m, near, options, rest, gn)
-                accepted = 0
-                if fn > f + 1e-4 * t * slope:
-                    hi = t
-                    t = 0.25 * hi if trial == 0 else 0.5 * (lo + hi)
-                else:
-                    accepted = 1
-                    v = 0.0
-                    for a in range(d):
-                        v += gn[a] * s[a]
-                    if v >= 0.9 * slope or t * big > 0.5 or trial > 12:
-                        break
-                    lo = t
-                    t = 0.5 * (lo + hi) if hi > 0.0 else 2.0 * t
-                if t * big < 1e-9:
-                    break
-        if accepted == 0:
-            if first == 1:
-                break
-            restart(H, g, d, 0.003)
-            first = 1
-            continue
-        for a in range(d):
-            y[a] = gn[a] - g[a]
-            s[a] = xn[a] - x[a]
-            x[a] = xn[a]
-            g[a] = gn[a]
-        f = fn
-        if update(H, s, y, Hy, d) == 1:
-            first = 0
-    return f
-
-
 @cache
 def kernels() -> Kernels:
     """The compiled functions."""
+    from linkwright.synthesis.free_curve.descent import DESCENT
     from linkwright.synthesis.free_curve.likeness import LIKENESS
     from linkwright.synthesis.free_curve.promise import PROMISES
     from linkwright.synthesis.free_curve.sample import SAMPLING
@@ -458,7 +368,7 @@ def kernels() -> Kernels:
     return Kernels(
         [
             turn_crank, place_crank, place_dyad, place_point, *SLIDING, place, *DISTANCES, too_large, lengths_back,
-            align_back, dyad_back, point_back, nodes_back, range_back, deviation, restart, update, descend,
-            *SAMPLING, *PROMISES, *LIKENESS,
+            align_back, dyad_back, point_back, nodes_back, range_back, deviation,
+            *DESCENT, *SAMPLING, *PROMISES, *LIKENESS,
         ]
     )  # fmt: skip

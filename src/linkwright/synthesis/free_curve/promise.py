@@ -12,17 +12,9 @@ from __future__ import annotations
 
 from math import cos, log, sin, sqrt
 
-from linkwright.engine.kernel import Reals, Wholes, load, mark_of, root, spread, store, total
-from linkwright.synthesis.free_curve.distances import (
-    WIDE,
-    align,
-    curve_to_target,
-    middle,
-    one_after,
-    one_before,
-    target_to_curve,
-    weigh,
-)
+from linkwright.engine.kernel import Reals, Wholes, load, store
+from linkwright.synthesis.free_curve.descent import directions, dot, lay, slopes
+from linkwright.synthesis.free_curve.distances import WIDE, target_to_curve
 from linkwright.synthesis.free_curve.kernels import (
     BLOCK,
     DYAD,
@@ -37,60 +29,16 @@ from linkwright.synthesis.free_curve.kernels import (
 )
 from linkwright.synthesis.free_curve.sample import spans
 
-#: Steps of differences; smoothing ε² of the distances; share of the demanded sin² of a transmission angle.
-STEP, SOFT, SLACK = 1e-5, 4e-4, 0.7
+#: Smoothing ε² of the distances; share of the demanded sin² of a transmission angle.
+SOFT, SLACK = 4e-4, 0.7
 #: Entries of a design with one more dyad.
 ROWS, NUMBERS = 64, 32
-
-
-def dot(a: Reals, b: Reals, rows: int) -> float:
-    """Sum of products."""
-    sum_ = spread(0.0)
-    for t in range(0, rows, 8):
-        sum_ += load(a, t) * load(b, t)
-    return total(sum_)
 
 
 def take_off(a: Reals, share: float, b: Reals, rows: int) -> None:
     """a - share b."""
     for t in range(0, rows, 8):
         store(a, t, load(a, t) - share * load(b, t))
-
-
-def lay(
-    nodes: Wholes, count: int, n: int, closed: int, x: Reals, room: Reals, steps: Reals, w: Reals, at: Reals,
-    yx: Reals, yy: Reals,
-) -> float:  # fmt: skip
-    """The drawn curve laid on the target (yx, yy); negative where it does not close."""
-    own, e = (count - 1) * n, 2 * (count - 2)
-    X, Y = room, room + count * n
-    if place(nodes, count, n, n, closed, x, X, Y) < 0.0:
-        return -1.0
-    weigh(X + own, Y + own, n, closed, steps, w)
-    middle(X + own, Y + own, w, n, at)
-    if at[2] < 1e-3:
-        return -1.0
-    align(X + own, Y + own, n, at, x[e], yx, yy)
-    return 1.0
-
-
-def column(
-    yx: Reals, yy: Reals, bx: Reals, by: Reals, n: int, closed: int, m: int, ux: Reals, uy: Reals, work: Reals,
-    scale: Reals, c: Reals,
-) -> None:  # fmt: skip
-    """Slopes of all weighted distances by one number, from the curve after a ``STEP`` of it."""
-    for t in range(0, n, 8):
-        moved = load(ux, t) * (load(yx, t) - load(bx, t)) + load(uy, t) * (load(yy, t) - load(by, t))
-        store(c, t, load(scale, t) * moved * (1.0 / STEP))
-        store(yx, t, load(yx, t) - load(bx, t))
-        store(yy, t, load(yy, t) - load(by, t))
-    for j in range(m):
-        k = mark_of(work[12 * WIDE + j])
-        a, b = one_before(k, n, closed), one_after(k, n, closed)
-        ra, rk, rb = work[9 * WIDE + j], work[10 * WIDE + j], work[11 * WIDE + j]
-        dx = ra * yx[a] + rk * yx[k] + rb * yx[b]
-        dy = ra * yy[a] + rk * yy[k] + rb * yy[b]
-        c[n + j] = 0.0 - scale[n + j] * (work[6 * WIDE + j] * dx + work[7 * WIDE + j] * dy) * (1.0 / STEP)
 
 
 def remainder(c: Reals, Q: Reals, known: int, rows: int) -> float:
@@ -245,22 +193,15 @@ def drawn_dyad(
 
 
 def own_columns(nodes: Wholes, count: int, n: int, closed: int, x: Reals, m: int, s: Reals, Q: Reals) -> int:
-    """The linkage's own columns J, orthonormal, in Q; gives their number. ``s``: the blocks of :func:`promises`."""
+    """The linkage's own columns J, orthonormal, in Q; gives their number. ``s``: as from :func:`directions`."""
     rows, known, d = n + m, 0, 2 * (count - 2) + 1
     if closed == 0:
         d += 2
-    bx, by, yx, yy = s, s + WIDE, s + 2 * WIDE, s + 3 * WIDE
-    steps, w, ux, uy, scale = s + 4 * WIDE, s + 5 * WIDE, s + 6 * WIDE, s + 7 * WIDE, s + 8 * WIDE
     for p in range(d):
-        before = x[p]
-        x[p] = before + STEP
-        closes = lay(nodes, count, n, closed, x, Q + 28 * rows, steps, w, s + 10 * WIDE + 8, yx, yy)
-        x[p] = before
-        if closes > 0.0:
-            one = Q + known * rows
-            column(yx, yy, bx, by, n, closed, m, ux, uy, s + 11 * WIDE, scale, one)
-            if remainder(one, Q, known, rows) > 0.0:
-                known += 1
+        one = Q + known * rows
+        found = slopes(nodes, count, n, closed, x, p, m, s, Q + 28 * rows, one)
+        if found > 0.0 and remainder(one, Q, known, rows) > 0.0:
+            known += 1
     return known
 
 
@@ -276,25 +217,13 @@ def promises(
     """
     rows = n + m
     X, Y, s = room, room + count * N, room + 2 * count * N + 8
-    bx, by, yx, yy = s, s + WIDE, s + 2 * WIDE, s + 3 * WIDE
-    steps, w, ux, uy, scale = s + 4 * WIDE, s + 5 * WIDE, s + 6 * WIDE, s + 7 * WIDE, s + 8 * WIDE
-    rest, at, gat, work, Q = s + 9 * WIDE, s + 10 * WIDE, s + 10 * WIDE + 8, s + 11 * WIDE, s + 24 * WIDE
+    rest, at, Q = s + 9 * WIDE, s + 10 * WIDE, s + 24 * WIDE
     free = Q + 28 * rows
     for k in range(draws):
         gains[k] = -1.0
-    if lay(nodes, count, n, closed, x, free, steps, w, at, bx, by) < 0.0:
+    if lay(nodes, count, n, closed, x, free, s + 4 * WIDE, s + 5 * WIDE, at, s, s + WIDE) < 0.0:
         return -1.0
-    curve_to_target(bx, by, w, n, closed, target, target + m, m, near, 0.0, work)
-    for t in range(0, n, 8):
-        store(ux, t, load(work, 6 * WIDE + t))
-        store(uy, t, load(work, 7 * WIDE + t))
-        store(scale, t, root(load(w, t) / root(load(work, 8 * WIDE + t) * load(work, 8 * WIDE + t) + SOFT)))
-        store(rest, t, load(scale, t) * load(work, 8 * WIDE + t))
-    target_to_curve(bx, by, n, closed, target, target + m, m, 0.0, work)
-    for j in range(0, m, 8):
-        far = load(work, 8 * WIDE + j)
-        store(scale, n + j, root((1.0 / m) / root(far * far + SOFT)))
-        store(rest, n + j, load(scale, n + j) * far)
+    directions(n, closed, target, m, near, SOFT, s)
     whole = dot(rest, rest, rows)
     known = own_columns(nodes, count, n, closed, x, m, s, Q)
     for k in range(known):
@@ -307,12 +236,8 @@ def promises(
             continue
         size, gain = own[ROWS - 1], 0.0
         for side in range(2):
-            xs[2 * joint - 4 + side] = STEP
-            closes = lay(own, size, n, closed, xs, free, steps, w, gat, yx, yy)
-            xs[2 * joint - 4 + side] = 0.0
-            if closes > 0.0:
-                one = Q + (known + side) * rows
-                column(yx, yy, bx, by, n, closed, m, ux, uy, work, scale, one)
+            one = Q + (known + side) * rows
+            if slopes(own, size, n, closed, xs, 2 * joint - 4 + side, m, s, free, one) > 0.0:
                 remainder(one, Q, known + side, rows)
                 along = dot(one, rest, rows)
                 gain += along * along
@@ -336,6 +261,5 @@ def misses(
 
 
 PROMISES = (
-    dot, take_off, lay, misses, column, remainder, first_use, slides, grow, lengths, drawn_dyad,
-    own_columns, promises,
+    take_off, misses, remainder, first_use, slides, grow, lengths, drawn_dyad, own_columns, promises,
 )  # fmt: skip

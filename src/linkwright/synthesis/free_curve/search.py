@@ -13,11 +13,11 @@ from __future__ import annotations
 import threading
 import time
 from collections import deque
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import field, replace
 from itertools import islice
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 
@@ -27,10 +27,11 @@ from linkwright.synthesis.free_curve.atlas import atlas
 from linkwright.synthesis.free_curve.kernels import FAR
 from linkwright.synthesis.free_curve.moves import shaken, with_dyad, with_joint
 from linkwright.synthesis.free_curve.nodes import Design, Draw
-from linkwright.synthesis.free_curve.target import COARSE, FINE, Target
+from linkwright.synthesis.free_curve.target import COARSE, FINE, MIDDLE, Fineness, Target
 
 #: Most joints of a four-bar, six-bar, eight-bar and of any linkage.
 JOINTS = (5, 8, 10, 12)
+T = TypeVar("T")
 
 
 class Level(NamedTuple):
@@ -52,6 +53,8 @@ LEVELS = (
 )  # fmt: skip
 #: Starts that begin together, how many of all descend further, and their share of a level's time.
 SOME, CHOSEN, STARTING = 200, 50, 0.5
+#: What share of the drawn starts goes on after each step, so many steps (all of the nearest, which come first).
+BEGUN = ((0.5, 60, COARSE), (0.25, 30, MIDDLE))
 #: Processor seconds of a level with part 1 in a round of all levels; shares of the time after which the designs of
 #: the rounds go on together, and after which the best are polished.
 ROUND, MERGED, ENDED = 4.0, 0.85, 0.96
@@ -112,6 +115,10 @@ class Pool:
     def pick(self, draw: Draw) -> Design:
         """A design, the better the likelier."""
         return self.designs[min(int(draw.exponential(6)), len(self.designs) - 1)]
+
+
+def _best(designs: list[Design], count: int) -> list[Design]:
+    return sorted(designs, key=lambda each: each.value)[:count]
 
 
 def _same(a: Design, b: Design) -> bool:
@@ -225,37 +232,39 @@ class Search:
         """The best starts of an atlas, after descents, for a part of the level's time."""
         if level.atlas is None:
             return []
-        starts = self.matches[level.atlas].designs(self.draw, level.joints)
+        matches = self.matches[level.atlas]
+        order = iter(matches.order(self.draw, level.joints))
         now = time.perf_counter()
         last, near = now + STARTING * (end - now), list[Design]()
-        while some := list(islice(starts, SOME)):
-            near = sorted(near + self._each(some, self._begun), key=lambda each: each.value)[:CHOSEN]
+        while some := list(islice(order, SOME)):
+            begun = self._each(some, lambda i: self.target.descend(matches.design(i), 30, COARSE))
             self.attempts += len(some)
+            for part, steps, fineness in BEGUN:
+                count = int(part * len(begun)) if near else len(begun)
+                begun = self._further(_best(begun, count), steps, fineness)
+            near = _best(near + begun, CHOSEN)
             if time.perf_counter() > last:
                 break
-        return self._each(near, lambda each: self.target.checked(self.target.eased(each, 150)))
+        return self._each(near, lambda each: self.target.checked(self.target.descend(each, 90)))
 
-    def _begun(self, design: Design) -> Design:
-        """A start after a descent: how it begins does not say where it ends."""
-        return self.target.eased(self.target.descend(design, 15, COARSE), 60)
+    def _further(self, designs: list[Design], steps: int, fineness: Fineness) -> list[Design]:
+        return self._each(designs, lambda each: self.target.descend(each, steps, fineness))
 
-    def _each(self, designs: list[Design], descent: Callable[[Design], Design]) -> list[Design]:
-        """All designs after a descent, dealt to the workers."""
+    def _each(self, given: Sequence[T], work: Callable[[T], Design]) -> list[Design]:
+        """All after a descent, dealt to the workers."""
         hands = self.workers.map(
-            lambda first: [descent(each) for each in designs[first :: cores()]], range(cores())
+            lambda first: [work(each) for each in given[first :: cores()]], range(cores())
         )
         return [each for hand in hands for each in hand]
 
     def _attempt(self, draw: Draw, most: int, pool: Pool, below: list[Pool]) -> Design:
         """One attempt: a shake or one more dyad, and a descent that is left off where it leads nowhere."""
         design = self._next(draw, most, pool, below)
-        design = self.target.descend(design, 25, COARSE)
-        if design.value < FAR:
-            design = self.target.descend(design, 10, kept=True)
+        design = self.target.descend(self.target.descend(design, 20, COARSE), 15)
         if design.value < FAR and pool.promises(0, design.value):
-            design = self.target.eased(design, 60, kept=True)
+            design = self.target.descend(design, 30)
             if pool.promises(1, design.value):
-                return self.target.checked(self.target.eased(design, 200, kept=True))
+                return self.target.checked(self.target.descend(design, 90))
         return replace(design, value=FAR)
 
     def _next(self, draw: Draw, most: int, pool: Pool, below: list[Pool]) -> Design:

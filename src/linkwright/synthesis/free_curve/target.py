@@ -28,7 +28,7 @@ class Fineness:
 
 
 #: A descent begins where the distances are smooth: their kinks slow it down (Nesterov 2005).
-COARSE, ROUND = Fineness(48, 24, 64, 0.04), Fineness(96, 48, 128, 0.015)
+COARSE = Fineness(48, 24, 64, 0.04)
 MIDDLE, FINE = Fineness(96, 48, 128, 2e-3), Fineness(192, 192, 400, 3e-4)
 
 
@@ -72,12 +72,10 @@ class Target:
 
     def descend(
         self, design: Design, iterations: int, fineness: Fineness = MIDDLE, *, weight: float = 1.0, more: float = 0.0,
-        kept: bool = False,
     ) -> Design:  # fmt: skip
         """The design after a descent.
 
-        ``weight``: of the penalties; ``more``: angle (rad) above the least one; ``kept``: it begins with the
-        curvature with which the last descent of the same design on this thread ended.
+        ``weight``: of the penalties; ``more``: angle (rad) above the least one.
         """
         points, near = self._tables[fineness.points, design.mirror]
         x = design.x.copy()
@@ -87,7 +85,7 @@ class Target:
         arrays = [each.ctypes.data for each in (x, points, near, options, _ROOM.array)]
         value = kernels()(
             "descend", design.nodes.ctypes.data, design.joints, fineness.drawn, poses, int(self.closed), *arrays[:2],
-            fineness.points, *arrays[2:], iterations, int(kept),
+            fineness.points, *arrays[2:], iterations,
         )  # fmt: skip
         return replace(design, x=x, value=value)
 
@@ -122,11 +120,6 @@ class Target:
             for k in np.argsort(-gains, kind="stable")
             if gains[k] > 0
         ]
-
-    def eased(self, design: Design, iterations: int, kept: bool = False) -> Design:
-        """The design after a descent that begins smooth, with the objective of ``MIDDLE``."""
-        near = self.descend(design, iterations // 2, ROUND, kept=kept)
-        return self.descend(near, iterations - iterations // 2, kept=near.value < FAR)
 
     def checked(self, design: Design) -> Design:
         """The design with the objective at fine positions; FAR where it does not close well there."""
