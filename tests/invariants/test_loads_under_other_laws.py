@@ -18,6 +18,7 @@ TO_AND_FRO, UNEVEN, SEVERAL_TURNS = (
 LOADS = {
     "interval": "ramp: [3 N, 18 N], phase: {input: [30 deg, 200 deg]}",
     "expression": 'magnitude: "3 N*sin(input) + 2 N/m*B.x + 1 N*t/(1 s) + 2 N*rod/rad"',
+    "one way": "magnitude: 7 N, phase: {moving: B.x, direction: decreasing}",
     "table over the input": "table: {over: input, x: [0 deg, 90 deg, 360 deg], y: [1 N, 9 N, 1 N]}",
     "table over the time": "table: {over: time, x: [0 s, 1 s, 4 s], y: [1 N, 9 N, 1 N]}",
     "table over an output": "table: {over: cylinder, x: [1 m, 3 m, 4.5 m], y: [1 N, 9 N, 1 N]}",
@@ -80,6 +81,7 @@ def test_designs_of_two_drivers_go_at_once(monkeypatch: pytest.MonkeyPatch) -> N
         "at: R, direction: 30 deg, table: {over: input, x: [0 deg, 90 deg, 360 deg], y: [1 N, 30 N, 1 N]}",
         "at: R, direction: 30 deg, table: {over: time, x: [0 s, 0.2 s, 1 s], y: [1 N, 30 N, 8 N]}",
         "at: R, opposes: velocity, magnitude: 30 N",
+        "at: R, direction: 30 deg, magnitude: 30 N, phase: {moving: R.x, direction: increasing}",
     ],
 )
 def test_designs_without_closed_form_take_their_loads_at_once(
@@ -133,9 +135,10 @@ def test_designs_whose_own_interval_is_longer_than_a_turn_are_refused(output: st
         prepared.solve({address: ends[1]})
 
 
-def test_an_objective_under_a_law_of_the_time_has_its_gradient() -> None:
+@pytest.mark.parametrize(("law", "load"), [(UNEVEN, "expression"), (SEVERAL_TURNS, "one way")])
+def test_an_objective_under_any_law_has_its_gradient(law: str, load: str) -> None:
     """Central differences of designs solved alone."""
-    mechanism = machine(UNEVEN, LOADS["expression"])
+    mechanism = machine(law, LOADS[load])
     objective = lw.objective(mechanism, "input_torque rms", vary=["rod.length", "crank.length"], steps=90)
     value, gradient = objective(objective.start)
 

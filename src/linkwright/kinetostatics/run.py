@@ -109,7 +109,7 @@ def solved_at_once(
             return None
         found.append((motion, rows))
         fields.update(_load_fields(motion, program.program.fields, signals))
-        return {**limits, **middles, **fields}
+        return {**limits, **middles, **known.rests(signals), **fields}
 
     numbers = {**design.parameters, **known.constants}
     values = program.run(numbers, positions.arrays, late, positions.count, known.tables)

@@ -105,14 +105,14 @@ class MotionSignals:
     def output(self, output: Output) -> tuple[Floats, Floats]:
         """Value and rate of an output, (n,) each."""
         value, rate = self.motion.read(output), self.motion.read(output.rate)
-        if self.cycle is self.motion:
-            whole = rate
-        else:
-            on_cycle, whole = self.cycle.read(output), self.cycle.read(output.rate)
-            if output.kind == "angle":
-                value = self._anchored(value, on_cycle)
-        size = np.nanmax(np.abs(np.append(whole, rate)), initial=0.0) if self.ok.any() else 0.0
-        return value, np.where(np.abs(rate) <= STILL * size, 0.0, rate)
+        if output.kind == "angle" and self.cycle is not self.motion:
+            value = self._anchored(value, self.cycle.read(output))
+        return value, np.where(np.abs(rate) <= self.at_rest(output), 0.0, rate)
+
+    def at_rest(self, output: Output) -> float:
+        """Rate of an output, rad/s or m/s, up to which it is zero but for rounding."""
+        rates = [each.read(output.rate) for each in (self.cycle, self.motion)]
+        return STILL * float(np.nanmax(np.abs(np.concatenate(rates)), initial=0.0)) if self.ok.any() else 0.0
 
     def limits(self, output: Output) -> Sequence[Limit]:
         """Where an output reverses within the cycle, by increasing time."""

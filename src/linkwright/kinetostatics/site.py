@@ -10,7 +10,7 @@ from linkwright.kinematics.outputs import MotionOutputs
 from linkwright.kinematics.trace import MotionTrace
 from linkwright.loads.base import Load
 from linkwright.loads.formulas import output_named
-from linkwright.loads.magnitude import is_constant, magnitude, moving_of_turn, stroke_of_turn
+from linkwright.loads.magnitude import by_rate, is_constant, magnitude, moving_of_turn, stroke_of_turn
 
 
 def limit_name(output: object, kind: str) -> str:
@@ -41,7 +41,12 @@ def middle_name(a: str, b: str) -> str:
 
 def of_cycle(name: str) -> bool:
     """Whether a parameter is found from the motion over the cycle."""
-    return name == LAP or name.startswith(("limit:", "value:", "middle:"))
+    return name == LAP or name.startswith(("limit:", "value:", "middle:", "rest:"))
+
+
+def rest_name(output: Output) -> str:
+    """Name of the parameter that holds the rate of an output, rad/s or m/s, up to which it is at rest."""
+    return f"rest:{output}"
 
 
 def angle_between(motion: MotionTrace, a: str, b: str) -> Scalar:
@@ -153,7 +158,11 @@ class TracedSite:
         return stroke_of_turn(self, phase)
 
     def moving(self, phase: MovingPhase) -> tuple[Mask, Scalar]:
-        return moving_of_turn(self, phase)
+        if by_rate(self.load) is None:
+            return moving_of_turn(self, phase)
+        rate = MotionOutputs(self.motion).value(phase.output.rate.row)
+        rate = rate if phase.direction == "increasing" else -rate
+        return rate > self.motion.trace.parameter(rest_name(phase.output)), 0.0
 
     def constant(self, field: str) -> Scalar:
         return self.motion.trace.parameter(constant_name(self.load.name, field))

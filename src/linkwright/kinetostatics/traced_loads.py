@@ -19,9 +19,25 @@ from linkwright.kinematics.programs import MotionPrograms
 from linkwright.kinematics.trace import MotionTrace
 from linkwright.kinetostatics.friction import Swinging
 from linkwright.kinetostatics.signals import MotionSignals
-from linkwright.kinetostatics.site import LAP, TracedSite, constant_name, limit_name, middle_name, value_name
+from linkwright.kinetostatics.site import (
+    LAP,
+    TracedSite,
+    constant_name,
+    limit_name,
+    middle_name,
+    rest_name,
+    value_name,
+)
 from linkwright.loads.base import Load
-from linkwright.loads.magnitude import angles_of, divides, followed, interval_of_turn, is_constant, magnitude
+from linkwright.loads.magnitude import (
+    angles_of,
+    by_rate,
+    divides,
+    followed,
+    interval_of_turn,
+    is_constant,
+    magnitude,
+)
 from linkwright.loads.magnitude import constants as of_load
 from linkwright.loads.phases import TURN
 from linkwright.mechanism.mechanism import Mechanism
@@ -36,16 +52,17 @@ CLOSE = 1e-9
 class AlongInput:
     """Loads whose magnitudes are traced, and what these take.
 
-    ``outputs``: those whose limit positions they need; ``valued``: of which also the values there; ``angles``: of
-    which pairs of links (see ``angles_of``); ``constants`` by name and ``tables`` by name: numbers of the loads that
-    are no dimensions; ``fallible``: loads that may have no value for some designs; ``rubbing``: friction of joints is
-    traced as well; ``swinging``: what turns round at two positions, where friction and loads against velocities
-    change their signs.
+    ``outputs``: those whose limit positions they need; ``valued``: of which also the values there; ``moving``: those
+    by the signs of whose rates they act; ``angles``: of which pairs of links (see ``angles_of``); ``constants`` by
+    name and ``tables`` by name: numbers of the loads that are no dimensions; ``fallible``: loads that may have no
+    value for some designs; ``rubbing``: friction of joints is traced as well; ``swinging``: what turns round at two
+    positions, where friction and loads against velocities change their signs.
     """
 
     names: frozenset[str]
     outputs: tuple[Output, ...] = ()
     valued: tuple[Output, ...] = ()
+    moving: tuple[Output, ...] = ()
     angles: Mapping[tuple[str, str], float | None] = field(default_factory=dict)
     constants: Mapping[str, float] = field(default_factory=dict)
     tables: Mapping[str, Table] = field(default_factory=dict)
@@ -72,6 +89,10 @@ class AlongInput:
             found |= {value_name(output, each.kind): each.value for each in signals.limits(output)}
         return found
 
+    def rests(self, signals: MotionSignals) -> dict[str, float]:
+        """Rates up to which what moves is at rest."""
+        return {rest_name(output): signals.at_rest(output) for output in self.moving}
+
     def middles(self, signals: MotionSignals) -> dict[str, float] | None:
         """Angles near which the angles that loads take stay; None where a link turns through."""
         found = {}
@@ -88,7 +109,10 @@ def numbers_of_loads(loads: Iterable[Load], mechanism: Mechanism) -> AlongInput:
     """What the magnitudes of loads of a mechanism take."""
     given = tuple(loads)
     phases = [
-        phase for each in given if isinstance(phase := getattr(each, "phase", None), SwingPhase | MovingPhase)
+        phase
+        for each in given
+        if isinstance(phase := getattr(each, "phase", None), SwingPhase | MovingPhase)
+        and by_rate(each) is None
     ]
     parts = [phase.output for phase in phases if isinstance(phase, SwingPhase) and phase.part is not None]
     numbers = {constant_name(each.name, key): value for each in given for key, value in of_load(each).items()}
@@ -104,6 +128,7 @@ def numbers_of_loads(loads: Iterable[Load], mechanism: Mechanism) -> AlongInput:
         frozenset(each.name for each in given),
         tuple(dict.fromkeys(phase.output for phase in phases)),
         tuple(dict.fromkeys(parts)),
+        tuple(dict.fromkeys(output for each in given if (output := by_rate(each)) is not None)),
         {pair: near for each in given for pair, near in angles_of(each, mechanism).items()},
         numbers,
         {name: Table.linear(table.x, table.y) for name, table in over.items()},

@@ -124,9 +124,19 @@ def divides(load: Load) -> bool:
     return any(not isinstance(each, Number) for each in divisors)
 
 
+def by_rate(load: Load) -> Output | None:
+    """The output by the sign of whose rate alone a load acts; None for those that go by something else."""
+    phase = getattr(load, "phase", None)
+    if isinstance(phase, MovingPhase) and getattr(load, "ramp", None) is None:
+        return phase.output
+    return None
+
+
 def within_turn(load: Load) -> bool:
     """Whether the formula of its phase is one of a closed turn of constant speed: by limits, or through its end."""
     phase = getattr(load, "phase", None)
+    if by_rate(load) is not None:
+        return False
     if isinstance(phase, InputPhase):
         return phase.across == "angle" and phase.end < phase.start
     return phase is not None

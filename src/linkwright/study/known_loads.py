@@ -27,7 +27,7 @@ from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.kinetostatics.site import ACTS, middle_name
 from linkwright.kinetostatics.traced_loads import AlongInput, numbers_of_loads
 from linkwright.loads.base import Load
-from linkwright.loads.magnitude import angles_of, has_formula
+from linkwright.loads.magnitude import angles_of, by_rate, has_formula
 from linkwright.loads.over_cycle import activity
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.study.limit_stages import constants, limit_stages, whole_turns
@@ -85,7 +85,7 @@ def known_loads(plain: Traced, fields: Iterable[str], by: tuple[str, ...]) -> Kn
                 names = names - {load.name} | {f"{ACTS}:{load.name}"}
                 known |= _phase(load, signals)
         moving = {}, {}
-    numbers = {**along.constants, **moving[0], **still_rates(plain.nominal, terms)}
+    numbers = {**along.constants, **along.rests(signals), **moving[0], **still_rates(plain.nominal, terms)}
     return KnownLoads(frozenset(names), numbers, moving[1], known, along.tables, rubbing)
 
 
@@ -93,7 +93,7 @@ def _moving(
     plain: Traced, loads: Iterable[Load], along: AlongInput, by: tuple[str, ...]
 ) -> tuple[dict[str, float], dict[str, Floats]] | None:
     """Limit positions and values there, with their derivatives; None where others are not certain to be missing."""
-    if all(getattr(load, "phase", None) is None for load in loads):
+    if all(getattr(load, "phase", None) is None or by_rate(load) is not None for load in loads):
         return {}, {}
     if not whole_turns(plain) or plain.solver.motion.next_states or plain.solver.manner.flipping:
         return None

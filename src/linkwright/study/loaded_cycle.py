@@ -99,10 +99,11 @@ def along_input(traced: Traced, varied: Collection[str], fields: Iterable[str]) 
     ):
         return None
     known = numbers_of_loads(loads, mechanism)
-    middles = known.middles(MotionSignals(traced.nominal)) if known.angles else {}
+    signals = MotionSignals(traced.nominal)
+    middles = known.middles(signals) if known.angles else {}
     if middles is None:
         return None
-    constants = {**known.constants, **middles, **still}
+    constants = {**known.constants, **middles, **known.rests(signals), **still}
     return replace(known, constants=constants, rubbing=rubbing, swinging=plain.swinging)
 
 

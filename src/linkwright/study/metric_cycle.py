@@ -143,7 +143,12 @@ class MetricCycle:
         }
         self.outputs = tuple(
             dict.fromkeys(
-                [*loads.outputs, *loads.swinging, *(each for each in places.values() if each is not None)]
+                [
+                    *loads.outputs,
+                    *loads.moving,
+                    *loads.swinging,
+                    *(each for each in places.values() if each is not None),
+                ]
             )
         )
         found_apart = {*self.limited, *on_strokes}
