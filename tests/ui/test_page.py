@@ -130,6 +130,49 @@ def test_design_numbers_equal_those_of_the_command_line(opened: Opened, tmp_path
     assert numbers["range:angle:jaw"] == pytest.approx(swing, rel=1e-9)
 
 
+def test_the_mean_square_over_a_way_to_and_fro_counts_its_ends_half(opened: Opened, tmp_path: Path) -> None:
+    """A block of 2 kg, with links without mass, pushed by 0.1 m sin(t/s) for 1 s."""
+    text = """
+format: 1
+name: pushed block
+frame: {points: {O: [0 m, 0 m], Q: [0.2 m, 0.3 m]}}
+links: {block: {points: [B], mass: 2 kg}, rod: {points: [B, C], length: 0.3 m}, bar: {points: [Q, C], length: 0.2 m}}
+assembly: {C: left}
+joints: {guide: {kind: prismatic, guide: frame, through: O, direction: 0 deg, block: block, at: B}}
+driver: {slide: guide, position: "0.1 m*sin(t/(1 s))"}
+cycle: {duration: 1 s}
+"""
+    opened.open(lw.export(lw.solve_motion(lw.loads(text), steps=STEPS), tmp_path / "pushed.html"))
+    exact = 0.2 * math.sqrt(0.5 - 0.25 * math.sin(2.0))
+    assert opened.run("s => s.model.numbers()")["rms:effort:driver"] == pytest.approx(exact, rel=1e-4)
+
+
+def test_a_follower_that_rests_has_no_quick_return_ratio_of_samples(opened: Opened, tmp_path: Path) -> None:
+    rests = "[{dwell: 90 deg}, {rise: 20 mm, over: 90 deg}, {dwell: 60 deg}, {fall: 20 mm, over: 120 deg}]"
+    text = f"""
+format: 1
+name: cam
+frame: {{points: {{O: [0 mm, 0 mm]}}}}
+links: {{cam: {{points: [O]}}, lifter: {{points: [P]}}}}
+joints:
+  guide: {{kind: prismatic, guide: frame, through: O, direction: 90 deg, block: lifter, at: P}}
+  contact: {{kind: cam, cam: cam, follower: lifter, at: P, touch: roller, base_radius: 40 mm, roller_radius: 8 mm,
+    program: {rests}}}
+driver: {{turn: cam, about: O, speed: 60 rpm}}
+"""
+    opened.open(lw.export(lw.solve_motion(lw.loads(text), steps=STEPS), tmp_path / "cam.html"))
+    numbers = opened.run("s => s.model.numbers()")
+    assert numbers["range:s:guide"] == pytest.approx(0.02, rel=1e-9)
+    assert not any(name.startswith("ratio:") for name in numbers)
+
+
+def test_a_wheel_that_leaves_its_rack_is_told(opened: Opened, tmp_path: Path) -> None:
+    _, path = made(tmp_path, "rack_and_rocker")
+    opened.open(path)
+    opened.drag("frame.G", 0.0, 20.0)
+    assert "the wheels of mesh do not fit the distance" in opened.status
+
+
 def test_curves_and_paths_have_the_corners_that_they_need(opened: Opened, tmp_path: Path) -> None:
     """Every position lies within a seventh of a pixel of what is drawn, though most are no corners of it."""
     opened.tab.add_init_script(_RECORDED)
@@ -308,6 +351,17 @@ PER_POSITION = (
         "geared_fivebar_third",
         "{kind: torque, on: bar_2, ramp: [0 N·m, 3 N·m], phase: {input: [300 deg, 40 deg]}}",
         {"bar_1.length": 0.215},
+    ),
+    (
+        "slider_crank_inline",
+        "{kind: force, on: piston, at: B, direction: 180 deg,"
+        " table: {over: input, x: [0 deg, 70 deg, 200 deg, 360 deg], y: [0 N, 900 N, 100 N, 0 N]}}",
+        {"rod.length": 0.21},
+    ),
+    (
+        "triad",
+        "{kind: torque, on: bar_2, table: {over: input, x: [0 deg, 90 deg, 360 deg], y: [0 N·m, 2 N·m, 0 N·m]}}",
+        {"plate.Q.x": 0.0805},
     ),
     (
         "planetary_two_inputs",

@@ -92,12 +92,13 @@ export class Page {
     return group.wheels.length ? this.say("misfit", { names: group.wheels.join(", ") }) : "";
   }
 
-  /** Why a dyad is apart: the same sentences as the solver's. */
+  /** Why a dyad is apart: the same sentences as the solver's; none where it is not, and something else does not fit. */
   private reason(facts: Values): string {
     const length = (x: number) => quantity(x, "length");
     const root = (name: string) => Math.sqrt(Math.max(facts[name], 0));
     if ("first²" in facts) {
       const distance = root("distance²"), first = root("first²"), second = root("second²");
+      if (distance <= first + second && distance >= Math.abs(first - second)) return "";
       const far = distance > first + second, reach = far ? first + second : Math.abs(first - second);
       return this.words.say(far ? "outcome.rrr_far" : "outcome.rrr_near", {
         distance: length(distance), first: length(first), second: length(second), reach: length(reach),
@@ -106,10 +107,12 @@ export class Page {
     }
     if ("height" in facts) {
       const height = Math.abs(facts.height), own = root("length²");
+      if (height <= own) return "";
       return this.words.say("outcome.rrp_far", { height: length(height), length: length(own), missing: length(height - own) });
     }
     if ("offset" in facts) {
       const distance = root("distance²"), offset = Math.abs(facts.offset);
+      if (offset <= distance) return "";
       return this.words.say("outcome.rpr_near", { distance: length(distance), offset: length(offset), missing: length(offset - distance) });
     }
     return "sine" in facts ? this.words.say("outcome.rpp_parallel", { sine: digits(facts.sine, 3) }) : "";

@@ -11,7 +11,7 @@ export function number(model: Model, figure: Figure): number {
   const row = model.row(figure.signal);
   if (row.some(Number.isNaN)) return NaN;
   switch (figure.kind) {
-    case "rms": return Math.sqrt(row.reduce((sum, x) => sum + x * x, 0) / model.n);
+    case "rms": return rms(row, model.data.positions.closed);
     case "least": return extreme(model, figure.signal, row, (x) => x);
     case "largest": return -extreme(model, figure.signal, row, (x) => -Math.abs(x));
     case "range": {
@@ -20,6 +20,12 @@ export function number(model: Model, figure: Figure): number {
     }
     case "ratio": return ratio(model, figure.signal, row);
   }
+}
+
+/** Over a closed cycle all samples count alike, else the first and the last one half. */
+function rms(row: Float64Array, closed: boolean): number {
+  const last = row.length - 1, sum = row.reduce((total, x) => total + x * x, 0);
+  return Math.sqrt(closed || last < 1 ? sum / row.length : (sum - 0.5 * (row[0] ** 2 + row[last] ** 2)) / last);
 }
 
 /** Least value of `of` the signal, between the positions as well. */
@@ -36,8 +42,10 @@ function extreme(model: Model, id: string, row: Float64Array, of: (x: number) =>
   return model.solver.refined(value, at, of(row[at])).value;
 }
 
-/** Input from one limit position to the other over the rest of the turn, at least 1. */
+/** Input from one limit position to the other over the rest of the turn, at least 1; NaN for other ways than a single one
+ * to and fro. */
 function ratio(model: Model, id: string, row: Float64Array): number {
+  if (!returns(row)) return NaN;
   let top = 0, bottom = 0;
   for (let i = 1; i < model.n; i++) {
     if (row[i] > row[top]) top = i;
@@ -52,6 +60,15 @@ function ratio(model: Model, id: string, row: Float64Array): number {
   });
   const way = (((limits[1] - limits[0]) % TURN) + TURN) % TURN;
   return Math.max(way, TURN - way) / Math.min(way, TURN - way);
+}
+
+/** Whether a closed row has two reversals and rests nowhere. */
+function returns(row: Float64Array): boolean {
+  const size = Math.max(...row) - Math.min(...row), n = row.length;
+  const steps = Array.from(row, (x, i) => (Math.abs(row[(i + 1) % n] - x) <= 1e-9 * size ? 0 : Math.sign(row[(i + 1) % n] - x)));
+  if (steps.some((step, i) => !step && !steps[(i + 1) % n])) return false;
+  const ways = steps.filter((step) => step);
+  return ways.filter((way, i) => way !== ways[(i + 1) % ways.length]).length === 2;
 }
 
 export function isForce(id: string): boolean {

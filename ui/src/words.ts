@@ -25,6 +25,9 @@ const PLAIN: Record<string, Unit> = {
   ratio: { symbol: "", factor: 1 },
 };
 
+/** A value is rounding below this share of the size of its kind. */
+const ROUNDING = 1e-9;
+
 /** The unit in which a quantity of about this size reads well. */
 export function unitFor(kind: string, size: number): Unit {
   if (kind === "length") return size >= 1 ? { symbol: "m", factor: 1 } : { symbol: "mm", factor: 1e-3 };
@@ -47,5 +50,5 @@ export function digits(value: number, count = 4): string {
 export function quantity(value: number, kind: string, size = Math.abs(value), count = 4): string {
   const unit = unitFor(kind, size);
   const gap = unit.symbol === "°" || unit.symbol === "" ? "" : " ";
-  return digits(value / unit.factor, count) + gap + unit.symbol;
+  return digits(Math.abs(value) < ROUNDING * size ? 0 : value / unit.factor, count) + gap + unit.symbol;
 }

@@ -24,7 +24,8 @@ from linkwright.engine.wasm_module import linked
 _TRIPLE = "wasm32-unknown-unknown"
 #: Positions in one step of a loop; programs that carry states have one design.
 WIDTH = 4
-_DEFINED = re.compile(r"define (?:internal )?[^@]*@(\w+)\(")
+#: Functions of a module besides its kernels: written into these, since vectors would pass between them on a stack.
+_INTERNAL = re.compile(r"(?m)^(define internal .*) nounwind \{$")
 
 
 def wasm_module(programs: Sequence[Program]) -> bytes | None:
@@ -38,14 +39,14 @@ def wasm_module(programs: Sequence[Program]) -> bytes | None:
     for number, program in enumerate(programs):
         text, wanted = kernel(Lines.of(program), 1 if program.next_states else WIDTH, None, library=True)
         text = text.replace(f"@{ENTRY}(", f"@kernel{number}(").replace(f"@{LOOKUP}", f"@{LOOKUP}_{number}_")
+        text = _INTERNAL.sub(r"\1 alwaysinline nounwind {", text)
         level = min(level, wanted)
         for line in text.splitlines():
             if line.startswith("declare "):
                 declared[line] = None
             else:
                 bodies.append(line)
-    defined = [name for line in bodies if (found := _DEFINED.match(line)) for name in found.groups()]
-    exports = {f"kernel{number}": defined.index(f"kernel{number}") for number in range(len(programs))}
+    exports = {f"kernel{number}": number for number in range(len(programs))}
     return linked(_object("\n".join([*declared, *bodies, ""]), machine[level]), exports)
 
 
@@ -55,6 +56,11 @@ def _object(text: str, machine: Any) -> bytes:
     module = binding.parse_assembly(text)
     module.triple = machine.triple
     module.data_layout = str(machine.target_data)
+    builder = binding.create_pass_builder(machine, binding.create_pipeline_tuning_options())
+    passes = binding.create_new_module_pass_manager()
+    passes.add_always_inliner_pass()
+    passes.add_global_dead_code_eliminate_pass()
+    passes.run(module, builder)
     return bytes(machine.emit_object(module))
 
 

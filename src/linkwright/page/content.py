@@ -22,7 +22,7 @@ from linkwright.engine.wasm import wasm_module
 from linkwright.files.document import Document
 from linkwright.files.model_file import read_text
 from linkwright.files.write import dump
-from linkwright.joints.marks import Wheels
+from linkwright.joints.marks import RackWay, Wheels
 from linkwright.kinematics.motion import Motion
 from linkwright.page.dimensions import dimensions
 from linkwright.page.glyphs import glyphs, undrawn
@@ -181,12 +181,13 @@ def _groups(programs: PagePrograms) -> list[Plain]:
 
 
 def _wheels(programs: PagePrograms, links: Sequence[str]) -> list[str]:
-    """Pairs of wheels of a group, whose sizes may not fit the distance of their centres."""
+    """Pairs of wheels and racks of a group, whose sizes may not fit the distance of their centres or lines."""
     mechanism = programs.mechanism
     return [
         name
         for name, joint in mechanism.joints.items()
-        if isinstance(joint.following(mechanism), Wheels) and not set(joint.joined).isdisjoint(links)
+        if isinstance(joint.following(mechanism), Wheels | RackWay)
+        and not set(joint.joined).isdisjoint(links)
     ]
 
 

@@ -5,6 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from linkwright.core.outputs import KINDS, Output, row_names
 from linkwright.kinematics.names import canonical
 from linkwright.metrics.outputs import mechanism_outputs
@@ -80,7 +83,7 @@ def numbers(page: PagePrograms, known: Mapping[Output, Plain]) -> list[Plain]:
         found.append(
             _number("range", known[output], _said("swing" if angle else "stroke", name=output.owner))
         )
-        if rotating:
+        if rotating and _returns_once(page.motion.read(output)):
             found.append(_number("ratio", known[output], _said("ratio", name=output.owner), "ratio"))
     for output, signal in known.items():
         found += [_number(kind, signal, _within(kind, signal)) for kind in _NUMBERS.get(output.kind, ())]
@@ -102,6 +105,16 @@ def _turns(page: PagePrograms, link: str) -> bool:
     """Whether a link turns through over the cycle."""
     angle = page.motion.link(link).angle
     return bool(len(angle) > 2 and page.motion.positions.closed and abs(angle[-1] - angle[0]) > 4.0)
+
+
+def _returns_once(course: NDArray[np.float64]) -> bool:
+    """Whether something goes to and fro once in a closed cycle and rests nowhere."""
+    steps = np.diff(course, append=course[0])
+    ways = np.where(np.abs(steps) <= 1e-9 * np.ptp(course), 0.0, np.sign(steps))
+    if ((ways == 0.0) & (np.roll(ways, -1) == 0.0)).any():
+        return False
+    moving = ways[ways != 0.0]
+    return int((moving != np.roll(moving, -1)).sum()) == 2
 
 
 def _one_steady_turn(page: PagePrograms) -> bool:

@@ -81,7 +81,7 @@ WORDS = {
     "transmission_now": "transmission angle {value} ({name})",
     "not_found_again": "Forces are shown for the original only: the course of {names} is not found again "
     "here.",
-    "misfit": "the wheels of {names} do not fit the distance of their centres",
+    "misfit": "the wheels of {names} do not fit the distance of their centres or of a rack",
     "locking": "Forces are not shown: with this friction the machine locks, so that no effort moves it.",
     "doubtful": "Forces are not shown: the limit positions between which the loads act are not certain.",
     "followed": "The assembly is followed from position to position, but not certified (margin {value}); "

@@ -190,7 +190,8 @@ linkwright synthesize press.yaml --json""",
     "whole turn, every joint within {size} rms radii of the curve's centroid. drawn_as_given: 1 where the curve is "
     "drawn in the order of its points, 0 backwards; fastest_at_1_Hz: greatest speed at one turn per second, m/s.",
     "free_curve.no_curve": "a free curve needs its points or a file, and one of them only; give points: or file:",
-    "free_curve.joints": "a search with at most {given} joints cannot be made; ask for 5 (four-bar) to {most}",
+    "free_curve.joints": "a search with at most {given} joints cannot be made; "
+    "ask for 5 (four-bar, slider-crank) to {most}",
     "free_curve.far": "the curve has a coordinate of {given} m; give coordinates below {most} m (see its unit)",
     "free_curve.compiler": "free curves need llvmlite, which does not run here; install it, or use the task path",
     "free_curve.file": 'the curve\'s file "{path}" cannot be read; name a .csv, .txt or .svg file',

@@ -78,7 +78,7 @@ WORDS = {
     "where": "{name} = {value}",
     "transmission_now": "传动角 {value}（{name}）",
     "not_found_again": "只显示原方案的力：{names}的变化过程在此不重新计算。",
-    "misfit": "{names} 的轮与其中心距不相配",
+    "misfit": "{names} 的轮与其中心距或到齿条的距离不相配",
     "locking": "不显示力：在此摩擦下机构自锁，任何驱动力都无法使其运动。",
     "doubtful": "不显示力：载荷作用区间的极限位置不能确定。",
     "followed": "装配逐个位置跟踪，但未经验证（裕度 {value}）；`linkwright solve` 可以验证。",

@@ -160,7 +160,7 @@ linkwright synthesize press.yaml --json""",
     "不超过 {size} 个均方根半径。按给定次序：1 表示按所给点的次序画出，0 表示反向；"
     "每秒一转时的最大速度指曲柄每秒一转，m/s。",
     "free_curve.no_curve": "自由曲线需要点或文件，且只给其一；请给 points: 或 file:",
-    "free_curve.joints": "不能以至多 {given} 个运动副搜索；请给 5（四杆）至 {most}",
+    "free_curve.joints": "不能以至多 {given} 个运动副搜索；请给 5（四杆、曲柄滑块）至 {most}",
     "free_curve.far": "曲线有坐标达 {given} m；请给小于 {most} m 的坐标（检查其单位）",
     "free_curve.compiler": "自由曲线需要 llvmlite，而此处不能运行；请安装，或改用任务 path",
     "free_curve.file": '曲线文件 "{path}" 无法读取；请给 .csv、.txt 或 .svg 文件',
