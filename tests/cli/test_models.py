@@ -7,6 +7,7 @@ import pytest
 
 from linkwright import gallery
 from linkwright.cli import main
+from linkwright.files.model_file import read_document
 
 WRONG = """\
 format: 1
@@ -47,6 +48,19 @@ def test_check_lists_findings_of_every_file(tmp_path: Path, capsys: pytest.Captu
     files = json.loads(capsys.readouterr().out)["files"]
     assert [entry["ok"] for entry in files] == [False, False]
     assert files[0]["findings"][0]["where"].startswith("wrong.yaml:6:")
+
+
+def test_check_names_the_place_of_every_assembly_word(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = read_document("gallery:slider_crank_inline").text
+    assert "assembly:" not in text
+    path = tmp_path / "words.yaml"
+    path.write_text(text + "assembly:\n  B: left\n  A: forward\n")
+    assert main(["check", str(path)]) == 1
+    shown, last = capsys.readouterr().out.splitlines(), len(text.splitlines())
+    assert shown[0].startswith(f"words.yaml:{last + 2}:6: assembly.B: 'left' is no assembly mode")
+    assert shown[1].startswith(f"words.yaml:{last + 3}:6: assembly.A: this is not the inner joint")
 
 
 def test_check_of_a_missing_file_is_wrong_usage(tmp_path: Path) -> None:

@@ -334,12 +334,12 @@ def test_slides_become_prismatic_joints(structure: list[Node], mirror: bool, tmp
     assert 3 * (len(turning.links)) - 2 * pins == 1
 
 
-@pytest.mark.parametrize("joints", [6, 8, 11])
+@pytest.mark.parametrize("joints", [8, 11])
 def test_a_search_has_every_kind_of_linkage_that_its_joints_allow(joints: int) -> None:
     target = Target(FOUR, False, math.radians(20), 6.0)
     found = Search(target, joints, 1.2, 3).run()
     assert max(each.joints for each in found) <= joints
-    assert {each.links for each in found} >= {6: {4, 6}, 8: {4, 6, 8}, 11: {4, 6, 8}}[joints]
+    assert {each.links for each in found} >= {4, 6, 8}
     for each in found:
         least = node_paths(each.nodes, each.x, np.linspace(0, 2 * np.pi, 721))[1]
         assert least > math.sin(math.radians(10)) ** 2

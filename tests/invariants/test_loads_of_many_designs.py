@@ -177,7 +177,7 @@ GEARED = (
     .replace("joints: {", "joints: {gears: {kind: gear, links: [motor, crank], teeth: [20, 60]}, ")
     .replace("{turn: crank, about: O, speed: 120 rpm", "{turn: motor, about: M, speed: 360 rpm")
 )
-BY_LIMITS = ("ramp while moving", "between limits", "last share", "first way", "free ends")
+BY_LIMITS = ("ramp while moving", "last share", "free ends")
 
 
 @pytest.mark.parametrize("load", [*BY_LIMITS, "input", "table"])

@@ -23,7 +23,12 @@ from linkwright.words.sentence import Sentence, lines
 
 
 class AssemblyError(LinkwrightError):
-    """An assembly mode that does not exist, or a group whose starting values are not given."""
+    """An assembly mode that does not exist, or a group whose starting values are not given.
+
+    ``parts``: keys of the model file with what is wrong there.
+    """
+
+    parts: tuple[tuple[str, str], ...] = ()
 
 
 @dataclass(frozen=True)
@@ -83,33 +88,33 @@ def _modal_groups(structure: Structure) -> dict[str, tuple[Group, tuple[str, str
 def _from_words(mechanism: Mechanism, structure: Structure) -> dict[str, float]:
     groups = modal_groups(structure)
     modes: dict[str, float] = {}
-    problems: list[str] = []
+    problems: dict[str, str] = {}
     of_joint: dict[str, tuple[Group, tuple[str, str]]] = {}
     for entry in groups.values():
         for connection in entry[0].inner_joints:
             of_joint.setdefault(connection.joint, entry)
     for joint, word in mechanism.assembly.items():
         if joint not in of_joint:
-            problems.append(_no_such_joint(joint, groups))
+            problems[joint] = _no_such_joint(joint, groups)
             continue
         group, words = of_joint[joint]
         if word not in words:
             offer = nearest(word, list(words))
             hint = Sentence("motion.write_mode", first=words[0], second=words[1])
-            problems.append(
-                Sentence(
-                    "motion.no_mode",
-                    joint=joint,
-                    word=word,
-                    signature=group.signature,
-                    links=tuple(group.links),
-                    hint=Sentence("names.did_you_mean", offer=offer) if offer else hint,
-                )
+            problems[joint] = Sentence(
+                "motion.no_mode",
+                joint=joint,
+                word=word,
+                signature=group.signature,
+                links=tuple(group.links),
+                hint=Sentence("names.did_you_mean", offer=offer) if offer else hint,
             )
             continue
         modes[group.name] = 1.0 if word == words[0] else -1.0
     if problems:
-        raise AssemblyError(lines(problems))
+        error = AssemblyError(lines(list(problems.values())))
+        error.parts = tuple((f"assembly.{joint}", problem) for joint, problem in problems.items())
+        raise error
     return modes
 
 

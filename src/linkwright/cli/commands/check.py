@@ -49,6 +49,7 @@ def findings_of(name: str) -> tuple[list[Finding], dict[str, object]]:
     from linkwright.files.model_file import declared_kind, read_root, read_tree
     from linkwright.files.source import GALLERY, read_source
     from linkwright.kinematics.analysed import analysed
+    from linkwright.kinematics.assembly import AssemblyError
     from linkwright.kinematics.passing import plainly_passed
 
     try:
@@ -77,7 +78,11 @@ def findings_of(name: str) -> tuple[list[Finding], dict[str, object]]:
         plain = plainly_passed(mechanism, built, TRIED, [each.output for each in swings.values()])
         turned, notes = _turned(name, mechanism) if plain is None else ([], [])
     except LinkwrightError as error:
-        return [*found, Finding("error", name, "", error.sentence, code="motion")], {}
+        parts = (isinstance(error, AssemblyError) and error.parts) or (("", error.sentence),)
+        told = [
+            _located(Finding("error", name, key, said, code="motion"), root, place) for key, said in parts
+        ]
+        return [*found, *(replace(each, key="") for each in told)], {}
     sure = plain or [False] * len(swings)
     unsure = [
         load
