@@ -119,6 +119,7 @@ def test_one_wrong_thing_is_found_at_its_place(
 
 ADDED = [
     ("gravity: 9.81 m/s²", "gravity", "type", "[0, -9.81 m/s²]"),
+    ("gravity: [0 m/s²， -9.81 m/s²]", "gravity", "count", "in place of the full-width"),
     ("gravity: [0, -9.81]", "gravity.y", "missing-unit", "-9.81 m/s²"),
     ("assembly: {B: links}", "assembly.B", "unknown-word", "left"),
     ("assembly: {b: left}", "assembly.b", "unknown-name", '"B"'),

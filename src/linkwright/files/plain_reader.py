@@ -133,7 +133,9 @@ class PlainReader:
             return node.items
         texts = [item.text if isinstance(item, Scalar) else "" for item in node.items]
         comma = len(texts) > count and any(re.fullmatch(r"[+-]?\d+", text) and text != "0" for text in texts)
-        remedy = Sentence("model.decimal_points" if comma else "model.write_as", form=form)
+        wide = any(isinstance(item, Scalar) and item.plain and "，" in item.text for item in node.items)
+        way = "wide_comma" if wide else "decimal_points" if comma else "write_as"
+        remedy = Sentence(f"model.{way}", form=form)
         code = "decimal-comma" if comma else "count"
         self.finding(node, place, "value_count", code, remedy, given=len(node.items), count=count)
         return None

@@ -231,6 +231,7 @@ WORDS = {
     "periodic_turns": "a periodic table must end where it begins (or whole turns further)",
     "nothing": "nothing",
     "a_list": "a list",
+    "wide_comma": 'write a plain "," in place of the full-width "，": {form}',
     "decimal_points": "write it as {form}, with decimal points, not commas",
     "no_law": "the driver has no law",
     "both_laws": "{laws} are both given",

@@ -229,6 +229,7 @@ WORDS = {
     "periodic_turns": "周期性表格的终点须与起点相同（或相差整圈）",
     "nothing": "空值",
     "a_list": "列表",
+    "wide_comma": "请把全角逗号“，”写成半角逗号“,”：{form}",
     "decimal_points": "请写成 {form}，小数用点而不用逗号",
     "no_law": "驱动没有给出规律",
     "both_laws": "同时给出了 {laws}",
