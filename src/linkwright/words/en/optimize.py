@@ -39,8 +39,8 @@ linkwright optimize crusher.yaml --minimize peak_input_torque flywheel --plot fr
     "goal": "made least",
     "goal_most": "made greatest",
     "missed": "missed",
-    "front": "Front: {count} designs, none beaten by another in all objectives; hypervolume {hypervolume} of the box "
-    "to the worst values",
+    "front": "Designs on the front: {count}, none beaten by another in all objectives; hypervolume {hypervolume} "
+    "of the box to the worst values",
     "work": "{evaluations} designs judged in {generations} generations; every design passes the whole cycle with the "
     "start's assembly",
     "exact": "The last steps followed exact gradients.",
