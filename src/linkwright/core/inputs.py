@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
+from functools import lru_cache
 from typing import Literal, TypeVar
 
 from linkwright.core.dataclass import dataclass
@@ -30,11 +31,30 @@ def turned(
     driver: str, q: Number, cos: Callable[[Number], Number], sin: Callable[[Number], Number]
 ) -> dict[str, Number]:
     """The inputs of a driver at the angle q, rad, with the cosine and sine of such numbers."""
-    return {
-        Input("cos", driver).name: cos(q),
-        Input("sin", driver).name: sin(q),
-        Input("turn", driver).name: q,
-    }
+    cosine, sine, turn, *_ = _of_driver(driver)
+    return {cosine: cos(q), sine: sin(q), turn: q}
+
+
+def driven(
+    driver: str,
+    rotary: bool,
+    course: tuple[Number, Number, Number],
+    cos: Callable[[Number], Number],
+    sin: Callable[[Number], Number],
+) -> dict[str, Number]:
+    """All inputs of a driver: its coordinate, rad or m, with the first and the second rate."""
+    q, first, second = course
+    *_, slide, rate, acceleration = _of_driver(driver)
+    place = turned(driver, q, cos, sin) if rotary else {slide: q}
+    place[rate], place[acceleration] = first, second
+    return place
+
+
+@lru_cache(1024)
+def _of_driver(driver: str) -> tuple[str, ...]:
+    """Names of all inputs of a driver; motions ask for them at every time."""
+    kinds: tuple[Kind, ...] = ("cos", "sin", "turn", "slide", "rate", "second")
+    return tuple(Input(kind, driver).name for kind in kinds)
 
 
 def mode_inputs(signs: Mapping[str, Number]) -> dict[str, Number]:

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.frozen import Frozen
-from linkwright.core.inputs import Input, turned
+from linkwright.core.inputs import driven
 from linkwright.core.outputs import row_name, row_names
 from linkwright.engine.scalar_backend import ScalarProgram
 from linkwright.kinematics.angles import geared, turn_state
@@ -299,8 +299,7 @@ def _turns(way: Floats) -> Floats:
 def _named(inputs: Mapping[str, float], rotary: Sequence[bool] | NDArray[np.bool_]) -> dict[str, float]:
     values: dict[str, float] = {}
     for (name, q), turns in zip(inputs.items(), rotary, strict=True):
-        values |= turned(name, q, math.cos, math.sin) if turns else {Input("slide", name).name: q}
-        values |= {Input("rate", name).name: 0.0, Input("second", name).name: 0.0}
+        values |= driven(name, bool(turns), (q, 0.0, 0.0), math.cos, math.sin)
     return values
 
 

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linkwright.core.dataclass import dataclass
-from linkwright.core.inputs import Input, turned
+from linkwright.core.inputs import driven
 from linkwright.drivers.base import Driver
 from linkwright.engine.recent import Recent
 from linkwright.errors import LinkwrightError
@@ -78,13 +78,9 @@ class Positions:
     def arrays(self) -> dict[str, Floats]:
         """The program's inputs per position, by name; ``input`` is the first driver's coordinate."""
         found: dict[str, Floats] = {"time": self.time}
-        for name, (q, rate, second) in self.coordinates.items():
-            if self.rotary[name]:
-                found |= turned(name, q, np.cos, np.sin)
-            else:
-                found[Input("slide", name).name] = q
-            found |= {Input("rate", name).name: rate, Input("second", name).name: second}
-            found.setdefault("input", q)
+        for name, course in self.coordinates.items():
+            found |= driven(name, self.rotary[name], course, np.cos, np.sin)
+            found.setdefault("input", course[0])
         return found
 
 
@@ -127,11 +123,7 @@ def at_one_time(mechanism: Mechanism, time: float) -> dict[str, float]:
     for name, driver in mechanism.drivers.items():
         q, speed = driver.law.at(time), driver.law.constant_speed
         assert speed is not None
-        if driver.law.rotary:
-            found |= turned(name, q, cos, sin)
-        else:
-            found[Input("slide", name).name] = q
-        found |= {Input("rate", name).name: speed, Input("second", name).name: 0.0}
+        found |= driven(name, driver.law.rotary, (q, speed, 0.0), cos, sin)
         found.setdefault("input", q)
     return found
 

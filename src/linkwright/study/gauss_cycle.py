@@ -30,7 +30,7 @@ from linkwright.kinetostatics.site import limit_name
 from linkwright.kinetostatics.traced_loads import AlongInput
 from linkwright.loads.base import Load
 from linkwright.loads.phases import TURN
-from linkwright.study.limit_stages import edge_name, part_edge
+from linkwright.study.limit_stages import edge_name, part_edge, whole_turns
 from linkwright.study.loaded_cycle import friction_doubt
 from linkwright.study.traced import VALID, Traced
 
@@ -44,6 +44,15 @@ SAME = 1e-9
 FIRST = "first input"
 #: The output that is a node's share of the cycle's time.
 SHARE = "share of the cycle"
+
+
+def side_by_side(traced: Traced, varied: Iterable[str]) -> bool:
+    """Whether designs can go through the Gauss points of one cycle: of whole turns of one driver of constant speed,
+    passed with closed forms and without change points, all rotations counted."""
+    placed = traced.solver.motion.placed.values()
+    if any(each.next_states for each in placed) or not whole_turns(traced, varied):
+        return False
+    return bool(traced.nominal.ok.all()) and not traced.nominal.modes and traced.countable
 
 
 @dataclass(frozen=True)
@@ -89,8 +98,7 @@ class GaussCycle:
     @cached_property
     def turns(self) -> int:
         """Number of turns of the driver in the cycle."""
-        (driver,) = self.traced.mechanism.drivers.values()
-        return round(abs(driver.law.constant_speed or 0.0) * (self.traced.positions.period or 0.0) / TURN)
+        return whole_turns(self.traced)
 
     @property
     def way(self) -> float:

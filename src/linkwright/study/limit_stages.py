@@ -10,6 +10,7 @@ from math import pi
 
 import numpy as np
 
+from linkwright.core.inputs import Input
 from linkwright.core.outputs import Output
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import Reduction
@@ -101,7 +102,10 @@ def _direction(traced: Traced) -> dict[str, Scalar]:
         angle = trace.position("input") * (1.0 / turns)
         return {"cos": cos(angle), "sin": sin(angle)}
     (driver,) = traced.mechanism.drivers
-    return {part: trace.position(f"{part}:{driver}") for part in ("cos", "sin")}
+    return {
+        "cos": trace.position(Input("cos", driver).name),
+        "sin": trace.position(Input("sin", driver).name),
+    }
 
 
 def _refined(traced: Traced, output: Swinging, kind: str, valued: bool) -> Stage:

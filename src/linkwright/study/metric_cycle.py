@@ -28,8 +28,8 @@ from linkwright.kinetostatics.traced_loads import AlongInput
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import Analysis, strokes, true_speed
 from linkwright.metrics.summary import Summary, one
-from linkwright.study.gauss_cycle import PIECES, SHARE, GaussCycle, reversing
-from linkwright.study.limit_stages import constants, limit_stages, rates, whole_turns
+from linkwright.study.gauss_cycle import PIECES, SHARE, GaussCycle, reversing, side_by_side
+from linkwright.study.limit_stages import constants, limit_stages, rates
 from linkwright.study.loaded_cycle import along_input, with_loads
 from linkwright.study.piece_summaries import SIDES, PieceSummaries
 from linkwright.study.seen import Seen
@@ -79,10 +79,7 @@ def _metric_cycle(
     asked: Asked | None,
 ) -> MetricCycle | None:
     plain = Traced(mechanism, addresses, over_cycle(mechanism, steps))
-    placed = plain.solver.motion.placed.values()
-    if any(each.next_states for each in placed) or not whole_turns(plain, addresses):
-        return None
-    if not plain.nominal.ok.all() or plain.nominal.modes or not plain.countable:
+    if not side_by_side(plain, addresses):
         return None
     analysis = Analysis.of(solve_forces(plain.nominal))
     offered = (each if isinstance(each, Term) else term(each, analysis, asked) for each in given)

@@ -23,8 +23,7 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.cycle_grid import PIECES
 from linkwright.metrics.swept_area import points
 from linkwright.metrics.swept_hull import Curves, SweptHull
-from linkwright.study.gauss_cycle import GaussCycle
-from linkwright.study.limit_stages import whole_turns
+from linkwright.study.gauss_cycle import GaussCycle, side_by_side
 from linkwright.study.metric_cycle import Found
 from linkwright.study.terms import Term, chosen_subjects, metric_of
 from linkwright.study.traced import VALID, Traced, design_table
@@ -51,12 +50,7 @@ def swept_designs(mechanism: Mechanism, varied: Iterable[str], names: Iterable[s
     if not asked:
         return None
     traced = Traced(mechanism, addresses, over_cycle(mechanism, 360))
-    placed = traced.solver.motion.placed.values()
-    if any(each.next_states for each in placed) or not whole_turns(traced, addresses):
-        return None
-    if not traced.nominal.ok.all() or traced.nominal.modes or not traced.countable:
-        return None
-    return SweptDesigns(traced, asked)
+    return SweptDesigns(traced, asked) if side_by_side(traced, addresses) else None
 
 
 class SweptDesigns:
