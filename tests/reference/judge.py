@@ -6,7 +6,7 @@ positions, velocities, accelerations, reactions and driver efforts; one that lie
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -80,13 +80,13 @@ def _judged_motion(mechanism: Any, motion: Any, care: float) -> Verdict:
     reached = np.isfinite(expected.q[:, 0, 0])
     if not reached.any():
         silent = motion.ok & _unsaid(motion)
-        lines = [f"{silent.sum()} given, but the drawn branch does not reach the first position"]
         if not silent.any():
             return Verdict(LIMIT, [], len(reached))
-        dyads = all(len(group.unknowns) <= 2 for group in motion.structure.groups)
-        return Verdict(
-            UNSURE if dyads else "beyond a limit", lines
-        )  # a dyad's mode needs no way from the drawing
+        if not silent[0] or not _without_a_way(mechanism, system, motion, care):
+            lines = [f"{silent.sum()} given, but the drawn branch does not reach the first position"]
+            return Verdict("beyond a limit", lines)
+        expected = _expected(mechanism, system, motion.time, care, _poses(system, mechanism, motion, 0))
+        reached = np.isfinite(expected.q[:, 0, 0])
     reference = _rates(mechanism, system, expected.q, motion.time)
     nearness, condition = _nearness(reference, reached)
     verdict = Verdict(AGREES if reached.all() else LIMIT, [], len(reached))
@@ -122,11 +122,15 @@ def _counted(outcomes: Iterable[Any]) -> dict[str, int]:
 
 
 # the branch ----------------------------------------------------------------------------------------------
-def _expected(mechanism: Any, system: Multibody, time: Array, care: float) -> Expected:
+def _expected(
+    mechanism: Any, system: Multibody, time: Array, care: float, first: Array | None = None
+) -> Expected:
+    """The branch through the drawing, or through the poses `first` of the first position, at all times."""
     poses = np.full((len(time), system.count, 3), np.nan)
     begin, end = float(time[0]), float(time[-1])
     whole = _period(mechanism) or max(end - begin, 1e-3)
-    first = _first_position(mechanism, system, begin, care)
+    if first is None:
+        first = _first_position(mechanism, system, begin, care)
     if first is None:
         return Expected(poses, 0, True)
     law, breaks = _law(mechanism, whole), sorted(t for d in mechanism.drivers.values() for t in kinks(d.law))
@@ -150,13 +154,18 @@ def _expected(mechanism: Any, system: Multibody, time: Array, care: float) -> Ex
     return Expected(poses, len(forward.q), folds)
 
 
-def _first_position(mechanism: Any, system: Multibody, begin: float, care: float) -> Array | None:
+def _first_position(
+    mechanism: Any, system: Multibody, begin: float, care: float, links: Collection[str] | None = None
+) -> Array | None:
     """The position at the cycle's beginning, on the straight way from the drawn driver coordinates.
 
-    A single turning driver goes the shorter way or, where the branch ends on it, the other way round.
+    A single turning driver goes the shorter way or, where the branch ends on it, the other way round. With `links`
+    only these are followed, which must not hang on others.
     """
     goal = driver_values(mechanism, np.array([begin]))[0][0]
     q, u0 = starting_position(mechanism, system, goal)
+    if links is not None:
+        system, q = system.part(links), q[system.places(links)]
     if np.abs(goal - u0).max(initial=0.0) < 1e-14:
         return q
     turning = np.array([mechanism.joints[d.joint].kind == "revolute" for d in mechanism.drivers.values()])
@@ -168,6 +177,47 @@ def _first_position(mechanism: Any, system: Multibody, begin: float, care: float
         if branch.q:
             return branch.q[0]
     return None
+
+
+def _without_a_way(mechanism: Any, system: Multibody, motion: Any, care: float) -> bool:
+    """Whether the first position is the drawing's assembly although no regular way of all links joins them.
+
+    A dyad has its mode by the drawing, whatever lies between; a larger group must be reached on the way, with the
+    links that it hangs on, and the whole determinant has the sign that it has in the drawing.
+    """
+    q, u = _poses(system, mechanism, motion, 0), driver_values(mechanism, motion.time[:1])[0][0]
+    if np.abs(system.residual(q, u)).max() > JUMP:
+        return False
+    drawn, _ = starting_position(mechanism, system, u)
+    if len({float(np.linalg.slogdet(system.jacobian(at)[:, 3:])[0]) for at in (q, drawn)}) > 1:
+        return False
+    links = _below_larger_groups(mechanism, motion.structure.groups)
+    if not links:
+        return True
+    found = _first_position(mechanism, system, float(motion.time[0]), care, links)
+    if found is None:
+        return False
+    gap = found - q[system.places(links)]
+    gap[:, 2] = np.angle(np.exp(1j * gap[:, 2]))
+    return bool(np.abs(gap).max() < JUMP)
+
+
+def _below_larger_groups(mechanism: Any, groups: Sequence[Any]) -> set[str]:
+    """Links of the groups without closed form and all links that these hang on."""
+    needed = {link for group in groups if len(group.unknowns) > 2 for link in group.links}
+    for group in reversed(groups):
+        own = set(group.links)
+        if own & needed:
+            joints = [joint.joined for joint in mechanism.joints.values() if own & {*joint.joined}]
+            earlier = {link for g in groups[: groups.index(group)] for link in g.links}
+            needed |= own | {link for joined in joints for link in joined if link in earlier}
+    return needed
+
+
+def _poses(system: Multibody, mechanism: Any, motion: Any, k: int) -> Array:
+    """The package's poses of all bodies at position k, the frame first, (bodies, 3)."""
+    found = [_pose(mechanism, motion, body.name)[k] for body in system.bodies]
+    return np.concatenate([np.zeros((1, 3)), found])
 
 
 def _straight(begin: Array, way: Array) -> Law:

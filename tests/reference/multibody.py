@@ -11,7 +11,7 @@ Source: E. J. Haug, Computer Aided Kinematics and Dynamics of Mechanical Systems
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from math import cos, pi, sin
@@ -127,6 +127,16 @@ class Multibody:
         self.count = len(self.bodies) + 1
         self._arrange()
         self.redundant = False
+
+    def part(self, bodies: Collection[str]) -> Multibody:
+        """The system of these bodies alone, with the constraints between them and the frame."""
+        kept = {FRAME, *bodies}
+        among = [c for c in self.constraints if {c.a, c.b} <= kept]
+        return Multibody([body for body in self.bodies if body.name in kept], among, self.drivers)
+
+    def places(self, bodies: Collection[str]) -> list[int]:
+        """Rows of the poses q that belong to the frame and to `bodies`, in the order of `part`."""
+        return [k for name, k in self.index.items() if name == FRAME or name in bodies]
 
     def _arrange(self) -> None:
         pins = [c for c in self.constraints if isinstance(c, Coincide)]

@@ -131,6 +131,21 @@ driver: {turn: crank, about: O, speed: 3 rad/s}
 """
 TOO_SHORT = SLIDER_CRANK.replace("0.7 m", "0.15 m").replace("0.9 m", "0.35 m")
 
+BEYOND_A_GAP = (  # drawn with the crank at 180°, moved about 0°; between them the rod is too short
+    SLIDER_CRANK.replace("0.2 m, mass", "0.8 m, mass")
+    .replace("A: [0.2 m, 0 m], B: [0.9 m", "A: [-0.8 m, 0 m], B: [-0.1 m")
+    .replace("speed: 3 rad/s}", "position: 0.3 rad * sin(2*pi*t/(1 s))}\ncycle: {duration: 1 s}")
+)
+
+
+def test_a_dyad_is_judged_beyond_a_gap(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its mode is that of the drawing, although no way leads there; the other mode is told."""
+    assert judged(BEYOND_A_GAP, 12).kind == AGREES
+    other = lw.loads(BEYOND_A_GAP.replace("B: [-0.1 m", "B: [-1.5 m"))
+    solve = lw.solve_motion
+    monkeypatch.setattr(lw, "solve_motion", lambda _, **given: solve(other, **given))
+    assert judged(BEYOND_A_GAP, 12).kind == "beyond a limit"
+
 
 def test_the_judge_knows_right_from_wrong(monkeypatch: pytest.MonkeyPatch) -> None:
     """A right result agrees; the other assembly, a refused position, an invented one, a wrong rate do not."""
