@@ -13,6 +13,8 @@ OWN: Mapping[str, str] = {
     "flexural_rigidity": "N·m²",
     "section_modulus": "m³",
     "power_of_drag": "kg/m",
+    "length_per_angle_cubed": "m/rad³",
+    "per_angle_squared": "1/rad²",
 }
 #: Units of display with the factor from SI, where they differ from SI.
 UNITS: Mapping[str, tuple[str, float]] = {

@@ -23,18 +23,22 @@ _ANGLE_STEPS = (1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 45.0, 60.0, 90.0, 180.0, 360.0,
 
 def label_input(axes: Axes, axis: InputAxis, say: Say) -> None:
     """Label, range and ticks of the axis below: the input in the order of the motion."""
-    from matplotlib.ticker import MultipleLocator
-
     shown = axis.values * axis.unit.factor
     good = shown[np.isfinite(shown)]
     if len(good) and good[0] != good[-1]:
         axes.set_xlim(*((good.max(), good.min()) if axis.backwards else (good.min(), good.max())))
     if axis.dimension == "angle":
-        span = float(np.ptp(good)) if len(good) else 360.0
-        step = next((each for each in _ANGLE_STEPS if span / each <= 12.5), None)
-        if step is not None:
-            axes.xaxis.set_major_locator(MultipleLocator(step))
+        angle_ticks(axes, float(np.ptp(good)) if len(good) else 360.0)
     axes.set_xlabel(input_label(axis, say))
+
+
+def angle_ticks(axes: Axes, span: float) -> None:
+    """Ticks below at whole shares of a turn, for an axis that shows ``span`` degrees."""
+    from matplotlib.ticker import MultipleLocator
+
+    step = next((each for each in _ANGLE_STEPS if span / each <= 12.5), None)
+    if step is not None:
+        axes.xaxis.set_major_locator(MultipleLocator(step))
 
 
 def input_label(axis: InputAxis, say: Say) -> str:

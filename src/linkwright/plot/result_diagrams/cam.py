@@ -20,6 +20,11 @@ if TYPE_CHECKING:
 
 #: Points of the coloured profile, and speeds of the vibration's diagram.
 _POINTS, _SPEEDS = 1440, 240
+#: Dimensions of lift and its derivatives over the cam's angle, by what the lift is.
+_PER_ANGLE = {
+    "length": ("length", "length_per_angle", "length_per_angle_squared", "length_per_angle_cubed"),
+    "angle": ("angle", "dimensionless", "per_angle", "per_angle_squared"),
+}
 
 
 @RESULT_DIAGRAMS.register("cam_motion")
@@ -31,15 +36,12 @@ class CamMotion(ResultKind):
 
     def draw(self, result: CamDesign, request: Request) -> Figure:
         speed = result.loading.speed
-        kinds = RATES[result.cam.follower.lift_dimension]
-        lift = "rad" if result.cam.follower.oscillating else "m"
+        kinds = (RATES if speed else _PER_ANGLE)[result.cam.follower.lift_dimension]
         given = []
         for order, symbol in enumerate("svaj"):
             values = result.motion[order] * (speed**order if speed else 1.0)
-            dimension = kinds[order] if speed or order == 0 else ""
-            unit = "" if speed or order == 0 else f" [{lift}/rad{('', '', '²', '³')[order]}]"
             marks = tuple(sorted({int(values.argmax()), int(values.argmin())}))
-            given.append(Pane(symbol + unit, dimension, (Line(result.angles, values, marks=marks),)))
+            given.append(Pane(symbol, kinds[order], (Line(result.angles, values, marks=marks),)))
         title = f"{result.title}: {request.say('kind.cam_motion')}"
         return panes(title, (request.say("cam_angle"), "angle"), given, request)
 

@@ -10,7 +10,7 @@ import numpy as np
 from linkwright.core.dataclass import dataclass
 from linkwright.kinematics.cycle import Floats
 from linkwright.parts.display import UNITS, unit
-from linkwright.plot.diagrams.axes import Legend, framed
+from linkwright.plot.diagrams.axes import Legend, angle_ticks, framed
 from linkwright.plot.diagrams.base import Request
 from linkwright.plot.diagrams.picture import COLOURS, FAINT, INK, new_figure
 from linkwright.plot.diagrams.units import Unit, unit_of
@@ -68,6 +68,8 @@ def panes(
         if logx:
             one.set_xscale("log")
             _plain_ticks(one.xaxis, one.get_xlim())
+    if across[1] == "angle":
+        angle_ticks(axes[-1], float(np.ptp(axes[-1].get_xlim())))
     axes[-1].set_xlabel(below.label(across[0]))
     framed(figure, title, request)
     figure.align_ylabels(axes)
