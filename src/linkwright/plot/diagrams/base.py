@@ -50,6 +50,10 @@ class Request:
         """Words of diagrams by key, in the language that is asked for."""
         return partial(_word, language=self.language)
 
+    def titled(self, name: str, subject: str) -> str:
+        """The title of a diagram: ``Crank-rocker: joint forces``."""
+        return self.say("titled", name=name, subject=subject)
+
 
 class Kind(ABC):
     """A kind of diagram; ``options``: those of OPTIONS that it has a use for."""

@@ -146,7 +146,8 @@ class ForcePolygon(Kind):
             title = f"{_title(forces, link)}\n{symbol('μ', 'F')} = {_per_mm(scale)}"
             unit = unit_of("force", [np.array([BAR * scale])])
             cells.append(Cell(_drawn(each, scale), title, _notes(each), unit.text(BAR * scale)))
-        title = f"{source.label}: {say('kind.force_polygon')}, {source.place_text(forces.motion, say)}"
+        subject = f"{say('kind.force_polygon')}, {source.place_text(forces.motion, say)}"
+        title = request.titled(source.label, subject)
         wide = max(LEAST, sum(float(cell.size[0]) for cell in cells[:IN_ROW]))
         heading = wrapped(title if request.title is None else request.title, wide / INCH)
         head = 4.0 + 4.6 * (heading.count("\n") + 1) if heading else 2.0

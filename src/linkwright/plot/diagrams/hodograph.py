@@ -44,7 +44,7 @@ class Hodograph(Kind):
         for place, view in zip(figure.subplots(1, len(views), squeeze=False)[0], views, strict=True):
             draw_hodograph(place, sources, (joint, link, view), request, legend)
         subject = request.say("hodograph_of", joint=joint, link=link)
-        framed(figure, f"{sources[0].label}: {subject}" if len(sources) == 1 else subject, request)
+        framed(figure, request.titled(sources[0].label, subject) if len(sources) == 1 else subject, request)
         legend.put(figure)
         return figure
 

@@ -41,6 +41,6 @@ class Hodographs(Kind):
         for place in places[len(pairs) :]:
             place.set_axis_off()
         title = request.say("kind.hodographs")
-        framed(figure, f"{sources[0].label}: {title}" if len(sources) == 1 else title, request)
+        framed(figure, request.titled(sources[0].label, title) if len(sources) == 1 else title, request)
         legend.put(figure)
         return figure

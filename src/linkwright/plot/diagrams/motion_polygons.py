@@ -87,7 +87,8 @@ class MotionPolygons(Kind):
         places = np.array([np.zeros(2), *(place for pair in _arrows(polygon, scale) for place in pair)])
         title = f"{say('polygon')}: {symbol('μ', self.letter)} = {significant(scale)} {self.unit}/mm"
         cells = [position, Cell(places, title, bar=f"{significant(BAR * scale)} {self.unit}")]
-        heading = f"{source.label}: {say(f'kind.{self.name}')}, {source.place_text(motion, say)}"
+        subject = f"{say(f'kind.{self.name}')}, {source.place_text(motion, say)}"
+        heading = request.titled(source.label, subject)
         texts = _table(polygon, self.unit)
         wide = max(LEAST, sum(float(cell.size[0]) for cell in cells))
         columns = int(wide // 42)

@@ -101,7 +101,7 @@ class OverInput(Kind):
             _draw_marks(axes, sources[0], self.output(sources[0], request), legend, request.say)
         label_input(axes[-1], axis, request.say)
         title = (
-            f"{sources[0].label}: {self.subject(sources, request)}"
+            request.titled(sources[0].label, self.subject(sources, request))
             if len(sources) == 1 and sources[0].label
             else self.subject(sources, request)
         )

@@ -50,7 +50,7 @@ class Paths(Kind):
             one.set_xlabel("x (mm)")
             one.set_ylabel("y (mm)")
         title = request.say("kind.paths")
-        framed(figure, f"{sources[0].label}: {title}" if single else title, request)
+        framed(figure, request.titled(sources[0].label, title) if single else title, request)
         legend.put(figure)
         return figure
 

@@ -50,7 +50,7 @@ class BalancingDiagram(ResultKind):
         places["moment"].set_xlabel("")
         places["moment"].tick_params(labelbottom=False)
         figure.align_ylabels([places["moment"], places["torque"]])
-        framed(figure, f"{before.label}: {say('kind.balancing')}", request)
+        framed(figure, request.titled(before.label, request.say("kind.balancing")), request)
         legend.put(figure)
         return figure
 

@@ -42,7 +42,7 @@ class CamMotion(ResultKind):
             values = result.motion[order] * (speed**order if speed else 1.0)
             marks = tuple(sorted({int(values.argmax()), int(values.argmin())}))
             given.append(Pane(symbol, kinds[order], (Line(result.angles, values, marks=marks),)))
-        title = f"{result.title}: {request.say('kind.cam_motion')}"
+        title = request.titled(result.title, request.say("kind.cam_motion"))
         return panes(title, (request.say("cam_angle"), "angle"), given, request)
 
 
@@ -66,7 +66,7 @@ class CamChecks(ResultKind):
             if result.pressure is not None:
                 given.append(Pane("p", "pressure", (Line(phi, result.pressure),)))
             given.append(Pane("T", "torque", (Line(phi, result.torque),)))
-        title = f"{result.title}: {request.say('kind.cam_checks')}"
+        title = request.titled(result.title, request.say("kind.cam_checks"))
         return panes(title, (request.say("cam_angle"), "angle"), given, request)
 
 
@@ -81,7 +81,7 @@ class CamProfile(ResultKind):
     def draw(self, result: CamDesign, request: Request) -> Figure:
         from matplotlib.collections import LineCollection
 
-        title = f"{result.title}: {request.say('kind.cam_profile')}"
+        title = request.titled(result.title, request.say("kind.cam_profile"))
         figure, (axes,) = plane(title, request)
         values, label = _coloured(result, request)
         places = 1e3 * np.stack([result.contact.point.real, result.contact.point.imag], axis=1)
@@ -136,5 +136,5 @@ class CamVibration(ResultKind):
             Pane("z", kind, (Line(speeds, result.steady_deviation(speeds)),)),
             Pane("A", kind, tuple(Line(speeds, column) for column in left.T)),
         ]
-        title = f"{result.title}: {request.say('kind.cam_vibration')}"
+        title = request.titled(result.title, request.say("kind.cam_vibration"))
         return panes(title, (request.say("cam_speed"), "angular_velocity"), given, request)

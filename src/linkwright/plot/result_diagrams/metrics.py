@@ -44,7 +44,7 @@ class MetricsDiagram(ResultKind):
         legend = Legend()
         for axes, (name, rows) in zip(places, groups, strict=True):
             _draw(axes, name, rows, request, legend)
-        framed(figure, f"{result.title}: {request.say('kind.metrics')}", request)
+        framed(figure, request.titled(result.title, request.say("kind.metrics")), request)
         legend.put(figure)
         return figure
 

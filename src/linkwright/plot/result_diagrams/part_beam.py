@@ -33,7 +33,7 @@ class BeamDiagram(ResultKind):
             y = columns[name]
             line = Line(x, y, marks=tuple({int(y.argmin()), int(y.argmax())}))
             given.append(Pane(symbol, dimension, (line,), fill=symbol in "VM"))
-        title = f"{result.title}: {request.say('kind.beam_line')}"
+        title = request.titled(result.title, request.say("kind.beam_line"))
         return panes(title, ("x", "length"), given, request)
 
 
@@ -52,5 +52,5 @@ class LinkDiagram(ResultKind):
             Pane("max σ", "pressure", (Line(result.stations, np.asarray(result.stress.max(axis=0))),)),
             Pane("w", "length", (Line(result.stations, result.deflection[i, :, 1]),), fill=True),
         ]
-        title = f"{result.title}: {request.say('kind.link_stress')}"
+        title = request.titled(result.title, request.say("kind.link_stress"))
         return panes(title, ("s", "length"), given, request)

@@ -35,7 +35,7 @@ class OptimumDiagram(ResultKind):
             _region(axes, result)
         else:
             _bars(axes, result)
-        framed(figure, f"{result.title}: {request.say('kind.optimum')}", request)
+        framed(figure, request.titled(result.title, request.say("kind.optimum")), request)
         return figure
 
 

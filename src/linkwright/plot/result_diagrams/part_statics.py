@@ -37,7 +37,9 @@ class ResultantDiagram(ResultKind):
         vectors = {name: each.vector for name, each in result.system.forces.items()}
         spread = any(vector[2] for vector in vectors.values())
         planes = [(0, 1), (0, 2)] if spread else [(0, 1)]
-        figure, axes = plane(f"{result.title}: {request.say('kind.resultant')}", request, len(planes))
+        figure, axes = plane(
+            request.titled(result.title, request.say("kind.resultant")), request, len(planes)
+        )
         for one, (a, b) in zip(axes, planes, strict=True):
             place, whole = np.zeros(2), result.force[[a, b]]
             for name, vector in vectors.items():
@@ -65,7 +67,7 @@ class BodyDiagram(ResultKind):
 
     def draw(self, result: Reactions, request: Request) -> Figure:
         body = result.body
-        figure, (axes,) = plane(f"{result.title}: {request.say('kind.body_reactions')}", request)
+        figure, (axes,) = plane(request.titled(result.title, request.say("kind.body_reactions")), request)
         arrows = [(f.place[:2], f.vector[:2], COLOURS[1], name) for name, f in body.forces.items()]
         for name, support in body.supports.items():
             point(axes, spatial(support.at)[:2], name)
@@ -83,7 +85,9 @@ class StructureDiagram(ResultKind):
 
     def draw(self, result: StructureForces, request: Request) -> Figure:
         motion = result.forces.motion
-        figure, (axes,) = plane(f"{result.title}: {request.say('kind.structure_reactions')}", request)
+        figure, (axes,) = plane(
+            request.titled(result.title, request.say("kind.structure_reactions")), request
+        )
         for name, link in motion.mechanism.links.items():
             places = np.array([motion.point(f"{name}.{p}").position[0] for p in link.points])
             line_of(axes, places)
@@ -109,7 +113,7 @@ class BeltDiagram(ResultKind):
     def draw(self, result: BeltTensions, request: Request) -> Figure:
         angle, tension = result.columns().values()
         pane = Pane(request.say("tension"), "force", (Line(angle, tension, marks=(0, len(angle) - 1)),))
-        title = f"{result.title}: {request.say('kind.belt_tension')}"
+        title = request.titled(result.title, request.say("kind.belt_tension"))
         return panes(title, (request.say("wrap"), "angle"), [pane], request)
 
 
@@ -123,7 +127,7 @@ class WedgeDiagram(ResultKind):
     def draw(self, result: WedgeForces, request: Request) -> Figure:
         angle, up, down = result.columns().values()
         lines = (Line(angle, up, request.say("raising")), Line(angle, down, request.say("lowering")))
-        title = f"{result.title}: {request.say('kind.wedge_push')}"
+        title = request.titled(result.title, request.say("kind.wedge_push"))
         return panes(title, (request.say("wedge_angle"), "angle"), [Pane("P", "force", lines)], request)
 
 

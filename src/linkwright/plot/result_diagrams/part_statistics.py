@@ -38,7 +38,7 @@ class SamplesDiagram(ResultKind):
             _histogram(one, result, name)
         for one, name in zip(axes[len(names) :], lines, strict=False):
             _regression(one, result, name)
-        framed(figure, f"{result.title}: {request.say('kind.samples')}", request)
+        framed(figure, request.titled(result.title, request.say("kind.samples")), request)
         return figure
 
 

@@ -33,7 +33,7 @@ class ToleranceDiagram(ResultKind):
             _histogram(one, result, text, request)
         for one, output in zip(axes[len(texts) :], result.study.curves, strict=False):
             _band(one, result, output)
-        framed(figure, f"{result.title}: {request.say('kind.tolerance')}", request)
+        framed(figure, request.titled(result.title, request.say("kind.tolerance")), request)
         return figure
 
 

@@ -23,7 +23,7 @@ class FlightDiagram(ResultKind):
 
     def draw(self, result: Flight, request: Request) -> Figure:
         columns = result.columns()
-        figure, (axes,) = plane(f"{result.title}: {request.say('kind.flight')}", request)
+        figure, (axes,) = plane(request.titled(result.title, request.say("kind.flight")), request)
         axes.plot(columns["x [m]"], columns["y [m]"], color=COLOURS[0])
         axes.axhline(0.0, color="#555555", linewidth=0.9)
         axes.set_xlabel("x (m)")
@@ -46,5 +46,5 @@ class TransportDiagram(ResultKind):
         ]
         if height.any():
             given.append(Pane("n", "length", (Line(time, height),)))
-        title = f"{result.title}: {request.say('kind.transport')}"
+        title = request.titled(result.title, request.say("kind.transport"))
         return panes(title, (request.say("time"), "time"), given, request)

@@ -26,7 +26,7 @@ class VibrationDiagram(ResultKind):
 
     def draw(self, result: Vibration, request: Request) -> Figure:
         names = list(result.system.masses)
-        title = f"{result.title}: {request.say('kind.vibration_response')}"
+        title = request.titled(result.title, request.say("kind.vibration_response"))
         length = "angle" if result.system.turning else "length"
         if result.in_time:
             time, moved = result.response()
@@ -67,7 +67,7 @@ class FollowerDiagram(ResultKind):
             Pane("s, x", "length", (Line(time, cam, "s"), Line(time, follower, "x", dash="--"))),
             Pane("x − s", "length", (Line(time, follower - cam),)),
         ]
-        title = f"{result.title}: {request.say('kind.follower_vibration')}"
+        title = request.titled(result.title, request.say("kind.follower_vibration"))
         return panes(title, (request.say("time"), "time"), given, request)
 
 
@@ -82,7 +82,7 @@ class ResidualDiagram(ResultKind):
     def draw(self, result: FollowerVibration, request: Request) -> Figure:
         n = np.linspace(0.2, max(6.0, 1.3 * result.ratio), 1200)
         pane = Pane("A", "length", (Line(n, result.residual(n)),), log=True)
-        title = f"{result.title}: {request.say('kind.residual_spectrum')}"
+        title = request.titled(result.title, request.say("kind.residual_spectrum"))
         return panes(title, ("n = T/Tₙ", ""), [pane], request)
 
 
@@ -108,5 +108,5 @@ class MountsDiagram(ResultKind):
             zip("MθG", TITLES["turn"], strict=True) if "turn" in result.axes else ()
         ):
             given.append(Pane(symbol, dimension, (Line(time, columns[name]),)))
-        title = f"{result.title}: {request.say('kind.mounts')}"
+        title = request.titled(result.title, request.say("kind.mounts"))
         return panes(title, (request.say("time"), "time"), given, request)

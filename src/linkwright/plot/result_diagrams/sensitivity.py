@@ -60,7 +60,7 @@ class RelativeSensitivity(ResultKind):
         axes.set_ylim(len(result.by) - 0.4, -0.6)
         axes.margins(x=0.06)
         axes.set_xlabel(request.say("relative_change"))
-        framed(figure, f"{result.mechanism.name}: {request.say('kind.sensitivity')}", request)
+        framed(figure, request.titled(result.mechanism.name, request.say("kind.sensitivity")), request)
         legend.put(figure)
         return figure
 
@@ -84,7 +84,7 @@ class SensitivityCurves(ResultKind):
         panels = [_panel(result, name, request) for name in chosen(request.of, result.curves)]
         figure, axes, legend = stacked(panels, axis, request)
         label_input(axes[-1], axis, request.say)
-        framed(figure, f"{result.mechanism.name}: {request.say('kind.sensitivity_curves')}", request)
+        framed(figure, request.titled(result.mechanism.name, request.say("kind.sensitivity_curves")), request)
         figure.align_ylabels(axes)
         legend.put(figure)
         return figure

@@ -39,5 +39,5 @@ class StudyDiagram(ResultKind):
             )
             for name in chosen(request.of, result.metrics)
         )
-        title = f"{result.mechanism.name}: {request.say('kind.study')}"
+        title = request.titled(result.mechanism.name, request.say("kind.study"))
         return draw_designs(DesignTable(title, over, measures, result.ok), request)

@@ -32,5 +32,5 @@ class SweepDiagram(ResultKind):
             measure(name, result.summaries[known[name]], result.dimension(known[name]))
             for name in chosen(request.of, known)
         )
-        title = f"{result.mechanism.name}: {request.say('kind.sweep')}"
+        title = request.titled(result.mechanism.name, request.say("kind.sweep"))
         return draw_designs(DesignTable(title, over, measures, result.ok), request)

@@ -61,7 +61,7 @@ def text_element(
     if low:
         content.append(element("tspan", {"dy": 0.25 * size, "font-size": 0.7 * size}, low))
     if rest:
-        content.append(_back_on_the_line(rest, size) if low else rest)
+        content.append(element("tspan", {"dy": -0.25 * size, "xml:space": "preserve"}, rest) if low else rest)
     side = None if anchor == "start" else anchor
     place: dict[str, Attribute | None] = {
         "class": style,
@@ -71,10 +71,3 @@ def text_element(
         "text-anchor": side,
     }
     return element("text", place, *content)
-
-
-def _back_on_the_line(rest: str, size: float) -> Element:
-    """Text behind an index; viewers that drop a blank at the beginning of a part keep the distance."""
-    text = rest.lstrip(" ")
-    gap = width(" ", size) if text != rest else None
-    return element("tspan", {"dx": gap, "dy": -0.25 * size}, text)
