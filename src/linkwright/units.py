@@ -317,6 +317,10 @@ def _factor_suggestion(part: str) -> str | None:
     return offer and offer + ("^" + exponent if exponent.isascii() and exponent.isdigit() else exponent)
 
 
+def _letters(text: str) -> str:
+    return re.sub(r"\W", "", text.translate(_SUPERSCRIPTS)).casefold()
+
+
 @cache
 def example(dimension: str) -> str:
     """A right form of a quantity of this dimension, for remedies: ``60.5 mm``."""
@@ -351,7 +355,7 @@ def parse(text: str, dimension: str) -> float:
         )
     value = float(sign + digits)
     if rest:
-        factor, kind = _unit_of(rest, len(plain) - len(rest))
+        factor, kind = _unit_of(rest, len(plain) - len(rest), dimension)
         value *= factor
     else:
         kind = NONE
@@ -389,13 +393,22 @@ def unit_fits(text: str, dimension: str) -> bool:
     return True
 
 
-def _unit_of(text: str, column: int) -> tuple[float, Dimension]:
+def _unit_of(text: str, column: int, dimension: str) -> tuple[float, Dimension]:
     try:
         return unit(text)
     except QuantityError as error:
-        raise QuantityError(
-            error.message, error.remedy, column=column + error.column, code=error.code
-        ) from None
+        remedy = _fitting_remedy(text, dimension) if error.code == "unknown-unit" else error.remedy
+        raise QuantityError(error.message, remedy, column=column + error.column, code=error.code) from None
+
+
+def _fitting_remedy(text: str, dimension: str) -> Sentence:
+    """What was probably meant by an unknown unit where a quantity of this dimension is needed."""
+    wanted, offer = DIMENSIONS[dimension], suggestion(text)
+    if not offer or (unit(offer)[1] != wanted and _letters(offer) != _letters(text)):
+        offer = nearest(text, [name for name, (_, kind) in UNITS.items() if kind == wanted])
+    if offer:
+        return Sentence("names.did_you_mean", offer=offer)
+    return Sentence("units.number_and_unit", example=example(dimension))
 
 
 def decimal_comma(text: str) -> QuantityError:
@@ -468,7 +481,7 @@ def format(value: float, dimension: str, unit: str | None = None) -> str:
     """
     if unit is None:
         return f"{number(value)} {SI_UNITS[dimension]}".strip()
-    factor, kind = _unit_of(unit, 0)
+    factor, kind = _unit_of(unit, 0, dimension)
     require(kind, dimension, unit)
     return f"{number(value / factor, 12)} {unit}"
 
