@@ -149,6 +149,10 @@ class FreeSite:
     def place(self, link: str, point: str) -> Vec:
         return self.bodies[link].place + self._arm(link, point)
 
+    def distance(self, link: str, a: str, b: str) -> float:
+        points = self.motion.mechanism.link(link).points
+        return math.dist(points[a], points[b])
+
     def velocity(self, link: str, point: str) -> Vec:
         return self.bodies[link].velocity + self._arm(link, point).perp * self.bodies[link].omega
 

@@ -9,7 +9,7 @@ from math import sin as sine
 from linkwright.core.dataclass import dataclass
 from linkwright.core.inputs import Input
 from linkwright.drivers.base import Driver
-from linkwright.engine.trace import Scalar, Trace, cos, sin
+from linkwright.engine.trace import Scalar, Trace, cos, sin, sqrt
 from linkwright.engine.vector import Vec
 from linkwright.mechanism.geometry import centre, local_points
 from linkwright.mechanism.mechanism import Link, Mechanism
@@ -77,6 +77,10 @@ class Dimensions:
             found = local_points(self.link(link), self, cos, sin)
             self._points[link] = {name: Vec(x, y) for name, (x, y) in found.items()}
         return self._points[link][point]
+
+    def distance(self, link: str, a: str, b: str) -> Scalar:
+        """Distance of two points of a link."""
+        return sqrt((self.point(link, b) - self.point(link, a)).square)
 
     def centre(self, link: str) -> Vec:
         """The mass centre of a link, in the link's axes."""

@@ -39,13 +39,22 @@ def transmission(outputs: MotionOutputs, group: Group) -> Scalar:
 def conditioning(outputs: MotionOutputs, group: Group) -> Scalar:
     """Determinant of the closure equations with unit columns, 0 (singular) to 1; a dyad's is sin μ."""
     columns = _columns(outputs, group)
-    squares: Scalar = 1.0
-    for column in columns:
-        square: Scalar = 0.0
-        for entry in column:
-            square = square + entry * entry
-        squares = squares * square
-    return absolute(determinant(columns)) / sqrt(squares)
+    sizes: Scalar = 1.0
+    for step, column in zip(group.unknowns, columns, strict=True):
+        sizes = sizes * _size(outputs, group, step, column)
+    return absolute(determinant(columns)) / sizes
+
+
+def _size(outputs: MotionOutputs, group: Group, step: TreeJoint, column: list[Scalar]) -> Scalar:
+    """Length of a column: where it moves one cut that is on its own link, no position changes it."""
+    moved = [(cut, end) for cut in group.cuts for end in (cut.a, cut.b) if step in group.path(end)]
+    if len(moved) == 1:
+        ((cut, end),) = moved
+        if step.slides:
+            return 1.0
+        if step.child == end:
+            return outputs.motion.dimensions.distance(end, step.joint, cut.joint)
+    return sqrt(sum((entry * entry for entry in column), 0.0))
 
 
 def _columns(outputs: MotionOutputs, group: Group) -> list[list[Scalar]]:

@@ -209,13 +209,10 @@ class Named:
         """Distance of two points, a length of the link that both are written of, ``distance coupler.A coupler.B``."""
         (link, a), (other, b) = (find_point(self.mechanism, each) for each in (output.owner, output.on))
         if link == other:
-            dimensions = self.motion.motion.dimensions
-            between = dimensions.point(link, b) - dimensions.point(link, a)
-        else:
-            keys = canonical(self.mechanism, link, a), canonical(self.mechanism, other, b)
-            first, second = (self.motion.outputs.point(each)[0] for each in keys)
-            between = second - first
-        return sqrt(between.square)
+            return self.motion.motion.dimensions.distance(link, a, b)
+        keys = canonical(self.mechanism, link, a), canonical(self.mechanism, other, b)
+        first, second = (self.motion.outputs.point(each)[0] for each in keys)
+        return sqrt((second - first).square)
 
     def equivalent_inertia(self, name: str, output: Output) -> Scalar:
         """Inertia on the first driver's link of the same kinetic energy as all links."""

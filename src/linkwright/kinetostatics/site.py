@@ -95,6 +95,9 @@ class TracedSite:
         state = self.motion.states[link]
         return state.pose.place + state.arm(self.motion.dimensions.point(link, point))
 
+    def distance(self, link: str, a: str, b: str) -> Scalar:
+        return self.motion.dimensions.distance(link, a, b)
+
     def velocity(self, link: str, point: str) -> Vec:
         state = self.motion.states[link]
         return state.velocity_of(self.motion.dimensions.point(link, point))

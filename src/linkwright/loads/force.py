@@ -96,7 +96,7 @@ class Force(Load):
         if points[p] == points[q]:
             raise LinkwrightError(Sentence("loads.no_ray", name=self.name, p=p, q=q, on=self.on))
         ray = site.place(self.on, q) - site.place(self.on, p)
-        unit = ray * (1.0 / sqrt(ray.square))
+        unit = ray * (1.0 / site.distance(self.on, p, q))
         return unit.perp if self.normal_to else unit
 
     def reverses(self, mechanism: Mechanism) -> Output | None:

@@ -43,8 +43,12 @@ class Site(Protocol):
         """A point of a link in frame axes, m."""
         ...
 
+    def distance(self, link: str, a: str, b: str) -> Scalar:
+        """Distance of two points of a link, m."""
+        ...
+
     def velocity(self, link: str, point: str) -> Vec:
-        """Its velocity, m/s."""
+        """Velocity of a point of a link, m/s."""
         ...
 
     def axis(self, link: str) -> Vec:

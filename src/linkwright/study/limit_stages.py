@@ -5,7 +5,8 @@ The extremes over the positions bracket the limits; safeguarded Newton steps wit
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from itertools import product
 from math import pi
 
 import numpy as np
@@ -38,15 +39,28 @@ EDGE_STEPS = 40
 
 
 def limit_stages(
-    traced: Traced, outputs: Iterable[Swinging], *, judged: bool = True, valued: Iterable[Output] = ()
+    traced: Traced,
+    outputs: Iterable[Swinging],
+    *,
+    judged: bool = True,
+    valued: Iterable[Output] = (),
+    shown: Iterable[Output] = (),
 ) -> list[Stage]:
     """For every output its cycle values ``limit:OUTPUT:max`` and ``:min`` (rad of the input), of the ``valued`` ones
-    also ``value:OUTPUT:max`` and ``:min``, and where ``judged`` ``doubt:OUTPUT``: above zero where these are not
-    certain to be its only limits."""
-    asked, known = tuple(dict.fromkeys(outputs)), set(valued)
+    also ``value:OUTPUT:max`` and ``:min``, of those that are ``shown`` ``extreme:OUTPUT:max`` and ``:min`` (angles
+    as the machine itself has them), and where ``judged`` ``doubt:OUTPUT``: above zero where these are not certain to
+    be its only limits."""
+    asked, known, named = tuple(dict.fromkeys(outputs)), set(valued), set(shown)
     if not asked:
         return []
-    refined = [_refined(traced, each, kind, each in known) for each in asked for kind in ("max", "min")]
+    refined = []
+    for each, kind in product(asked, ("max", "min")):
+        there: dict[str, Scalar] = {}
+        if isinstance(each, Output) and each in known:
+            there[value_name(each, kind)] = output_value(traced.solver.motion, each)
+        if isinstance(each, Output) and each in named:
+            there[extreme_name(each, kind)] = traced.named.quantity(each.name).value
+        refined.append(_refined(traced, each, kind, there))
     return [_seen(traced, asked, judged), *refined, *([_doubt(traced, asked)] if judged else [])]
 
 
@@ -108,16 +122,19 @@ def _direction(traced: Traced) -> dict[str, Scalar]:
     }
 
 
-def _refined(traced: Traced, output: Swinging, kind: str, valued: bool) -> Stage:
-    """The input where the rate is zero, within one step of the nearest position."""
+def extreme_name(output: Output, kind: str) -> str:
+    """The cycle value that is the largest or the smallest value of an output."""
+    return f"extreme:{output}:{kind}"
+
+
+def _refined(traced: Traced, output: Swinging, kind: str, values: Mapping[str, Scalar]) -> Stage:
+    """The input where the rate is zero, within one step of the nearest position, and values there."""
     t = Trace()
     (driver,) = traced.mechanism.drivers
     x, low, high = (t.state(name) for name in ("x", "low", "high"))
     speed = t.parameter(f"{driver}.speed")
     rate, second = rates(traced, output)
-    sought = {"rate": rate, "second": second}
-    if valued and isinstance(output, Output):
-        sought["value"] = output_value(traced.solver.motion, output)
+    sought = {"rate": rate, "second": second, **values}
     motion = Program.of(traced.solver.motion.trace, sought)
     there = traced.at_input(motion, t, x)
     falling = there["rate"] if kind == "max" else -there["rate"]
@@ -140,7 +157,7 @@ def _refined(traced: Traced, output: Swinging, kind: str, valued: bool) -> Stage
         {
             name: Reduction("x", "last"),
             f"moved:{output}:{kind}": Reduction("moved", "last"),
-            **({value_name(output, kind): Reduction("value", "last")} if valued else {}),
+            **{each: Reduction(each, "last") for each in values},
         },
         steps=STEPS,
         starts={"x": f"near:{output}:{kind}", "low": 0.0, "high": 0.0},

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.cycle_gradient import CycleGradient, cycle_gradient
+from linkwright.engine.machine_code import available
 from linkwright.engine.numpy_backend import numpy_program
 from linkwright.engine.program import Program
 from linkwright.engine.recent import Recent
@@ -19,7 +20,7 @@ from linkwright.engine.reductions import Reduction
 from linkwright.engine.replay import across_designs
 from linkwright.engine.stage import Backend, Stage
 from linkwright.engine.threads import cores, spread_over
-from linkwright.engine.trace import Scalar, Trace, absolute, maximum, select, sqrt
+from linkwright.engine.trace import Scalar, Trace, absolute, maximum, minimum, select, sqrt
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinetostatics.forces import solve_forces
 from linkwright.kinetostatics.named import Quantity
@@ -29,7 +30,7 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import Analysis, strokes, true_speed
 from linkwright.metrics.summary import Summary, one
 from linkwright.study.gauss_cycle import PIECES, SHARE, GaussCycle, reversing, side_by_side
-from linkwright.study.limit_stages import constants, limit_stages, rates
+from linkwright.study.limit_stages import constants, extreme_name, limit_stages, rates
 from linkwright.study.loaded_cycle import along_input, with_loads
 from linkwright.study.piece_summaries import SIDES, PieceSummaries
 from linkwright.study.seen import Seen
@@ -48,6 +49,11 @@ WEIGHED, RUNNING = 256, 512
 VALUE = "value"
 #: Kinds of summaries that are places of an output's limit.
 _PLACES = ("argmax", "argmin")
+#: Those that an output has at its limits: the names of the cycle values, and their sides.
+_AT_LIMITS = {
+    **{f"arg{side}": (limit_name, (side,)) for side in ("max", "min")},
+    **{kind: (extreme_name, SIDES[kind]) for kind in ("max", "min", "range")},
+}
 
 
 def metric_cycle(
@@ -131,30 +137,35 @@ class MetricCycle:
         self.traced, self.gauss, self.terms = traced, gauss, tuple(terms)
         texts = all_parts(terms)
         on_strokes = _strokes(texts)
-        self.parts = {text: Summary(text, "min") if text in on_strokes else one(text) for text in texts}
-        places = {text: analysis.output(p.output) for text, p in self.parts.items() if p.kind in _PLACES}
-        self.limited = {
-            text: limit_name(output, self.parts[text].kind.removeprefix("arg"))
-            for text, output in places.items()
-            if output is not None
+        self.least = _least(map(one, texts), on_strokes)
+        self.parts = {
+            text: Summary(text, "min") if text in on_strokes else one(text)
+            for text in texts
+            if text not in self.least
         }
-        self.outputs = tuple(
-            dict.fromkeys(
-                [
-                    *loads.outputs,
-                    *loads.moving,
-                    *loads.swinging,
-                    *(each for each in places.values() if each is not None),
-                ]
-            )
-        )
+        plain = {text: part for text, part in self.parts.items() if text not in on_strokes}
+        named = {text: analysis.output(p.output) for text, p in plain.items() if p.kind in _AT_LIMITS}
+        own = {text: output for text, output in named.items() if output is not None}
+        places = [output for text, output in own.items() if plain[text].kind in _PLACES]
+        self.outputs = tuple(dict.fromkeys([*loads.outputs, *loads.moving, *loads.swinging, *places]))
+        own = {
+            text: output
+            for text, output in own.items()
+            if output in self.outputs and len(analysis.limits(output)) == 2
+        }
+        self.shown = {output for text, output in own.items() if plain[text].kind not in _PLACES}
+        self.limited: dict[str, tuple[str, ...]] = {
+            text: tuple(name(output, side) for side in sides)
+            for text, output in own.items()
+            for name, sides in [_AT_LIMITS[plain[text].kind]]
+        }
         found_apart = {*self.limited, *on_strokes}
         self.quantities = traced.quantities(
             _outputs(part for text, part in self.parts.items() if text not in found_apart)
         )
         self.quantities |= {text: self._on_stroke(text, part) for text, part in on_strokes.items()}
         self.constant = self._constants()
-        self.limited |= {text: text for text in self.constant.output_names}
+        self.limited |= {text: (text,) for text in self.constant.output_names}
 
     def _constants(self) -> Program:
         """The means of lengths and the like, which no position changes, as formulas of the dimensions."""
@@ -186,14 +197,16 @@ class MetricCycle:
         designs = len(next(iter(columns.values())))
         values = {each.name: np.empty(designs) for each in self.terms}
         certain = np.zeros(designs, dtype=np.bool_)
+        block = RUNNING if self.running else BLOCK
+        # what is compiled for one of several blocks serves all, however few designs are in the last
+        own: Backend = "llvm" if backend == "auto" and designs > block and available() else backend
 
         def work(first: int, end: int) -> None:
             part = {address: column[first:end] for address, column in columns.items()}
-            rows, certain[first:end] = self._block(part, backend)
+            rows, certain[first:end] = self._block(part, own)
             for name, row in zip(self._formulas.output_names, rows, strict=True):
                 values[name][first:end] = row
 
-        block = RUNNING if self.running else BLOCK
         spread_over(designs, block, cores() if threads is None else threads, work)
         return Found(values, certain)
 
@@ -235,7 +248,7 @@ class MetricCycle:
         """What is seen of the signals with these pieces, and the rows."""
         seen = self._seen(self._table(self._forwards, columns), backend)
         parts = {text: seen.summary(part) for text, part in self.parts.items() if text not in self.limited}
-        parts |= {text: seen.values[name] for text, name in self.limited.items()}
+        parts |= {name: seen.values[name] for names in self.limited.values() for name in names}
         return seen, numpy_program(self._formulas).run((), parts, length=len(seen.passed))
 
     def _seen(self, table: Floats, backend: Backend) -> Seen:
@@ -274,13 +287,13 @@ class MetricCycle:
     def _formulas(self) -> Program:
         """All terms from the summaries, the designs side by side."""
         t = Trace()
-        parts = {text: t.parameter(text) for text in self.parts}
+        parts = self._whole(t, t.parameter)
         return across_designs(Program.of(t, {term.name: term.value(parts) for term in self.terms}))
 
     @cached_property
     def _before(self) -> list[Stage]:
         cutting = self.gauss.cutting()
-        limits = limit_stages(self.traced, self.outputs, valued=self.loads.valued)
+        limits = limit_stages(self.traced, self.outputs, valued=self.loads.valued, shown=self.shown)
         parts = self.gauss.part_stages()
         if names := self.constant.output_names:
             parts.append(Stage(self.constant, {text: Reduction(text, "first") for text in names}, steps=1))
@@ -404,7 +417,7 @@ class MetricCycle:
             complete=True,
         )
         t = Trace()
-        parts = {text: self._part(t, text) for text in self.parts}
+        parts = self._whole(t, partial(self._part, t))
         totals: dict[str, Scalar] = {}
         for number, weights in enumerate(asked):
             known = (weights[each.name] * each.value(parts) for each in self.terms if each.name in weights)
@@ -415,8 +428,6 @@ class MetricCycle:
     def _part(self, t: Trace, text: str) -> Scalar:
         """A summary from the sums."""
         part = self.parts[text]
-        if text in self.limited:
-            return t.parameter(self.limited[text])
         if part.kind == "mean" or text in self.running:
             return t.parameter(text)
         if part.kind == "rms":
@@ -425,10 +436,30 @@ class MetricCycle:
             return self.gauss.way * absolute(
                 t.parameter(f"{text} mean") * t.parameter(f"{text} all") - t.parameter(text)
             )
-        sides = [t.parameter(f"{part.output} {side}") for side in SIDES[part.kind]]
-        if part.kind == "range":
-            return sides[0] - sides[1]
-        return maximum(absolute(sides[0]), absolute(sides[1])) if part.kind == "peak" else sides[0]
+        return _of_sides(part.kind, [t.parameter(f"{part.output} {side}") for side in SIDES[part.kind]])
+
+    def _whole(self, t: Trace, part: Callable[[str], Scalar]) -> dict[str, Scalar]:
+        """All parts: from the signals, from values at limits and those that no position changes, and from others."""
+        found = {text: part(text) for text in self.parts if text not in self.limited}
+        for text, names in self.limited.items():
+            found[text] = _of_sides(self.parts[text].kind, [t.parameter(name) for name in names])
+        return found | {text: minimum(*(found[each] for each in of)) for text, of in self.least.items()}
+
+
+def _of_sides(kind: str, sides: Sequence[Scalar]) -> Scalar:
+    """A summary from the sides on which it lies, of one design or of many."""
+    if kind == "range":
+        return sides[0] - sides[1]
+    return maximum(absolute(sides[0]), absolute(sides[1])) if kind == "peak" else sides[0]
+
+
+def _least(parts: Iterable[Summary], on_strokes: Mapping[str, Summary]) -> dict[str, tuple[str, str]]:
+    """Smallest values over the cycle that are those of the two strokes of some output."""
+    ways: dict[tuple[str, str], list[str]] = {}
+    for text, part in on_strokes.items():
+        ways.setdefault((strokes.signal_of(part), strokes.output_of(part)), []).append(text)
+    both = {signal: (texts[0], texts[1]) for (signal, _), texts in ways.items() if len(texts) == 2}
+    return {f"{p.output} {p.kind}": both[p.output] for p in parts if p.kind == "min" and p.output in both}
 
 
 def _outputs(parts: Iterable[Summary]) -> Iterator[str]:
