@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.kinematics.rank import ConstraintSystem, coordinates, jacobian_rank, rank_from_drawing
+from linkwright.kinematics.constraint_system import ConstraintSystem, coordinates
+from linkwright.kinematics.rank import jacobian_rank, rank_from_drawing
 
 GALLERY = sorted(path.stem for path in (Path(lw.__file__).parent / "gallery").glob("*.yaml"))
 
@@ -132,3 +133,29 @@ def test_position_that_is_not_solved() -> None:
     motion = lw.solve_motion(lw.load("gallery:change_point_fourbar"), at=[1.0, np.pi], failures="mark")
     with pytest.raises(lw.LinkwrightError, match="position 1 is not solved"):
         jacobian_rank(motion, 1)
+
+
+TWO_GUIDES = """
+format: 1
+name: a piston on two guides
+frame: {points: {O: [0 m, 0 m], G: [0 m, 0.3 m]}}
+links:
+  crank: {points: [O, A], length: 0.2 m}
+  rod: {points: [A, B], length: 0.7 m}
+  piston: {points: {B: [0 m, 0 m], C: [0 m, 0.3 m]}}
+joints:
+  upper: {kind: prismatic, guide: frame, through: G, direction: LEAN deg, block: piston, at: C, block_angle: LEAN deg}
+  lower: {kind: prismatic, guide: frame, through: O, direction: 0 deg, block: piston, at: B}
+drawing: {A: [0.2 m, 0 m], B: [0.9 m, 0 m], C: [0.9 m, 0.3 m]}
+driver: {turn: crank, about: O, speed: 3 rad/s}
+"""
+
+
+def test_a_second_guide_beside_the_first_is_named() -> None:
+    """3·3 - 2·5 = -1; parallel guides leave the slider-crank's one freedom, inclined ones hold the piston."""
+    with pytest.raises(
+        lw.StructureError, match="mobility -1 .* gives 1: the joint 'lower' demands only what"
+    ):
+        lw.solve_motion(lw.loads(TWO_GUIDES.replace("LEAN", "0")))
+    report = rank_from_drawing(lw.loads(TWO_GUIDES.replace("LEAN", "10")))
+    assert report is not None and report.mobility == 0 and "'lower'" not in report.say()

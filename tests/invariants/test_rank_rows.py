@@ -9,8 +9,9 @@ from tests.reference.geared_mechanisms import geared_case
 from tests.reference.test_cam_joints import GUIDED, SWINGING, model
 
 import linkwright as lw
+from linkwright.kinematics.constraint_system import ConstraintSystem, coordinates
 from linkwright.kinematics.motion import Motion
-from linkwright.kinematics.rank import ConstraintSystem, coordinates, jacobian_rank, rank_from_drawing
+from linkwright.kinematics.rank import jacobian_rank, rank_from_drawing
 
 ON_AN_ARM = """
 format: 1

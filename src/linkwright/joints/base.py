@@ -29,10 +29,10 @@ if TYPE_CHECKING:
     from linkwright.joints.marks import Following, Mark, WheelSizes
     from linkwright.joints.pose import Pose, Rotor, State
     from linkwright.kinematics.closed_loops import Body, LoopBuilder
+    from linkwright.kinematics.constraint_system import ConstraintSystem, Place, Row
     from linkwright.kinematics.cycle import Floats
     from linkwright.kinematics.dimensions import Dimensions
     from linkwright.kinematics.motion import Motion
-    from linkwright.kinematics.rank import ConstraintSystem, Place, Row
     from linkwright.kinetostatics.forces import Forces
     from linkwright.mechanism.drawing import Drawing
     from linkwright.mechanism.mechanism import Link, Mechanism

@@ -21,8 +21,8 @@ if TYPE_CHECKING:
     from linkwright.joints.cam_cuts import Geometry
     from linkwright.joints.marks import CamContact, Mark
     from linkwright.kinematics.closed_loops import LoopBuilder
+    from linkwright.kinematics.constraint_system import ConstraintSystem, Place, Row
     from linkwright.kinematics.dimensions import Dimensions
-    from linkwright.kinematics.rank import ConstraintSystem, Place, Row
     from linkwright.kinetostatics.forces import Forces
     from linkwright.laws.program import MotionProgram
     from linkwright.laws.traced import LiftCurve

@@ -21,8 +21,8 @@ from linkwright.words.sentence import Sentence, together
 
 if TYPE_CHECKING:
     from linkwright.kinematics.closed_loops import Body, LoopBuilder
+    from linkwright.kinematics.constraint_system import ConstraintSystem, Place, Row
     from linkwright.kinematics.dimensions import Dimensions
-    from linkwright.kinematics.rank import ConstraintSystem, Place, Row
     from linkwright.structure.constraints import ConstraintGraph
     from linkwright.structure.decompose import Grouping
     from linkwright.structure.group import Connection, TreeJoint

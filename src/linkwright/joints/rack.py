@@ -34,8 +34,8 @@ from linkwright.joints.toothed import FITS, length, whole
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
+    from linkwright.kinematics.constraint_system import ConstraintSystem, Place, Row
     from linkwright.kinematics.dimensions import Dimensions
-    from linkwright.kinematics.rank import ConstraintSystem, Place, Row
     from linkwright.mechanism.drawing import Drawing
     from linkwright.mechanism.mechanism import Mechanism
     from linkwright.structure.group import Connection, Group

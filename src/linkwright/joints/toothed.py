@@ -29,8 +29,8 @@ from linkwright.words.sentence import Sentence
 if TYPE_CHECKING:
     from linkwright.files.plain_reader import Place as Where
     from linkwright.files.reader import Reader
+    from linkwright.kinematics.constraint_system import ConstraintSystem, Place, Row
     from linkwright.kinematics.dimensions import Dimensions
-    from linkwright.kinematics.rank import ConstraintSystem, Place, Row
     from linkwright.mechanism.drawing import Drawing
     from linkwright.mechanism.mechanism import Mechanism
     from linkwright.structure.constraints import ConstraintGraph

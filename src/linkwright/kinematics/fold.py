@@ -6,8 +6,8 @@ import math
 
 import numpy as np
 
+from linkwright.kinematics.constraint_system import ConstraintSystem, Numbers, coordinates
 from linkwright.kinematics.cycle import Floats, Positions
-from linkwright.kinematics.rank import ConstraintSystem, Numbers, coordinates
 from linkwright.kinematics.solver import MotionSolver
 
 #: Largest equation (lengths over the size, rad) that a found fold may leave, and Newton steps to get there.

@@ -91,7 +91,7 @@ def explain_excess(
         why = Sentence(
             "mobility.cannot_be_driven" if drivers == 1 else "mobility.cannot_be_driven_by_several",
             name=mechanism.name,
-            mobility=mobility,
+            mobility=grubler(counts(mechanism)),
             drivers=_drivers("drivers", drivers),
         )
     blocked = [train for train in gear_trains(mechanism) if train.blocked]

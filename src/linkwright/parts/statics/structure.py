@@ -8,7 +8,7 @@ import numpy as np
 
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, ModelError
-from linkwright.kinematics.rank import ConstraintSystem
+from linkwright.kinematics.constraint_system import ConstraintSystem
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.mechanism.mechanism import Mechanism

@@ -10,6 +10,8 @@ WORDS = {
     "the additional freedom is lost as soon as the mechanism leaves it",
     "link": "the link {links} is redundant in this special geometry; remove it",
     "links": "the links {links} are redundant in this special geometry; remove them",
+    "joint": "the joint {joints} demands only what others demand already in this special geometry; remove it",
+    "joints": "the joints {joints} demand only what others demand already in this special geometry; remove them",
     "guide": "the guide {guides} closes a loop in which rotation is already prevented ({redundant})",
     "guides": "the guides {guides} close a loop in which rotation is already prevented ({redundant})",
     "passive": "passive constraints ({redundant}) demand what other joints already demand, by the special "
