@@ -154,7 +154,7 @@ driver: {turn: crank, about: O, speed: 3 rad/s}
 def test_a_second_guide_beside_the_first_is_named() -> None:
     """3·3 - 2·5 = -1; parallel guides leave the slider-crank's one freedom, inclined ones hold the piston."""
     with pytest.raises(
-        lw.StructureError, match="mobility -1 .* gives 1: the joint 'lower' demands only what"
+        lw.StructureError, match=r"mobility -1 .* gives 1: the joint 'lower' demands only what"
     ):
         lw.solve_motion(lw.loads(TWO_GUIDES.replace("LEAN", "0")))
     report = rank_from_drawing(lw.loads(TWO_GUIDES.replace("LEAN", "10")))
