@@ -1,12 +1,14 @@
 """The local search of many designs at once against optima known in closed form and by linear programming."""
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 from scipy.optimize import linprog, minimize
 
 from linkwright.optimisation.descent import Model, descended
-from linkwright.optimisation.front import Scale, nearest, picked, spread
+from linkwright.optimisation.front import Scale, nearest, picked, spread, without_own
 from linkwright.optimisation.quadratic import quadratic
 from linkwright.optimisation.task import Judged
 
@@ -44,8 +46,9 @@ def _valley(x: Floats, _: object) -> Model:
     bend = z[:, 1] - z[:, 0] ** 2
     value = bend**2 + 0.01 * (1.0 - z[:, 0]) ** 2
     slope = np.stack([-4.0 * z[:, 0] * bend - 0.02 * (1.0 - z[:, 0]), 2.0 * bend], axis=1)
+    free = (1.0 - (z**2).sum(axis=1))[:, None]
     return Model(
-        x, value[:, None], (1.0 - (z**2).sum(axis=1))[:, None], 4.0 * slope[:, None], -8.0 * z[:, None]
+        x, value[:, None], free, 4.0 * slope[:, None], -8.0 * z[:, None], np.zeros((len(x), 1, 2, 2))
     )
 
 
@@ -59,6 +62,26 @@ def test_a_curved_valley_and_a_demand_that_holds_at_the_optimum() -> None:
     assert np.abs(z - place).max() < 1e-4
 
 
+def test_known_curvature_ends_a_narrow_valley_in_few_steps() -> None:
+    draw = np.random.default_rng(4)
+    root = np.linalg.qr(draw.normal(size=(6, 6)))[0] * 10.0 ** np.linspace(0.0, -2.0, 6)
+    least = draw.uniform(0.3, 0.7, 6)
+
+    def squares(known: float) -> Callable[[Floats, object], Model]:
+        def model(x: Floats, _: object) -> Model:
+            rest = (x - least) @ root
+            slope = 2.0 * rest @ root.T
+            bends = np.tile(2.0 * known * root @ root.T, (len(x), 1, 1, 1))
+            none = np.zeros((len(x), 1, 6))
+            return Model(x, (rest**2).sum(axis=1)[:, None], 1.0 + 0.0 * x[:, :1], slope[:, None], none, bends)
+
+        return model
+
+    starts = np.clip(least + draw.uniform(-0.3, 0.3, (5, 6)), 0.0, 1.0)
+    assert np.abs(descended(squares(1.0), starts, 8) - least).max() < 1e-3
+    assert np.abs(descended(squares(0.0), starts, 8) - least).max() > 1e-2
+
+
 def test_the_least_largest_of_many_beside_linear_programming() -> None:
     draw = np.random.default_rng(2)
     rows, wanted = draw.normal(size=(15, 5)), draw.normal(size=15)
@@ -68,9 +91,8 @@ def test_the_least_largest_of_many_beside_linear_programming() -> None:
         worst, each = np.abs(off).argmax(axis=1), np.arange(len(x))
         value, sense = np.abs(off)[each, worst], np.sign(off[each, worst])
         free = np.ones((len(x), 1))
-        return Model(
-            x, value[:, None], free, (sense[:, None] * rows[worst])[:, None], np.zeros((len(x), 1, 5))
-        )
+        none, bends = np.zeros((len(x), 1, 5)), np.zeros((len(x), 1, 5, 5))
+        return Model(x, value[:, None], free, (sense[:, None] * rows[worst])[:, None], none, bends)
 
     found = descended(largest, draw.random((10, 5)), 60)
     one = -np.ones((15, 1))
@@ -87,11 +109,21 @@ def test_places_that_do_not_move_stay_and_never_lead_others_astray() -> None:
     def half(x: Floats, _: object) -> Model:
         value = np.where(x[:, 0] < 0.3, np.nan, x[:, 0] + (x[:, 1] - 0.5) ** 2)
         slope = np.stack([np.ones(len(x)), 2.0 * (x[:, 1] - 0.5)], axis=1)
-        return Model(x, value[:, None], np.ones((len(x), 1)), slope[:, None], np.zeros((len(x), 1, 2)))
+        none, bends = np.zeros((len(x), 1, 2)), np.zeros((len(x), 1, 2, 2))
+        return Model(x, value[:, None], np.ones((len(x), 1)), slope[:, None], none, bends)
 
     found = descended(half, np.array([[0.1, 0.2], [0.9, 0.9]]), 60)
     assert (found[0] == [0.1, 0.2]).all()
     assert found[1] == pytest.approx([0.3, 0.5], abs=0.02) and found[1, 0] >= 0.3
+
+
+def test_places_without_a_design_of_their_own_are_told() -> None:
+    goals = np.array([[0.0, 1.0], [0.1, 0.9], [1.0, 0.0]])
+    judged = Judged(np.zeros((3, 1)), goals, np.zeros((3, 1)), {})
+    points = np.array([[0.0, 1.0], [0.45, 0.55], [0.12, 0.88], [1.0, 0.0]])
+    assert without_own(judged, points).tolist() == [
+        1
+    ]  # nearest is the second design, which is nearer to another
 
 
 @pytest.mark.parametrize(("goals", "count", "points"), [(1, 16, 1), (2, 48, 48), (3, 48, 45), (4, 48, 35)])

@@ -3,10 +3,12 @@
 Each design makes the largest of its weighted objectives least, within its demands. A step solves a quadratic program
 of the linear models here and at the places tried last nearby, within a region of trust: the models of other places
 are what extremes over the cycle need, whose place in the cycle changes from design to design (bundle of cutting
-planes). Curvature is that of the Lagrangian (damped BFGS). All designs are evaluated together, once a step.
+planes). Curvature is that of the Lagrangian: what is known of it (Gauss and Newton's, of mean squares), and the rest
+from the slopes (damped BFGS). All designs are evaluated together, once a step.
 
 Sources: Nocedal and Wright, *Numerical Optimization*, 2006, ch. 18; Bonnans et al., *Numerical Optimization*, 2006,
-ch. 10 (bundles); Gembicki and Haimes 1975 (goal attainment).
+ch. 10 (bundles); Gembicki and Haimes 1975 (goal attainment); Dennis, Gay and Welsch 1981, *ACM Trans. Math. Softw.* 7
+(squares).
 """
 
 from __future__ import annotations
@@ -28,20 +30,22 @@ STEPS, FIRST, LARGEST, AGAIN, LEAST = 30, 0.1, 0.5, 1e-3, 1e-6
 #: gain that are none.
 PRICE, DEARER, DEAREST, MET, GAIN = 0.02, 5.0, 1e4, 1e-8, 1e-9
 #: So many steps that gain less than this end a search.
-PATIENCE, LITTLE = 10, 1e-6
+PATIENCE, LITTLE = 5, 2e-6
 #: Earlier places whose models are kept, and how far away they may lie, in half widths of the region.
 KEPT, REACH = 2, 10.0
 _FAR, _STEADY, _DEAR, _SLIGHT = 1e3, 1e-8, 10.0, 1e-12
 
 
 class Model(NamedTuple):
-    """At places x (K, n): objectives (K, g), what is left to the demands (K, c), and the slopes (K, g or c, n)."""
+    """At places x (K, n): objectives (K, g), what is left to the demands (K, c), the slopes (K, g or c, n), and
+    what is known of the objectives' curvatures (K, g, n, n), 0 where nothing is."""
 
     x: Floats
     goals: Floats
     rooms: Floats
     goal_slopes: Floats
     room_slopes: Floats
+    bends: Floats
 
     def taken(self, rows: NDArray[np.bool_]) -> Model:
         """Some of the places."""
@@ -56,13 +60,14 @@ class Model(NamedTuple):
 Evaluate = Callable[[Floats, Places], Model]
 
 
-def descended(evaluate: Evaluate, x: Floats, steps: int = STEPS) -> Floats:
+def descended(evaluate: Evaluate, x: Floats, steps: int = STEPS, little: float = LITTLE) -> Floats:
     """Places (K, n) of the unit cube from which no step leads to a lower largest objective.
 
     ``evaluate(x, designs)``: the model at new places of some of the designs; objectives are weighted, those of weight
-    0 far below the others; not finite where a design does not move.
+    0 far below the others; not finite where a design does not move. Some steps that gain less than ``little`` are the
+    end.
     """
-    search = _Searches(evaluate, x)
+    search = _Searches(evaluate, x, little)
     for _ in range(steps):
         if not len(search.alive):
             break
@@ -79,13 +84,14 @@ def _merit(model: Model, price: Floats | float) -> Floats:
 class _Searches:
     """What is known of the searches that are not at their end, whose numbers are ``alive``."""
 
-    def __init__(self, evaluate: Evaluate, x: Floats) -> None:
-        self.evaluate, self.found = evaluate, x.copy()
+    def __init__(self, evaluate: Evaluate, x: Floats, little: float) -> None:
+        self.evaluate, self.little, self.found = evaluate, little, x.copy()
         count, n = x.shape
         self.alive: Places = np.arange(count)
         self.here = evaluate(x, self.alive)
         self.width, self.price = np.full(count, FIRST), np.full(count, PRICE)
-        self.curved, self.idle = np.zeros((count, n, n)), np.zeros(count, dtype=np.intp)
+        self.learned, self.idle = np.zeros((count, n, n)), np.zeros(count, dtype=np.intp)
+        self.pushed = np.full(self.here.goals.shape, 1.0 / self.here.goals.shape[1])
         self.tried = Model(*(each[:, None] for each in self.here))
         self._keep(np.isfinite(_merit(self.here, self.price)))
 
@@ -98,7 +104,8 @@ class _Searches:
         gained = _merit(self.here, self.price) - _merit(trial, self.price)
         better = gained > 0.05 * np.maximum(hoped, 0.0)
         before, size = self.here, np.abs(move).max(axis=1)
-        self._bend(before, trial, forces)
+        self._learn(before, trial, forces)
+        self.pushed = forces[0]
         self.here = before.with_some(trial, better)
         self.found[self.alive] = self.here.x
         self.tried = Model(*(
@@ -110,12 +117,12 @@ class _Searches:
         self.width = np.where(better, self.width, 0.5 * np.minimum(self.width, size))
         self.price = np.where(cheap, np.minimum(DEARER * self.price, DEAREST), self.price)
         self.width = np.where(missing, np.maximum(self.width, AGAIN), self.width)
-        self.idle = np.where(gained > LITTLE, 0, self.idle + better)
+        self.idle = np.where(gained > self.little, 0, self.idle + better)
         self._keep((self.width > LEAST) & (self.idle < PATIENCE) & ((hoped > GAIN) | ~better) | missing)
 
     def _keep(self, rows: NDArray[np.bool_]) -> None:
         if not rows.all():
-            self.alive, self.curved = self.alive[rows], self.curved[rows]
+            self.alive, self.learned, self.pushed = self.alive[rows], self.learned[rows], self.pushed[rows]
             self.width, self.price, self.idle = self.width[rows], self.price[rows], self.idle[rows]
             self.here, self.tried = self.here.taken(rows), self.tried.taken(rows)
 
@@ -124,7 +131,8 @@ class _Searches:
         rows, least = self._lines()
         width, (count, n), models = self.width, self.here.x.shape, self.tried.x.shape[1]
         curved = np.tile(_STEADY * np.eye(n + 1), (count, 1, 1))
-        curved[:, :n, :n] += width[:, None, None] * self.curved
+        known = (self.pushed[:, :, None, None] * self.here.bends).sum(axis=1)
+        curved[:, :n, :n] += width[:, None, None] * (self.learned + known)
         slope = np.zeros((count, n + 1))
         slope[:, n] = 1.0
         low, high = np.full((count, n + 1), -_FAR), np.full((count, n + 1), _FAR)
@@ -164,23 +172,30 @@ class _Searches:
         rows = np.where(false[..., None], 0.0, rows).reshape(len(off), -1, rows.shape[3])
         return rows, np.where(false, -_FAR, np.maximum(least, -_FAR)).reshape(len(off), -1)
 
-    def _bend(self, before: Model, after: Model, forces: tuple[Floats, Floats]) -> None:
-        """The curvature of the Lagrangian from the slopes at two places (damped BFGS, Powell 1978)."""
+    def _learn(self, before: Model, after: Model, forces: tuple[Floats, Floats]) -> None:
+        """The curvature of the Lagrangian, but for what is known of it, from the slopes at two places (damped BFGS,
+        Powell 1978; beside a known part no larger before than the step shows, Dennis, Gay and Welsch 1981)."""
         own, kept = forces
 
         def slope(model: Model) -> Floats:
             pushed = (own[:, None] @ model.goal_slopes)[:, 0]
             return np.asarray(pushed - (kept[:, None] @ model.room_slopes)[:, 0])
 
-        s, y = after.x - before.x, slope(after) - slope(before)
+        s = after.x - before.x
+        known = (own[:, :, None] * (after.bends @ s[:, None, :, None])[..., 0]).sum(axis=1)
+        y = slope(after) - slope(before) - known
         length, along = (s * s).sum(axis=1), (s * y).sum(axis=1)
         new = np.isfinite(y).all(axis=1) & (length > 0.0)
         s, y = np.where(new[:, None], s, 0.0), np.where(new[:, None], y, 0.0)
-        first = new & ~self.curved.any(axis=(1, 2)) & (along > 0.0)
+        unknown = ~after.bends.any(axis=(1, 2, 3))
+        first = new & unknown & ~self.learned.any(axis=(1, 2)) & (along > 0.0)
         size = np.where(first, (y * y).sum(axis=1) / np.where(first, along, 1.0), 0.0)
-        self.curved += size[:, None, None] * np.eye(s.shape[1])
-        bs = (self.curved @ s[..., None])[..., 0]
+        self.learned += size[:, None, None] * np.eye(s.shape[1])
+        bs = (self.learned @ s[..., None])[..., 0]
         sbs, along = (s * bs).sum(axis=1), (s * y).sum(axis=1)
+        much = np.minimum(1.0, np.abs(along) / np.where(sbs > 0.0, sbs, 1.0))
+        much = np.where(unknown | (sbs <= 0.0), 1.0, much)
+        self.learned, bs, sbs = much[:, None, None] * self.learned, much[:, None] * bs, much * sbs
         share = np.where(along >= 0.2 * sbs, 1.0, 0.8 * sbs / np.where(sbs > along, sbs - along, 1.0))
         y = share[:, None] * y + (1.0 - share)[:, None] * bs
         along = (s * y).sum(axis=1)
@@ -189,5 +204,5 @@ class _Searches:
             np.where(new & (sbs > 0.0), 1.0 / np.where(sbs > 0.0, sbs, 1.0), 0.0),
             np.where(new, 1.0 / np.where(along > 0.0, along, 1.0), 0.0),
         )
-        self.curved += give[:, None, None] * y[:, :, None] * y[:, None, :]
-        self.curved -= take[:, None, None] * bs[:, :, None] * bs[:, None, :]
+        self.learned += give[:, None, None] * y[:, :, None] * y[:, None, :]
+        self.learned -= take[:, None, None] * bs[:, :, None] * bs[:, None, :]

@@ -18,7 +18,7 @@ from linkwright.optimisation.task import Judged, Task
 
 Floats = NDArray[np.float64]
 #: A search with one objective ends where the best of this many generations gained less than this share.
-IDLE, GAIN = 30, 1e-4
+IDLE, GAIN = 20, 1e-4
 
 
 @dataclass

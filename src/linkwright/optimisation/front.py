@@ -83,3 +83,12 @@ def picked(judged: Judged, distance: Floats, count: int, apart: float) -> list[i
         rows.append(row)
         left[:, np.abs(judged.x - judged.x[row]).max(axis=1) <= apart] = np.inf
     return rows
+
+
+def without_own(judged: Judged, points: Floats) -> NDArray[np.intp]:
+    """Points (R) whose nearest design is nearer to another one, so that the front has a gap there."""
+    distance = nearest(judged, Scale.of(judged), points)
+    rows, least = distance.argmin(axis=1), distance.min(axis=1)
+    order = np.lexsort((least, rows))
+    _, first = np.unique(rows[order], return_index=True)
+    return np.setdiff1d(np.arange(len(points)), order[first])

@@ -246,6 +246,12 @@ class Measures:
         values = {text: self._combined(text, found) for text in self.expressions}
         return values, {text: self._chained(text, found, slopes) for text in self.expressions}
 
+    def curvatures(self, text: str, columns: Mapping[str, Floats], by: tuple[str, ...]) -> Floats | None:
+        """Curvature (designs, k, k) of a path error that stands alone, by the addresses ``by``; None: not known."""
+        expression, names = self.expressions[text]
+        path = names[""] if expression is None else ""
+        return self.paths.curvatures(path, columns, by) if path in self.paths else None
+
     def _chained(self, text: str, found: Mapping[str, Floats], slopes: Mapping[str, Floats]) -> Floats:
         """The gradient of an expression from those of its numbers."""
         expression, names = self.expressions[text]

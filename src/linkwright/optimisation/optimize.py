@@ -35,7 +35,7 @@ from linkwright.optimisation.evolution import (
     resumed,
     taken,
 )
-from linkwright.optimisation.front import Scale, nearest, picked, spread
+from linkwright.optimisation.front import Scale, nearest, picked, spread, without_own
 from linkwright.optimisation.optimum import Choice, OptimizeError, Optimum, SearchInterrupted, hypervolume
 from linkwright.optimisation.polish import Polish
 from linkwright.optimisation.problem import problem
@@ -49,9 +49,12 @@ Progress = Callable[[int, int], None]
 SLOW, SAVED = 400, 2.0
 #: Share of the evaluations that the first designs take, and the most that one sweep has; how many of them the local
 #: search starts from, its steps, and how far apart they lie in the cube.
-SAMPLED, AT_ONCE, STARTS, FEW, APART = 0.5, 20_000, 16, 15, 0.1
+SAMPLED, AT_ONCE, STARTS, FEW, APART = 0.5, 20_000, 16, 10, 0.1
 #: Designs that are polished in the end for each objective; places along a front.
 POLISHED, FRONT = 3, 48
+#: What a step along a front must gain, as share of its width, and how often places without a design of their own are
+#: tried again from the designs beside them.
+EVEN, ROUNDS = 2e-5, 3
 #: Generations with many samples of the tolerances in the end, and how far in the cube these begin from the others.
 SURER, KICK = 25, 0.01
 #: Steps of the last local search, and how near in the cube two of its designs may begin.
@@ -278,7 +281,7 @@ class _Run:
                 before, 1.0 / self._sizes(before, 0)[:, None], np.zeros_like(before.goals), steps
             )
         aims = np.resize(scale.aims(points), before.goals.shape)
-        return self.polish.polished(before, np.tile(1.0 / scale.span, (len(rows), 1)), aims, steps)
+        return self.polish.polished(before, np.tile(1.0 / scale.span, (len(rows), 1)), aims, steps, EVEN)
 
     def _sizes(self, judged: Judged, goal: int) -> Floats:
         """What counts as much of an objective, (K,): its value, but for values next to nothing beside the start's."""
@@ -321,7 +324,11 @@ class _Run:
         for goal in range(count):
             judged = self._bettered(judged, self._end(judged, goal))
         points = spread(count, self.places)
-        judged = self._bettered(judged, self._descended(judged, points, len(points), -1.0, self.last))
+        for _ in range(ROUNDS):
+            judged = self._bettered(judged, self._descended(judged, points, len(points), -1.0, self.last))
+            points = points[without_own(judged, points)]
+            if not len(points):
+                break
         points = spread(count, FRONT)
         rows = picked(judged, nearest(judged, Scale.of(judged), points), len(points), 0.0)
         return taken(judged, np.array(rows, dtype=np.intp))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -13,6 +14,7 @@ from linkwright.engine.stage import Backend
 from linkwright.errors import QuantityError
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.study.objective import Part, PathError, of_path
+from linkwright.study.path_curvature import path_curvature
 from linkwright.words.sentence import Sentence
 
 Floats = NDArray[np.float64]
@@ -61,6 +63,12 @@ class PathErrors:
         self.parts: dict[str, Part] = {
             name: of_path(mechanism, addresses, each, backend) for name, each in asked.items()
         }
+        self._bends = {
+            name: partial(
+                path_curvature, mechanism, addresses, each.point, len(np.array(each.target)), backend
+            )
+            for name, each in asked.items()
+        }
 
     def __contains__(self, name: str) -> bool:
         return name in self.parts
@@ -80,3 +88,13 @@ class PathErrors:
         slope = np.zeros((len(found), len(by)))
         slope[:, [by.index(address) for address in part.names]] = found
         return values, slope
+
+    def curvatures(self, name: str, columns: Mapping[str, Floats], by: tuple[str, ...]) -> Floats:
+        """Curvatures (designs, k, k) by the addresses ``by``, from the path's slopes; 0 where these have none."""
+        bend = self._bends[name]()
+        found = np.zeros((len(next(iter(columns.values()))), len(by), len(by)))
+        if bend is not None:
+            places = [by.index(address) for address in bend.names]
+            with np.errstate(all="ignore"):
+                found[:, np.array(places)[:, None], places] = bend(columns)
+        return found

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.optimisation.descent import STEPS, Model, Places, descended
+from linkwright.optimisation.descent import LITTLE, STEPS, Model, Places, descended
 from linkwright.optimisation.evolution import joined
 from linkwright.optimisation.front import SHARED
 from linkwright.optimisation.task import Judged, Task
@@ -39,7 +41,9 @@ class Polish:
             if np.isfinite(each.high):
                 self.limits.append((each.text, -1 / size, each.high / size - edge))
 
-    def polished(self, before: Judged, weights: Floats, aims: Floats, steps: int = STEPS) -> Judged:
+    def polished(
+        self, before: Judged, weights: Floats, aims: Floats, steps: int = STEPS, little: float = LITTLE
+    ) -> Judged:
         """The designs (K) with the largest of ``weights`` · (objective − ``aims``), (K, goals) each, made least and
         the demands kept; each where it became better, or misses less, else as it was."""
         if not self.free.any() or self.task.problem.robust or not len(before.x):
@@ -48,7 +52,7 @@ class Polish:
         def evaluate(free: Floats, rows: Places) -> Model:
             return self._model(self._whole(before.x[rows], free), weights[rows], aims[rows])
 
-        moved = descended(evaluate, before.x[:, self.free], steps)
+        moved = descended(evaluate, before.x[:, self.free], steps, little)
         after = self.task.judge(self._whole(before.x, moved))
         was, now = (_weighed(each.goals, weights, aims).max(axis=1) for each in (before, after))
         with np.errstate(invalid="ignore"):
@@ -62,7 +66,8 @@ class Polish:
 
     def _model(self, x: Floats, weights: Floats, aims: Floats) -> Model:
         """Objectives, what is left to demands, and the slopes of both by the free variables."""
-        values, slopes = self._with_slopes(x)
+        columns = self.task.columns_of(self.task.place(x))
+        values, slopes = self._with_slopes(x, columns)
         goals = np.column_stack([goal.sign * values[goal.text] for goal in self.task.problem.goals])
         falls = np.stack([goal.sign * slopes[goal.text] for goal in self.task.problem.goals], axis=1)
         rooms = np.empty((len(x), len(self.limits)))
@@ -72,14 +77,28 @@ class Polish:
         falls = weights[:, :, None] * falls
         falls += SHARED * falls.sum(axis=1, keepdims=True)
         goals = np.where(weights > 0.0, _weighed(goals, weights, aims), _NONE)
-        return Model(x[:, self.free], goals, rooms, falls[:, :, self.free], climbs[:, :, self.free])
+        bends = self._bends(columns, weights)
+        return Model(x[:, self.free], goals, rooms, falls[:, :, self.free], climbs[:, :, self.free], bends)
 
-    def _with_slopes(self, x: Floats) -> tuple[dict[str, Floats], dict[str, Floats]]:
+    def _bends(self, columns: Mapping[str, Floats], weights: Floats) -> Floats:
+        """What is known of the weighted objectives' curvatures by the free variables, (K, goals, n, n)."""
+        span = self.span[self.free]
+        found = np.zeros((*weights.shape, len(span), len(span)))
+        for k, goal in enumerate(self.task.problem.goals):
+            bent = self.task.measures.curvatures(goal.text, columns, self.names)
+            if bent is not None and goal.sign > 0.0:
+                free = bent[:, self.free][:, :, self.free] * span[:, None] * span
+                found[:, k] = weights[:, k, None, None] * free
+        return np.asarray(found + SHARED * found.sum(axis=1, keepdims=True))
+
+    def _with_slopes(
+        self, x: Floats, columns: Mapping[str, Floats]
+    ) -> tuple[dict[str, Floats], dict[str, Floats]]:
         """Values (K,) and gradients (K, k) by the cube's coordinates, exact where they can be had."""
         measures = self.task.measures
         if not measures.side_by_side:
             return self._by_differences(x)
-        values, slopes = measures.with_slopes(self.task.columns_of(self.task.place(x)), self.names)
+        values, slopes = measures.with_slopes(columns, self.names)
         return values, {text: each * self.span for text, each in slopes.items()}
 
     def _by_differences(self, x: Floats) -> tuple[dict[str, Floats], dict[str, Floats]]:
