@@ -146,7 +146,7 @@ class Measures:
                 return powers(term.dimension)
             summary = one(term.parts[0])
             angle = summary.kind in ("argmin", "argmax")
-            return powers("angle" if angle else self.cycle.quantities[summary.output].dimension)
+            return powers("angle" if angle else self.cycle.traced.named.quantity(summary.output).dimension)
         found = criterion(name).measure(self._alternative(self.mechanism))
         if found is None and not is_summary(name):
             metric = metric_of(name)
