@@ -47,7 +47,7 @@ class Registry(Mapping[str, T], Generic[T]):
         return file_under
 
     def __getitem__(self, name: str) -> T:
-        if name not in self:
+        if name not in self._elements and name not in self:
             raise UnknownName(no_such(self.noun, name, sorted(self._elements)))
         return self._elements[name]
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from linkwright.engine.linear import determinant
+from linkwright.engine.recent import Recent
 from linkwright.engine.trace import Scalar, absolute, angle, sqrt
 from linkwright.engine.vector import Vec
 from linkwright.kinematics.outputs import MotionOutputs
@@ -17,11 +18,18 @@ def dyads(structure: Structure) -> tuple[Group, ...]:
 
 def closable(structure: Structure) -> tuple[Group, ...]:
     """The groups whose cuts are all pins."""
-    return tuple(
-        group
-        for group in structure.groups
-        if group.unknowns and group.cuts and all(cut.turns for cut in group.cuts)
+    return _closable.get(
+        structure,
+        None,
+        lambda: tuple(
+            group
+            for group in structure.groups
+            if group.unknowns and group.cuts and all(cut.turns for cut in group.cuts)
+        ),
     )
+
+
+_closable: Recent[Structure, tuple[Group, ...]] = Recent(64)
 
 
 def transmission(outputs: MotionOutputs, group: Group) -> Scalar:

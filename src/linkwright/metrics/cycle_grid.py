@@ -102,6 +102,8 @@ class CycleGrid:
     def around(self) -> Floats:
         """Ends of the pieces around change points, s, (changes, 2)."""
         length, changes = self.end - self.start, self.resolver.changes
+        if not len(changes):
+            return np.empty((0, 2))
         if self._motion.positions.closed:
             changes = np.concatenate([changes - length, changes, changes + length])
         changes = np.sort(changes)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from itertools import chain
 from typing import ClassVar
 
@@ -12,10 +12,11 @@ from numpy.typing import NDArray
 from linkwright.core.outputs import row_names
 from linkwright.core.piecewise import POINTS, nodes
 from linkwright.core.plane import area, convex_hull
+from linkwright.engine.recent import Recent
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion
-from linkwright.kinematics.names import point_key
+from linkwright.kinematics.names import canonical
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Better, Metric, MetricValue, Remark
@@ -73,20 +74,29 @@ class SweptAreaOfLink(HullArea):
     on_request = True
 
     def swept(self, mechanism: Mechanism) -> dict[str, tuple[str, ...]]:
-        return {name: points_of(mechanism, name) for name in mechanism.links}
+        found = points_of_links(mechanism)
+        return {name: found[name] for name in mechanism.links}
 
 
 def points(mechanism: Mechanism) -> tuple[str, ...]:
     """The canonical names of all points of frame and links."""
-    return tuple(
-        dict.fromkeys(key for name in ("frame", *mechanism.links) for key in points_of(mechanism, name))
+    return tuple(dict.fromkeys(chain.from_iterable(points_of_links(mechanism).values())))
+
+
+def points_of_links(mechanism: Mechanism) -> Mapping[str, tuple[str, ...]]:
+    """The canonical names of the points of frame and links, by these."""
+    return _points.get(
+        mechanism.family,
+        None,
+        lambda: {
+            name: tuple(dict.fromkeys(canonical(mechanism, name, point) for point in link.points))
+            for name, link in {"frame": mechanism.frame, **mechanism.links}.items()
+        },
     )
 
 
-def points_of(mechanism: Mechanism, link: str) -> tuple[str, ...]:
-    """The canonical names of a link's points."""
-    names = (point_key(mechanism, f"{link}.{point}") for point in mechanism.link(link).points)
-    return tuple(dict.fromkeys(names))
+#: By the family of a mechanism.
+_points: Recent[object, Mapping[str, tuple[str, ...]]] = Recent(64)
 
 
 def _curves(analysis: Analysis) -> Curves | None:
@@ -123,7 +133,7 @@ def _spans(analysis: Analysis, motion: Motion, values: Floats) -> NDArray[np.int
         way = motion.read(output)
         if output.kind != "angle" or np.ptp(way) < 2.0 * np.pi:
             ends = sorted((int(way.argmin()), int(way.argmax())))
-            own = points_of(mechanism, output_link(mechanism, output))
+            own = points_of_links(mechanism)[output_link(mechanism, output)]
             found[[keys.index(key) for key in own]] = ends[0], ends[1] + 1
     found[(values == values[:, :, :1, :1]).all(axis=(1, 2, 3))] = 0, 1
     return found

@@ -28,6 +28,8 @@ BEYOND, NEAR = 0.02, 0.6
 SAME = 0.1
 #: Nodes of a piece that are enough within an arc.
 _KEPT = np.isin(np.arange(POINTS), (0, 5, 10, POINTS - 1))
+#: Along the boundary where it is farthest to the left, the right, down and up.
+_ALONG = np.array([[0.0, -1.0], [0.0, 1.0], [1.0, 0.0], [-1.0, 0.0]])
 _INNER, _SHARES = np.polynomial.legendre.leggauss(3)
 
 
@@ -65,7 +67,7 @@ class SweptHull:
         numbers = np.arange(len(self._nodes)).reshape(len(self._values), -1)
         own = np.concatenate([numbers[k, slice(*curves.spans[k])] for k in chosen])
         self._corners = own[hull_corners(self._nodes.view(np.complex128)[own, 0])]
-        self._first, self._last = self._sides(self._thinned(self._corners))
+        self._first, self._last, self._outer = self._touched(self._thinned(self._corners))
         self.area = self._area()
 
     def _thinned(self, corners: Places) -> Places:
@@ -80,8 +82,9 @@ class SweptHull:
             arc &= (np.roll(curve, shift) == curve) & ((way * way).sum(axis=1) <= near)
         return np.asarray(corners[~arc])
 
-    def _sides(self, corners: Places) -> tuple[Contacts, Contacts]:
-        """Where the curve at the beginning, and that at the end of every side touches a line along it."""
+    def _touched(self, corners: Places) -> list[Contacts]:
+        """Where the curve at the beginning, and that at the end of every side touches a line along it, and where
+        curves come farthest to the left, the right, down and up."""
         begin, end = corners, np.roll(corners, -1)
         first, last = NODES[begin % POINTS], NODES[end % POINTS]
         arc = begin // POINTS == end // POINTS
@@ -89,13 +92,19 @@ class SweptHull:
         first[arc] = last[arc] = 0.5 * (first + last)[arc]
         free = np.flatnonzero(~arc)
         along = self._nodes[end[free]] - self._nodes[begin[free]]
-        near = SAME * np.hypot(*along.T)
-        first[free], last[free] = self._touching(begin[free], end[free], along, near)
-        return self._contacts(begin, first), self._contacts(end, last)
+        near = np.append(SAME * np.hypot(*along.T), np.full(4, np.inf))
+        found = self._nodes[self._corners]
+        low, high = found.argmin(axis=0), found.argmax(axis=0)
+        outer = self._corners[[low[0], high[0], low[1], high[1]]]
+        begins, ends = np.append(begin[free], outer), np.append(end[free], outer)
+        begun, ended = self._touching(begins, ends, np.concatenate([along, _ALONG]), near)
+        first[free], last[free] = begun[:-4], ended[:-4]
+        number, place = np.concatenate([begin, end, outer]), np.concatenate([first, last, begun[-4:]])
+        point = _at(self._pieces_of(number), weights_at(place))
+        ways = (slice(len(begin)), slice(len(begin), -4), slice(-4, None))
+        return [Contacts(number[way], place[way], point[way]) for way in ways]
 
-    def _touching(
-        self, begin: Places, end: Places, along: Floats, near: Floats | float
-    ) -> tuple[Floats, Floats]:
+    def _touching(self, begin: Places, end: Places, along: Floats, near: Floats) -> tuple[Floats, Floats]:
         """Places near some nodes where lines touch the curves, by Newton's steps: ``along`` what is given, or along
         the side between both places of contact where that is longer than ``near``."""
         number, half = np.concatenate([begin, end]), len(begin)
@@ -120,9 +129,6 @@ class SweptHull:
             along = np.where((np.hypot(*between.T) > near)[:, None], between, along)
         return place[:half], place[half:]
 
-    def _contacts(self, number: Places, place: Floats) -> Contacts:
-        return Contacts(number, place, _at(self._pieces_of(number), weights_at(place)))
-
     def _pieces_of(self, number: Places) -> Floats:
         """Curves (k, 2, POINTS) from the origin, in the pieces of some nodes."""
         curve, piece = np.divmod(number // POINTS, self._pieces)
@@ -145,12 +151,7 @@ class SweptHull:
     @property
     def box(self) -> Floats:
         """Width and height, (2,) m."""
-        found = self._nodes[self._corners]
-        low, high = found.argmin(axis=0), found.argmax(axis=0)
-        number = self._corners[[low[0], high[0], low[1], high[1]]]
-        along = np.array([[0.0, -1.0], [0.0, 1.0], [1.0, 0.0], [-1.0, 0.0]])
-        place, _ = self._touching(number, number, along, np.inf)
-        left, right, bottom, top = self._contacts(number, place).point
+        left, right, bottom, top = self._outer.point
         return np.array([right[0] - left[0], top[1] - bottom[1]])
 
     def weights(self) -> Floats:
