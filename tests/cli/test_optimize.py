@@ -26,6 +26,17 @@ def test_the_better_machine_is_shown_and_written(tmp_path: Path, capsys: pytest.
     assert main([*SEARCH, *words]) == 2
 
 
+def test_tolerances_are_asked_for_in_the_command(capsys: pytest.CaptureFixture[str]) -> None:
+    words = ["--define", "r=crank.length", "--minimize", "r", "--tolerance", "crank.length=0.5mm", "--robust"]
+    assert main([*SEARCH, *words, "worst", "--json"]) == 0
+    best = json.loads(capsys.readouterr().out)["designs"][0]
+    assert best["worst"]["r"] == pytest.approx([best["values"]["crank.length"] + 5e-4])
+    assert len(best["worst"]["jaw.angle range"]) == 2
+    assert main([*SEARCH, *words, "yield", "--yield", "0.5"]) == 0
+    assert "% of the machines made" in capsys.readouterr().out
+    assert main([*SEARCH, *words, "often"]) == 1
+
+
 def test_data_of_a_front(capsys: pytest.CaptureFixture[str]) -> None:
     assert main([*SEARCH, "--minimize", "peak_input_torque", "flywheel", "--json"]) == 0
     found = json.loads(capsys.readouterr().out)

@@ -302,7 +302,8 @@ class _Run:
     def _sure(self, state: State) -> Judged:
         """The population, with tolerances after some more generations with as many samples as the result is checked
         with, where one of these meets the demands."""
-        if not self.task.problem.robust or not self.task.measures.side_by_side:
+        task = self.task
+        if not task.problem.robust or task.at_corners or not task.measures.side_by_side:
             return state.judged
         self.task.samples = CHECKED
         x = state.judged.x + KICK * state.draw.normal(size=state.judged.x.shape)
@@ -375,15 +376,17 @@ class _Run:
                 values[:, i] = each.allowed(asked.start[i : i + 1])
         choices = []
         for k in range(len(chosen.x)):
+            worst = task.worst_of(values[k]) if made and task.at_corners and k == 0 else {}
             missed = tuple(
                 each.text
                 for each in task.bounds
-                if each.violation(chosen.values[each.text][k : k + 1])[0] > 0
+                if each.violation(np.array(worst.get(each.text, chosen.values[each.text][k]))).max() > 0
             )
             choices.append(Choice(
                 {each.address: float(values[k, i]) for i, each in enumerate(asked.variables)},
                 {text: float(each[k]) for text, each in chosen.values.items()}, missed,
                 task.yield_of(values[k]) if made and asked.tolerances and k == 0 else None,
+                worst,
             ))  # fmt: skip
         share = None
         if len(asked.goals) > 1 and np.isfinite(chosen.goals).all():
@@ -393,7 +396,7 @@ class _Run:
         return Optimum(
             asked, tuple(choices), dict(task.at_start), {each.text: (each.low, each.high) for each in task.bounds},
             {text: task.measures.dimension(text) for text in task.measures.expressions}, task.measures.evaluations,
-            state.generation, tuple(state.history), share, task.measures.side_by_side, self.stopped, idle,
+            state.generation, tuple(state.history), share, task.exact, self.stopped, idle,
             self.document,
         )  # fmt: skip
 
@@ -418,4 +421,8 @@ class _Run:
         """Which demands the nearest design misses, and by how much."""
         from linkwright.optimisation.report import missing
 
+        best, asked = found.best, found.problem
+        if best.made is not None and not best.missed:
+            shares = {"share": f"{100 * best.made:.1f}", "wanted": f"{100 * asked.least_yield:.6g}"}
+            return Sentence("optimize.failing_yield", **shares)
         return Sentence("optimize.failing", demands=tuple(missing(found)))

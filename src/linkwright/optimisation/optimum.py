@@ -29,12 +29,15 @@ Floats = NDArray[np.float64]
 @dataclass(frozen=True)
 class Choice:
     """One design: ``values`` of the variables, ``numbers`` of goals and demands, SI; ``missed``: demands that it
-    does not meet; ``made``: share of the machines within the tolerances that meet all, None where none are given."""
+    does not meet; ``made``: share of the machines within the tolerances that meet all, None where none are given;
+    ``worst``: what a number comes to at the worst within the tolerances (upwards, downwards, or both, as its demand
+    has it), where this was asked for."""
 
     values: Mapping[str, float]
     numbers: Mapping[str, float]
     missed: tuple[str, ...] = ()
     made: float | None = None
+    worst: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
 
 
 @dataclass(eq=False)
@@ -127,7 +130,8 @@ class Optimum(Frozen):
             "start": {"values": dict(zip(addresses, self.problem.start.tolist(), strict=True)),
                       "numbers": dict(self.start)},
             "designs": [{"values": dict(each.values), "numbers": dict(each.numbers), "missed": list(each.missed),
-                         "made": each.made} for each in self.choices],
+                         "made": each.made, "worst": {text: list(ends) for text, ends in each.worst.items()}}
+                        for each in self.choices],
             "hypervolume": self.hypervolume,
             "evaluations": self.evaluations,
             "generations": self.generations,

@@ -50,6 +50,13 @@ def _threads(columns: Mapping[str, Floats]) -> int | None:
     return None if len(next(iter(columns.values()))) > ALONE else 1
 
 
+def _shared(names: Sequence[str], by: Sequence[str]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Where the names that are in both stand, in the one and in the other."""
+    both = [(k, by.index(name)) for k, name in enumerate(names) if name in by]
+    own, places = np.array(both, dtype=np.intp).reshape(-1, 2).T
+    return own, places
+
+
 class PathErrors:
     """Values (designs,) of path errors by name, and their exact gradients."""
 
@@ -86,7 +93,8 @@ class PathErrors:
         with np.errstate(all="ignore"):
             values, found = part.many(columns, _threads(columns))
         slope = np.zeros((len(found), len(by)))
-        slope[:, [by.index(address) for address in part.names]] = found
+        own, places = _shared(part.names, by)
+        slope[:, places] = found[:, own]
         return values, slope
 
     def curvatures(self, name: str, columns: Mapping[str, Floats], by: tuple[str, ...]) -> Floats:
@@ -94,7 +102,7 @@ class PathErrors:
         bend = self._bends[name]()
         found = np.zeros((len(next(iter(columns.values()))), len(by), len(by)))
         if bend is not None:
-            places = [by.index(address) for address in bend.names]
+            own, places = _shared(bend.names, by)
             with np.errstate(all="ignore"):
-                found[:, np.array(places)[:, None], places] = bend(columns)
+                found[:, places[:, None], places] = bend(columns)[:, own[:, None], own]
         return found

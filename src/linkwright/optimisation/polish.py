@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from linkwright.optimisation.descent import LITTLE, STEPS, Model, Places, descended
 from linkwright.optimisation.evolution import joined
 from linkwright.optimisation.front import SHARED
-from linkwright.optimisation.task import Judged, Task
+from linkwright.optimisation.task import Judged, Side, Task
 
 Floats = NDArray[np.float64]
 #: What is kept from the edge of a demand, in its scales, and the step of differences where no exact slope is had.
@@ -46,7 +46,8 @@ class Polish:
     ) -> Judged:
         """The designs (K) with the largest of ``weights`` · (objective − ``aims``), (K, goals) each, made least and
         the demands kept; each where it became better, or misses less, else as it was."""
-        if not self.free.any() or self.task.problem.robust or not len(before.x):
+        sampled = self.task.problem.robust and not self.task.exact
+        if not self.free.any() or sampled or not len(before.x):
             return before
 
         def evaluate(free: Floats, rows: Places) -> Model:
@@ -67,13 +68,15 @@ class Polish:
     def _model(self, x: Floats, weights: Floats, aims: Floats) -> Model:
         """Objectives, what is left to demands, and the slopes of both by the free variables."""
         columns = self.task.columns_of(self.task.place(x))
-        values, slopes = self._with_slopes(x, columns)
-        goals = np.column_stack([goal.sign * values[goal.text] for goal in self.task.problem.goals])
-        falls = np.stack([goal.sign * slopes[goal.text] for goal in self.task.problem.goals], axis=1)
+        found = self._with_slopes(x, columns)
+        own = [(goal.sign, *found[goal.text, goal.sign]) for goal in self.task.problem.goals]
+        goals = np.column_stack([sign * value for sign, value, _ in own])
+        falls = np.stack([sign * slope for sign, _, slope in own], axis=1)
         rooms = np.empty((len(x), len(self.limits)))
         climbs = np.empty((len(x), len(self.limits), x.shape[1]))
         for k, (text, weight, offset) in enumerate(self.limits):
-            rooms[:, k], climbs[:, k] = weight * values[text] + offset, weight * slopes[text]
+            value, slope = found[text, -np.sign(weight)]
+            rooms[:, k], climbs[:, k] = weight * value + offset, weight * slope
         falls = weights[:, :, None] * falls
         falls += SHARED * falls.sum(axis=1, keepdims=True)
         goals = np.where(weights > 0.0, _weighed(goals, weights, aims), _NONE)
@@ -91,15 +94,21 @@ class Polish:
                 found[:, k] = weights[:, k, None, None] * free
         return np.asarray(found + SHARED * found.sum(axis=1, keepdims=True))
 
-    def _with_slopes(
-        self, x: Floats, columns: Mapping[str, Floats]
-    ) -> tuple[dict[str, Floats], dict[str, Floats]]:
-        """Values (K,) and gradients (K, k) by the cube's coordinates, exact where they can be had."""
-        measures = self.task.measures
+    def _with_slopes(self, x: Floats, columns: Mapping[str, Floats]) -> dict[Side, tuple[Floats, Floats]]:
+        """Values (K,) and gradients (K, k) by the cube's coordinates, exact where they can be had, of what must not
+        become larger (1) or smaller (-1): of the worst machine within the tolerances where that is asked."""
+        measures, sides = self.task.measures, self.task.sides
         if not measures.side_by_side:
-            return self._by_differences(x)
+            values, slopes = self._by_differences(x)
+            return {(text, sign): (values[text], slopes[text]) for text, sign in sides}
+        if self.task.at_corners:
+            columns, _ = self.task.corners(columns)
         values, slopes = measures.with_slopes(columns, self.names)
-        return values, {text: each * self.span for text, each in slopes.items()}
+        apart, found = len(next(iter(columns.values()))) // len(x), {}
+        for k, (text, sign) in enumerate(sides):
+            rows = slice(k if apart > 1 else 0, None, apart)
+            found[text, sign] = values[text][rows], slopes[text][rows] * self.span
+        return found
 
     def _by_differences(self, x: Floats) -> tuple[dict[str, Floats], dict[str, Floats]]:
         """The same by central differences, all designs in one go."""

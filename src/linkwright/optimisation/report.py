@@ -28,8 +28,10 @@ def report(found: Optimum, language: str) -> list[str]:
         ]
         lines += _front(found)
     lines += ["", tell("optimize.work", evaluations=found.evaluations, generations=found.generations)]
-    if not found.problem.robust:
+    if found.exact or not found.problem.robust:
         lines.append(tell("optimize.exact" if found.exact else "optimize.differences"))
+    if found.best.worst:
+        lines.append(tell("optimize.worst", numbers=", ".join(_worst(found))))
     if found.best.made is not None:
         lines.append(tell("optimize.made", share=f"{100 * found.best.made:.1f}"))
     lines += [tell("optimize.no_effect", address=each) for each in found.without_effect]
@@ -108,12 +110,23 @@ def _front(found: Optimum) -> list[str]:
     return aligned(rows, ">" * len(rows[0]))
 
 
+def _worst(found: Optimum) -> list[str]:
+    """What the numbers of the first design come to at the worst within the tolerances."""
+    said = []
+    for text, ends in found.best.worst.items():
+        symbol, factor = shown_unit(found.kinds[text])
+        shown = "..".join(f"{end / factor:.6g}" for end in sorted(ends))
+        said.append(f"{text} {shown}{' ' if symbol else ''}{symbol}")
+    return said
+
+
 def missing(found: Optimum) -> list[str]:
     """The demands that the first design misses, with what is demanded and what it has."""
     said = []
     for text in found.best.missed:
         symbol, factor = shown_unit(found.kinds[text])
-        wanted, has = _between(found, text, factor), _shown(found.best.numbers[text], factor, symbol)
+        ends = sorted(found.best.worst.get(text, (found.best.numbers[text],)))
+        wanted, has = _between(found, text, factor), "..".join(_shown(end, factor, symbol) for end in ends)
         said.append(f"{text} {wanted}{' ' if symbol else ''}{symbol} ({has})")
     return said
 

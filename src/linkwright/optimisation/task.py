@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from functools import cached_property
+from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,9 +18,13 @@ from linkwright.optimisation.problem import Demand, Problem
 from linkwright.words.sentence import Sentence
 
 Floats = NDArray[np.float64]
+#: A number, and 1 where it must not become larger, -1 where it must not become smaller.
+Side = tuple[str, float]
 #: Samples of the tolerances while searching, where designs go one by one, and at the end; a violation below this
 #: share of a demand is none.
 SAMPLES, SAMPLES_ALONE, CHECKED, MET = 64, 16, 512, 1e-6
+#: Most toleranced dimensions all of whose corners are tried.
+ALL_CORNERS = 4
 #: Places between its bounds at which a variable is tried for an effect; numbers differ by less where it has none.
 PROBED, SAME = (0.0, 0.35, 1.0), 1e-9
 _SHARE = re.compile(r"^(\d+\.?\d*(?:[eE][+-]?\d+)?)\s*%$")
@@ -93,6 +98,8 @@ class Task:
     def judge(self, x: Floats) -> Judged:
         """Objectives and violations of designs."""
         columns = self.columns_of(self.place(x))
+        if self.at_corners:
+            return self._worst(x, columns)
         if self.problem.robust:
             return self._robust(x, columns, self.samples)
         values = self.measures(columns)
@@ -108,6 +115,71 @@ class Task:
         goals, violations = goals.copy(), violations.copy()
         goals[stuck], violations[stuck] = np.inf, np.inf
         return goals, violations
+
+    @property
+    def exact(self) -> bool:
+        """Whether the last steps follow exact gradients."""
+        return self.measures.side_by_side and self.problem.robust != "yield"
+
+    @property
+    def at_corners(self) -> bool:
+        """Whether the worst within the tolerances is looked for where exact slopes say, not among samples."""
+        return self.problem.robust == "worst" and self.measures.side_by_side
+
+    @cached_property
+    def sides(self) -> tuple[Side, ...]:
+        """What must not become larger (1) or smaller (-1): objectives, and numbers that have demands."""
+        found = [(goal.text, goal.sign) for goal in self.problem.goals]
+        for each in self.bounds:
+            ends = ((1.0, each.high), (-1.0, each.low))
+            found += [(each.text, sign) for sign, end in ends if np.isfinite(end)]
+        return tuple(dict.fromkeys(found))
+
+    def corners(self, columns: Mapping[str, Floats]) -> tuple[dict[str, Floats], Floats]:
+        """Columns (N · sides,) of the machines within the tolerances of designs (N,) that are the worst for one side
+        after another, and what the side's number comes to there, (N, sides)."""
+        away = self._away(columns)
+        values, count = self.measures(self._made(columns, away)), len(away)
+        numbers = np.stack([sign * values[text].reshape(count, -1) for text, sign in self.sides], axis=1)
+        rows = np.where(np.isnan(numbers), np.inf, numbers).argmax(axis=2)
+        worst = np.take_along_axis(numbers, rows[:, :, None], axis=2)[:, :, 0]
+        own = np.take_along_axis(away, rows[:, :, None], axis=1)
+        return self._made(columns, own), worst * np.array([sign for _, sign in self.sides])
+
+    def _away(self, columns: Mapping[str, Floats]) -> Floats:
+        """Corners of the tolerances, (N, corners, dimensions): all where they are few, else those to which the exact
+        slopes of every side point, and those opposite."""
+        names = tuple(self.problem.tolerances)
+        if len(names) <= ALL_CORNERS:
+            every = np.array([*product((-1.0, 1.0), repeat=len(names))])
+            return np.tile(every, (len(next(iter(columns.values()))), 1, 1))
+        _, slopes = self.measures.with_slopes(columns, names)
+        found = np.stack([sign * slopes[text] for text, sign in self.sides], axis=1)
+        found = np.where(found < 0.0, -1.0, 1.0)
+        return np.concatenate([found, -found], axis=1)
+
+    def _made(self, columns: Mapping[str, Floats], away: Floats) -> dict[str, Floats]:
+        """Columns (N · corners,) of the machines in corners (N, corners, dimensions) of the tolerances."""
+        found = {name: np.repeat(column, away.shape[1]) for name, column in columns.items()}
+        for k, (name, tolerance) in enumerate(self.problem.tolerances.items()):
+            found[name] = found[name] + tolerance * away[:, :, k].ravel()
+        return found
+
+    def _worst(self, x: Floats, columns: Mapping[str, Floats]) -> Judged:
+        """Objectives and violations of the worst machines within the tolerances."""
+        drawn, (_, found) = self.measures(columns), self.corners(columns)
+        worst = dict(zip(self.sides, found.T, strict=True))
+        goals = np.column_stack([goal.sign * worst[goal.text, goal.sign] for goal in self.problem.goals])
+        misses = [np.zeros(len(x))]
+        for each in self.bounds:
+            both = [
+                each.violation(worst[each.text, sign]) for sign in (1.0, -1.0) if (each.text, sign) in worst
+            ]
+            misses.append(np.max(both, axis=0))
+        stuck = ~np.isfinite([*drawn.values(), *worst.values()]).all(axis=0)
+        violations = np.column_stack(misses)
+        goals[stuck], violations[stuck] = np.inf, np.inf
+        return Judged(x, goals, violations, drawn)
 
     def _robust(self, x: Floats, columns: Mapping[str, Floats], samples: int) -> Judged:
         """The worst of the samples, or their share that meets all demands."""
@@ -143,12 +215,17 @@ class Task:
         return {text: value.reshape(count, -1) for text, value in self.measures(made).items()}
 
     def _deviations(self, samples: int) -> dict[str, Floats]:
-        """The same deviations for all designs: drawn evenly, uniform within ±."""
+        """The same deviations for all designs: drawn evenly, uniform within ±; for the worst all corners where these
+        are no more."""
         if samples not in self._kept:
             from scipy.stats import qmc
 
             names = list(self.problem.tolerances)
-            share = qmc.Sobol(len(names), rng=np.random.default_rng(self.problem.seed)).random(samples)
+            if self.problem.robust == "worst" and 2 ** len(names) <= samples < CHECKED:
+                share = np.array([*product((0.0, 1.0), repeat=len(names))])
+                share = np.tile(share, (samples // len(share) + 1, 1))[:samples]
+            else:
+                share = qmc.Sobol(len(names), rng=np.random.default_rng(self.problem.seed)).random(samples)
             self._kept[samples] = {
                 name: np.concatenate([[0.0], self.problem.tolerances[name] * (2 * share[:, k] - 1)])
                 for k, name in enumerate(names)
@@ -158,6 +235,14 @@ class Task:
     @cached_property
     def _kept(self) -> dict[int, dict[str, Floats]]:
         return {}
+
+    def worst_of(self, values: Floats) -> dict[str, tuple[float, ...]]:
+        """What the numbers of a design (k,) come to at the worst within the tolerances, side after side."""
+        _, (worst,) = self.corners(self.columns_of(values[None]))
+        found = dict[str, tuple[float, ...]]()
+        for (text, _), value in zip(self.sides, worst.tolist(), strict=True):
+            found[text] = (*found.get(text, ()), value)
+        return found
 
     def without_effect(self, values: Floats) -> tuple[str, ...]:
         """Variables that change no number where each alone moves from a design (k,) over its bounds."""

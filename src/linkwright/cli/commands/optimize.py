@@ -25,6 +25,10 @@ def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
     parser.add_argument("--minimize", nargs="+", metavar="NUMBER", help=say("optimize.minimize_help"))
     parser.add_argument("--maximize", nargs="+", metavar="NUMBER", help=say("optimize.maximize_help"))
     parser.add_argument("--keep", nargs="+", metavar="DEMAND", help=say("optimize.keep_help"))
+    parser.add_argument("--define", nargs="+", metavar="NAME", help=say("optimize.define_help"))
+    parser.add_argument("--tolerance", nargs="+", metavar="DEVIATION", help=say("optimize.tolerance_help"))
+    parser.add_argument("--robust", metavar="worst|yield", help=say("optimize.robust_help"))
+    parser.add_argument("--yield", dest="least_yield", metavar="SHARE", help=say("optimize.yield_help"))
     parser.add_argument(
         "--evaluations", type=whole_number, metavar="N", help=say("optimize.evaluations_help")
     )
@@ -51,6 +55,10 @@ def run(options: argparse.Namespace, session: Session) -> int:
     settings = {
         "vary": _pairs(options.vary, session.say),
         "keep": _pairs(options.keep, session.say),
+        "define": _pairs(options.define, session.say),
+        "tolerance": _pairs(options.tolerance, session.say),
+        "robust": options.robust,
+        "yield": options.least_yield,
         "minimize": options.minimize,
         "maximize": options.maximize,
         "evaluations": options.evaluations,

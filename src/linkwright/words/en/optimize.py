@@ -18,6 +18,11 @@ linkwright optimize crusher.yaml --minimize peak_input_torque flywheel --plot fr
     "minimize_help": "numbers to make least: design numbers, flywheel, summaries such as 'jaw.angle range'",
     "maximize_help": "numbers to make greatest",
     "keep_help": "demands: 'NUMBER=at least 40 deg', 'at most', '1..2 m', 'same within 1 %%' of the start",
+    "define_help": "names for expressions of numbers: NAME=NUMBER, such as T=peak_input_torque",
+    "tolerance_help": "± of dimensions: ADDRESS=VALUE, such as crank.length=0.1mm",
+    "robust_help": "worst: objectives and demands hold for the worst machine within the tolerances; yield: a share "
+    "of the machines made (--yield) meets the demands",
+    "yield_help": "that share, such as 0.99",
     "evaluations_help": "most designs that the search judges",
     "seed_help": "seed of the search; the same seed gives the same result",
     "state_help": "keep the search's state in this file, and go on from it where it exists",
@@ -47,6 +52,7 @@ linkwright optimize crusher.yaml --minimize peak_input_torque flywheel --plot fr
     "differences": "This machine's designs go one after the other, and the last steps followed differences: slower, "
     "and less exact.",
     "made": "{share} % of the machines made within the tolerances meet all demands (512 samples).",
+    "worst": "At the worst within the tolerances: {numbers}.",
     "interrupted": "The search was interrupted; run the same command with --state {path} to go on.",
     "picture": "Optimisation of {name}",
     "legend.front": "front",
@@ -87,6 +93,8 @@ linkwright optimize crusher.yaml --minimize peak_input_torque flywheel --plot fr
     "the machine what the number needs (a flywheel, for one, needs work that the drivers do)",
     "failing": "the demands cannot be met together; the nearest design misses {demands}: change these demands, or "
     "widen the bounds",
+    "failing_yield": "of the machines made within the tolerances {share} % meet all demands at best, not {wanted} %; "
+    "tighten the tolerances, ask for a smaller yield:, or widen the bounds",
     "other_state": 'the state "{path}" belongs to another problem; name another file, or remove it',
     "bad_state": 'the state "{path}" cannot be read; name another file, or remove it',
 }

@@ -17,6 +17,10 @@ linkwright optimize crusher.yaml --minimize peak_input_torque flywheel --plot fr
     "minimize_help": "使之最小的数：设计指标、flywheel、汇总如 'jaw.angle range'",
     "maximize_help": "使之最大的数",
     "keep_help": "要求：'NUMBER=at least 40 deg'、'at most'、'1..2 m'、与原设计 'same within 1 %%'",
+    "define_help": "给算式中的数取名：NAME=NUMBER，如 T=peak_input_torque",
+    "tolerance_help": "尺寸的 ±：ADDRESS=VALUE，如 crank.length=0.1mm",
+    "robust_help": "worst：目标与要求对公差内最坏的机器成立；yield：制成的机器中有 --yield 所给的比例满足要求",
+    "yield_help": "这一比例，如 0.99",
     "evaluations_help": "搜索最多计算的设计数",
     "seed_help": "搜索的种子；同一种子给出同一结果",
     "state_help": "把搜索状态存在此文件，已存在时由此继续",
@@ -43,6 +47,7 @@ linkwright optimize crusher.yaml --minimize peak_input_torque flywheel --plot fr
     "exact": "最后几步按精确梯度。",
     "differences": "此机器的设计须逐个计算，最后几步按差分：较慢，也较不精确。",
     "made": "公差内制成的机器有 {share} % 满足全部要求（512 个样本）。",
+    "worst": "公差内最坏时：{numbers}。",
     "interrupted": "搜索被中断；用同一命令加 --state {path} 再次运行即可继续。",
     "picture": "{name} 的优化",
     "legend.front": "前沿",
@@ -78,6 +83,8 @@ linkwright optimize crusher.yaml --minimize peak_input_torque flywheel --plot fr
     "no_values": "{name} 在上下限内没有一个设计有 {numbers} 的值；请改用别的量，"
     "或使机器具备所需条件（例如飞轮需要原动件做功）",
     "failing": "各项要求不能同时满足；最近的设计不满足 {demands}：请改变这些要求，或放宽上下限",
+    "failing_yield": "公差内制成的机器最多有 {share} % 满足全部要求，达不到 {wanted} %；"
+    "请收紧公差、减小 yield:，或放宽上下限",
     "other_state": '状态文件 "{path}" 属于另一个问题；请另给文件，或删除它',
     "bad_state": '状态文件 "{path}" 无法读取；请另给文件，或删除它',
 }
