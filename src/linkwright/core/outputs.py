@@ -11,6 +11,7 @@ from functools import lru_cache
 
 from linkwright.core.dataclass import dataclass
 from linkwright.units import SI_UNITS
+from linkwright.words.sentence import Sentence
 
 
 @dataclass(frozen=True)
@@ -196,6 +197,14 @@ class Output:
         on = f"on {self.on}" if self.on and KINDS[self.kind].of == "joint" else self.on
         return " ".join(filter(None, (self.word, self.owner, on))) + axis
 
+    def sentence(self, *, alone: bool = False) -> Sentence:
+        """What it is, in words of any language: ``angular velocity of jaw``; ``alone``: the machine's one driver."""
+        key = self.kind
+        if key == "effort" and alone:
+            key = "input_force" if self.slides else "input_torque"
+        said = Sentence(f"quantity.{key}", name=self.owner, on=self.on)
+        return Sentence(f"quantity.in_{self.component}", quantity=said) if self.component else said
+
     @property
     def quantity(self) -> str:
         """What stands over its column beneath the owner: ``angle``, ``position.x``, ``magnitude`` of a reaction."""
@@ -218,9 +227,14 @@ class Output:
         return ".".join(filter(None, (self.place, self.quantity)))
 
     @property
+    def unit(self) -> str:
+        """Its SI unit."""
+        return SI_UNITS[self.dimension]
+
+    @property
     def heading(self) -> str:
-        """The same with its SI unit: ``jaw.angle [rad]``."""
-        return f"{self.column} [{SI_UNITS[self.dimension]}]"
+        """Its name over a column with its unit: ``jaw.angle [rad]``."""
+        return f"{self.column} [{self.unit}]"
 
     def __str__(self) -> str:
         """As a model file writes it: ``jaw`` for its angle, ``guide`` for its displacement, ``C.x``."""

@@ -6,22 +6,24 @@ import math
 from collections.abc import Callable, Mapping
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.outputs import Output
 from linkwright.worked.solution import Worked
 from linkwright.worked.terms import APPLY, Term
 
 #: Changes the formula of one line: its number, its result, its formula.
 Change = Callable[[int, Term, Term], Term]
 Function = Callable[[Term, list[float]], float]
+Values = dict[Output, float]
 
 
 @dataclass(frozen=True)
 class Line:
-    """One equation: its result (a symbol), its formula, its Assur group, its column in the table of results."""
+    """One equation: its result (a symbol), its formula, its Assur group, and which of the outputs it is."""
 
     result: Term
     formula: Term
     group: str
-    column: str
+    output: Output | None
 
     @property
     def given(self) -> bool:
@@ -32,7 +34,7 @@ class Line:
 def lines_of(solution: Worked) -> tuple[Line, ...]:
     """The equations of a worked solution in their order."""
     return tuple(
-        Line(*equation.terms, step.group, equation.column)
+        Line(*equation.terms, step.group, equation.output)
         for step in solution.steps
         for equation in step.equations
         if equation.terms is not None
@@ -44,15 +46,15 @@ def run(
     change: Change | None = None,
     functions: Mapping[str, Function] | None = None,
     given: Mapping[str, float] | None = None,
-) -> dict[str, float]:
-    """Results by column (angles in degrees), every line reckoned from those before it.
+) -> Values:
+    """Results by output (angles in degrees), every line reckoned from those before it.
 
     ``change``: puts another formula into lines; ``functions``: other meanings of ``cos``, ``sin``, ``atan2``;
     ``given``: other values of symbols that are only told. A value that a formula does not have (a root of a negative
     number) is NaN, and so is what follows from it.
     """
     known: dict[str, float] = dict(given or {})
-    found: dict[str, float] = {}
+    found: Values = {}
     for number, line in enumerate(lines):
         name = line.result.plain
         if line.given:
@@ -61,8 +63,8 @@ def run(
             formula = line.formula if change is None else change(number, line.result, line.formula)
             value = reckon(formula, known, functions or {})
         known[name] = value
-        if line.column:
-            found[line.column] = value
+        if line.output:
+            found[line.output] = value
     return found
 
 

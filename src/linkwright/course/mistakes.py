@@ -12,7 +12,7 @@ from dataclasses import replace
 from functools import partial
 
 from linkwright.core.dataclass import dataclass
-from linkwright.course.chain import Change, Line, lines_of, run, with_terms
+from linkwright.course.chain import Change, Line, Values, lines_of, run, with_terms
 from linkwright.kinematics.cycle import at_inputs
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
@@ -33,7 +33,7 @@ class Consequence:
 
     mistake: str
     where: str
-    values: dict[str, float]
+    values: Values
 
 
 class Sheet:
@@ -65,7 +65,7 @@ def passed(mechanism: Mechanism, at: float) -> tuple[Motion, int]:
     return solve_motion(mechanism, times=[time]), 0
 
 
-Made = Iterator[tuple[str, dict[str, float]]]
+Made = Iterator[tuple[str, Values]]
 
 
 def degrees_for_radians(sheet: Sheet) -> Made:
@@ -74,7 +74,8 @@ def degrees_for_radians(sheet: Sheet) -> Made:
     if q is not None and q.degrees:
         yield "q", run(sheet.lines, given={"q": math.degrees(q.amount)})
     radians = {
-        name: math.radians(value) if "[rad]" in name else value for name, value in sheet.values.items()
+        each: math.radians(value) if each.dimension == "angle" else value
+        for each, value in sheet.values.items()
     }
     yield "answer", radians
 

@@ -20,13 +20,14 @@ from linkwright.errors import RequestError
 from linkwright.files.write import to_data
 from linkwright.kinematics.motion import Motion
 from linkwright.plot.drawing.draw import draw
+from linkwright.plot.drawing.view import DIAGONAL
 from linkwright.words import Say, speaker
 from linkwright.words.sentence import Sentence
 
 #: Width of the pictures of questions, pixels.
 PICTURE = 640
-#: Height of a sheet's drawing, mm, and the least; rows with room beside it, and the height of one more.
-TALLEST, LOWEST, ROWS, ROW = 62.0, 30.0, 25, 5.0
+#: Largest and least height of a sheet's drawing, of it with the rows of the tables, and of a row, mm; its diagonal.
+TALLEST, LOWEST, ROOM, ROW, SMALL = 110.0, 30.0, 196.0, 5.0, 300.0
 Files = dict[str, bytes]
 
 
@@ -48,10 +49,10 @@ def motion_of(found: Variants, each: Variant) -> tuple[Motion, int]:
     return passed(each.mechanism, found.task.at)
 
 
-def drawing(found: Variants, each: Variant, language: str) -> str:
+def drawing(found: Variants, each: Variant, language: str, diagonal: float = DIAGONAL) -> str:
     """The machine of a variant as SVG, without numbers that would give answers away."""
     motion, index = motion_of(found, each)
-    return draw(motion, position=index, centres=True, language=language).svg
+    return draw(motion, position=index, centres=True, language=language, diagonal=diagonal).svg
 
 
 def data_rows(found: Variants, each: Variant) -> list[tuple[str, str]]:
@@ -130,11 +131,13 @@ def sheets(found: Variants, language: str) -> Files:
         page.append(Paragraph(say("course.sheet_name")))
         page.append(Paragraph(literal(position_text(found, say)) + " " + say("course.convention")))
         rows = tuple((literal(a), literal(b)) for a, b in data_rows(found, each))
-        beyond = max(len(rows) + len(found.task.questions) - ROWS, 0)
-        tallest = max(TALLEST - ROW * beyond, LOWEST)
-        page.append(Figure(literal(found.name), ((drawing(found, each, language), 0.5),), tallest=tallest))
+        left = ROOM - ROW * (len(rows) + len(found.task.questions))
+        tallest = min(max(left, LOWEST), TALLEST)
+        page.append(
+            Figure(literal(found.name), ((drawing(found, each, language, SMALL), 0.8),), tallest=tallest)
+        )
         page.append(Table(say("course.given"), (say("report.name"), say("report.value")), rows, "<<"))
-        asked = tuple((literal(q.name), "…" * 14, q.unit) for q in found.task.questions)
+        asked = tuple((literal(q.text(language)), "…" * 14, q.unit) for q in found.task.questions)
         page.append(
             Table(
                 say("course.asked"),
@@ -185,7 +188,7 @@ def prairielearn(found: Variants, language: str) -> Files:
     }
     tolerance = f"{found.task.tolerance:g}"
     inputs = "\n".join(
-        f"<p><pl-number-input answers-name={quoteattr(mark(q))} label={braceless(quoteattr(q.name))} "
+        f"<p><pl-number-input answers-name={quoteattr(mark(q))} label={braceless(quoteattr(q.text(language)))} "
         f'suffix={quoteattr(q.unit)} comparison="relabs" rtol="{tolerance}" '
         f'atol="{_slack(found, i):.3g}"></pl-number-input></p>'
         for i, q in enumerate(found.task.questions)
@@ -258,7 +261,7 @@ def moodle(found: Variants, language: str) -> Files:
             f'<p><img src="@@PLUGINFILE@@/{name}" alt={braceless(quoteattr(found.name))} width="{PICTURE}"/></p>'
             f"{braceless(_html_table(data_rows(found, each)))}"
             + "".join(
-                f"<p>{braceless(escape(q.name))} = {{1:NUMERICAL:={a:.8g}:{_width(found, i, a):.3g}}} "
+                f"<p>{braceless(escape(q.text(language)))} = {{1:NUMERICAL:={a:.8g}:{_width(found, i, a):.3g}}} "
                 f"{escape(q.unit)}</p>"
                 for i, (q, a) in enumerate(zip(found.task.questions, each.answers, strict=True))
             )
@@ -286,14 +289,13 @@ def _html_table(rows: list[tuple[str, str]]) -> str:
 # QTI 2.1 ----------------------------------------------------------------------------------------
 def qti(found: Variants, language: str) -> Files:
     """A content package of QTI 2.1: one item per variant, numbers compared with a tolerance."""
-    say = speaker(language)
     stream = io.BytesIO()
     with zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as package:
         names = []
         for each in found.variants:
             name = f"variant-{each.number}"
             names.append(name)
-            _put(package, f"{name}.xml", item(found, each, say))
+            _put(package, f"{name}.xml", item(found, each, language))
             _put(package, f"images/{name}.svg", drawing(found, each, language))
         _put(package, "imsmanifest.xml", manifest(names))
     return {"qti.zip": stream.getvalue()}
@@ -304,8 +306,9 @@ def _put(package: zipfile.ZipFile, name: str, text: str) -> None:
     package.writestr(zipfile.ZipInfo(name, (2020, 1, 1, 0, 0, 0)), text.encode())
 
 
-def item(found: Variants, each: Variant, say: Say) -> str:
+def item(found: Variants, each: Variant, language: str) -> str:
     """One assessment item."""
+    say = speaker(language)
     asked = list(zip(found.task.questions, each.answers, strict=True))
     declared = "".join(
         f'<responseDeclaration identifier="R{i}" cardinality="single" baseType="float"><correctResponse>'
@@ -313,7 +316,7 @@ def item(found: Variants, each: Variant, say: Say) -> str:
         for i, (_, answer) in enumerate(asked)
     )
     lines = "".join(
-        f'<p>{escape(q.name)} = <textEntryInteraction responseIdentifier="R{i}" expectedLength="12"/> '
+        f'<p>{escape(q.text(language))} = <textEntryInteraction responseIdentifier="R{i}" expectedLength="12"/> '
         f"{escape(q.unit)}</p>"
         for i, (q, _) in enumerate(asked)
     )

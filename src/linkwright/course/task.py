@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.outputs import Output
 from linkwright.course.chain import Line
 from linkwright.course.mistakes import Sheet
 from linkwright.errors import LinkwrightError, QuantityError, RequestError
@@ -14,27 +15,37 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.plot.force_names import carries
 from linkwright.registry import offered
 from linkwright.study.ranges import dimension_of
-from linkwright.units import DIMENSIONS, SI_UNITS, parse
+from linkwright.units import DIMENSIONS, parse
 from linkwright.words.sentence import Sentence
 
 KEYS = ("vary", "ask", "at", "tolerance")
 #: By how much lengths change, and how far an answer may be off, where nobody says.
 SHARE, TOLERANCE = 0.08, 0.01
+#: Kinds of outputs that are asked for of the last group, and of all.
+PLACED, TURNING = ("angle", "displacement"), ("angular_velocity", "angular_acceleration")
 #: What is smaller is not asked for.
 NOTHING = 1e-9
 
 
 @dataclass(frozen=True)
 class Question:
-    """One number that is asked for: the column of the results that it is; ``unit`` in which it is answered."""
+    """One number that is asked for: one of the machine's outputs."""
 
-    column: str
-    unit: str
+    output: Output
 
     @property
     def name(self) -> str:
-        """Its name without the unit."""
-        return self.column.partition(" [")[0]
+        """What answers call it: the name over its column."""
+        return self.output.column
+
+    def text(self, language: str) -> str:
+        """What it is, in words: ``angular velocity of jaw``."""
+        return self.output.sentence(alone=True).say(language)
+
+    @property
+    def unit(self) -> str:
+        """The unit in which it is answered."""
+        return "°" if self.output.dimension == "angle" else self.output.unit
 
 
 @dataclass(frozen=True)
@@ -123,10 +134,9 @@ def _limits(mechanism: Mechanism, address: str, value: float, given: Any) -> tup
 
 
 def _questions(sheet: Sheet, given: Any) -> tuple[Question, ...]:
-    """The columns asked for; those of the last group, and of what drives, where nothing is said."""
-    columns = list(sheet.values)
+    """The numbers asked for; those of the last group, and of what drives, where nothing is said."""
     if given is not None:
-        names = {column.partition(" [")[0]: column for column in columns}
+        names = {output.column: output for output in sheet.values}
         if not isinstance(given, list | tuple) or not given:
             raise RequestError(Sentence("course.no_list", given=str(given), hint=offered("", names)))
         found = []
@@ -135,34 +145,24 @@ def _questions(sheet: Sheet, given: Any) -> tuple[Question, ...]:
                 raise RequestError(
                     Sentence("course.no_number", name=str(name), hint=offered(str(name), names))
                 )
-            found.append(_question(names[str(name)]))
+            found.append(Question(names[str(name)]))
         return tuple(found)
-    rates = (
-        ".angle [rad]",
-        ".angular_velocity [rad/s]",
-        ".angular_acceleration [rad/s²]",
-        ".displacement [m]",
-    )
-    asked = [line for line in sheet.lines if line.column.endswith(rates) and not _told(line)]
-    last = asked[-1].group if asked else ""
-    asked = [line for line in asked if line.group == last or not line.column.endswith((rates[0], rates[3]))]
-    ordered = sorted(asked, key=lambda line: line.group != last)
-    chosen = [line.column for line in ordered if abs(sheet.values[line.column]) > NOTHING]
+    asked = [(line.output, line.group) for line in sheet.lines if line.output and not _told(line)]
+    asked = [(output, group) for output, group in asked if output.kind in (*PLACED, *TURNING)]
+    last = asked[-1][1] if asked else ""
+    ordered = sorted(asked, key=lambda each: each[1] != last)
+    chosen = [
+        output
+        for output, group in ordered
+        if (group == last or output.kind in TURNING) and abs(sheet.values[output]) > NOTHING
+    ]
     if carries(sheet.mechanism):
-        sizes = [
-            column
-            for column in columns
-            if column.endswith(".magnitude [N]") and sheet.values[column] > NOTHING
-        ]
-        chosen += [*sizes, *(column for column in columns if ".effort [" in column)]
-    return tuple(_question(column) for column in dict.fromkeys(chosen))
+        whole = [each for each in sheet.values if each.kind == "reaction" and not each.component]
+        chosen += [each for each in whole if sheet.values[each] > NOTHING]
+        chosen += [each for each in sheet.values if each.kind == "effort"]
+    return tuple(map(Question, dict.fromkeys(chosen)))
 
 
 def _told(line: Line) -> bool:
     """Whether a number is the input's own, or copied from another one."""
     return line.given or line.formula.op in ("symbol", "number")
-
-
-def _question(column: str) -> Question:
-    unit = column.rpartition("[")[2].removesuffix("]")
-    return Question(column, "°" if unit == SI_UNITS["angle"] else unit)

@@ -86,7 +86,9 @@ class Variants:
             "name": self.name,
             "seed": self.seed,
             "tolerance": self.task.tolerance,
-            "questions": [{"name": q.name, "column": q.column, "unit": q.unit} for q in self.task.questions],
+            "questions": [
+                {"name": q.name, "column": q.output.heading, "unit": q.unit} for q in self.task.questions
+            ],
             "variants": [
                 {
                     "number": each.number,
@@ -220,11 +222,11 @@ def _alike(a: float, b: float, question: Question) -> bool:
 def _solved(asked: Task, number: int, changes: Mapping[str, float], mechanism: Mechanism) -> Variant:
     """The answers of a design and of its mistakes; those that no answer shows are left out."""
     sheet = Sheet(mechanism, asked.at)
-    columns = [question.column for question in asked.questions]
-    right = tuple(sheet.values[column] for column in columns)
+    outputs = [question.output for question in asked.questions]
+    right = tuple(sheet.values[output] for output in outputs)
     held = []
     for each in sheet.consequences():
-        answers = tuple(each.values.get(column, math.nan) for column in columns)
+        answers = tuple(each.values.get(output, math.nan) for output in outputs)
         if any(not close(a, b, APART * asked.tolerance, q.unit)
                for a, b, q in zip(answers, right, asked.questions, strict=True)):  # fmt: skip
             held.append((each, answers))

@@ -38,10 +38,7 @@ Plain = dict[str, Any]
 #: What of a position's outcome a page can find itself.
 _OUTCOMES = ("apart", "singular", "lost", "rrr_far", "rrr_near", "rrp_far", "rpr_near", "rpp_parallel")
 #: Words of the page's area that are said here, not by the page.
-_NAMES = frozenset((
-    "displacement", "slide_velocity", "slide_acceleration", "input_torque", "input_force", "reaction",
-    "shaking_force", "swing", "opening",
-))  # fmt: skip
+_NAMES = frozenset(("opening",))
 _TAGS = {"en": "en", "zh": "zh-CN"}
 
 

@@ -34,20 +34,19 @@ def signals(page: PagePrograms) -> dict[Output, Plain]:
 
 
 def _signal(page: PagePrograms, output: Output) -> Plain:
-    owner, word, form, key = output.owner, output.kind, "row", output.row
+    owner, form, key = output.owner, "row", output.row
     rows: tuple[str, ...] = (key,)
     if output.kind == "angle":
         form, key, rows = "angle", f"angle:{owner}", row_names("direction", owner)
     elif KINDS[output.kind].vector:
         form, rows = "size", row_names(output.kind, owner, output.on)
-    elif output.kind == "effort" and len(page.mechanism.drivers) == 1:
-        word = "input_force" if output.slides else "input_torque"
-    name = _said(word, name=owner, joint=owner, link=output.on)
+    said = output.sentence(alone=len(page.mechanism.drivers) == 1)
+    name = {language: said.say(language) for language in LANGUAGES}
     return {"id": key, "form": form, "rows": list(rows), "kind": output.dimension, "name": name}
 
 
 def _said(word: str, **names: str) -> dict[str, str]:
-    return {language: say(f"page.{word}", language, **names) for language in LANGUAGES}
+    return {language: say(f"quantity.{word}", language, **names) for language in LANGUAGES}
 
 
 def _motion(page: PagePrograms) -> Iterator[Output]:
@@ -98,7 +97,9 @@ def _number(kind: str, signal: Plain, name: dict[str, str], quantity: str | None
 
 
 def _within(word: str, signal: Plain) -> dict[str, str]:
-    return {language: say(f"page.{word}", language, name=signal["name"][language]) for language in LANGUAGES}
+    return {
+        language: say(f"quantity.{word}", language, name=signal["name"][language]) for language in LANGUAGES
+    }
 
 
 def _turns(page: PagePrograms, link: str) -> bool:

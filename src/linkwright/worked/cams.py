@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.outputs import Output
 from linkwright.worked.lifts import Lift, LiftWriter
 from linkwright.worked.page import Step
 from linkwright.worked.places import Places
@@ -104,9 +105,9 @@ class CamPair(ABC):
     def rate(self, step: Step, *, second: bool) -> None:
         if not self._lifted(second=second).is_zero:
             step.say(self.book.say("worked.cam_rates", joint=self.joint.name))
-        name, formula, unit, column = self._rate(second=second)
+        name, formula, output = self._rate(second=second)
         if not name.is_zero:
-            step.find(name, formula, unit, column)
+            step.find(name, formula, output)
 
     @abstractmethod
     def place(self, step: Step, places: Places) -> None:
@@ -125,8 +126,8 @@ class CamPair(ABC):
         """Pressure angle, profile and curvature."""
 
     @abstractmethod
-    def _rate(self, *, second: bool) -> tuple[Term, Term, str, str]:
-        """The unknown rate, its formula, its unit and its column."""
+    def _rate(self, *, second: bool) -> tuple[Term, Term, Output]:
+        """The unknown rate, its formula, and which output it is."""
 
     @property
     def title(self) -> str:
@@ -202,11 +203,10 @@ class Guided(CamPair):
         slide = places.guide(step, name)
         places.displacement(step, slide, self.height - behind)
 
-    def _rate(self, *, second: bool) -> tuple[Term, Term, str, str]:
+    def _rate(self, *, second: bool) -> tuple[Term, Term, Output]:
         slide = self.book.slide(self.joint.holder)
-        word, unit = ("acceleration", "m/s²") if second else ("velocity", "m/s")
         name = slide.second if second else slide.rate
-        return name, self._lifted(second=second), unit, f"{slide.joint}.{word} [{unit}]"
+        return name, self._lifted(second=second), Output("displacement", slide.joint).course[1 + second]
 
     def effort(self, step: Step, right: Term) -> Term:
         """V, the force along the follower's way."""
@@ -305,13 +305,12 @@ class Swinging(CamPair):
         psi = self.psi
         places.angle(step, self.joint.follower, turned + psi if self.side > 0 else turned - psi)
 
-    def _rate(self, *, second: bool) -> tuple[Term, Term, str, str]:
+    def _rate(self, *, second: bool) -> tuple[Term, Term, Output]:
         book, link = self.book, self.joint.follower
-        word, unit = ("angular_acceleration", "rad/s²") if second else ("angular_velocity", "rad/s")
         rate = book.alpha if second else book.omega
         lifted = self._lifted(second=second)
         formula = rate(self.joint.carrier) + lifted if self.side > 0 else rate(self.joint.carrier) - lifted
-        return rate(link), formula, unit, f"{link}.{word} [{unit}]"
+        return rate(link), formula, Output("angle", link).course[1 + second]
 
     def effort(self, step: Step, right: Term) -> Term:
         """M, the moment about the pivot, positive where it lifts."""

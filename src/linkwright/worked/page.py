@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import field, replace
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.outputs import Output
 from linkwright.worked.digits import digits_needed, error_of, last_place, printed, put_in
 from linkwright.worked.render import latex, plain
 from linkwright.worked.terms import Pair, Term, symbol
@@ -50,9 +51,9 @@ class Relation:
 class Equation:
     """One result: symbol, formula, the formula with its numbers put in, and the result with its unit.
 
-    ``value`` is the result to full precision, SI, angles in degrees; ``column`` the name of the result's column
-    in the table of all results, if it is one; ``formula`` is empty for what is given; ``terms``: result and formula
-    as they can be reckoned again.
+    ``value`` is the result to full precision, SI, angles in degrees; ``output``: which of the machine's outputs it
+    is, if it is one; ``formula`` is empty for what is given; ``terms``: result and formula as they can be reckoned
+    again.
     """
 
     symbol: str
@@ -64,8 +65,13 @@ class Equation:
     result: str
     unit: str
     value: float
-    column: str = ""
+    output: Output | None = None
     terms: tuple[Term, Term] | None = field(default=None, repr=False, compare=False)
+
+    @property
+    def column(self) -> str:
+        """The name of its column in the table of all results; empty for what is no output."""
+        return self.output.heading if self.output else ""
 
     def data(self) -> dict[str, object]:
         """Plain data."""
@@ -110,29 +116,25 @@ class Step:
         """Adds an equation that is solved further below."""
         self.items.append(Relation(left, right))
 
-    def find(self, result: Term, formula: Term, unit: str, column: str = "") -> Term:
-        """Adds a result: the symbol with the solver's value, and the formula that gives it; what is printed as zero
-        is put in as zero from there on."""
-        item = _equation(result, formula, unit, column)
+    def find(self, result: Term, formula: Term, what: str | Output) -> Term:
+        """Adds a result, ``what``: its unit, or the output that it is: the symbol with the solver's value, and the
+        formula that gives it; what is printed as zero is put in as zero from there on."""
+        item = _equation(result, formula, what)
         self.items.append(item)
         return replace(result, amount=0.0) if item.result == "0" else result
 
-    def find_pair(self, names: tuple[str, str], values: complex, formula: Pair, column: str) -> Pair:
+    def find_pair(self, names: tuple[str, str], values: complex, formula: Pair, force: Output | None) -> Pair:
         """Adds both components of a force; ``names``: plain, and LaTeX with its subscript still open."""
         found = []
         for c, value, part in (("x", values.real, formula.x), ("y", values.imag, formula.y)):
             term = symbol(f"{names[0]}{c}", f"{names[1]}{c}}}", value)
-            found.append(self.find(term, part, "N", f"{column}.{c} [N]" if column else ""))
+            found.append(self.find(term, part, replace(force, component=c) if force else "N"))
         return Pair(found[0], found[1])
 
-    def give(self, result: Term, unit: str, column: str = "") -> Term:
-        """Adds what is known beforehand."""
-        value, mark = result.amount, "°" if result.degrees else ""
-        text = put_in(result, 6).rstrip("°")
-        name = (plain(result), latex(result))
-        self.items.append(
-            Equation(*name, "", "", "", "", text, mark or unit, value, column, (result, result))
-        )
+    def give(self, result: Term, what: str | Output) -> Term:
+        """Adds what is known beforehand; ``what``: its unit, or the output that it is."""
+        names = (plain(result), latex(result), "", "", "", "", put_in(result, 6).rstrip("°"))
+        self.items.append(Equation(*names, *_measured(result, what), (result, result)))
         return result
 
     def data(self) -> dict[str, object]:
@@ -141,7 +143,13 @@ class Step:
         return {"number": self.number, "title": self.title, "group": self.group, "items": items}
 
 
-def _equation(result: Term, formula: Term, unit: str, column: str) -> Equation:
+def _measured(result: Term, what: str | Output) -> tuple[str, float, Output | None]:
+    """Unit, value and output of a result."""
+    unit, output = (what, None) if isinstance(what, str) else (what.unit, what)
+    return "°" if result.degrees else unit, result.amount, output
+
+
+def _equation(result: Term, formula: Term, what: str | Output) -> Equation:
     value = result.amount
     place = last_place(value, error_of(formula))
     text = "0" if formula.value == 0.0 and abs(value) < FADED else printed(value, place)
@@ -157,5 +165,5 @@ def _equation(result: Term, formula: Term, unit: str, column: str) -> Equation:
         shown = (*shown[:2], "", "")
     return Equation(
         plain(result), latex(result), *shown, text,
-        "°" if result.degrees else unit, value, column, (result, formula),
+        *_measured(result, what), (result, formula),
     )  # fmt: skip

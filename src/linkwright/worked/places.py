@@ -48,12 +48,13 @@ class Places:
             return
         self.known.add(spot.key)
         for term, part, c in ((spot.place.x, formula.x, "x"), (spot.place.y, formula.y, "y")):
-            step.find(term, part, "m", self.column(spot, f"position.{c} [m]"))
+            step.find(term, part, self.output(spot, "position", c))
 
     @staticmethod
-    def column(spot: Spot, quantity: str) -> str:
-        """Name of a point's column in the table of results."""
-        return "" if spot.key.endswith("@centre") else f"{spot.key}.{quantity}"
+    def output(spot: Spot, kind: str, component: str) -> str | Output:
+        """The output that a point's motion is, or its unit."""
+        found = Output(kind, spot.key, component)
+        return found.unit if spot.key.endswith("@centre") else found
 
     def angle(self, step: Step, link: str, formula: Term) -> None:
         """Notes the angle of a link."""
@@ -63,7 +64,7 @@ class Places:
             rounds = round((turn.amount - formula.value) / 360.0)
             turns = number(360.0 * abs(rounds), degrees=True)
             formula = formula - turns if rounds < 0 else formula + turns
-            step.find(turn, formula, "°", Output("angle", link).heading)
+            step.find(turn, formula, Output("angle", link))
 
     def follow(self, step: Step, joint: TreeJoint) -> None:
         """Notes the angle of a link that a guide, a weld or a driver turns."""
@@ -102,7 +103,7 @@ class Places:
         if slide.joint in self.slid:
             return
         self.slid.add(slide.joint)
-        step.find(slide.s, formula, "m", Output("displacement", slide.joint).heading)
+        step.find(slide.s, formula, Output("displacement", slide.joint))
 
     # a group --------------------------------------------------------------------------------
     def place(self, step: Step, group: Group) -> None:
@@ -318,10 +319,10 @@ class Places:
         for joint in group.unknowns:
             if joint.slides:
                 self.slid.add(joint.joint)
-                step.give(self.book.slide(joint.joint).s, "m", Output("displacement", joint.joint).heading)
+                step.give(self.book.slide(joint.joint).s, Output("displacement", joint.joint))
             else:
                 self.angles.add(joint.child)
-                step.give(self.book.turn(joint.child), "°", Output("angle", joint.child).heading)
+                step.give(self.book.turn(joint.child), Output("angle", joint.child))
 
     def _held(self, group: Group) -> dict[str, Term]:
         """Angles of links that turn with an unknown one, and the directions of guides on moving links."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from linkwright.core.outputs import Output
 from linkwright.structure.group import Group, TreeJoint
 from linkwright.worked.chains import attach, turned
 from linkwright.worked.higher_pairs import pair_closures
@@ -162,17 +163,17 @@ class Movers:
 
     @staticmethod
     def _guide(step: Step, slide: Slide, formula: Term, *, second: bool) -> None:
-        kind, unit = ("acceleration", "m/s²") if second else ("velocity", "m/s")
-        step.find(slide.second if second else slide.rate, formula, unit, f"{slide.joint}.{kind} [{unit}]")
+        found = Output("displacement", slide.joint).course[1 + second]
+        step.find(slide.second if second else slide.rate, formula, found)
 
     def _note(self, step: Step, spot: Spot, formula: Pair, known: set[str], *, second: bool) -> None:
         if spot.key in known or spot.fixed:
             return
         known.add(spot.key)
         target = spot.acceleration if second else spot.velocity
-        kind, unit = ("acceleration", "m/s²") if second else ("velocity", "m/s")
+        kind = "acceleration" if second else "velocity"
         for c, term, part in (("x", target.x, formula.x), ("y", target.y, formula.y)):
-            step.find(term, part, unit, Places.column(spot, f"{kind}.{c} [{unit}]"))
+            step.find(term, part, Places.output(spot, kind, c))
 
     def _carried(self, link: str, start: Spot, spot: Spot, *, second: bool) -> Pair:
         arm = spot.place - start.place

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.outputs import Output
 from linkwright.structure.group import Connection, Group
 from linkwright.worked.chains import ChainClosure, Closure, Drift, bends, matrix, unknown_names
 from linkwright.worked.higher_pairs import PairClosure
@@ -42,23 +43,23 @@ def name_matrix(step: Step, group: Group, cuts: Sequence[Closure]) -> System:
 
 
 def solve(
-    step: Step, book: Book, system: System, unknowns: list[Term], right: list[Term], units: list[str],
-    columns: list[str], *, transposed: bool = False,
+    step: Step, book: Book, system: System, unknowns: list[Term], right: list[Term],
+    outputs: Sequence[str | Output], *, transposed: bool = False,
 ) -> None:  # fmt: skip
     """Notes the solution of J q = right (or Jᵀ q = right): Cramer's rule, or for more unknowns each row put in."""
     rows = [list(r) for r in zip(*system.entries, strict=True)] if transposed else system.entries
     if len(rows) == 1:
-        step.find(unknowns[0], right[0] / rows[0][0], units[0], columns[0])
+        step.find(unknowns[0], right[0] / rows[0][0], outputs[0])
         return
     if system.determinant is not None:
         (a, b), (c, d) = rows
         found = (right[0] * d - b * right[1], a * right[1] - right[0] * c)
-        for term, above, unit, column in zip(unknowns, found, units, columns, strict=True):
-            step.find(term, above / system.determinant, unit, column)
+        for term, above, output in zip(unknowns, found, outputs, strict=True):
+            step.find(term, above / system.determinant, output)
         return
     step.say(book.say("worked.linear_solution", count=len(rows)))
-    for term, unit, column in zip(unknowns, units, columns, strict=True):
-        step.give(term, unit, column)
+    for term, output in zip(unknowns, outputs, strict=True):
+        step.give(term, output)
     step.say(book.say("worked.linear_check"))
     for row, goal in zip(rows, right, strict=True):
         left = total([entry * term for entry, term in zip(row, unknowns, strict=True)])
@@ -84,7 +85,7 @@ class RateWriter:
             system = name_matrix(step, group, cuts)
             gaps = [-row for closure in cuts for row in closure.known_rates(book)]
             right = self._right(step, gaps, "b", "m/s")
-            solve(step, book, system, names, right, *self._labels(group, second=False))
+            solve(step, book, system, names, right, self._outputs(group, second=False))
         self.links(step, group, second=False, before=False)
         return system
 
@@ -105,7 +106,7 @@ class RateWriter:
 
             gaps = [-row for closure in cuts for row in closure.known_seconds(book, bend)]
             right = self._right(step, gaps, "c", "m/s²")
-            solve(step, book, system, names, right, *self._labels(group, second=True))
+            solve(step, book, system, names, right, self._outputs(group, second=True))
         self.links(step, group, second=True, before=False)
 
     def _relations(
@@ -170,19 +171,14 @@ class RateWriter:
             found.append(term)
         return Pair(found[0], found[1])
 
-    def _labels(self, group: Group, *, second: bool) -> tuple[list[str], list[str]]:
-        units, columns = [], []
-        for joint in group.unknowns:
-            if joint.slides:
-                units.append("m/s²" if second else "m/s")
-                columns.append(f"{joint.joint}.{'acceleration' if second else 'velocity'} [{units[-1]}]")
-            else:
-                units.append("rad/s²" if second else "rad/s")
-                columns.append(
-                    f"{joint.child}.angular_{'acceleration' if second else 'velocity'} [{units[-1]}]"
-                )
-                self.written.add(f"{joint.child}{second}")
-        return units, columns
+    def _outputs(self, group: Group, *, second: bool) -> list[Output]:
+        """What the unknowns' rates are; links that turn count as written."""
+        self.written.update(f"{joint.child}{second}" for joint in group.unknowns if not joint.slides)
+        places = (
+            Output("displacement", joint.joint) if joint.slides else Output("angle", joint.child)
+            for joint in group.unknowns
+        )
+        return [place.course[1 + second] for place in places]
 
     def links(self, step: Step, group: Group, *, second: bool, before: bool) -> None:
         """Rotation of links that turn with another one; ``before``: those that depend on no unknown."""
@@ -201,6 +197,4 @@ class RateWriter:
                 given = book.drive(joint.driver)[2 if second else 1]
                 formula = formula + given if own else formula - given
             if not rate(joint.child).is_zero:
-                name = "angular_acceleration" if second else "angular_velocity"
-                unit = "rad/s²" if second else "rad/s"
-                step.find(rate(joint.child), formula, unit, f"{joint.child}.{name} [{unit}]")
+                step.find(rate(joint.child), formula, Output("angle", joint.child).course[1 + second])

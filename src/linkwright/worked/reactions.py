@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
@@ -82,14 +83,14 @@ class Reactions:
             np.array([[e.value for e in row] for row in system.entries], dtype=float).T,
             np.array([r.value for r in right], dtype=float),
         )
-        unknowns, columns = self._multipliers(group, values)
+        unknowns, outputs = self._multipliers(group, values)
         rows = [
             total([e * u for e, u in zip(column, unknowns, strict=True)])
             for column in zip(*system.entries, strict=True)
         ]
         for row, goal in zip(rows, right, strict=True):
             step.relate(row, goal)
-        solve(step, book, system, unknowns, right, ["N"] * len(unknowns), columns, transposed=True)
+        solve(step, book, system, unknowns, right, outputs, transposed=True)
         place = 0
         for closure in cuts:
             cut = closure.cut
@@ -124,8 +125,8 @@ class Reactions:
         on = cut.a if cut.a != "frame" else cut.b
         if on != cut.a:
             formula, couple = -formula, -couple
-        name, column = self._names(cut, on)
-        found = step.find_pair(name, self._solver_force(cut, on, 0j), formula, column)
+        name, output = self._names(cut, on)
+        found = step.find_pair(name, self._solver_force(cut, on, 0j), formula, output)
         self._size(step, cut, on, found)
         self.found.append(Found(cut, on, Known(found, place, NOWHERE, couple)))
 
@@ -137,40 +138,40 @@ class Reactions:
             on = next(k for k in self.book.mechanism.joints[name].joined if k != "frame")
             n = self.book.numbers[on]
             plain = (f"F_{name},{n}", f"F_{{{tex(name)},{n}")
-            step.find_pair(plain, 0j, NOWHERE, f"{name} on {on}")
+            step.find_pair(plain, 0j, NOWHERE, Output("reaction", name, on=on))
         return step
 
     def _reversed(self, step: Step, cut: Connection, force: Pair) -> Pair:
         """The force on the group's own link, where the other one was found."""
-        name, column = self._names(cut, cut.b)
-        return step.find_pair(name, complex(-force.x.amount, -force.y.amount), -force, column)
+        name, output = self._names(cut, cut.b)
+        return step.find_pair(name, complex(-force.x.amount, -force.y.amount), -force, output)
 
     def _normal(self, step: Step, cut: Connection, size: Term, along: Pair) -> Pair:
         """Components of the normal force of a guide, on the block."""
         formula = along.perp.times(size)
-        name, column = self._names(cut, cut.b)
-        return step.find_pair(name, complex(formula.x.value, formula.y.value), formula, column)
+        name, output = self._names(cut, cut.b)
+        return step.find_pair(name, complex(formula.x.value, formula.y.value), formula, output)
 
-    def _multipliers(self, group: Group, values: Floats) -> tuple[list[Term], list[str]]:
-        """Symbols of the unknown cut forces (on the first link; normal forces on blocks) with their columns."""
+    def _multipliers(self, group: Group, values: Floats) -> tuple[list[Term], list[str | Output]]:
+        """Symbols of the unknown cut forces (on the first link; normal forces on blocks) with their outputs."""
         unknowns: list[Term] = []
-        columns: list[str] = []
+        outputs: list[str | Output] = []
         for cut in group.cuts:
             place = len(unknowns)
             if cut.higher:
                 unknowns.append(tangential(cut, float(values[place])))
-                columns.append("")
+                outputs.append("N")
                 continue
             if cut.slides:
                 unknowns.append(symbol(f"N_{cut.joint}", f"N_{{{tex(cut.joint)}}}", float(values[place])))
-                columns.append("")
+                outputs.append("N")
                 continue
-            name, column = self._names(cut, cut.a)
+            name, output = self._names(cut, cut.a)
             parts = self._solver_force(cut, cut.a, complex(values[place], values[place + 1]))
             for c, value in (("x", parts.real), ("y", parts.imag)):
                 unknowns.append(symbol(f"{name[0]}{c}", f"{name[1]}{c}}}", value))
-                columns.append(f"{column}.{c} [N]" if column else "")
-        return unknowns, columns
+                outputs.append(replace(output, component=c) if output else "N")
+        return unknowns, outputs
 
     def _demand(self, step: Step, group: Group, joint: TreeJoint, number: int) -> Term:
         """Right side of one equation: minus what the known forces do on an unknown coordinate."""
@@ -217,10 +218,10 @@ class Reactions:
         for each in acting:
             needed = needed + each.force
         effort = self._push(step, joint, needed)
-        name, column = self._names(joint.connection, link)
+        name, output = self._names(joint.connection, link)
         formula = -(needed + effort) if effort != NOWHERE else -needed
         parts = self._solver_force(joint.connection, link, complex(formula.x.value, formula.y.value))
-        force = step.find_pair(name, parts, formula, column)
+        force = step.find_pair(name, parts, formula, output)
         self._size(step, joint.connection, link, force)
         place, couple = self._turning(step, joint, [*acting, *self._pushed(joint, effort)])
         self.found.append(Found(joint.connection, link, Known(force + effort, place, NOWHERE, couple)))
@@ -238,9 +239,7 @@ class Reactions:
         block = joint.child == joint.connection.b
         forward = slide.along.dot(needed)
         term = symbol(f"F_{joint.driver}", f"F_{{{tex(joint.driver)}}}", self._effort(joint.driver))
-        step.find(
-            term, -forward if block else forward, "N", Output("effort", joint.driver, slides=True).heading
-        )
+        step.find(term, -forward if block else forward, Output("effort", joint.driver, slides=True))
         push = slide.along.times(term)
         return push if block else -push
 
@@ -255,14 +254,14 @@ class Reactions:
             found = total([each.moment(place) for each in acting])
             term = symbol(f"M_{joint.driver}", f"M_{{{tex(joint.driver)}}}", self._effort(joint.driver))
             step.say(book.say("worked.driver_torque", point=joint.joint))
-            step.find(term, -found if own else found, "N·m", Output("effort", joint.driver).heading)
+            step.find(term, -found if own else found, Output("effort", joint.driver))
             return place, term if own else -term
         place = self._block_point(joint)
         formula = -total([each.moment(place) for each in acting])
         n = book.numbers[joint.child]
         value = float(self.forces.couple(joint.joint, on=joint.child)[book.index])
         term = symbol(f"M_{joint.joint},{n}", f"M_{{{tex(joint.joint)},{n}}}", value)
-        step.find(term, formula, "N·m", Output("couple", joint.joint, on=joint.child).heading)
+        step.find(term, formula, Output("couple", joint.joint, on=joint.child))
         return place, ZERO if formula.is_zero else term
 
     def _block_point(self, joint: TreeJoint) -> Pair:
@@ -279,14 +278,14 @@ class Reactions:
     def _simple(self, connection: Connection) -> bool:
         return len(self.book.mechanism.joints[connection.joint].joined) == 2
 
-    def _names(self, connection: Connection, link: str) -> tuple[tuple[str, str], str]:
-        """Symbol (plain, LaTeX without its end) of a joint force on a link, and its column."""
+    def _names(self, connection: Connection, link: str) -> tuple[tuple[str, str], Output | None]:
+        """Symbol (plain, LaTeX without its end) of a joint force on a link, and which output it is."""
         joint, n = connection.joint, self.book.numbers[link]
         if self._simple(connection):
-            column = "" if link == "frame" else f"{joint} on {link}"
-            return (f"F_{joint},{n}", f"F_{{{tex(joint)},{n}"), column
+            output = None if link == "frame" else Output("reaction", joint, on=link)
+            return (f"F_{joint},{n}", f"F_{{{tex(joint)},{n}"), output
         other = self.book.numbers[connection.other(link)]
-        return (f"F_{joint},{other}→{n}", rf"F_{{{tex(joint)},{other}\to {n}"), ""
+        return (f"F_{joint},{other}→{n}", rf"F_{{{tex(joint)},{other}\to {n}"), None
 
     def _solver_force(self, connection: Connection, link: str, value: complex) -> complex:
         """The solver's number where the joint has two links."""
@@ -295,16 +294,15 @@ class Reactions:
         return complex(*self.forces.reaction(connection.joint, on=link)[self.book.index])
 
     def _size(self, step: Step, connection: Connection, link: str, force: Pair) -> None:
-        name, column = self._names(connection, link)
-        self._polar(step, force, name, column)
+        self._polar(step, force, *self._names(connection, link))
 
-    def _polar(self, step: Step, force: Pair, name: tuple[str, str], column: str) -> None:
+    def _polar(self, step: Step, force: Pair, name: tuple[str, str], output: Output | None) -> None:
         """Magnitude and direction of a force that is not zero."""
         size = root(force.x.squared + force.y.squared)
         if force.x.is_zero or force.y.is_zero or not size.value:
             return
         end = name[1] + "}"
-        step.find(symbol(name[0], end, size.value), size, "N", f"{column}.magnitude [N]" if column else "")
+        step.find(symbol(name[0], end, size.value), size, output or "N")
         turn = direction(force.y, force.x)
         step.find(symbol(f"∠{name[0]}", rf"\angle {end}", turn.value, degrees=True), turn, "°")
 
@@ -327,11 +325,11 @@ class Reactions:
         return step if step.items else None
 
     def _share(self, step: Step, joint: str, link: str, formula: Pair) -> None:
-        n, column = self.book.numbers[link], f"{joint} on {link}"
+        n, output = self.book.numbers[link], Output("reaction", joint, on=link)
         values = self.forces.reaction(joint, on=link)[self.book.index]
         names = (f"F_{joint},{n}", f"F_{{{tex(joint)},{n}")
-        force = step.find_pair(names, complex(*values), formula, column)
-        self._polar(step, force, names, column)
+        force = step.find_pair(names, complex(*values), formula, output)
+        self._polar(step, force, names, output)
 
 
 def segment(group: Group, joint: TreeJoint) -> Iterator[str]:

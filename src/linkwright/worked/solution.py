@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.outputs import Output
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.groups import dyad_shape, in_one_step
 from linkwright.kinematics.motion import Motion
@@ -145,11 +146,14 @@ class _Kinematics:
             head = f"{name}: " if len(book.mechanism.drivers) > 1 else ""
             step.say(say(key, head=head, link=driver.link, relative=driver.relative_to, joint=driver.joint))
             unit = "rad" if turning else "m"
-            for order, term in enumerate(book.drive(name)):
+            measures: tuple[str | Output, ...] = (
+                Output("input", name, slides=not turning), f"{unit}/s", f"{unit}/s²"
+            )  # fmt: skip
+            for term, what in zip(book.drive(name), measures, strict=True):
                 if term.is_zero:
                     step.say(say("worked.no_second"))
                 else:
-                    step.give(term, unit + ("", "/s", "/s²")[order], f"{name} [{unit}]" if not order else "")
+                    step.give(term, what)
         return step
 
     def _group(self, group: Group, number: int) -> list[Step]:

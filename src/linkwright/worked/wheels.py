@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
+from linkwright.core.outputs import Output
 from linkwright.joints.base import Contact
 from linkwright.structure.group import Connection, Group, TreeJoint
 from linkwright.worked.higher_pairs import PairClosure, Slid, Turned, lever, one_by_one, pair_closures
@@ -113,9 +114,9 @@ class Wheels:
             if any(not formula.is_zero for *_, formula in solved):
                 step.say(book.say("worked.wheel_rates", joints=_names(group)))
             for _, target, formula in solved:
-                name, unit, column = self._rate(target, second)
+                name, output = self._rate(target, second)
                 if not name.is_zero:
-                    step.find(name, formula, unit, column)
+                    step.find(name, formula, output)
             return
         step.say(book.say("worked.wheel_rates", joints=_names(group)))
         self._together(step, group, rows, second=second)
@@ -126,9 +127,9 @@ class Wheels:
         names = [self._rate(joint, second) for joint in group.unknowns]
         for row in rows:
             row.give(step, None)
-        for name, unit, column in names:
+        for name, output in names:
             if not name.is_zero:
-                step.give(name, unit, column)
+                step.give(name, output)
         for row in rows:
             known = row.known_seconds(book, _no_chain)[0] if second else row.known_rates(book)[0]
             left = [
@@ -144,15 +145,14 @@ class Wheels:
     def _second(self, guide: str) -> Term:
         return self.book.slide(guide).second
 
-    def _rate(self, of: Turned | Slid | TreeJoint, second: bool) -> tuple[Term, str, str]:
+    def _rate(self, of: Turned | Slid | TreeJoint, second: bool) -> tuple[Term, Output]:
         joint = of if isinstance(of, TreeJoint) else of.source
         assert joint is not None
-        word, unit = ("acceleration", "/s²") if second else ("velocity", "/s")
         if joint.slides:
             rate = self._second(joint.joint) if second else self._speed(joint.joint)
-            return rate, f"m{unit}", f"{joint.joint}.{word} [m{unit}]"
+            return rate, Output("displacement", joint.joint).course[1 + second]
         turned = self.book.alpha(joint.child) if second else self.book.omega(joint.child)
-        return turned, f"rad{unit}", f"{joint.child}.angular_{word} [rad{unit}]"
+        return turned, Output("angle", joint.child).course[1 + second]
 
     # forces -----------------------------------------------------------------------------------
     def multipliers(self, step: Step, group: Group, right: list[Term]) -> list[Term]:

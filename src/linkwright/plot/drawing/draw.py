@@ -27,6 +27,7 @@ from linkwright.plot.drawing.vectors import (
     same_motion,
     scale_of,
 )
+from linkwright.plot.drawing.view import DIAGONAL
 from linkwright.plot.force_names import carries
 from linkwright.plot.svg.element import Element, Floats, group
 from linkwright.plot.symbols.base import points
@@ -58,6 +59,7 @@ def draw(
     inputs: bool = True,
     labels: bool | str = True,
     size: float | None = None,
+    diagonal: float = DIAGONAL,
     language: str = "en",
 ) -> Drawing:
     """Draw a mechanism in the standard symbols.
@@ -81,6 +83,7 @@ def draw(
         inputs: show by arrows what is driven and which way.
         labels: names of points, links and loads; ``"points"``: of points only. Vectors always have theirs.
         size: longer side in pixels; default natural size.
+        diagonal: of the machine, in units of which letters have 12: smaller for a picture that is shown small.
         language: ``en`` or ``zh``.
 
     Returns:
@@ -94,7 +97,9 @@ def draw(
     motion = source if isinstance(source, Motion) else solve_motion(source, steps=STEPS, failures="mark")
     shown = _shown(motion, position, at, time)
     ghosts, style = _overlay(motion, overlay)
-    scene, index, others = laid_out_beside(motion, shown, ghosts, inputs=inputs, centres=centres)
+    scene, index, others = laid_out_beside(
+        motion, shown, ghosts, inputs=inputs, centres=centres, diagonal=diagonal
+    )
     sheet = Sheet(scene, index, shown.index)
     sheet.ghosts(others, style)
     sheet.add(scene.traces(paths), [scene.trace(name) for name in paths])
@@ -195,7 +200,13 @@ class Sheet:
 
 
 def laid_out_beside(
-    motion: Motion, shown: Shown, ghosts: Sequence[Shown], *, inputs: bool, centres: bool
+    motion: Motion,
+    shown: Shown,
+    ghosts: Sequence[Shown],
+    *,
+    inputs: bool,
+    centres: bool,
+    diagonal: float = DIAGONAL,
 ) -> tuple[Scene, int, list[int]]:
     """The scene of a motion with positions beside it; their indices in the scene."""
     beside = [each for each in (shown, *ghosts) if each.motion is not motion]
@@ -210,6 +221,7 @@ def laid_out_beside(
         inputs=inputs,
         centres=centres,
         beside=[(each.motion, each.index) for each in beside],
+        diagonal=diagonal,
     )
     return scene, place(shown), [place(each) for each in ghosts]
 

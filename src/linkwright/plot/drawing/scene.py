@@ -12,7 +12,7 @@ from linkwright.kinematics.motion import Motion
 from linkwright.plot.drawing.guides import guides, welds
 from linkwright.plot.drawing.inputs import input_arrows
 from linkwright.plot.drawing.machine import LAYERS, Machine, Part, bodies, pins
-from linkwright.plot.drawing.view import fitted, followed, moved, placements
+from linkwright.plot.drawing.view import DIAGONAL, fitted, followed, moved, placements
 from linkwright.plot.drawing.wheels import wheels
 from linkwright.plot.svg.element import Element, Floats, group, number, path
 from linkwright.plot.symbols.base import SYMBOLS
@@ -85,13 +85,14 @@ def laid_out(
     inputs: bool = True,
     centres: bool = False,
     beside: Sequence[tuple[Motion, int]] = (),
+    diagonal: float = DIAGONAL,
 ) -> Scene:
     """The scene of a motion; arrows of the drivers stand as at the position ``index``.
 
     ``beside``: positions of other motions of the mechanism, counted on after its own.
     """
     placed = followed(placements(motion), beside)
-    machine = Machine(motion, placed, fitted(motion, placed), beside)
+    machine = Machine(motion, placed, fitted(motion, placed, diagonal), beside)
     parts = [*wheels(machine), *bodies(machine), *guides(machine), *pins(machine), *welds(machine)]
     if inputs:
         parts += input_arrows(machine, index)

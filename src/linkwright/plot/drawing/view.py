@@ -86,8 +86,8 @@ def moved(points: Floats, transform: tuple[float, float, float]) -> Floats:
     )
 
 
-def fitted(motion: Motion, placed: Mapping[str, Placement]) -> View:
-    """A view in which all that the machine reaches has the usual diagonal, larger where bars are short."""
+def fitted(motion: Motion, placed: Mapping[str, Placement], diagonal: float = DIAGONAL) -> View:
+    """A view in which all that the machine reaches has this diagonal, larger where bars are short."""
     mechanism = motion.mechanism
     cloud = [placed[link.name].world(p) for link in mechanism.links.values() for p in link.points.values()]
     pins = [np.array([p]) for name, p in mechanism.frame.points.items() if name in mechanism.joints]
@@ -96,10 +96,10 @@ def fitted(motion: Motion, placed: Mapping[str, Placement]) -> View:
     if not len(everything):
         raise LinkwrightError(Sentence("picture.no_position_reached", name=mechanism.name))
     low, high = everything.min(axis=0), everything.max(axis=0)
-    diagonal = float(np.hypot(*(high - low))) or 1.0
-    scale = DIAGONAL / diagonal
+    reach = float(np.hypot(*(high - low))) or 1.0
+    scale = diagonal / reach
     shortest = min(
-        (length for link in mechanism.links.values() for length in _bars(link.points)), default=diagonal
+        (length for link in mechanism.links.values() for length in _bars(link.points)), default=reach
     )
     scale *= float(np.clip(SHORTEST_BAR / (shortest * scale), 1.0, 1.6))
     return View(scale)
