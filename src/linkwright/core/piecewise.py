@@ -29,6 +29,8 @@ TO_SLOPE = TO_LEGENDRE @ np.polynomial.legendre.legval(NODES, np.polynomial.lege
 TO_LAST = TO_LEGENDRE[:, -3:]
 #: Weights of the barycentric formula (Berrut and Trefethen, SIAM Review 46(3), 2004).
 _BARYCENTRIC = (-1.0) ** _ORDERS * np.sqrt((1.0 - NODES**2) * WEIGHTS)
+#: Added to distances from nodes, so that none is zero; it changes no other.
+_NEXT_TO_NOTHING = 1e-300
 #: Places of a piece where it is looked at for extremes, both ends among them.
 LOOKS = 49
 PLACES = -np.cos(np.pi * np.arange(LOOKS) / (LOOKS - 1))
@@ -220,36 +222,23 @@ Peak = tuple[NDArray[np.intp], Floats, Floats, Floats]
 def largest(values: Floats, tops: Floats) -> Peak:
     """The largest values of many functions (k, POINTS, pieces) at the Gauss points of their pieces.
 
-    ``tops``: the largest of the values in each piece, (k, pieces); the three pieces with the largest are looked at.
+    ``tops``: the largest of the values in each piece, (k, pieces); the three pieces with the largest are looked at,
+    and the polynomials of the two that look highest are climbed, as either may have an extreme where they meet.
     Returns the piece, the place in it (-1 to 1), the value, and the size of the last orders there, (k,) each.
     """
-    found = _highest(values, tops)
-    rim = np.flatnonzero(np.abs(found[1]) == 1.0)
-    if not len(rim) or values.shape[2] == 1:
-        return found
-    rest = tops[rim].copy()
-    rest[np.arange(len(rim)), found[0][rim]] = -np.inf
-    beside = _highest(values[rim], rest)
-    better = beside[2] > found[2][rim]
-    for mine, other in zip(found, beside, strict=True):
-        mine[rim[better]] = other[better]
-    return found
-
-
-def _highest(values: Floats, tops: Floats) -> Peak:
-    """The same, where the extreme is that of the piece with the highest look: not so at the rim of a piece."""
-    rows = np.arange(len(values))
+    rows = np.arange(len(values))[:, None]
     order = np.argsort(-tops, axis=1)[:, :3]
-    near = values[rows[:, None], :, order]
+    near = values[rows, :, order]
     seen = np.asarray(near @ TO_PLACES)
-    best = seen.reshape(len(values), -1).argmax(axis=1)
-    which, look = best // LOOKS, best % LOOKS
-    series, top = near[rows, which], seen[rows, which, look]
+    looks, tops = seen.argmax(axis=2), seen.max(axis=2)
+    two = np.argsort(-tops, axis=1)[:, :2]
+    series, look, top = near[rows, two], looks[rows, two], tops[rows, two]
     low, high = PLACES[np.maximum(look - 1, 0)], PLACES[np.minimum(look + 1, LOOKS - 1)]
     place = _summits(series @ TO_SLOPE, low, high, PLACES[look])
     found = _at(series, place)
-    place = np.where(found > top, place, PLACES[look])
-    return order[rows, which], place, np.maximum(found, top), tails(series)
+    place, found = np.where(found > top, place, PLACES[look]), np.maximum(found, top)
+    best = rows[:, 0], found.argmax(axis=1)
+    return order[rows, two][best], place[best], found[best], tails(series[best])
 
 
 def weights_at(place: Floats) -> Floats:
@@ -277,18 +266,17 @@ def at_nodes(function: Function, edges: Floats) -> Floats:
 
 
 def _at(values: Floats, x: Floats) -> Floats:
-    """Polynomials (..., k) through values (..., k, POINTS) at places (k,) of the reference piece."""
+    """Polynomials (..., k) through values (..., k, POINTS) at places (k,) of the reference piece; k any shape."""
     share = _shares(x)
-    return np.asarray((share * values).sum(axis=-1) / share.sum(axis=-1))
+    return np.asarray(np.einsum("...i,...i->...", share, values) / share.sum(axis=-1))
 
 
 def _shares(x: Floats) -> Floats:
-    gap = x[:, None] - NODES
-    return np.asarray(_BARYCENTRIC / np.where(gap == 0.0, 1e-300, gap))
+    return np.asarray(_BARYCENTRIC / (x[..., None] - NODES + _NEXT_TO_NOTHING))
 
 
 def _summits(slopes: Floats, low: Floats, high: Floats, start: Floats) -> Floats:
-    """Where polynomials (k, POINTS) pass from above to below zero between places of the reference piece, by
+    """Where polynomials (..., POINTS) pass from above to below zero between places of the reference piece, by
     safeguarded Newton steps from ``start``; the end of the stretch to which they point where they do not."""
     both, x = np.stack([slopes, slopes @ TO_SLOPE]), start
     for _ in range(60):

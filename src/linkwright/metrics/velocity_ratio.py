@@ -12,9 +12,12 @@ from linkwright.kinetostatics.named import RATIO
 from linkwright.metrics.analysis import Analysis, Extreme
 from linkwright.metrics.base import METRICS, Better, Metric, Number
 
+#: Of two sizes as large as each other the positive one counts, whatever rounding leaves.
+_BUT_ROUNDING = 1.0 - 1e-12
+
 
 def _largest(high: Scalar, low: Scalar) -> Scalar:
-    return select(absolute(high) >= absolute(low), high, low)
+    return select(absolute(high) >= _BUT_ROUNDING * absolute(low), high, low)
 
 
 def _advantage(high: Scalar, low: Scalar) -> Scalar:
@@ -22,7 +25,7 @@ def _advantage(high: Scalar, low: Scalar) -> Scalar:
 
 
 def _place(high: Extreme, low: Extreme) -> float:
-    return high.input if abs(high.value) >= abs(low.value) else low.input
+    return high.input if abs(high.value) >= _BUT_ROUNDING * abs(low.value) else low.input
 
 
 @METRICS.register("velocity_ratio")
