@@ -106,6 +106,25 @@ def test_two_crossings_of_a_curve_have_both_inputs_at_the_same_place() -> None:
             assert len(curve.double_points) == 1
 
 
+TO_AND_FRO = """
+format: 1
+name: a point on an arc
+frame: {points: {O: [0 m, 0 m], D: [0.5 m, 0 m]}}
+links:
+  crank: {points: [O, A], length: 0.1 m}
+  rod: {points: [A, B], length: 0.5 m}
+  rocker: {points: {D: [0 m, 0 m], B: [0 m, 0.3 m]}}
+  block: {points: {B: [0 m, 0 m], Q: [0.1 m, 0.05 m]}}
+joints: {held: {kind: weld, links: [rocker, block], at: B, angle: 0 deg}}
+drawing: {A: [0.1 m, 0 m], B: [0.45 m, 0.29 m]}
+driver: {turn: crank, about: O, speed: 3 rad/s}
+"""
+
+
+def test_a_way_to_and_fro_on_one_arc_does_not_cross_itself() -> None:
+    assert not coupler_curve(lw.solve_motion(lw.loads(TO_AND_FRO), steps=90), "block.Q").double_points
+
+
 def test_a_number_of_another_package_is_named_by_its_class() -> None:
     class Own(Metric):
         """Something of one's own.

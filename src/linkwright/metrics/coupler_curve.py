@@ -32,6 +32,8 @@ SAME, APART = 1e-9, 1e-6
 #: Times closer than this many steps belong to a cusp or a fold, not to a crossing.
 NEIGHBOURS = 1e-3
 NEWTON = 8
+#: Sine of the angle between two branches below which they run along each other, as on a way to and fro.
+ALONG = 1e-6
 Spot = tuple[float, float]
 
 
@@ -139,11 +141,13 @@ def _doubles(
                 np.stack([cross(gap, velocity[:, 1]), cross(gap, velocity[:, 0])], axis=1) / turn[:, None]
             )
         times = times + np.where(np.isfinite(change), np.clip(change, -abs(step), abs(step)), 0.0)
-    position, _ = _pairs(analysis, point, times)
+    position, velocity = _pairs(analysis, point, times)
+    speeds = np.hypot(*np.moveaxis(velocity, -1, 0)).prod(axis=1)
+    across = np.abs(cross(velocity[:, 0], velocity[:, 1])) > ALONG * speeds
     apart = np.abs(times[:, 1] - times[:, 0]) % period
     met = np.hypot(*(position[:, 1] - position[:, 0]).T) <= SAME * length
     found: list[Spot] = []
-    for i in np.flatnonzero(met & (np.minimum(apart, period - apart) > NEIGHBOURS * abs(step))):
+    for i in np.flatnonzero(met & across & (np.minimum(apart, period - apart) > NEIGHBOURS * abs(step))):
         x, y = (float(c) for c in position[i, 0])
         if all(np.hypot(x - a, y - b) > APART * length for a, b in found):
             found.append((x, y))
