@@ -9,21 +9,21 @@ TYPE_CHECKING = (
     False  # type checkers take it for true; nothing is imported before the first name is asked for
 )
 if TYPE_CHECKING:
-    from collections.abc import Mapping
     from inspect import Signature
     from typing import Any
 
 
-def offer(package: str, public: Mapping[str, tuple[str, ...]]) -> None:
-    """Makes the names of other modules attributes of a package.
+def offer(package: str) -> dict[str, tuple[str, ...]]:
+    """Makes the names that a package imports for type checkers its attributes; returns them by their modules.
 
-    ``public``: the names by the module that has them. Where a function has the name of a subpackage
+    They stand in the package's source as ``from module import name as name``, the form in which a type checker takes
+    a name for public, and nowhere else. Where a function has the name of a subpackage
     (``linkwright.structure``), the attribute is the subpackage, and calling it calls the function: both
     ``linkwright.structure(mechanism)`` and ``linkwright.structure.Group`` work, however either was imported.
     A plain module of the same name stays importable; the attribute is the public name. Other subpackages
     (``linkwright.parts``) are imported when they are first used.
     """
-    home = {name: module for module, names in public.items() for name in names}
+    home = _imported(package)
 
     class Offering(ModuleType):
         """The package with its offered names."""
@@ -52,6 +52,17 @@ def offer(package: str, public: Mapping[str, tuple[str, ...]]) -> None:
             return sorted({*super().__dir__(), *home})
 
     sys.modules[package].__class__ = Offering
+    modules = dict.fromkeys(home.values())
+    return {module: tuple(name for name in home if home[name] == module) for module in modules}
+
+
+def _imported(package: str) -> dict[str, str]:
+    """The modules of the names in the lines ``from module import name as name`` of a package's source."""
+    module = sys.modules[package]
+    assert module.__file__ is not None and module.__spec__ is not None
+    source = module.__spec__.loader.get_data(module.__file__).decode()  # type: ignore[union-attr]
+    lines = [line.split() for line in source.splitlines() if line.lstrip().startswith("from ")]
+    return {words[-1]: words[1] for words in lines if words[4:5] == ["as"]}
 
 
 def import_module(name: str) -> ModuleType:

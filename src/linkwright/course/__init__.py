@@ -10,9 +10,4 @@ if TYPE_CHECKING:
     from linkwright.course.variants import Variants as Variants
     from linkwright.course.variants import variants as variants
 
-PUBLIC = {
-    "linkwright.course.grade": ("Grade", "grade"),
-    "linkwright.course.variants": ("Variants", "variants"),
-}
-
-offer(__name__, PUBLIC)
+offer(__name__)

@@ -7,8 +7,4 @@ from linkwright.lazy import offer
 if TYPE_CHECKING:
     from linkwright.export.export import export as export
 
-PUBLIC = {
-    "linkwright.export.export": ("export",),
-}
-
-offer(__name__, PUBLIC)
+offer(__name__)

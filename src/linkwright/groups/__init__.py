@@ -8,11 +8,4 @@ if TYPE_CHECKING:
     from linkwright.groups.base import DYADS as DYADS
     from linkwright.groups.base import Dyad as Dyad
 
-PUBLIC = {
-    "linkwright.groups.base": (
-        "DYADS",
-        "Dyad",
-    ),
-}
-
-offer(__name__, PUBLIC)
+offer(__name__)

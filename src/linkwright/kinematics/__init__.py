@@ -11,14 +11,4 @@ if TYPE_CHECKING:
     from linkwright.kinematics.outcome import PositionError as PositionError
     from linkwright.kinematics.solve import solve_motion as solve_motion
 
-PUBLIC = {
-    "linkwright.kinematics.cycle": ("CycleError",),
-    "linkwright.kinematics.motion": ("Motion",),
-    "linkwright.kinematics.outcome": (
-        "Outcome",
-        "PositionError",
-    ),
-    "linkwright.kinematics.solve": ("solve_motion",),
-}
-
-offer(__name__, PUBLIC)
+offer(__name__)

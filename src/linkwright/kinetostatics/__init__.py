@@ -10,15 +10,4 @@ if TYPE_CHECKING:
     from linkwright.kinetostatics.forces import Forces as Forces
     from linkwright.kinetostatics.forces import solve_forces as solve_forces
 
-PUBLIC = {
-    "linkwright.kinetostatics.balancing": (
-        "Balancing",
-        "balance",
-    ),
-    "linkwright.kinetostatics.forces": (
-        "Forces",
-        "solve_forces",
-    ),
-}
-
-offer(__name__, PUBLIC)
+offer(__name__)

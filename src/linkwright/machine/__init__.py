@@ -27,40 +27,4 @@ if TYPE_CHECKING:
     from linkwright.machine.speed import true_speed as true_speed
     from linkwright.machine.torque_curve import TorqueCurve as TorqueCurve
 
-PUBLIC = {
-    "linkwright.machine.energy": (
-        "EnergyFluctuation",
-        "energy_fluctuation",
-        "fluctuation_from_areas",
-    ),
-    "linkwright.machine.equivalent": (
-        "Equivalent",
-        "equivalent",
-        "equivalent_inertia",
-        "equivalent_torque",
-        "inertia_slope",
-    ),
-    "linkwright.machine.flywheel": (
-        "FlywheelSize",
-        "disk",
-        "flywheel_inertia",
-        "on_faster_shaft",
-        "rim",
-        "speed_fluctuation",
-    ),
-    "linkwright.machine.motor": (
-        "Motor",
-        "motor",
-    ),
-    "linkwright.machine.running": (
-        "SteadyRunning",
-        "steady_running",
-    ),
-    "linkwright.machine.speed": (
-        "SpeedCurve",
-        "true_speed",
-    ),
-    "linkwright.machine.torque_curve": ("TorqueCurve",),
-}
-
-offer(__name__, PUBLIC)
+offer(__name__)

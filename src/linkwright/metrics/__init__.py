@@ -19,28 +19,4 @@ if TYPE_CHECKING:
     from linkwright.metrics.instant_centres import instant_centre as instant_centre
     from linkwright.metrics.table import MetricsTable as MetricsTable
 
-PUBLIC = {
-    "linkwright.metrics.analysis": ("Analysis",),
-    "linkwright.metrics.base": (
-        "METRICS",
-        "Metric",
-        "MetricValue",
-        "Remark",
-    ),
-    "linkwright.metrics.coupler_curve": (
-        "CouplerCurve",
-        "coupler_curve",
-    ),
-    "linkwright.metrics.evaluate": ("metrics",),
-    "linkwright.metrics.grashof": (
-        "FourBar",
-        "four_bars",
-    ),
-    "linkwright.metrics.instant_centres": (
-        "centrode",
-        "instant_centre",
-    ),
-    "linkwright.metrics.table": ("MetricsTable",),
-}
-
-offer(__name__, PUBLIC)
+offer(__name__)

@@ -48,43 +48,4 @@ if TYPE_CHECKING:
     from linkwright.tolerance.problem import Tolerance as Tolerance
     from linkwright.tolerance.problem import ToleranceStudy as ToleranceStudy
 
-offer(
-    __name__,
-    {
-        "linkwright.parts.base": ("Problem", "Result"),
-        "linkwright.parts.beams.beam": ("Beam", "BeamLoad", "BeamSupport"),
-        "linkwright.parts.beams.link": ("LinkBending",),
-        "linkwright.parts.beams.materials": ("Material",),
-        "linkwright.parts.beams.sections": ("Section",),
-        "linkwright.parts.file": ("check", "gallery_names", "load", "loads", "schema"),
-        "linkwright.parts.statics.belt": ("Belt",),
-        "linkwright.parts.statics.body": ("RigidBody", "Support"),
-        "linkwright.parts.statics.forces": ("Force", "ForceSystem"),
-        "linkwright.parts.statics.structure": ("equilibrium",),
-        "linkwright.parts.statics.wedge": ("Wedge",),
-        "linkwright.parts.vibration.follower": ("FollowerSpring",),
-        "linkwright.parts.vibration.mounts": ("Mounts",),
-        "linkwright.parts.vibration.system": (
-            "Excitation",
-            "Start",
-            "Tie",
-            "VibratingSystem",
-        ),
-        "linkwright.parts.fields": ("Numbers",),
-        "linkwright.parts.statistics.samples": (
-            "Asked",
-            "Fitting",
-            "Limits",
-            "Samples",
-        ),
-        "linkwright.parts.programs.problem": ("Variable",),
-        "linkwright.parts.programs.program": ("Program",),
-        "linkwright.tolerance.problem": (
-            "Clearance",
-            "Tolerance",
-            "ToleranceStudy",
-        ),
-        "linkwright.parts.trajectories.conveyor": ("Conveyor",),
-        "linkwright.parts.trajectories.particle": ("Particle",),
-    },
-)
+offer(__name__)

@@ -8,9 +8,4 @@ if TYPE_CHECKING:
     from linkwright.plot.diagrams.diagram_by_name import plot as plot
     from linkwright.plot.diagrams.picture import Diagram as Diagram
 
-PUBLIC = {
-    "linkwright.plot.diagrams.diagram_by_name": ("plot",),
-    "linkwright.plot.diagrams.picture": ("Diagram",),
-}
-
-offer(__name__, PUBLIC)
+offer(__name__)

@@ -9,9 +9,4 @@ if TYPE_CHECKING:
     from linkwright.report.report import report as report
     from linkwright.report.section import SECTIONS as SECTIONS
 
-PUBLIC = {
-    "linkwright.report.report": ("Report", "report"),
-    "linkwright.report.section": ("SECTIONS",),
-}
-
-offer(__name__, PUBLIC)
+offer(__name__)

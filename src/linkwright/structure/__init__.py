@@ -11,14 +11,4 @@ if TYPE_CHECKING:
     from linkwright.structure.group import Structure as Structure
     from linkwright.structure.mobility import StructureError as StructureError
 
-PUBLIC = {
-    "linkwright.structure.decompose": ("structure",),
-    "linkwright.structure.group": (
-        "Connection",
-        "Group",
-        "Structure",
-    ),
-    "linkwright.structure.mobility": ("StructureError",),
-}
-
-offer(__name__, PUBLIC)
+offer(__name__)

@@ -16,13 +16,4 @@ if TYPE_CHECKING:
     from linkwright.study.study import Study as Study
     from linkwright.study.study import study as study
 
-offer(
-    __name__,
-    {
-        "linkwright.study.compare": ("Comparison", "compare"),
-        "linkwright.study.designs": ("Sweep", "sweep"),
-        "linkwright.study.prepared": ("Prepared", "prepare"),
-        "linkwright.study.sensitivity": ("Sensitivity", "sensitivity"),
-        "linkwright.study.study": ("Study", "study"),
-    },
-)
+offer(__name__)

@@ -10,10 +10,4 @@ if TYPE_CHECKING:
     from linkwright.tolerance.problem import ToleranceStudy as ToleranceStudy
     from linkwright.tolerance.result import Spread as Spread
 
-offer(
-    __name__,
-    {
-        "linkwright.tolerance.problem": ("Clearance", "Tolerance", "ToleranceStudy"),
-        "linkwright.tolerance.result": ("Spread",),
-    },
-)
+offer(__name__)

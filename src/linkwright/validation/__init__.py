@@ -9,6 +9,4 @@ if TYPE_CHECKING:
     from linkwright.validation.validate import Validation as Validation
     from linkwright.validation.validate import validate as validate
 
-PUBLIC = {"linkwright.validation.validate": ("Checked", "Validation", "validate")}
-
-offer(__name__, PUBLIC)
+offer(__name__)

@@ -8,11 +8,4 @@ if TYPE_CHECKING:
     from linkwright.worked.solution import Worked as Worked
     from linkwright.worked.solution import worked as worked
 
-PUBLIC = {
-    "linkwright.worked.solution": (
-        "Worked",
-        "worked",
-    ),
-}
-
-offer(__name__, PUBLIC)
+offer(__name__)
