@@ -170,9 +170,10 @@ def test_designs_that_go_one_by_one_are_kept_by_an_interruption_before_the_first
 
 
 def test_designs_of_which_none_moves_and_numbers_that_none_has(press: Path) -> None:
-    with pytest.raises(
-        lw.LinkwrightError, match="no design of Press within the bounds passes the whole cycle"
-    ):
+    none = (
+        r"no design of Press within .* \(crank\.length \d+.* mm, .* fails in \d+ of 360 positions: group RRP"
+    )
+    with pytest.raises(lw.LinkwrightError, match=none):
         lw.optimize(press, vary={"crank.length": "300..400 mm", "rod.length": "100..200 mm"}, evaluations=200)
     for goals in (["flywheel"], ["r", "flywheel"]):  # the ram only swings to and fro: no work in a cycle
         with pytest.raises(lw.LinkwrightError, match="has a value of flywheel") as caught:

@@ -7,7 +7,6 @@ import json
 import re
 import time
 from collections.abc import Callable, Mapping
-from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 from itertools import count
@@ -21,6 +20,7 @@ from linkwright.errors import LinkwrightError, RequestError
 from linkwright.files.document import Document
 from linkwright.files.model_file import read_document
 from linkwright.files.write import dump
+from linkwright.kinematics.outcome import PositionError
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.optimisation.evolution import (
@@ -404,18 +404,26 @@ class _Run:
         """Why no design has all numbers: none of them moves, or some numbers have no value for any."""
         name = partial(title_said, self.task.problem.mechanism.name)
         none = tuple(text for text, each in judged.values.items() if not np.isfinite(each).any())
-        if none and self._moves(judged.x[0]):
-            return Sentence("optimize.no_values", name=name, numbers=none)
-        return Sentence("optimize.nothing_moves", name=name)
-
-    def _moves(self, x: Floats) -> bool:
-        """Whether the design at a place (k,) passes its cycle."""
-        addresses = [each.address for each in self.task.problem.variables]
-        design = dict(zip(addresses, self.task.place(x[None])[0].tolist(), strict=True))
-        with suppress(LinkwrightError):
-            solve_motion(self.task.problem.mechanism.with_dimensions(design), steps=self.task.problem.steps)
-            return True
-        return False
+        asked, nearest = self.task.problem, list[tuple[int, str, PositionError]]()
+        addresses = [each.address for each in asked.variables]
+        for values in self.task.place(judged.x).tolist():
+            design = dict(zip(addresses, values, strict=True))
+            said = ", ".join(f"{each.address} {each.shown(design[each.address])}" for each in asked.variables)
+            try:
+                solve_motion(asked.mechanism.with_dimensions(design), steps=asked.steps)
+            except PositionError as error:
+                nearest.append((len(error.failed), said, error))
+            except LinkwrightError:
+                continue
+            else:
+                if none:
+                    return Sentence("optimize.no_values", name=name, numbers=none)
+        if not nearest:
+            return Sentence("optimize.nothing_moves", name=name)
+        failed, said, stuck = min(nearest, key=lambda each: each[0])
+        reason = stuck.sentence if stuck.outcome is None else stuck.outcome.sentence
+        counts = {"failed": failed, "steps": asked.steps}
+        return Sentence("optimize.none_whole", name=name, design=said, reason=reason, **counts)
 
     def _failing(self, found: Optimum) -> Sentence:
         """Which demands the nearest design misses, and by how much."""

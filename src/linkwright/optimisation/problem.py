@@ -10,6 +10,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright import units
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, LinkwrightError, ModelError, RequestError
 from linkwright.mechanism.mechanism import Mechanism
@@ -39,6 +40,11 @@ class Variable:
     high: float
     choices: Floats | None = None
     unit: str = ""
+
+    def shown(self, value: float) -> str:
+        """A value in the unit of the bounds."""
+        factor = units.unit(self.unit)[0] if self.unit else 1.0
+        return f"{value / factor:.6g}{' ' if self.unit else ''}{self.unit}"
 
     def allowed(self, values: Floats) -> Floats:
         """The nearest allowed values."""

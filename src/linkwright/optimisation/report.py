@@ -52,7 +52,7 @@ def comparison(found: Optimum, choice: Choice, tell: Say) -> list[list[str]]:
         factor = units.unit(variable.unit)[0] if variable.unit else 1.0
         now = choice.values[variable.address]
         bounds = f"{variable.low / factor:.6g}..{variable.high / factor:.6g}"
-        shown = [_shown(value, factor, variable.unit) for value in (was, now)]
+        shown = [variable.shown(value) for value in (was, now)]
         rows.append([variable.address, *shown, _change(was, now), bounds])
     for text, now in choice.numbers.items():
         kind = found.kinds[text]
@@ -103,9 +103,7 @@ def _front(found: Optimum) -> list[str]:
         for text in texts:
             symbol, factor = shown_unit(found.kinds[text])
             cells.append(_shown(choice.numbers[text], factor, symbol))
-        for variable in found.problem.variables:
-            factor = units.unit(variable.unit)[0] if variable.unit else 1.0
-            cells.append(_shown(choice.values[variable.address], factor, variable.unit))
+        cells += [each.shown(choice.values[each.address]) for each in found.problem.variables]
         rows.append([str(number), *cells])
     return aligned(rows, ">" * len(rows[0]))
 

@@ -87,6 +87,8 @@ linkwright optimize crusher.yaml --minimize peak_input_torque flywheel --plot fr
     "no_number": 'there is no number "{text}"; name a design number (linkwright metrics), flywheel, a summary such '
     'as "jaw.angle range", a dimension, or an expression of names given by define:',
     "derived": '"{name}" follows from parameters; name the parameters in the expression instead',
+    "none_whole": "no design of {name} within the bounds passes the whole cycle; the nearest that was tried "
+    "({design}) fails in {failed} of {steps} positions: {reason}; widen the bounds",
     "nothing_moves": "no design of {name} within the bounds passes the whole cycle; widen the bounds, or start from "
     "a machine that moves",
     "no_values": "no design of {name} within the bounds has a value of {numbers}; name another number, or give "

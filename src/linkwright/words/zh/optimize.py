@@ -79,6 +79,8 @@ linkwright optimize crusher.yaml --minimize peak_input_torque flywheel --plot fr
     "no_number": '没有名为 "{text}" 的数；请给设计指标（linkwright metrics）、flywheel、汇总如 "jaw.angle range"、'
     "尺寸，或由 define: 所给名称的表达式",
     "derived": '"{name}" 由参数导出；请在表达式中改用这些参数',
+    "none_whole": "{name} 在上下限内没有一个设计能走完整个循环；试过的最近的设计（{design}）"
+    "在 {steps} 个位置中有 {failed} 个失败：{reason}；请放宽上下限",
     "nothing_moves": "{name} 在上下限内没有一个设计能走完整个循环；请放宽上下限，或从能运动的机器开始",
     "no_values": "{name} 在上下限内没有一个设计有 {numbers} 的值；请改用别的量，"
     "或使机器具备所需条件（例如飞轮需要原动件做功）",
