@@ -8,7 +8,7 @@ import pytest
 
 import linkwright as lw
 from linkwright.engine import machine_code
-from linkwright.synthesis.free_curve.atlas import STEP, Atlas, M, Matches, parts, places
+from linkwright.synthesis.free_curve.atlas import STEP, Atlas, M, Matches, _draws, parts, places
 from linkwright.synthesis.free_curve.curve_file import path_points, read_curve
 from linkwright.synthesis.free_curve.descent import DAMPING
 from linkwright.synthesis.free_curve.kernels import BLOCK, GUIDE, PIVOT, POINT, SLIDER, kernels
@@ -27,7 +27,7 @@ from linkwright.synthesis.free_curve.nodes import (
     random_structure,
     turned_paths,
 )
-from linkwright.synthesis.free_curve.search import Search
+from linkwright.synthesis.free_curve.search import Search, polished
 from linkwright.synthesis.free_curve.target import (
     MIDDLE,
     Target,
@@ -196,6 +196,37 @@ def test_a_descent_goes_down(closed: bool) -> None:
             assert on.value == target.descend(on, 0).value <= near.value
             values.append(on.value / near.value)
     assert np.mean(values) < 0.95
+
+
+def test_a_descent_goes_on_where_the_crank_has_its_whole_turn() -> None:
+    nodes, draw = flat(list(ONE_DYAD[0])), np.random.default_rng(0)
+    x = np.array([3.2, 0.3, math.log(2.6), math.log(2.4), 0.5, 0.8, 0.4, 0.7, 2 * math.pi])
+    drawn = node_paths(nodes, x, np.linspace(0.7, 0.7 + 2 * math.pi, 400))[0][-1]
+    target = Target(drawn * np.exp(0.4j), False, math.radians(20), 6.0)  # open, but its ends are one place
+    least = target.descend(Design(nodes, x, False), 60).value
+    for _ in range(5):
+        begin = x + 0.05 * np.append(draw.normal(size=8), -1)
+        assert target.descend(Design(nodes, begin, False), 60).value == pytest.approx(least, rel=0.01)
+
+
+def test_polished_designs_keep_the_demands() -> None:
+    draw, target = np.random.default_rng(1), Target(FOUR, False, math.radians(45), 2.5)
+    crank, examined = np.linspace(0, 2 * np.pi, 1201), 0
+    while examined < 8:
+        nodes = random_structure(3, 8, draw)
+        for numbers in _draws(nodes, 6, draw)[0]:
+            x = np.append(numbers, (*draw.uniform(0, 6, 2), 3.0))
+            design = target.checked(target.descend(Design(nodes, x, False), 60))
+            if design.value > 0.35:
+                continue
+            end = polished(target, design)
+            paths, least = node_paths(nodes, end.x, crank)
+            z = node_paths(nodes, end.x, end.x[-2] + end.x[-1] * crank / crank[-1])[0][-1]
+            middle, share = 0.5 * (z[1:] + z[:-1]), np.abs(np.diff(z))
+            centre = np.average(middle, weights=share)
+            radius = math.sqrt(np.average(np.abs(middle - centre) ** 2, weights=share))
+            assert least >= 0.5 and np.abs(paths - centre).max() <= 2.5 * radius
+            examined += 1
 
 
 def test_one_more_joint_leaves_the_curve_and_moves_it() -> None:

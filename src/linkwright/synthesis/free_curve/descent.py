@@ -20,7 +20,7 @@ from linkwright.synthesis.free_curve.distances import (
     target_to_curve,
     weigh,
 )
-from linkwright.synthesis.free_curve.kernels import FAR, deviation, place
+from linkwright.synthesis.free_curve.kernels import FAR, LEAST, TURN, deviation, place
 
 #: Step of differences; share of the curvature added to it; steps after which a descent takes it anew.
 STEP, DAMPING, FRESH = 1e-5, 0.003, 30
@@ -179,6 +179,28 @@ def update(H: Reals, s: Reals, y: Reals, Hy: Reals, d: int) -> int:
     return 1
 
 
+def newton(H: Reals, g: Reals, d: int, last: float, s: Reals) -> float:
+    """The step s = -H g, with ``last`` for the last entry of g; gives that of s."""
+    for a in range(d):
+        v = 0.0 - H[a * d + d - 1] * last
+        for b in range(d - 1):
+            v -= H[a * d + b] * g[b]
+        s[a] = v
+    return s[d - 1]
+
+
+def direction(H: Reals, g: Reals, d: int, closed: int, span: float, s: Reals) -> float:
+    """The step s of a descent and the slope along it; the crank's range stays where a step would leave its bounds."""
+    way = newton(H, g, d, g[d - 1], s)
+    if closed == 0 and ((span >= TURN and way > 0.0) or (span <= LEAST and way < 0.0)):
+        newton(H, g, d, g[d - 1] + way / H[d * d - 1], s)
+        s[d - 1] = 0.0
+    slope = 0.0
+    for a in range(d):
+        slope += s[a] * g[a]
+    return slope
+
+
 def descend(
     nodes: Wholes, count: int, n: int, N: int, closed: int, x: Reals, target: Reals, m: int, near: Wholes,
     options: Reals, room: Reals, iterations: int,
@@ -199,19 +221,17 @@ def descend(
             if curvature(nodes, count, n, closed, x, target, m, near, options[3], H, d, rest) < 0.0:
                 restart(H, g, d, 0.02)
                 first = 1
-        slope, big = 0.0, 0.0
+        slope = direction(H, g, d, closed, x[d - 1], s)
+        big = 0.0
         for a in range(d):
-            v = 0.0
-            for b in range(d):
-                v -= H[a * d + b] * g[b]
-            s[a] = v
-            slope += v * g[a]
-            big = max(big, fabs(v))
+            big = max(big, fabs(s[a]))
         accepted, t, lo, hi, fn = 0, min(1.0, 0.3 / (big + 1e-300)), 0.0, -1.0, FAR
         if slope < -1e-12:
             for trial in range(25):
                 for a in range(d):
                     xn[a] = x[a] + t * s[a]
+                if closed == 0:
+                    xn[d - 1] = min(max(xn[d - 1], LEAST), TURN)
                 fn = deviation(nodes, count, n, N, closed, xn, target, m, near, options, rest, gn)
                 accepted = 0
                 if fn > f + 1e-4 * t * slope:
@@ -245,4 +265,17 @@ def descend(
     return f
 
 
-DESCENT = (dot, lay, column, directions, slopes, invert, curvature, restart, update, descend)
+DESCENT = (
+    dot,
+    lay,
+    column,
+    directions,
+    slopes,
+    invert,
+    curvature,
+    restart,
+    update,
+    newton,
+    direction,
+    descend,
+)

@@ -14,15 +14,15 @@ from linkwright.synthesis.demands import whole
 from linkwright.synthesis.free_curve.curve_file import read_curve
 from linkwright.synthesis.free_curve.drawn import drawing
 from linkwright.synthesis.free_curve.linkages import Placed, kind_of, linkage_of
-from linkwright.synthesis.free_curve.nodes import Complexes, Design, node_paths
+from linkwright.synthesis.free_curve.nodes import Complexes, Design
 from linkwright.synthesis.free_curve.search import JOINTS, Search
 from linkwright.synthesis.free_curve.target import EVEN, Target, even_points, symmetric_distance
 from linkwright.synthesis.path_generation.generate import complex_points
 from linkwright.synthesis.requirements.slider_crank import not_negative, positive
 from linkwright.synthesis.result import Candidate, Synthesis, note, refuse
 
-#: Positions of a turn at which the demands are examined, and of a candidate's curve.
-TURN, SHOWN = 1800, 721
+#: Positions of a candidate's curve.
+SHOWN = 721
 #: Coordinates of a curve lie below this, m; points nearer than this share of them (of 1 m at least) are one place.
 FARTHEST, LEAST = 1e9, 1e-12
 #: Designs are alike whose error (share), transmission angle (rad) and size (rms radii) differ less.
@@ -115,7 +115,7 @@ def _ranked(
     target: Target, designs: list[Design], curve: Complexes, error: float, count: int, search: Search
 ) -> Synthesis:
     found = [(each, _facts(each, target)) for each in designs]
-    within = [(each, facts) for each, facts in found if _keeps(target, facts)]
+    within = [(each, facts) for each, facts in found if Placed(each, target).keeps()]
     notes = [note("free_curve.measure", angle=f"{math.degrees(target.least):g}", size=f"{target.largest:g}")]
     counts = {"attempts": search.attempts, "designs": len(found)}
     if not within:
@@ -144,13 +144,8 @@ Facts = tuple[float, int, float, float]
 
 def _facts(design: Design, target: Target) -> Facts:
     """Error, links, negative least transmission angle (rad), size."""
-    least = node_paths(design.nodes, design.x, np.linspace(0, 2 * np.pi, TURN + 1))[1]
-    angle = math.asin(math.sqrt(max(least, 0.0)))
-    return target.deviation(design), design.links, -angle, Placed(design, target).size()
-
-
-def _keeps(target: Target, facts: Facts) -> bool:
-    return -facts[2] >= target.least and facts[3] <= target.largest
+    placed = Placed(design, target)
+    return target.deviation(design), design.links, -placed.transmission_angle(), placed.size()
 
 
 def _front(found: list[tuple[Design, Facts]]) -> list[tuple[Design, Facts]]:

@@ -55,6 +55,8 @@ from linkwright.synthesis.free_curve.sliding import (
 
 PIVOT, GUIDE, POINT, DYAD, SLIDER, BLOCK = 0, 1, 2, 3, 4, 5
 TURN, FAR = 6.283185307179586, 1e9
+#: Least range of the crank on an open curve, rad.
+LEAST = 0.3
 
 
 def turn_crank(begin: int, end: int, first: float, step: float, x: Reals, y: Reals) -> None:
@@ -325,7 +327,7 @@ def deviation(
 ) -> float:  # fmt: skip
     """The objective and its gradient g; ``options``: sin² μ₀, r₀, κ, ε². FAR where the linkage does not turn."""
     e = 2 * (count - 2)
-    if closed == 0 and (x[e + 2] < 0.3 or x[e + 2] > TURN):
+    if closed == 0 and (x[e + 2] < LEAST or x[e + 2] > TURN):
         return FAR
     X, Y, gX, gY = room, room + count * N, room + 2 * count * N, room + 3 * count * N
     if place(nodes, count, n, N, closed, x, X, Y) < 0.0:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from string import ascii_uppercase
 
@@ -13,6 +14,8 @@ from linkwright.synthesis.free_curve.target import EVEN, Target, even_points
 from linkwright.synthesis.linkage import Guide, Linkage
 
 SLIDES = {SLIDER: "slider_crank", BLOCK: "crank_swinging_block"}
+#: Positions of a turn at which the transmission angle is examined.
+TURN = 1800
 KINDS = {4: "four_bar", 6: "six_bar", 8: "eight_bar", 10: "ten_bar", 12: "twelve_bar"}
 
 
@@ -44,6 +47,15 @@ class Placed:
         """Greatest distance of a node from the curve's centroid over a turn, in rms radii."""
         paths = node_paths(self.design.nodes, self.design.x, np.linspace(0, 2 * np.pi, 721))[0]
         return float(np.abs(paths - self.middle).max() * abs(self.factor) / self.target.radius)
+
+    def transmission_angle(self) -> float:
+        """Least one of every dyad over a turn, rad; 0 where one does not close."""
+        least = node_paths(self.design.nodes, self.design.x, np.linspace(0, 2 * np.pi, TURN + 1))[1]
+        return math.asin(math.sqrt(max(least, 0.0)))
+
+    def keeps(self) -> bool:
+        """Whether the target's demands hold."""
+        return self.transmission_angle() >= self.target.least and self.size() <= self.target.largest
 
 
 def linkage_of(placed: Placed) -> Linkage:

@@ -25,6 +25,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.engine.threads import cores
 from linkwright.synthesis.free_curve.atlas import atlas
 from linkwright.synthesis.free_curve.kernels import FAR
+from linkwright.synthesis.free_curve.linkages import Placed
 from linkwright.synthesis.free_curve.moves import shaken, with_dyad, with_joint
 from linkwright.synthesis.free_curve.nodes import Design, Draw
 from linkwright.synthesis.free_curve.target import COARSE, FINE, MIDDLE, Fineness, Target
@@ -67,8 +68,12 @@ DRAWS = 96
 GOES_ON, RECENT = (0.5, 0.25), 200
 #: Designs err alike whose misses have a product above this; as many of them stay in a pool.
 NICHE, CROWD = 0.9, 4
-#: Weight of the penalties, and the angle (rad) above the least one, in the steps of the polish.
+#: Weight of the penalties in the descent after which a design comes into a pool.
+STRICT = 10.0
+#: Weight of the penalties, and the angle (rad) above the least one, in the steps of the polish; the angle where a
+#: demand is lacking after them.
 POLISH = ((10.0, 0.005), (300.0, 0.003), (10000.0, 0.0015))
+LACKING = 0.003, 0.003, 0.006
 
 
 @dataclass
@@ -245,7 +250,7 @@ class Search:
             near = _best(near + begun, CHOSEN)
             if time.perf_counter() > last:
                 break
-        return self._each(near, lambda each: self.target.checked(self.target.descend(each, 90)))
+        return self._each(near, self._ended)
 
     def _further(self, designs: list[Design], steps: int, fineness: Fineness) -> list[Design]:
         return self._each(designs, lambda each: self.target.descend(each, steps, fineness))
@@ -264,8 +269,12 @@ class Search:
         if design.value < FAR and pool.promises(0, design.value):
             design = self.target.descend(design, 30)
             if pool.promises(1, design.value):
-                return self.target.checked(self.target.descend(design, 90))
+                return self._ended(design)
         return replace(design, value=FAR)
+
+    def _ended(self, design: Design) -> Design:
+        """After the last descent, in which the demands weigh more, and examined so."""
+        return self.target.checked(self.target.descend(design, 90, weight=STRICT), STRICT)
 
     def _next(self, draw: Draw, most: int, pool: Pool, below: list[Pool]) -> Design:
         """A design that was moved; where joints are left, most often shared ones parted."""
@@ -293,10 +302,16 @@ class Search:
 
     def _polished(self, pool: Pool) -> list[Design]:
         """The best of a pool, polished; the demands hold with a small margin."""
+        found = self._each(pool.designs[:6], lambda each: polished(self.target, each))
+        return [each for each in found if each.value < FAR]
 
-        def polish(design: Design) -> Design:
-            for weight, more in POLISH:
-                design = self.target.descend(design, 150, FINE, weight=weight, more=more)
-            return self.target.checked(design)
 
-        return [each for each in self._each(pool.designs[:6], polish) if each.value < FAR]
+def polished(target: Target, design: Design) -> Design:
+    """The design after descents at fine positions; what still lacks a demand goes on, from farther within it."""
+    for weight, more in POLISH:
+        design = target.descend(design, 150, FINE, weight=weight, more=more)
+    for more in LACKING:
+        if design.value >= FAR or Placed(design, target).keeps():
+            break
+        design = target.descend(design, 60, FINE, weight=10 * weight, more=more)
+    return target.checked(design)

@@ -121,11 +121,11 @@ class Target:
             if gains[k] > 0
         ]
 
-    def checked(self, design: Design) -> Design:
+    def checked(self, design: Design, weight: float = 1.0) -> Design:
         """The design with the objective at fine positions; FAR where it does not close well there."""
         if design.value >= FAR:
             return design
-        fine = self.descend(design, 0, FINE)
+        fine = self.descend(design, 0, FINE, weight=weight)
         nodes, x, room = (each.ctypes.data for each in (design.nodes, design.x, _ROOM.array))
         least = kernels()(
             "place", nodes, design.joints, TURN, TURN, 1, x, room, room + 8 * TURN * design.joints
