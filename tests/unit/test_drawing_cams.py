@@ -7,6 +7,7 @@ from scipy.optimize import minimize_scalar
 import linkwright as lw
 from linkwright.joints.cam_shape import CamShape
 from linkwright.joints.marks import Mark
+from linkwright.plot.drawing.vectors import force_vectors
 from linkwright.plot.drawing.view import placements
 
 MODEL = """
@@ -103,6 +104,25 @@ def test_the_profile_touches_a_flat_face_within_its_ends(held: dict[str, str], s
     assert depth.min(axis=1) == pytest.approx(0, abs=1e-9 * BASE)
     contact = np.take_along_axis(profile.real, depth.argmin(axis=1)[:, None], axis=1)
     assert 0 < contact.min() < contact.max() < 1
+
+
+@pytest.mark.parametrize(("held", "side"), CASES)
+@pytest.mark.parametrize("touch", ["roller", "flat"])
+def test_the_contact_force_is_drawn_through_the_contact(held: dict[str, str], side: str, touch: str) -> None:
+    """Through the roller's centre, and at the point of the profile that is deepest in the face; without a couple."""
+    heavy = text_of(held, side, touch, "clockwise").replace(
+        "held: {points", "held: {mass: 3 kg, inertia: 0, points"
+    )
+    motion = lw.solve_motion(lw.loads(heavy + "gravity: [0, -9.81 m/s²]\n"), steps=72)
+    forces = force_vectors(lw.solve_forces(motion), ["cam.lobe"])
+    feet = forces.vectors[0].feet["cam.lobe"] @ [1, 1j]
+    cam, end = motion.mechanism.joints["lobe"].marks(motion.mechanism, {})
+    assert "cam.lobe" not in forces.torques[0].values
+    if touch == "roller":
+        assert feet == pytest.approx(seen(motion, "held", end.at)[:, 0], abs=1e-9 * BASE)
+        return
+    profile = seen(motion, "cam", *cam.outlines[0])
+    assert np.abs(profile - feet[:, None]).min(axis=1) == pytest.approx(0, abs=1e-6 * BASE)
 
 
 def test_the_printing_press_shows_its_cam_under_its_roller() -> None:

@@ -402,6 +402,11 @@ class HigherPair(Joint):
     freedoms: ClassVar[int] = 2
     higher: ClassVar[bool] = True
 
+    @property
+    def touching(self) -> tuple[str, str]:
+        """A link and its point nearest to which drawings show the force on its line of action."""
+        return self.seats[0]
+
     def constrain(self, graph: ConstraintGraph) -> None:
         graph.demand(self.name, self.joined)
 

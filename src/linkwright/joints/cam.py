@@ -270,6 +270,10 @@ class CamJoint(HigherPair):
     def seats(self) -> tuple[tuple[str, str], ...]:
         return ((self.follower, self.holder),) if self.side else ((self.cam, self.centre),)
 
+    @property
+    def touching(self) -> tuple[str, str]:
+        return self.follower, self.at
+
     def rows(
         self, system: ConstraintSystem, kept: tuple[str, ...], places: Mapping[str, Place]
     ) -> Iterable[Row]:

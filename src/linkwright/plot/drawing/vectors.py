@@ -11,6 +11,7 @@ import numpy as np
 
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
+from linkwright.joints.base import HigherPair
 from linkwright.kinematics.names import canonical, find_point
 from linkwright.plot.drawing.labels import Label
 from linkwright.plot.drawing.view import View
@@ -287,12 +288,30 @@ def _reactions(forces: Forces, names: Sequence[str] | None) -> tuple[Vectors, To
         feet[name] = _joint_place(forces.motion, joint, on)
         values[name] = forces.reaction(joint, on=on)
         low[name] = reaction_index(mechanism, joint, on)
-        if mechanism.joints[joint].couples:
-            couples[name] = forces.couple(joint, on=on)
+        found = mechanism.joints[joint]
+        if not found.couples:
+            continue
+        couple = forces.couple(joint, on=on)
+        if isinstance(found, HigherPair):
+            near = _position(forces.motion, ".".join(found.touching))
+            feet[name] = _on_the_line(feet[name], values[name], couple, near)
+        else:
+            couples[name] = couple
     return (
         Vectors("force", "N", feet, values, {name: ("F", index) for name, index in low.items()}),
         Torques("force", feet, couples, {name: ("M", low[name]) for name in couples}),
     )
+
+
+def _on_the_line(place: Floats, force: Floats, couple: Floats, near: Floats) -> Floats:
+    """The point nearest to ``near`` on the line of action of a force (n, 2) with this couple (n,) about ``place``."""
+    square = (force**2).sum(axis=1)
+    with np.errstate(all="ignore"):
+        along = ((near - place) * force).sum(axis=1)
+        lever = np.stack([force[:, 1], -force[:, 0]], axis=1)
+        found = place + (couple / square)[:, None] * lever + (along / square)[:, None] * force
+    acting = square > (NOTHING * np.nanmax(np.sqrt(square))) ** 2
+    return np.where(acting[:, None], found, near)
 
 
 def _joint_on(forces: Forces, name: str) -> tuple[str, str]:
