@@ -75,7 +75,12 @@ def package_of(module: Path) -> str:
     return module.parts[0].removesuffix(".py")
 
 
-KNOWN_TO_ENGINE = ("linkwright.engine", "linkwright.errors", "linkwright.core.dataclass")
+KNOWN_TO_ENGINE = (
+    "linkwright.engine",
+    "linkwright.errors",
+    "linkwright.core.arrays",
+    "linkwright.core.dataclass",
+)
 ENGINE = [module for module in MODULES if package_of(module) == "engine"]
 ANALYSIS = [module for module in MODULES if STAGE.get(package_of(module), FRONT) < FRONT]
 

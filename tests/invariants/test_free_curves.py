@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
+from linkwright.core.arrays import Whole
 from linkwright.engine import machine_code
 from linkwright.synthesis.free_curve.atlas import STEP, Atlas, M, Matches, _draws, parts, places
 from linkwright.synthesis.free_curve.curve_file import path_points, read_curve
@@ -21,7 +22,6 @@ from linkwright.synthesis.free_curve.nodes import (
     Design,
     Draw,
     Node,
-    Whole,
     flat,
     node_paths,
     random_structure,

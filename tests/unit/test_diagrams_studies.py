@@ -12,8 +12,8 @@ from matplotlib.text import Text
 
 import linkwright as lw
 from linkwright.cli import main
+from linkwright.core.arrays import Floats
 from linkwright.errors import LinkwrightError
-from linkwright.kinematics.cycle import Floats
 from linkwright.kinetostatics.balancing import Balancing, balance
 from linkwright.machine import TorqueCurve
 from linkwright.metrics import metrics

@@ -18,10 +18,10 @@ from linkwright.cams.loading import CamLoading, CamMaterial, leverage
 from linkwright.cams.result import CamDesign
 from linkwright.cams.sizes import CamChoice, chosen
 from linkwright.cams.undercut import undercuts
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, ModelError
 from linkwright.fields.base import Field
-from linkwright.laws.base import Floats
 from linkwright.laws.program import Program
 from linkwright.parts.base import Problem, fault
 

@@ -7,8 +7,8 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike
 
+from linkwright.core.arrays import Floats
 from linkwright.errors import RequestError
-from linkwright.laws.base import Floats
 from linkwright.laws.polynomial import from_conditions, powers
 from linkwright.words.sentence import Sentence
 

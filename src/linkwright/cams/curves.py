@@ -9,14 +9,11 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright.cams.follower import Follower
+from linkwright.core.arrays import Complexes, Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.laws.base import Floats
 from linkwright.laws.program import Program
-
-Points = NDArray[np.complex128]
 
 
 @dataclass(frozen=True)
@@ -31,8 +28,8 @@ class Contact:
     follower's axis or pivot.
     """
 
-    point: Points
-    normal: Points
+    point: Complexes
+    normal: Complexes
     bend: Floats
     growth: Floats
     pressure_angle: Floats
@@ -50,15 +47,15 @@ class CamCurve(ABC):
         """The contact at angles φ (n,)."""
 
     @abstractmethod
-    def reach(self, points: Points, phi: Floats) -> Floats:
+    def reach(self, points: Complexes, phi: Floats) -> Floats:
         """How deep (m) the follower at angles φ (n,) reaches beyond points (n,) of the profile."""
 
     @abstractmethod
-    def reach_table(self, points: Points, phi: Floats) -> Floats:
+    def reach_table(self, points: Complexes, phi: Floats) -> Floats:
         """The same for every point (n,) at every angle (k,): (n, k)."""
 
     @abstractmethod
-    def reach_slopes(self, points: Points, phi: Floats) -> tuple[Floats, Floats]:
+    def reach_slopes(self, points: Complexes, phi: Floats) -> tuple[Floats, Floats]:
         """First and second derivative of :meth:`reach` along φ."""
 
 
@@ -72,7 +69,7 @@ class RollerCurve(CamCurve):
     turn: float = 1.0
     outer: bool = False
 
-    def _world(self, phi: Floats) -> tuple[Points, Points, Points, Points]:
+    def _world(self, phi: Floats) -> tuple[Complexes, Complexes, Complexes, Complexes]:
         """Trace point in the frame, its first two derivatives by φ, and the unit vector of its motion with lift."""
         follower = self.follower
         s, v, a, _ = self.program.curves(phi)
@@ -86,7 +83,7 @@ class RollerCurve(CamCurve):
         first, second = -1j * side * v, -1j * side * a - v * v
         return follower.pivot_distance + arm, arm * first, arm * second, -1j * side * arm / follower.arm
 
-    def pitch(self, phi: Floats) -> tuple[Points, Points, Points]:
+    def pitch(self, phi: Floats) -> tuple[Complexes, Complexes, Complexes]:
         """Pitch curve and its first two derivatives by φ, in the cam's axes."""
         z, z1, z2, _ = self._world(phi)
         turned, w = np.exp(-1j * self.turn * phi), 1j * self.turn
@@ -107,13 +104,13 @@ class RollerCurve(CamCurve):
         point = p - self.follower.roller_radius * normal
         return Contact(point, normal, own, growth, angle, np.zeros(len(phi)))
 
-    def reach(self, points: Points, phi: Floats) -> Floats:
+    def reach(self, points: Complexes, phi: Floats) -> Floats:
         return np.asarray(self.follower.roller_radius - np.abs(points - self.pitch(phi)[0]))
 
-    def reach_table(self, points: Points, phi: Floats) -> Floats:
+    def reach_table(self, points: Complexes, phi: Floats) -> Floats:
         return np.asarray(self.follower.roller_radius - np.abs(points[:, None] - self.pitch(phi)[0]))
 
-    def reach_slopes(self, points: Points, phi: Floats) -> tuple[Floats, Floats]:
+    def reach_slopes(self, points: Complexes, phi: Floats) -> tuple[Floats, Floats]:
         p, p1, p2 = self.pitch(phi)
         gap = points - p
         size = np.maximum(np.abs(gap), 1e-300)
@@ -129,7 +126,7 @@ class BarrelCurve(RollerCurve):
     closed = False
     radius: float = 0.0
 
-    def pitch(self, phi: Floats) -> tuple[Points, Points, Points]:
+    def pitch(self, phi: Floats) -> tuple[Complexes, Complexes, Complexes]:
         s, v, a, _ = self.program.curves(phi)
         return self.radius * phi + 1j * s, self.radius + 1j * v, 1j * a
 
@@ -155,7 +152,7 @@ class FlatCurve(CamCurve):
     base_radius: float
     turn: float = 1.0
 
-    def _support(self, phi: Floats) -> tuple[Points, Floats, Floats, Floats]:
+    def _support(self, phi: Floats) -> tuple[Complexes, Floats, Floats, Floats]:
         """Unit normal N in the cam's axes; H, dH/dθ and d²H/dθ²."""
         follower, turn = self.follower, self.turn
         s, v, a, _ = self.program.curves(phi)
@@ -189,15 +186,15 @@ class FlatCurve(CamCurve):
         angle = self.turn * np.angle(normal * turned / direction)
         return Contact(point, normal, bend, growth, angle, (lever * arm.conj()).real)
 
-    def reach(self, points: Points, phi: Floats) -> Floats:
+    def reach(self, points: Complexes, phi: Floats) -> Floats:
         normal, support, _, _ = self._support(phi)
         return np.asarray((points * normal.conj()).real - support)
 
-    def reach_table(self, points: Points, phi: Floats) -> Floats:
+    def reach_table(self, points: Complexes, phi: Floats) -> Floats:
         normal, support, _, _ = self._support(phi)
         return np.outer(points.real, normal.real) + np.outer(points.imag, normal.imag) - support
 
-    def reach_slopes(self, points: Points, phi: Floats) -> tuple[Floats, Floats]:
+    def reach_slopes(self, points: Complexes, phi: Floats) -> tuple[Floats, Floats]:
         normal, _, slope, second = self._support(phi)
         rate = -self.turn * np.ones(len(phi))
         if self.follower.oscillating:

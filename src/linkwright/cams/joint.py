@@ -9,9 +9,9 @@ import numpy as np
 from linkwright.cams.cam import Cam
 from linkwright.cams.follower import Follower
 from linkwright.cams.loading import CamLoading
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.joints.cam import CamJoint
-from linkwright.laws.base import Floats
 from linkwright.laws.program import TURN, Program
 from linkwright.laws.traced import LiftCurve
 from linkwright.mechanism.mechanism import Mechanism

@@ -9,8 +9,8 @@ import numpy as np
 
 from linkwright.cams.curves import Contact
 from linkwright.cams.follower import Follower
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.laws.base import Floats
 from linkwright.laws.program import Program
 
 

@@ -12,10 +12,10 @@ import numpy as np
 from linkwright.cams.curves import RollerCurve
 from linkwright.cams.loading import contact_pressure, leverage
 from linkwright.cams.vibration import residual_amplitude, steady_deviation
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.piecewise import Piecewise
 from linkwright.errors import RequestError
-from linkwright.laws.base import Floats
 from linkwright.laws.program import MotionProgram
 from linkwright.parts.base import Block, Result
 from linkwright.words import Say

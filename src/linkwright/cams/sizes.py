@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from linkwright.cams.loading import contact_pressure, leverage
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import ModelError
-from linkwright.laws.base import Floats
 from linkwright.laws.program import Program
 from linkwright.parts.base import fault
 

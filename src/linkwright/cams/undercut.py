@@ -8,13 +8,12 @@ goes, and where parts of the profile that are far from each other on the way cro
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-from linkwright.cams.curves import CamCurve, Points
+from linkwright.cams.curves import CamCurve
+from linkwright.core.arrays import Complexes, Flags, Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.piecewise import Piecewise
 from linkwright.core.search import ends as last_places
-from linkwright.laws.base import Floats
 from linkwright.laws.program import Program
 
 #: Places on the way at which everything is looked at first.
@@ -99,7 +98,7 @@ class _Search:
             found.append(np.linspace(low - reach, high + reach, 61))
         return found
 
-    def lost(self, phi: Floats) -> NDArray[np.bool_]:
+    def lost(self, phi: Floats) -> Flags:
         """Whether contacts are cut away."""
         return np.asarray(self.depth(phi) > self.slack)
 
@@ -112,7 +111,7 @@ class _Search:
         folded = contact.growth < 0
         return np.where(folded, np.maximum(found, 2 * self.slack), found)
 
-    def _deepest(self, points: Points) -> Floats:
+    def _deepest(self, points: Complexes) -> Floats:
         """Largest reach over the whole way, refined from the three best places that are peaks."""
         seen = self.curve.reach_table(points, self.psi)
         peaks = (seen >= np.roll(seen, 1, axis=1)) & (seen >= np.roll(seen, -1, axis=1))

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from linkwright.laws.base import Floats
+from linkwright.core.arrays import Floats
 from linkwright.laws.program import MotionProgram, Program
 from linkwright.laws.residual import residual
 

@@ -11,9 +11,9 @@ from functools import cached_property
 import numpy as np
 
 from linkwright.cli.errors import UsageError
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
-from linkwright.kinematics.cycle import Floats
 from linkwright.registry import nearest
 from linkwright.units import SI_UNITS
 from linkwright.words import Say

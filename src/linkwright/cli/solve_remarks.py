@@ -10,9 +10,9 @@ import numpy as np
 
 from linkwright.cli.columns import Column
 from linkwright.cli.solving import Solved, reaction_pairs, steady
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError
-from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces

@@ -6,14 +6,13 @@ import argparse
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright.cli.errors import UsageError
 from linkwright.cli.positions import MOST, inputs, quantities
+from linkwright.core.arrays import Floats, Indices
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.errors import Finding, LinkwrightError
-from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinematics.table import motion_results
@@ -39,7 +38,7 @@ class Solved:
 
     motion: Motion
     forces: Forces | None
-    rows: NDArray[np.intp]
+    rows: Indices
     warnings: tuple[Finding, ...] = ()
     trouble: LinkwrightError | None = None
     whole: bool = False
@@ -109,7 +108,7 @@ def has_loads(mechanism: Mechanism) -> bool:
     return bool(mechanism.loads) or any(link.mass or link.inertia for link in mechanism.links.values())
 
 
-def _motion(mechanism: Mechanism, options: argparse.Namespace, say: Say) -> tuple[Motion, NDArray[np.intp]]:
+def _motion(mechanism: Mechanism, options: argparse.Namespace, say: Say) -> tuple[Motion, Indices]:
     failures = "mark" if options.mark else "raise"
     if options.at is not None:
         if not mechanism.drivers:

@@ -12,11 +12,10 @@ from collections.abc import Callable, Sequence
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.dataclass import dataclass
 
-Floats = NDArray[np.float64]
 Function = Callable[[Floats], Floats]
 
 POINTS = 16
@@ -110,7 +109,7 @@ class Piecewise:
         return np.diff(self.edges)
 
     @cached_property
-    def smooth(self) -> NDArray[np.bool_]:
+    def smooth(self) -> Flags:
         """Which pieces are met by their polynomials, (m,)."""
         return np.asarray(tails(self.values) <= self.tolerance * np.abs(self.values).max(initial=0.0))
 
@@ -119,7 +118,7 @@ class Piecewise:
         piece, share = self._place(x)
         return _at(self.values[piece], share)
 
-    def _place(self, x: Floats) -> tuple[NDArray[np.intp], Floats]:
+    def _place(self, x: Floats) -> tuple[Indices, Floats]:
         piece = np.clip(np.searchsorted(self.edges, x, "right") - 1, 0, len(self.values) - 1)
         low, high = self.edges[piece], self.edges[piece + 1]
         return piece, np.clip((2.0 * x - low - high) / (high - low), -1.0, 1.0)
@@ -216,7 +215,7 @@ def tails(values: Floats) -> Floats:
     return np.asarray(np.maximum(np.maximum(last[..., 0], last[..., 1]), last[..., 2]))
 
 
-Peak = tuple[NDArray[np.intp], Floats, Floats, Floats]
+Peak = tuple[Indices, Floats, Floats, Floats]
 
 
 def largest(values: Floats, tops: Floats) -> Peak:

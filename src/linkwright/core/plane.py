@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-from linkwright.core.piecewise import Floats
+from linkwright.core.arrays import Complexes, Flags, Floats, Indices
 
 #: Points and vectors, x + i y.
-Places = NDArray[np.complex128]
 
 #: Rounds in which points that are no corners are left out all at once.
 ROUNDS = 6
@@ -22,7 +20,7 @@ def cross(a: Floats, b: Floats) -> Floats:
     return np.asarray(a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0])
 
 
-def hull_corners(points: Places) -> NDArray[np.intp]:
+def hull_corners(points: Complexes) -> Indices:
     """Numbers (m,) of the corners of the convex hull of points (n,), counter-clockwise (Andrew's monotone chains)."""
     number = _outer(points) if len(points) > MANY else np.arange(len(points))
     number = number[np.argsort(points[number], kind="stable")]
@@ -34,12 +32,12 @@ def hull_corners(points: Places) -> NDArray[np.intp]:
     return np.asarray(np.concatenate([number[below], number[::-1][above]]))
 
 
-def convex_hull(points: Places) -> Places:
+def convex_hull(points: Complexes) -> Complexes:
     """These corners (m,)."""
     return np.asarray(points[hull_corners(points)])
 
 
-def _outer(points: Places) -> NDArray[np.intp]:
+def _outer(points: Complexes) -> Indices:
     """Numbers (m,) of the points that do not lie clearly inside a polygon of those farthest in some directions, and
     where they are many of those farthest beyond its sides."""
     number, far = np.arange(len(points)), _along(_DIRECTIONS, points)
@@ -58,12 +56,12 @@ def _outer(points: Places) -> NDArray[np.intp]:
     return number
 
 
-def _along(directions: Places, points: Places) -> Floats:
+def _along(directions: Complexes, points: Complexes) -> Floats:
     """Products (k, n) of vectors (k,) with vectors (n,)."""
     return np.asarray(directions.view(float).reshape(-1, 2) @ points.view(float).reshape(-1, 2).T)
 
 
-def _half(chain: Places) -> NDArray[np.intp]:
+def _half(chain: Complexes) -> Indices:
     """Numbers of the corners below a chain that goes to the right, all but the last: none is what does not lie below
     the line between two others, first of all points at the same time, then of those beside what was left out."""
     number = np.arange(len(chain))
@@ -87,14 +85,14 @@ def _half(chain: Places) -> NDArray[np.intp]:
     return number[there][:-1]
 
 
-def _bends(chain: Places) -> NDArray[np.bool_]:
+def _bends(chain: Complexes) -> Flags:
     """Where a chain bends to the left, its ends left out."""
     step = chain[1:] - chain[:-1]
     along, across = step.real, step.imag
     return np.asarray(along[:-1] * across[1:] - across[:-1] * along[1:] > 0.0)
 
 
-def area(corners: Places) -> float:
+def area(corners: Complexes) -> float:
     """Area of a polygon (m,), m², counter-clockwise positive."""
     gap = corners - corners[0]
     return 0.5 * float(np.vdot(gap[:-1], gap[1:]).imag)

@@ -12,10 +12,8 @@ import math
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
-Mask = NDArray[np.bool_]
+from linkwright.core.arrays import Flags, Floats
 
 #: Share of a bracket's width to which zeros and ends are met.
 ACCURACY = 1e-14
@@ -79,7 +77,7 @@ def zero(
     return here
 
 
-def ends(holds: Callable[[Floats], Mask], inside: Floats, outside: Floats) -> Floats:
+def ends(holds: Callable[[Floats], Flags], inside: Floats, outside: Floats) -> Floats:
     """The last places (k,) at which something holds, on the way from ``inside``, where it does, to ``outside``."""
     for _ in range(_HALVINGS):
         middle = 0.5 * (inside + outside)
@@ -89,7 +87,7 @@ def ends(holds: Callable[[Floats], Mask], inside: Floats, outside: Floats) -> Fl
 
 
 def edge(
-    holds: Callable[[Floats], Mask], inside: float, outside: float, within: float = 0.0, parts: int = 16
+    holds: Callable[[Floats], Flags], inside: float, outside: float, within: float = 0.0, parts: int = 16
 ) -> tuple[float, float]:
     """As :func:`ends` for one bracket of which many places can be asked for at once, and the next place beyond.
 

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

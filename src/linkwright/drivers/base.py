@@ -15,12 +15,11 @@ from linkwright.registry import Registry
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from linkwright.core.arrays import Floats
     from linkwright.export.modelica.laws import LawText
     from linkwright.fields.base import Field
 
-    Array = NDArray[np.float64]
+    Array = Floats
 
 
 class Law(ABC):

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.core.arrays import Floats
 from linkwright.engine.functions import FUNCTIONS
 from linkwright.engine.lines import Lines
 from linkwright.engine.registers import NUMBER, ROW, TRUTH, Registers
@@ -52,10 +53,10 @@ class BoundPlan:
             "field": self._full,
             "state": self._full,
         }
-        self.outputs: NDArray[np.float64] = np.empty((len(lines.outputs), *self._full))
+        self.outputs: Floats = np.empty((len(lines.outputs), *self._full))
         self.tables: list[Table] = []
         self.numbers: list[float] | None = None
-        self.inputs: dict[str, list[NDArray[np.float64]]] = {kind: [] for kind in self._shapes}
+        self.inputs: dict[str, list[Floats]] = {kind: [] for kind in self._shapes}
         self._numbers_at = [i for i in lines.boundary() if not lines.lines[i].truth]
         self._truths_at = [i for i in lines.boundary() if lines.lines[i].truth]
         self._design_numbers = np.empty(len(self._numbers_at))
@@ -153,7 +154,5 @@ class BoundPlan:
             array[...] = value
 
 
-def _look_up(
-    tables: list[Table], place: int, order: int, x: NDArray[np.float64], out: NDArray[np.float64]
-) -> None:
+def _look_up(tables: list[Table], place: int, order: int, x: Floats, out: Floats) -> None:
     out[...] = tables[place](x, order)

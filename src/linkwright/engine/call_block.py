@@ -9,18 +9,18 @@ from sys import getrefcount
 from typing import Any, TypeGuard
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from linkwright.core.arrays import Floats, Whole
 from linkwright.engine.ir_kernel import Block
 from linkwright.engine.program import Program
 from linkwright.engine.table import Table, Tables, given_tables
 
-Floats = NDArray[np.float64]
 Arrays = Mapping[str, ArrayLike]
 _LINE = 64  # bytes of a cache line
 
 
-def address_of(array: NDArray[np.float64] | NDArray[np.int64]) -> int:
+def address_of(array: Floats | Whole) -> int:
     """Where an array's first number lies."""
     return int(array.__array_interface__["data"][0])
 
@@ -107,7 +107,7 @@ class Inputs:
             and all(own is each for own, each in zip(self._tables, tables, strict=True))
         )
 
-    def _unaddressed(self) -> NDArray[np.int64]:
+    def _unaddressed(self) -> Whole:
         """What all call blocks have in common."""
         full, rest = divmod(self.length, self.width)
         if full:
@@ -125,9 +125,7 @@ class Inputs:
         block[Block.INPUTS :] = sources
         return block
 
-    def block(
-        self, parameters: int, out: int, first: int = 0, designs: int = 1, starts: int = 0
-    ) -> NDArray[np.int64]:
+    def block(self, parameters: int, out: int, first: int = 0, designs: int = 1, starts: int = 0) -> Whole:
         """The call block for some designs from number ``first`` on; addresses as numbers."""
         block = self._template.copy()
         block[Block.DESIGNS], block[Block.PARAMETERS] = designs, parameters

@@ -7,15 +7,15 @@ from dataclasses import field
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from linkwright.core.arrays import Floats, Whole
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.reductions import Results
 from linkwright.engine.stage import BACKENDS, Arrays, Backend, Run, Stage, blank
 from linkwright.engine.table import Tables
 from linkwright.engine.threads import chunks, cores
 
-Floats = NDArray[np.float64]
 Progress = Callable[[int, int], None]
 
 #: Configurations of a block: between two reports of progress, where nobody wants any, and where stages keep fields.
@@ -164,7 +164,7 @@ class Known:
             table[:, column] = self.column(name)
         return table
 
-    def column(self, name: str) -> NDArray[np.float64] | NDArray[np.int64]:
+    def column(self, name: str) -> Floats | Whole:
         """A cycle value or a dimension."""
         return self.values[name] if name in self.values else self.numbers[:, self.dimensions.index(name)]
 

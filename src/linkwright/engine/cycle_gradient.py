@@ -13,8 +13,9 @@ from functools import cached_property
 from typing import TypeVar
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.cycle import CycleProgram, Known, Progress
 from linkwright.engine.program import Program
@@ -29,7 +30,6 @@ from linkwright.engine.reverse_programs import (
 from linkwright.engine.stage import Arrays, Backend, Run, Stage, over_designs, reduced
 from linkwright.engine.table import Tables
 
-Floats = NDArray[np.float64]
 Bars = dict[str, Floats]
 
 Key = TypeVar("Key")

@@ -7,8 +7,8 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.functions import FUNCTIONS
 from linkwright.engine.machine_code import available
@@ -17,8 +17,7 @@ from linkwright.engine.program import Program
 from linkwright.engine.recent import Recent
 from linkwright.engine.table import Tables
 
-Floats = NDArray[np.float64]
-Arrays = Mapping[str, NDArray[np.float64]]
+Arrays = Mapping[str, Floats]
 Found = Callable[[Floats], Mapping[str, Any] | None]
 Compiled = Callable[[Floats], Floats]
 

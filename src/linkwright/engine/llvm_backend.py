@@ -8,8 +8,9 @@ from collections.abc import Callable, Mapping
 from functools import partial
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from linkwright.core.arrays import Floats, Whole
 from linkwright.engine import machine_code
 from linkwright.engine.cache import loaded_code
 from linkwright.engine.call_block import Inputs, SingleCall, address_of, aligned
@@ -24,7 +25,6 @@ from linkwright.engine.threads import spread_over
 
 __all__ = ["CompiledProgram", "available", "compile_program"]
 
-Floats = NDArray[np.float64]
 Arrays = Mapping[str, ArrayLike]
 _NONE: Arrays = {}
 #: Most configurations (designs times positions) of one call; a call cannot be interrupted. On several threads the
@@ -175,7 +175,7 @@ class CompiledProgram:
 
     def one_by_one(
         self, parameters: Floats, positions: Arrays, out: Floats, *, tables: Tables | None = None
-    ) -> tuple[int, NDArray[np.int64]]:
+    ) -> tuple[int, Whole]:
         """For kernels that call it: the address of the code, and the call block of the first design.
 
         Kernels move the address of the parameters on, by the bytes of a design. ``parameters`` (designs, parameters)

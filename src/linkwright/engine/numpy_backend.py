@@ -7,8 +7,9 @@ from collections.abc import Callable, Container, Iterator, Mapping
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from linkwright.core.arrays import Floats
 from linkwright.engine.bound import BoundPlan
 from linkwright.engine.lines import Lines
 from linkwright.engine.program import Program
@@ -17,7 +18,6 @@ from linkwright.engine.registers import Registers
 from linkwright.engine.scalar_backend import LineRunner, ScalarProgram, start_values
 from linkwright.engine.table import Table, Tables, given_tables
 
-Floats = NDArray[np.float64]
 Arrays = Mapping[str, ArrayLike]
 Source = tuple[str, tuple[str, ...], Any]
 

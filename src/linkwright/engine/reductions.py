@@ -8,8 +8,8 @@ from functools import cached_property
 from typing import Literal, NamedTuple, get_args
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Flags, Floats, Whole
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.program import Program
 from linkwright.engine.replay import along_input, inlined
@@ -19,8 +19,7 @@ Kind = Literal[
     "min", "max", "mean", "sum", "rms", "argmin", "argmax", "count", "first", "last", "at_min", "at_max"
 ]
 KINDS: tuple[str, ...] = get_args(Kind)
-Floats = NDArray[np.float64]
-Results = dict[str, NDArray[np.float64] | NDArray[np.int64]]
+Results = dict[str, Floats | Whole]
 
 #: The key of the number of valid positions among the results.
 VALID_COUNT = "valid.count"
@@ -245,7 +244,7 @@ def _has_positions(program: Program) -> bool:
 _START = {"min": np.inf, "max": -np.inf, "argmin": -1.0, "argmax": -1.0, "at_min": np.nan, "at_max": np.nan}
 
 
-def _result(kind: str, accumulated: Floats, valid: Floats) -> Floats | NDArray[np.int64]:
+def _result(kind: str, accumulated: Floats, valid: Floats) -> Floats | Whole:
     if kind in ("argmin", "argmax", "count"):
         return accumulated.astype(np.int64)
     with np.errstate(invalid="ignore", divide="ignore"):
@@ -281,7 +280,7 @@ def _extreme(
     accumulation: Accumulation,
     step: Step,
     rows: dict[str, Floats],
-    mask: NDArray[np.bool_] | None,
+    mask: Flags | None,
     table: Floats,
     first: int,
 ) -> None:

@@ -8,8 +8,9 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from linkwright.core.arrays import Flags, Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.numpy_backend import numpy_program
 from linkwright.engine.program import Program
@@ -25,7 +26,6 @@ if TYPE_CHECKING:
 
 Backend = Literal["auto", "numpy", "llvm"]
 BACKENDS: tuple[Backend, ...] = ("auto", "numpy", "llvm")
-Floats = NDArray[np.float64]
 Arrays = Mapping[str, ArrayLike]
 
 #: Below this number of configurations NumPy has answered before a program is compiled.
@@ -109,7 +109,7 @@ class Stage:
 
     def evaluate(
         self, table: Floats, fields: Mapping[str, Floats], start: Floats | None, run: Run
-    ) -> tuple[Results, NDArray[np.bool_]]:
+    ) -> tuple[Results, Flags]:
         """Results of some designs, and which of them have none from here on.
 
         ``table``: in the order of ``accumulation.parameters``; ``start``: of ``accumulation.needed.states``.
@@ -191,7 +191,7 @@ def _one_design(program: Program, columns: Mapping[str, ArrayLike], run: Run) ->
 _short: Recent[Program, ScalarProgram] = Recent(64)
 
 
-def blank(results: Results, failed: NDArray[np.bool_]) -> None:
+def blank(results: Results, failed: Flags) -> None:
     """Take the results of failed designs away (in place)."""
     if failed.any():
         for values in results.values():

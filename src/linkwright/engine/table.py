@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cached_property
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from typing import TYPE_CHECKING, Literal
 
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.late import numpy as np
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import ArrayLike
 
-Floats: TypeAlias = "NDArray[np.float64]"
+    from linkwright.core.arrays import Floats
+
 Ends = Literal["not-a-knot", "natural", "periodic"]
 
 #: Numbers before the breaks in :attr:`Table.numbers`: pieces, start, span, whether periodic, drift.

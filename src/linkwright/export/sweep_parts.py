@@ -10,8 +10,9 @@ from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
 from linkwright.export.base import package
@@ -24,7 +25,6 @@ from linkwright.study.vary import checked_addresses
 from linkwright.whole_files import make_folder, write_whole
 from linkwright.words.sentence import Sentence
 
-Floats = NDArray[np.float64]
 Sampling = Literal["grid", "sobol"]
 #: Designs of a part; of a whole sweep, at most.
 PART, MOST = 16384, 10**12

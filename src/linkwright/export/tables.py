@@ -7,9 +7,9 @@ from dataclasses import replace
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.export.results import Results
-from linkwright.kinematics.cycle import Floats
 from linkwright.words import say
 
 #: Rates of a coordinate, by the unit of the coordinate.

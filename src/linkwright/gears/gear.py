@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
-from linkwright.gears.involute import Floats, involute, involute_at
+from linkwright.gears.involute import involute, involute_at
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:

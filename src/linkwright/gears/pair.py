@@ -10,10 +10,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
 from linkwright.gears.gear import Gear
-from linkwright.gears.involute import Floats, angle_of_involute, involute
+from linkwright.gears.involute import angle_of_involute, involute
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:

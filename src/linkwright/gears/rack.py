@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
 from linkwright.gears.gear import PRESSURE_ANGLES
-from linkwright.gears.involute import Floats
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:

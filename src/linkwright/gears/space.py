@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from linkwright.core.arrays import Flags, Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.core.search import Mask, ends
+from linkwright.core.search import ends
 from linkwright.errors import RequestError
-from linkwright.gears.involute import Floats
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
@@ -138,7 +138,7 @@ def _crossing(gear: Gear, tip: ToolTip) -> float:
         radius, angle = tip.foot(roll)
         return np.asarray(pitch - gear.half_angle(np.maximum(radius, 0.5 * gear.base_diameter)) - angle)
 
-    def below(rolls: Floats) -> Mask:
+    def below(rolls: Floats) -> Flags:
         return np.asarray((tip.foot(rolls)[0] <= 0.5 * gear.base_diameter) | (gap(rolls) < 0))
 
     rolls = np.linspace(first, end, 2001)

@@ -20,6 +20,7 @@ from linkwright.words import has
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
+    from linkwright.core.arrays import Floats
     from linkwright.engine.trace import Mask, Scalar
     from linkwright.engine.vector import Vec
     from linkwright.fields.nodes import Mapping as MappingNode
@@ -30,7 +31,6 @@ if TYPE_CHECKING:
     from linkwright.joints.pose import Pose, Rotor, State
     from linkwright.kinematics.closed_loops import Body, LoopBuilder
     from linkwright.kinematics.constraint_system import ConstraintSystem, Place, Row
-    from linkwright.kinematics.cycle import Floats
     from linkwright.kinematics.dimensions import Dimensions
     from linkwright.kinematics.motion import Motion
     from linkwright.kinetostatics.forces import Forces

@@ -5,7 +5,7 @@ from __future__ import annotations
 import cmath
 from collections.abc import Iterator
 from math import pi
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.late import numpy as np
@@ -13,14 +13,11 @@ from linkwright.joints.cam_cuts import Geometry
 from linkwright.joints.marks import Mark, Vec
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from linkwright.core.arrays import Complexes, Floats
     from linkwright.joints.cam import CamJoint
-    from linkwright.laws.base import Floats
     from linkwright.mechanism.mechanism import Mechanism
 
-Points: TypeAlias = "NDArray[np.complex128]"
-#: Points of a drawn curve over a turn of the cam; how far a face goes on beyond its contacts, as a share.
+#: Complexes of a drawn curve over a turn of the cam; how far a face goes on beyond its contacts, as a share.
 POINTS, BEYOND = 720, 0.1
 
 
@@ -59,15 +56,15 @@ class CamShape:
     def _side(self) -> float:
         return 1.0 if self.joint.side == "left" else -1.0
 
-    def _back(self, phi: Floats) -> Points:
+    def _back(self, phi: Floats) -> Complexes:
         """What turns directions from the carrier's axes into the cam's."""
         return np.asarray(np.exp(-1j * (self.joint.phase + self.joint.sense * phi)))
 
-    def pitch(self, phi: Floats) -> Points:
+    def pitch(self, phi: Floats) -> Complexes:
         """The pitch curve: places of the roller's centre or the edge, in the cam's axes."""
         return self.centre + self._trace(phi)[0] * self._back(phi)
 
-    def _trace(self, phi: Floats) -> tuple[Points, Points]:
+    def _trace(self, phi: Floats) -> tuple[Complexes, Complexes]:
         """``at`` from the cam's centre in the carrier's axes, and its derivative by φ."""
         f, rate, _ = self.joint.lift.curves(phi)
         found, way = self.geometry, cmath.exp(1j * self.geometry.along)
@@ -76,7 +73,7 @@ class CamShape:
         swung = self.arm * way * np.exp(1j * self._side * (found.start + f))
         return swung - self.line * way, 1j * self._side * rate * swung
 
-    def profile(self, phi: Floats, *, outer: bool = False) -> Points:
+    def profile(self, phi: Floats, *, outer: bool = False) -> Complexes:
         """Where cam and follower touch at φ, in the cam's axes; ``outer``: on the other wall of a groove."""
         if self.joint.touch == "flat":
             normal, support, slope = self._support(phi)
@@ -87,7 +84,7 @@ class CamShape:
         gap = self.joint.roller_radius * (-1.0 if outer else 1.0)
         return self.centre + (place - gap * outward) * self._back(phi)
 
-    def _support(self, phi: Floats) -> tuple[Points, Floats, Floats]:
+    def _support(self, phi: Floats) -> tuple[Complexes, Floats, Floats]:
         """Of a flat face: its normal in the carrier's axes, its distance from the centre, and how that grows with the
         normal's direction in the cam's axes."""
         f, rate, _ = self.joint.lift.curves(phi)

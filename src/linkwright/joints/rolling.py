@@ -17,7 +17,7 @@ from linkwright.joints.toothed import FITS, WheelCut, WheelPair, length
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
-    from linkwright.kinematics.cycle import Floats
+    from linkwright.core.arrays import Floats
     from linkwright.kinematics.dimensions import Dimensions
     from linkwright.kinematics.motion import Motion
     from linkwright.mechanism.mechanism import Mechanism

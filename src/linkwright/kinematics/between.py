@@ -6,17 +6,15 @@ from collections.abc import Callable, Mapping
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Floats, Indices
 from linkwright.core.outputs import row_name
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.change_points import Passage, closes, passages, signs
-from linkwright.kinematics.cycle import Floats, Positions, at_one_time, at_times
+from linkwright.kinematics.cycle import Positions, at_one_time, at_times
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import reached_modes
 from linkwright.words.sentence import Sentence
-
-Indices = NDArray[np.intp]
 
 
 class Between:

@@ -13,11 +13,11 @@ from collections.abc import Callable
 from dataclasses import field
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.dataclass import dataclass
 from linkwright.kinematics.certificate import REFUSED, Certificate, End, certify, cubic
-from linkwright.kinematics.closed_loops import ClosedLoops, Floats
+from linkwright.kinematics.closed_loops import ClosedLoops
 
 Drive = Callable[[Floats], tuple[Floats, Floats, Floats]]
 
@@ -56,7 +56,7 @@ class Branch:
     """
 
     found: Floats
-    certified: NDArray[np.bool_]
+    certified: Flags
     reached: float
     last: Floats
     complete: bool
@@ -72,7 +72,7 @@ class _Walk:
         self.loops, self.way = loops, way
         self.pace = max(way.pace, 1e-12 / max(way.end - way.start, 1e-300))
         self.rows: list[Floats] = []
-        self.sure: list[NDArray[np.bool_]] = []
+        self.sure: list[Flags] = []
         self.proved = True
         self.count = 0
         self.tries = 0
@@ -143,7 +143,7 @@ class _Walk:
             return None
         return End(x, y, rate, bend, own)
 
-    def _driven(self, a: End, b: End, inside: NDArray[np.intp]) -> tuple[Floats, Floats]:
+    def _driven(self, a: End, b: End, inside: Indices) -> tuple[Floats, Floats]:
         """Drivers at the places asked for within a step, and how far they leave the cubic there and at the checks."""
         way, n = self.way, self.loops.n
         if not len(inside) and not len(way.checks):
@@ -164,9 +164,7 @@ class _Walk:
             and largest(b.y - a.y - quintic) <= MISFIT * step + 1e-11
         )
 
-    def _between(
-        self, a: End, b: End, inside: NDArray[np.intp], values: Floats, certificate: Certificate
-    ) -> bool:
+    def _between(self, a: End, b: End, inside: Indices, values: Floats, certificate: Certificate) -> bool:
         """Keeps the positions within a step, if all of them lie in its tube."""
         n = self.loops.n
         proved = self.proved and certificate.certified
@@ -187,7 +185,7 @@ class _Walk:
         self.proved = proved
         return True
 
-    def _keep(self, inside: NDArray[np.intp], rows: Floats) -> None:
+    def _keep(self, inside: Indices, rows: Floats) -> None:
         self.rows.append(np.repeat(rows, len(inside), axis=0) if len(rows) != len(inside) else rows)
         self.sure.append(np.full(len(inside), self.proved))
 

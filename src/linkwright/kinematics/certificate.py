@@ -25,8 +25,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from linkwright.core.arrays import Complexes, Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.kinematics.closed_loops import ClosedLoops, Complexes, Floats
+from linkwright.kinematics.closed_loops import ClosedLoops
 
 #: Above this contraction without tube a step is not tried.
 LARGEST_CONTRACTION = 0.95

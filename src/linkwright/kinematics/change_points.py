@@ -17,8 +17,8 @@ from math import ceil
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Flags, Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.inputs import mode_inputs
 from linkwright.core.outputs import row_name
@@ -27,7 +27,7 @@ from linkwright.engine.recent import Recent
 from linkwright.engine.trace import Scalar, minimum
 from linkwright.kinematics.closed_loops import upstream
 from linkwright.kinematics.continuation import Followed
-from linkwright.kinematics.cycle import Floats, Positions, at_times
+from linkwright.kinematics.cycle import Positions, at_times
 from linkwright.kinematics.passing import FINE, NEAR, measures, modal
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinematics.trace import MotionTrace
@@ -272,7 +272,7 @@ class _Search:
                     found.append(self._passage(group.group.name, place, 0.0, "gap"))
         return found
 
-    def _assembled(self, places: Floats) -> NDArray[np.bool_]:
+    def _assembled(self, places: Floats) -> Flags:
         return np.asarray(self._evaluate(("outcome",), places)[0] == 0.0)
 
     def _poles(self) -> list[Passage]:
@@ -318,7 +318,7 @@ class _Search:
         )
         return float(before[0])
 
-    def _flips(self, p: Passage, blocked: NDArray[np.bool_]) -> tuple[float, float]:
+    def _flips(self, p: Passage, blocked: Flags) -> tuple[float, float]:
         """From there on; in a closed cycle that cannot be passed, backwards from its first position."""
         bars = np.flatnonzero(blocked)
         if not self.positions.closed or not len(bars):

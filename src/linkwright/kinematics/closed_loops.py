@@ -16,8 +16,8 @@ from collections.abc import Iterable, Mapping
 from copy import copy
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Complexes, Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.kinematics.angles import counted_links, geared
 from linkwright.kinematics.groups import closed_form, whole_form
@@ -25,8 +25,6 @@ from linkwright.mechanism.geometry import mechanism_size
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.structure.group import Group, Structure
 
-Floats = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 #: ``turn`` of a link, ``slide`` of a guide or ``drive`` of a driver.
 Key = tuple[str, str]
 #: Factors by key, and a constant: together zero.

@@ -9,8 +9,8 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.dataclass import dataclass
 from linkwright.core.frozen import Frozen
 from linkwright.core.inputs import driven
@@ -21,7 +21,7 @@ from linkwright.kinematics.assembly import AssemblyError
 from linkwright.kinematics.branch import CORRECTION, Branch, Way, follow, straight
 from linkwright.kinematics.certificate import distance_to_others
 from linkwright.kinematics.closed_loops import ClosedLoops, counted, iterated
-from linkwright.kinematics.cycle import Floats, Positions, at_times
+from linkwright.kinematics.cycle import Positions, at_times
 from linkwright.kinematics.groups import state_name
 from linkwright.mechanism.drawing import Drawing
 from linkwright.words.sentence import Sentence
@@ -60,15 +60,15 @@ class Followed(Frozen):
     inputs: Floats
     states: Mapping[str, Floats]
     coordinates: Floats
-    certified: NDArray[np.bool_]
+    certified: Flags
     margin: Floats
     stops: tuple[Stop, ...]
-    stop_of: NDArray[np.intp]
+    stop_of: Indices
     breaks: frozenset[int]
     closed: bool
     returns: bool | None
 
-    def taken(self, order: NDArray[np.intp]) -> Followed:
+    def taken(self, order: Indices) -> Followed:
         """Some of the positions in another order, each for itself."""
         return replace(
             self,
@@ -104,9 +104,7 @@ class Followed(Frozen):
                 found[these] = self._walked(int(i), int(b[these[0]]), places[these] - i, inputs[these])
         return follower.states(found, inputs)
 
-    def _read(
-        self, a: NDArray[np.intp], b: NDArray[np.intp], share: Floats, q: Floats
-    ) -> tuple[Floats, NDArray[np.bool_]]:
+    def _read(self, a: Indices, b: Indices, share: Floats, q: Floats) -> tuple[Floats, Flags]:
         """Unknowns (m, n) from the cubics between neighbours, corrected by Newton's method; whether the correction is
         small against the way between the neighbours."""
         follower, loops = self.follower, self.follower.loops
@@ -296,7 +294,7 @@ def _turns(way: Floats) -> Floats:
     return np.asarray(2.0 * np.pi * np.round(way / (2.0 * np.pi)))
 
 
-def _named(inputs: Mapping[str, float], rotary: Sequence[bool] | NDArray[np.bool_]) -> dict[str, float]:
+def _named(inputs: Mapping[str, float], rotary: Sequence[bool] | Flags) -> dict[str, float]:
     values: dict[str, float] = {}
     for (name, q), turns in zip(inputs.items(), rotary, strict=True):
         values |= driven(name, bool(turns), (q, 0.0, 0.0), math.cos, math.sin)
@@ -390,9 +388,7 @@ class _Journey:
                 self._apart((self.coordinates[k - 1], bool(self.certified[k - 1])), k)
 
     # one leg ------------------------------------------------------------------------------------
-    def _leg(
-        self, begin: Floats, start: Floats, index: NDArray[np.intp], proved: bool
-    ) -> tuple[Floats, bool] | None:
+    def _leg(self, begin: Floats, start: Floats, index: Indices, proved: bool) -> tuple[Floats, bool] | None:
         """The straight way to one position; turning drivers go the shorter way, or else the other way round."""
         follower, goal = self.follower, self.q[index[0]]
         turn = np.where(follower.rotary, _turns(goal - begin), 0.0)
@@ -425,7 +421,7 @@ class _Journey:
             if moved is not None:
                 begin, state = self.q[i], moved
 
-    def _stopped(self, branch: Branch, index: NDArray[np.intp]) -> None:
+    def _stopped(self, branch: Branch, index: Indices) -> None:
         loops = self.follower.loops
         last = branch.last
         known = np.isfinite(last).all()
@@ -456,7 +452,7 @@ class _Journey:
                 self._stopped(back, behind[-1:])
 
     def _way(
-        self, start: tuple[Floats, bool], time: Floats, end: float, order: NDArray[np.intp], shift: float
+        self, start: tuple[Floats, bool], time: Floats, end: float, order: Indices, shift: float
     ) -> Branch:
         """From the first of the positions in ``order``, at their times, to the time ``end``."""
         begin = float(self.positions.time[0])

@@ -9,8 +9,9 @@ from itertools import chain
 from math import cos, sin
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from linkwright.core.arrays import Floats, Indices
 from linkwright.core.dataclass import dataclass
 from linkwright.core.inputs import driven
 from linkwright.drivers.base import Driver
@@ -21,8 +22,6 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import no_such
 from linkwright.units import LARGEST, SI_UNITS
 from linkwright.words.sentence import Sentence
-
-Floats = NDArray[np.float64]
 
 #: Dimensions of a coordinate and its rates, by whether the driver turns.
 _RATES = {
@@ -66,7 +65,7 @@ class Positions:
         rows = (self.time, *chain.from_iterable(self.coordinates.values()))
         return self.closed, self.period, self.cycle, *(row.tobytes() for row in rows)
 
-    def taken(self, order: NDArray[np.intp]) -> Positions:
+    def taken(self, order: Indices) -> Positions:
         """Some of the positions in another order, each for itself."""
         coordinates = {
             name: (q[order], rate[order], second[order])

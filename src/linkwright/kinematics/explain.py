@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Indices
 from linkwright.core.outputs import row_name
 from linkwright.kinematics.change_points import Passage, closes
 from linkwright.kinematics.closed_loops import iterated
@@ -108,7 +108,7 @@ def _passage_note(p: Passage, positions: Positions) -> Sentence:
 class _Facts:
     """Numbers of the failing groups at the failed positions."""
 
-    def __init__(self, motion: Motion, failed: NDArray[np.intp]) -> None:
+    def __init__(self, motion: Motion, failed: Indices) -> None:
         self.motion = motion
         self.groups = motion.structure.groups
         names = [

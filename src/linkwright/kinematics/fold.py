@@ -6,8 +6,9 @@ import math
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.kinematics.constraint_system import ConstraintSystem, Numbers, coordinates
-from linkwright.kinematics.cycle import Floats, Positions
+from linkwright.kinematics.cycle import Positions
 from linkwright.kinematics.solver import MotionSolver
 
 #: Largest equation (lengths over the size, rad) that a found fold may leave, and Newton steps to get there.

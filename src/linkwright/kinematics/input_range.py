@@ -9,6 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.inputs import mode_groups
 from linkwright.core.outputs import row_name
@@ -16,7 +17,7 @@ from linkwright.core.search import edge
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.branch import FLOOR, Branch
 from linkwright.kinematics.change_points import mark_singular, passages, signs
-from linkwright.kinematics.cycle import CycleError, Floats, Positions, at_times, time_span
+from linkwright.kinematics.cycle import CycleError, Positions, at_times, time_span
 from linkwright.kinematics.fold import fold
 from linkwright.kinematics.passing import modal
 from linkwright.kinematics.solver import MotionSolver

@@ -15,14 +15,14 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
+from linkwright.core.arrays import Floats, Indices
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output, kind_of
 from linkwright.core.search import ends, zero, zeros
 from linkwright.engine.recent import Recent
 from linkwright.errors import RequestError
 from linkwright.fields.signals import resolve_output
-from linkwright.kinematics.between import Between, Indices
-from linkwright.kinematics.cycle import Floats
+from linkwright.kinematics.between import Between
 from linkwright.kinematics.motion import TURN, Motion
 from linkwright.kinematics.names import program_names
 from linkwright.mechanism.mechanism import Mechanism

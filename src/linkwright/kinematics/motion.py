@@ -8,13 +8,13 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Floats, Indices
 from linkwright.core.dataclass import dataclass
 from linkwright.core.frozen import FrozenDict, locked
 from linkwright.core.outputs import KINDS, SLIDE, Output, row_name
 from linkwright.errors import RequestError
-from linkwright.kinematics.cycle import Floats, Positions
+from linkwright.kinematics.cycle import Positions
 from linkwright.kinematics.design import Design
 from linkwright.kinematics.names import point_key
 from linkwright.kinematics.outcome import Outcome
@@ -48,7 +48,7 @@ class Rows:
         self.index = index
         self.extra: dict[str, Floats] = {}
 
-    def taken(self, order: NDArray[np.intp]) -> Rows:
+    def taken(self, order: Indices) -> Rows:
         """The rows at some positions, in another order."""
         found = Rows(self.values[:, order], self.index)
         found.extra.update((name, locked(row[order])) for name, row in self.extra.items())
@@ -212,7 +212,7 @@ class Motion:
         return next(iter(self.inputs.values()))
 
     @cached_property
-    def order(self) -> NDArray[np.intp] | None:
+    def order(self) -> Indices | None:
         """The positions by their times, (n,), where inputs were asked for in no order; None where they follow each
         other one way."""
         ways = np.diff(self.positions.time)
@@ -225,7 +225,7 @@ class Motion:
         order = self.order
         return self if order is None else self.kept("in order", lambda: self._taken(order))
 
-    def _taken(self, order: NDArray[np.intp]) -> Motion:
+    def _taken(self, order: Indices) -> Motion:
         return Motion(
             self.solver,
             self.design,

@@ -13,6 +13,7 @@ from functools import partial
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.constraint_system import (
@@ -22,7 +23,6 @@ from linkwright.kinematics.constraint_system import (
     drawn_coordinates,
     pose_outputs,
 )
-from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.structure import Structure

@@ -9,6 +9,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
+from linkwright.core.arrays import Floats
 from linkwright.core.inputs import mode_groups
 from linkwright.kinematics.change_points import (
     Passage,
@@ -18,7 +19,7 @@ from linkwright.kinematics.change_points import (
     signs,
     signs_of_passages,
 )
-from linkwright.kinematics.cycle import Floats, Positions, at_inputs, at_times, over_cycle, time_span
+from linkwright.kinematics.cycle import Positions, at_inputs, at_times, over_cycle, time_span
 from linkwright.kinematics.explain import branch_notes, passage_notes, refusal, turn_notes
 from linkwright.kinematics.motion import Motion, Rows
 from linkwright.kinematics.passing import clear_of_zero

@@ -8,11 +8,12 @@ from typing import Any
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.recent import Recent
 from linkwright.kinematics.assembly import Assembly, assemble
 from linkwright.kinematics.continuation import Followed, Follower
-from linkwright.kinematics.cycle import Floats, Positions
+from linkwright.kinematics.cycle import Positions
 from linkwright.kinematics.design import Design
 from linkwright.kinematics.outputs import MotionOutputs
 from linkwright.kinematics.programs import AS_IT_IS, Manner, MotionPrograms, motion_programs

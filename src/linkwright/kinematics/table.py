@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
+from linkwright.core.arrays import Floats
 from linkwright.core.outputs import POINT, Output, row_names
 from linkwright.errors import LinkwrightError
-from linkwright.kinematics.cycle import Floats
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:

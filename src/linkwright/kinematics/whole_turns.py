@@ -6,10 +6,10 @@ from math import lcm
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Floats, Indices
 from linkwright.kinematics.analysed import analysed
-from linkwright.kinematics.closed_loops import Floats, LoopBuilder
+from linkwright.kinematics.closed_loops import LoopBuilder
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.structure.group import Structure
 
@@ -125,7 +125,7 @@ def _change(
 def _by_places(
     solver: MotionSolver,
     unknowns: list[tuple[str, str]],
-    wanted: NDArray[np.intp],
+    wanted: Indices,
     gained: Floats,
     duration: float,
 ) -> Floats | None:

@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.frozen import locked
 from linkwright.core.outputs import kind_of, row_name, row_names
 from linkwright.errors import RequestError
-from linkwright.kinematics.cycle import Floats, over_cycle
+from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinematics.motion import Motion, Rows
 from linkwright.kinematics.solve import MotionRun
 from linkwright.kinematics.solver import MotionSolver

@@ -6,11 +6,11 @@ from collections.abc import Iterable, Mapping
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output, row_name
 from linkwright.engine.trace import Scalar
 from linkwright.engine.vector import Vec
-from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.trace import MotionTrace
 from linkwright.kinetostatics.site import guide_state

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.core.outputs import row_name, row_names
-from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.names import canonical
 
 if TYPE_CHECKING:

@@ -7,8 +7,8 @@ from dataclasses import replace
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.inputs import Input
 from linkwright.core.outputs import Output
@@ -25,8 +25,6 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
 from linkwright.structure.group import Group
 from linkwright.words.sentence import Sentence
-
-Floats = NDArray[np.float64]
 
 #: What jerks are the rates of.
 _ACCELERATIONS = {

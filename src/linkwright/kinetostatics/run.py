@@ -7,9 +7,10 @@ from typing import Any
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.core.outputs import Output, kind_of, row_name
 from linkwright.errors import LinkwrightError
-from linkwright.kinematics.cycle import Floats, Positions
+from linkwright.kinematics.cycle import Positions
 from linkwright.kinematics.design import Design
 from linkwright.kinematics.motion import Motion, Rows
 from linkwright.kinematics.solve import MotionRun

@@ -7,10 +7,10 @@ from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Flags, Floats
 from linkwright.core.outputs import Output
-from linkwright.kinematics.cycle import CycleError, Floats, Positions, over_cycle
+from linkwright.kinematics.cycle import CycleError, Positions, over_cycle
 from linkwright.kinematics.limits import limit_inputs, limit_positions
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import MotionRun
@@ -51,7 +51,7 @@ class MotionSignals:
         return self.motion.input
 
     @property
-    def ok(self) -> NDArray[np.bool_]:
+    def ok(self) -> Flags:
         """Which positions are solved, (n,)."""
         return self.motion.ok
 

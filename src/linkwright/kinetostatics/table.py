@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.core.outputs import Output, row_name, row_names
-from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.table import directions, motion_results
 from linkwright.kinetostatics.link_balance import load_outputs, motion_outputs
 

@@ -9,7 +9,6 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.piecewise import Piecewise
@@ -18,7 +17,6 @@ from linkwright.registry import Registry
 if TYPE_CHECKING:
     from linkwright.fields.base import Field
 
-Floats = NDArray[np.float64]
 #: Below this share of the largest value a velocity or acceleration at an end is zero.
 SMALL = 1e-9
 #: Distance from a break at which a curve has the value of its side.

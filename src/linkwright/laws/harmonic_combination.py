@@ -8,8 +8,9 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.laws.base import MOTION_LAWS, Floats, MeetingLaw
+from linkwright.laws.base import MOTION_LAWS, MeetingLaw
 
 #: Angular frequencies of the basis 1, u, cos πu, sin πu, cos 2πu, sin 2πu.
 _PI = (pi, 2 * pi)

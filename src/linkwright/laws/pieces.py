@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.laws.base import Floats
 
 
 @dataclass(frozen=True)

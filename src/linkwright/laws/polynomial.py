@@ -10,10 +10,11 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
 from linkwright.fields.base import Field, Quantities, Quantity
-from linkwright.laws.base import MOTION_LAWS, Floats, MeetingLaw, MotionLaw
+from linkwright.laws.base import MOTION_LAWS, MeetingLaw, MotionLaw
 from linkwright.words.sentence import Sentence
 
 Coefficients = tuple[float, ...]

@@ -11,10 +11,11 @@ from typing import Any
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.piecewise import Extreme, Piecewise
 from linkwright.errors import Finding, ModelError
-from linkwright.laws.base import MOTION_LAWS, Ends, Floats, MotionLaw
+from linkwright.laws.base import MOTION_LAWS, Ends, MotionLaw
 from linkwright.words.sentence import Sentence
 
 #: The law of a rise that names none: it meets whatever its neighbours ask for.

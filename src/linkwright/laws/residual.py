@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from linkwright.laws.base import Floats, MotionLaw
+from linkwright.core.arrays import Floats
+from linkwright.laws.base import MotionLaw
 
 #: Gauss points of a piece, pieces of the rise at least.
 _GAUSS = np.polynomial.legendre.leggauss(20)

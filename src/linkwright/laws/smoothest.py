@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, ModelError
-from linkwright.laws.base import Floats
 from linkwright.laws.pieces import Pieces
 from linkwright.laws.program import TURN, Program
 from linkwright.laws.spline_space import DEGREE, SplineSpace

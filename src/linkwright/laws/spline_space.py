@@ -6,8 +6,8 @@ from functools import cached_property
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.laws.base import Floats
 from linkwright.laws.pieces import Pieces
 
 DEGREE = 5

@@ -9,10 +9,11 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
 from linkwright.fields.base import Field, Quantities, Quantity
-from linkwright.laws.base import MOTION_LAWS, Ends, Floats, MotionLaw
+from linkwright.laws.base import MOTION_LAWS, Ends, MotionLaw
 from linkwright.laws.pieces import Pieces
 from linkwright.words.sentence import Sentence
 

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.laws.base import Floats
 from linkwright.laws.program import TURN, Program
 
 if TYPE_CHECKING:

@@ -37,6 +37,7 @@ from linkwright.registry import Registry
 from linkwright.words.sentence import Sentence, together
 
 if TYPE_CHECKING:
+    from linkwright.core.arrays import Floats
     from linkwright.engine.trace import Scalar
     from linkwright.fields.nodes import Node
     from linkwright.files.plain_reader import Place
@@ -44,7 +45,7 @@ if TYPE_CHECKING:
     from linkwright.kinematics.motion import Motion
     from linkwright.loads.magnitude import Course
     from linkwright.loads.marks import Mark
-    from linkwright.loads.signals import Array, Signals
+    from linkwright.loads.signals import Signals
     from linkwright.loads.site import Site, Wrench
     from linkwright.mechanism.mechanism import Mechanism
     from linkwright.worked.load_formulas import LoadFormulas
@@ -111,7 +112,7 @@ class Load:
         """
         raise NotImplementedError(f'the load kind "{self.kind}" does not say its wrenches')
 
-    def from_cycle(self, signals: Signals) -> Array | None:
+    def from_cycle(self, signals: Signals) -> Floats | None:
         """What ``site.magnitude()`` gives at each position, (n,), where no formula of :meth:`traced` can.
 
         Such a load goes one design at a time in sweeps.

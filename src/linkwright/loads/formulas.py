@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
+from linkwright.core.arrays import Flags, Floats
 from linkwright.core.expression_tree import Binary, Call, Negative, Node, Number, evaluate, scalar_functions
 from linkwright.core.expressions import ON_VALUES, Expression
 from linkwright.core.outputs import Output
 from linkwright.engine.late import numpy as np
 from linkwright.errors import LinkwrightError, QuantityError
 from linkwright.fields.signals import resolve_output
-from linkwright.loads.signals import Array, Mask, Signals, column, input_dimension, shown, spot
+from linkwright.loads.signals import Signals, column, input_dimension, shown, spot
 from linkwright.registry import offered
 from linkwright.units import LARGEST
 from linkwright.words.sentence import Sentence
@@ -26,7 +27,7 @@ _LARGEST = LARGEST["torque"]
 _APART = 0.5
 
 
-def refuse_formula(expression: Expression, signals: Signals, where: Mask, found: Array) -> None:
+def refuse_formula(expression: Expression, signals: Signals, where: Flags, found: Floats) -> None:
     """Raises LinkwrightError where the values ``found`` (n,) of an expression are not finite ``where`` they are
     needed, at a position or between two."""
     columns = {name: column(named_column(name, signals), len(where)) for name in sorted(expression.names)}
@@ -56,7 +57,7 @@ def output_named(name: str, mechanism: Mechanism) -> Output | None:
     return resolve_output(name, {link: tuple(each.points) for link, each in links.items()}, mechanism.guides)
 
 
-def _refusal(expression: Expression, columns: Mapping[str, Array], signals: Signals, index: int) -> str:
+def _refusal(expression: Expression, columns: Mapping[str, Floats], signals: Signals, index: int) -> str:
     try:
         expression.evaluate({name: float(values[index]) for name, values in columns.items()})
     except QuantityError as error:
@@ -66,7 +67,7 @@ def _refusal(expression: Expression, columns: Mapping[str, Array], signals: Sign
 
 
 def _no_poles_between(
-    expression: Expression, columns: Mapping[str, Array], signals: Signals, where: Mask
+    expression: Expression, columns: Mapping[str, Floats], signals: Signals, where: Flags
 ) -> None:
     """Raises where a denominator goes through zero between two neighbouring positions."""
     divisors = [each for each in denominators(expression.tree) if not isinstance(each, Number)]
@@ -86,13 +87,13 @@ def _no_poles_between(
                 raise LinkwrightError(_between(expression, signals, int(index), share))
 
 
-def _neighbours(signals: Signals) -> Mask:
+def _neighbours(signals: Signals) -> Flags:
     """Which positions lie next to the one that follows them."""
     q = signals.input if signals.closes is None else _with_next("input", signals.input, signals)
     return np.abs(np.diff(q)) < (_APART if signals.rotary else np.inf)
 
 
-def _with_next(name: str, values: Array, signals: Signals) -> Array:
+def _with_next(name: str, values: Floats, signals: Signals) -> Floats:
     """Values with those of the position after the last one, where the cycle begins again."""
     assert signals.closes is not None
     period, drift = signals.closes
@@ -124,7 +125,7 @@ def denominators(node: Node) -> Iterator[Node]:
             yield from denominators(right)
 
 
-def _zero(divisor: Node, columns: Mapping[str, Array], index: int) -> float | None:
+def _zero(divisor: Node, columns: Mapping[str, Floats], index: int) -> float | None:
     """Share of the way to the next position at which a divisor vanishes; None where it jumps over zero."""
 
     def value(share: float) -> float:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from linkwright.core.arrays import Flags, Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import Expression
 from linkwright.core.outputs import Output
@@ -13,7 +14,7 @@ from linkwright.fields.signals import InputPhase, MovingPhase, SwingPhase, Table
 from linkwright.loads.formulas import named_column, refuse_formula
 from linkwright.loads.magnitude import constants, part_ends, phase_passed, place_in, within_phase
 from linkwright.loads.phases import NEAR, TURN, Stretch, place_on, strokes
-from linkwright.loads.signals import Array, Mask, Signals, column, input_dimension, shown
+from linkwright.loads.signals import Signals, column, input_dimension, shown
 from linkwright.words.sentence import Sentence, together
 
 if TYPE_CHECKING:
@@ -24,8 +25,8 @@ if TYPE_CHECKING:
 class Activity:
     """``where`` (n,) a load acts; ``share`` (n,) of its phase that is passed, 0 to 1."""
 
-    where: Mask
-    share: Array
+    where: Flags
+    share: Floats
 
 
 class CycleCourse:
@@ -37,7 +38,7 @@ class CycleCourse:
         self.signals = signals
         self._dimensions = load.dimensions()
         self._constants = constants(load)
-        self._ends: dict[str, Array] = {}
+        self._ends: dict[str, Floats] = {}
 
     @property
     def input(self) -> Any:
@@ -102,7 +103,7 @@ class CycleCourse:
     def _ramp(self) -> bool:
         return getattr(self.load, "ramp", None) is not None
 
-    def _meet(self, stretch: Stretch, inside: Mask, phase: SwingPhase) -> None:
+    def _meet(self, stretch: Stretch, inside: Flags, phase: SwingPhase) -> None:
         turns: Any = 0.0
         if phase.output.kind == "angle" and abs(stretch.values[1] - stretch.values[0]) < TURN:
             turns = np.round((self.output(phase.output) - 0.5 * sum(stretch.values)) / TURN)
@@ -110,7 +111,7 @@ class CycleCourse:
             self._ends[kind] = np.where(inside, value + TURN * turns, self._ends.get(kind, value))
 
 
-def evaluate(load: Load, signals: Signals) -> Array:
+def evaluate(load: Load, signals: Signals) -> Floats:
     """Magnitude of a load at every position, (n,), in SI; zero outside its phase.
 
     A load with a phase but without any magnitude (a force by its components) gives 1 within the phase.
@@ -146,7 +147,7 @@ def _activity(load: Load, course: CycleCourse) -> Activity:
     return Activity(np.broadcast_to(acts, (count,)), column(share, count))
 
 
-def _evaluated(load: Load, course: CycleCourse) -> Array:
+def _evaluated(load: Load, course: CycleCourse) -> Floats:
     own = load.traced(course)
     if own is not None:
         return column(own, len(course.signals.time))
@@ -195,7 +196,7 @@ def _part_too_long(phase: SwingPhase, course: CycleCourse, index: int) -> str:
     )
 
 
-def _refuse_table(table: Table, course: CycleCourse, where: Mask) -> None:
+def _refuse_table(table: Table, course: CycleCourse, where: Flags) -> None:
     """Raises LinkwrightError with the range that is missing where a table does not cover the positions ``where``."""
     place: tuple[Any, Any] = place_in(table, course)
     short, first, last = place[0][where & place[1]], table.x[0], table.x[-1]

@@ -6,11 +6,12 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from linkwright.core.arrays import Flags, Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.late import numpy as np
 from linkwright.errors import LinkwrightError
 from linkwright.fields.signals import InputPhase, MovingPhase, SwingPhase
-from linkwright.loads.signals import Array, Limit, Mask, Signals, Whole, input_dimension, shown
+from linkwright.loads.signals import Limit, Signals, Whole, input_dimension, shown
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
@@ -99,7 +100,7 @@ def stretches(limits: Sequence[Limit], start: str, end: str, whole: Whole) -> li
     return found
 
 
-def place_on(stretch: Stretch, signals: Signals) -> tuple[Mask, Array]:
+def place_on(stretch: Stretch, signals: Signals) -> tuple[Flags, Floats]:
     """Where the positions lie in a stretch, ends included, and the share of the input's way that is passed; (n,)
     each."""
     length, rise = stretch.end[0] - stretch.begin[0], stretch.end[1] - stretch.begin[1]
@@ -112,7 +113,7 @@ def place_on(stretch: Stretch, signals: Signals) -> tuple[Mask, Array]:
     return (since >= -slack) & (since <= length + slack), np.clip(gained / rise, 0.0, 1.0)
 
 
-def switch_times(load: Load, signals: Signals) -> tuple[Array, bool]:
+def switch_times(load: Load, signals: Signals) -> tuple[Floats, bool]:
     """Times, s, at which a load begins or ends to act or its table bends, and whether these are all of them.
 
     Known beforehand: limit positions, and inputs of one driver of constant speed. Times may lie a whole number of
@@ -136,7 +137,7 @@ def switch_times(load: Load, signals: Signals) -> tuple[Array, bool]:
     return np.array(found), complete
 
 
-def _times_of_inputs(inputs: Array, signals: Signals) -> Array | None:
+def _times_of_inputs(inputs: Floats, signals: Signals) -> Floats | None:
     """Times at which the input has some values; of angles modulo one turn, all within the cycle. None where its law
     is no constant speed."""
     law = next(iter(signals.mechanism.drivers.values())).law

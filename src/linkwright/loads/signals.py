@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, Protocol
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
@@ -11,12 +11,8 @@ from linkwright.engine.late import numpy as np
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from linkwright.core.arrays import Flags, Floats
     from linkwright.mechanism.mechanism import Mechanism
-
-Array: TypeAlias = "NDArray[np.float64]"
-Mask: TypeAlias = "NDArray[np.bool_]"
 
 
 @dataclass(frozen=True)
@@ -46,12 +42,12 @@ class Signals(Protocol):
         ...
 
     @property
-    def time(self) -> Array:
+    def time(self) -> Floats:
         """Times, s."""
         ...
 
     @property
-    def input(self) -> Array:
+    def input(self) -> Floats:
         """Coordinate of the first driver, rad or m; raises LinkwrightError where there is no driver."""
         ...
 
@@ -66,7 +62,7 @@ class Signals(Protocol):
         ...
 
     @property
-    def ok(self) -> Mask:
+    def ok(self) -> Flags:
         """Which positions are solved."""
         ...
 
@@ -80,7 +76,7 @@ class Signals(Protocol):
         """The cycle over which ``limits`` are found."""
         ...
 
-    def output(self, output: Output) -> tuple[Array, Array]:
+    def output(self, output: Output) -> tuple[Floats, Floats]:
         """Value and rate of an output; angles are continuous over the cycle, rates of rounding size zero."""
         ...
 
@@ -88,7 +84,7 @@ class Signals(Protocol):
         """Where an output reverses within the whole cycle, by increasing time, to machine precision."""
         ...
 
-    def angle_between(self, a: str, b: str, near: float) -> Array:
+    def angle_between(self, a: str, b: str, near: float) -> Floats:
         """Angle of link b against link a, rad: within half a turn of ``near`` where the cycle begins, continuous."""
         ...
 
@@ -112,6 +108,6 @@ def spot(signals: Signals, index: int) -> str:
     return Sentence("loads.at_input", input=shown(float(signals.input[index]), input_dimension(signals)))
 
 
-def column(value: Any, count: int) -> Array:
+def column(value: Any, count: int) -> Floats:
     """A number or an array as an array (n,)."""
     return np.array(np.broadcast_to(np.asarray(value, dtype=float), (count,)))

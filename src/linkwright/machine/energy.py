@@ -8,8 +8,9 @@ from functools import cached_property, partial
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.core.piecewise import Floats, Piecewise, increasing
+from linkwright.core.piecewise import Piecewise, increasing
 from linkwright.errors import LinkwrightError
 from linkwright.machine.torque_curve import TorqueCurve
 from linkwright.words.sentence import Sentence

@@ -8,11 +8,11 @@ from functools import cached_property, partial
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.piecewise import (
     WEIGHTS,
     Extreme,
-    Floats,
     Function,
     Integral,
     Piecewise,

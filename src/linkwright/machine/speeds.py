@@ -6,8 +6,9 @@ from functools import cached_property
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.core.piecewise import POINTS, TO_LAST, Floats, Peak, largest, weights_at
+from linkwright.core.piecewise import POINTS, TO_LAST, Peak, largest, weights_at
 
 #: Share of the smallest kinetic energy in which a Newton step is the last one: what is left is its square.
 LAST = 1e-9

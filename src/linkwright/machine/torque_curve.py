@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import Expression, parse
-from linkwright.core.piecewise import Floats, Integral, Piecewise
+from linkwright.core.piecewise import Integral, Piecewise
 from linkwright.errors import LinkwrightError
 from linkwright.words.sentence import Sentence
 

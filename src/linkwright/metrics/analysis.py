@@ -9,14 +9,13 @@ from math import isnan
 from typing import Any, Literal, TypeAlias, overload
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Floats, Indices
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.core.piecewise import POINTS, Piecewise, largest
 from linkwright.core.search import lowest
 from linkwright.engine.recent import Recent
-from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.limits import limit_positions
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import output_meant
@@ -452,7 +451,7 @@ class Analysis:
 _known: Recent[Motion | Forces, Analysis] = Recent(8)
 
 
-def _peaks(values: Floats, closed: bool) -> NDArray[np.intp]:
+def _peaks(values: Floats, closed: bool) -> Indices:
     """Samples not below their neighbours that may hold the largest value, the highest first."""
     filled = np.where(np.isfinite(values), values, -np.inf)
     before, after = np.roll(filled, 1), np.roll(filled, -1)

@@ -8,8 +8,8 @@ from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Flags, Floats
 from linkwright.core.outputs import kind_of
 from linkwright.core.piecewise import (
     POINTS,
@@ -26,7 +26,6 @@ from linkwright.core.piecewise import (
 from linkwright.core.search import ends
 from linkwright.engine.recent import Recent
 from linkwright.errors import LinkwrightError
-from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.signals import MotionSignals
@@ -120,7 +119,7 @@ class CycleGrid:
         inner = switches[(switches > self.start) & (switches < self.end)]
         return increasing(np.concatenate([edges, self.around.ravel(), inner]))
 
-    def _passing(self, edges: Floats) -> NDArray[np.bool_]:
+    def _passing(self, edges: Floats) -> Flags:
         """Which pieces belong to change points."""
         middle = 0.5 * (edges[:-1] + edges[1:])
         low, high = self.around.T[:, :, None]
@@ -138,7 +137,7 @@ class CycleGrid:
             return found
         return Piecewise(self.edges, pieces, self.function(signal, of), self.edges, tolerance)
 
-    def means(self, values: Floats) -> tuple[Floats, NDArray[np.bool_]]:
+    def means(self, values: Floats) -> tuple[Floats, Flags]:
         """Means over the time of signals (k, pieces, POINTS), and which of them polynomials meet everywhere."""
         met = tails(values).max(axis=1) <= self.tolerance * np.abs(values).max(axis=(1, 2))
         return 0.5 * (values @ WEIGHTS) @ np.diff(self.edges) / (self.end - self.start), met

@@ -7,7 +7,7 @@ from itertools import combinations
 
 import numpy as np
 
-from linkwright.kinematics.cycle import Floats
+from linkwright.core.arrays import Floats
 from linkwright.kinematics.motion import Motion
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Metric, MetricValue, Remark

@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from linkwright.core.piecewise import NODES, POINTS, Floats
+from linkwright.core.arrays import Floats
+from linkwright.core.piecewise import NODES, POINTS
 
 #: Two polynomials, through all values of a side and through all but the outermost, agree to this share of the values.
 AGREE = 1e-6

@@ -7,12 +7,12 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.outputs import Output
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.between import Between
-from linkwright.kinematics.cycle import Floats, at_times
+from linkwright.kinematics.cycle import at_times
 from linkwright.kinematics.motion import Motion, Rows
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.signals import MotionSignals
@@ -68,7 +68,7 @@ class Resolver:
         return np.asarray(np.interp(places, np.arange(float(len(time))), time)) if places else np.empty(0)
 
     @cached_property
-    def passed(self) -> NDArray[np.bool_]:
+    def passed(self) -> Flags:
         """Which positions are reached, or lie on change points that the motion passes, (n,)."""
         if not len(self.changes):
             return self._motion.ok
@@ -131,7 +131,7 @@ class Resolver:
         assert known is not None
         return run_forces(motion, known.static, known.solver, _SameCycle(motion, self._signals))
 
-    def active(self, load: Load, time: Floats) -> NDArray[np.bool_]:
+    def active(self, load: Load, time: Floats) -> Flags:
         """Whether a load acts at some times, (n,)."""
         return activity(load, _SameCycle(self.motion(time), self._signals)).where
 
@@ -139,7 +139,7 @@ class Resolver:
     def _signals(self) -> MotionSignals:
         return MotionSignals(self._motion)
 
-    def _before(self, time: Floats) -> NDArray[np.intp]:
+    def _before(self, time: Floats) -> Indices:
         """The known position at or before each time, through the end of a closed cycle."""
         known, positions = self._motion.time, self._motion.positions
         if len(known) < 2:

@@ -6,8 +6,8 @@ from collections.abc import Collection, Iterable, Mapping
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Floats, Whole
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.reductions import Reduction
 from linkwright.errors import RequestError
@@ -15,8 +15,6 @@ from linkwright.kinematics.names import PHRASES
 from linkwright.kinetostatics.named import Quantity
 from linkwright.registry import offered
 from linkwright.words.sentence import Sentence
-
-Floats = NDArray[np.float64]
 
 #: Kinds of summaries, and the engine's reductions they need.
 KINDS: Mapping[str, tuple[str, ...]] = {
@@ -124,7 +122,7 @@ def reductions(summaries: Iterable[Summary], quantities: Mapping[str, Quantity])
 def finished(
     summary: Summary,
     quantity: Quantity,
-    results: Mapping[str, NDArray[np.float64] | NDArray[np.int64]],
+    results: Mapping[str, Floats | Whole],
     input_: Floats,
 ) -> Floats:
     """The summary (designs,) from the engine's reductions; NaN where no position counts."""

@@ -7,14 +7,13 @@ from itertools import chain
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Floats, Indices
 from linkwright.core.outputs import row_names
 from linkwright.core.piecewise import POINTS, nodes
 from linkwright.core.plane import area, convex_hull
 from linkwright.engine.recent import Recent
 from linkwright.errors import LinkwrightError
-from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import canonical
 from linkwright.mechanism.mechanism import Mechanism
@@ -124,7 +123,7 @@ def _curves(analysis: Analysis) -> Curves | None:
     return Curves(_places(motion, keys), piece == 0, piece == PIECES - 1, whole)
 
 
-def _spans(analysis: Analysis, motion: Motion, values: Floats) -> NDArray[np.intp]:
+def _spans(analysis: Analysis, motion: Motion, values: Floats) -> Indices:
     """The nodes of every curve from one end of its way to the other, where it is run to and fro by a link that turns
     or slides on the frame; one of a point at rest."""
     mechanism, found = motion.mechanism, np.tile([0, motion.steps], (len(values), 1))

@@ -11,20 +11,17 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.dataclass import dataclass
 from linkwright.core.piecewise import NODES, POINTS, TO_SLOPE, weights_at
 from linkwright.core.plane import cross, hull_corners
-from linkwright.kinematics.cycle import Floats
-
-Places = NDArray[np.intp]
 
 #: Newton steps towards the places of contact at most, and the last one's size where they end before.
 STEPS, CLOSE = 6, 1e-7
 #: How far beyond a piece, and from a node, a curve is followed, in halves of the piece's width.
 BEYOND, NEAR = 0.02, 0.6
-#: Places of contact nearer than this share of a side are one: a side of an arc, not one between two.
+#: Indices of contact nearer than this share of a side are one: a side of an arc, not one between two.
 SAME = 0.1
 #: Nodes of a piece that are enough within an arc.
 _KEPT = np.isin(np.arange(POINTS), (0, 5, 10, POINTS - 1))
@@ -40,16 +37,16 @@ class Curves:
     and that behind the last one of what suffices of every curve, as of one that is run to and fro."""
 
     values: Floats
-    begins: NDArray[np.bool_]
-    ends: NDArray[np.bool_]
-    spans: Places
+    begins: Flags
+    ends: Flags
+    spans: Indices
 
 
 @dataclass(frozen=True)
 class Contacts:
     """Places on curves: numbers of nodes (k,), places in their pieces (k,), -1 to 1, and points there (k, 2), m."""
 
-    number: Places
+    number: Indices
     place: Floats
     point: Floats
 
@@ -70,7 +67,7 @@ class SweptHull:
         self._first, self._last, self._outer = self._touched(self._thinned(self._corners))
         self.area = self._area()
 
-    def _thinned(self, corners: Places) -> Places:
+    def _thinned(self, corners: Indices) -> Indices:
         """Corners without those between others of the same curve that are no farther than its next nodes: those amid
         arcs, which may have the nodes of several passages."""
         curve, place = corners // POINTS // self._pieces, self._nodes[corners]
@@ -82,7 +79,7 @@ class SweptHull:
             arc &= (np.roll(curve, shift) == curve) & ((way * way).sum(axis=1) <= near)
         return np.asarray(corners[~arc])
 
-    def _touched(self, corners: Places) -> list[Contacts]:
+    def _touched(self, corners: Indices) -> list[Contacts]:
         """Where the curve at the beginning, and that at the end of every side touches a line along it, and where
         curves come farthest to the left, the right, down and up."""
         begin, end = corners, np.roll(corners, -1)
@@ -104,7 +101,7 @@ class SweptHull:
         ways = (slice(len(begin)), slice(len(begin), -4), slice(-4, None))
         return [Contacts(number[way], place[way], point[way]) for way in ways]
 
-    def _touching(self, begin: Places, end: Places, along: Floats, near: Floats) -> tuple[Floats, Floats]:
+    def _touching(self, begin: Indices, end: Indices, along: Floats, near: Floats) -> tuple[Floats, Floats]:
         """Places near some nodes where lines touch the curves, by Newton's steps: ``along`` what is given, or along
         the side between both places of contact where that is longer than ``near``."""
         number, half = np.concatenate([begin, end]), len(begin)
@@ -129,13 +126,13 @@ class SweptHull:
             along = np.where((np.hypot(*between.T) > near)[:, None], between, along)
         return place[:half], place[half:]
 
-    def _pieces_of(self, number: Places) -> Floats:
+    def _pieces_of(self, number: Indices) -> Floats:
         """Curves (k, 2, POINTS) from the origin, in the pieces of some nodes."""
         curve, piece = np.divmod(number // POINTS, self._pieces)
         return np.asarray(self._values[curve, :, piece])
 
     @property
-    def _arcs(self) -> tuple[Places, Floats, Floats]:
+    def _arcs(self) -> tuple[Indices, Floats, Floats]:
         """Nodes' numbers, places (k,) and widths of the parts of arcs behind the sides, in halves of pieces."""
         start, end = self._last.place, np.roll(self._first.place, -1)
         half = 0.5 * (end - start)
@@ -168,7 +165,7 @@ class SweptHull:
         return found.reshape(curves, pieces, 2, POINTS).transpose(0, 2, 1, 3)
 
 
-def _add(found: Floats, number: Places, weights: Floats, factor: Floats) -> None:
+def _add(found: Floats, number: Indices, weights: Floats, factor: Floats) -> None:
     """Weights (k, POINTS), times factors (k, 2), to those of the pieces in which some nodes are."""
     np.add.at(found, number // POINTS, factor[:, :, None] * weights[:, None, :])
 

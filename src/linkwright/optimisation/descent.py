@@ -17,12 +17,10 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.optimisation.quadratic import quadratic
 
-Floats = NDArray[np.float64]
-Places = NDArray[np.intp]
 #: Most steps; the first and the largest half width of the region, the one with which a dearer demand is tried again,
 #: and the one that ends the search.
 STEPS, FIRST, LARGEST, AGAIN, LEAST = 30, 0.1, 0.5, 1e-3, 1e-6
@@ -47,17 +45,17 @@ class Model(NamedTuple):
     room_slopes: Floats
     bends: Floats
 
-    def taken(self, rows: NDArray[np.bool_]) -> Model:
+    def taken(self, rows: Flags) -> Model:
         """Some of the places."""
         return Model(*(each[rows] for each in self))
 
-    def with_some(self, other: Model, rows: NDArray[np.bool_]) -> Model:
+    def with_some(self, other: Model, rows: Flags) -> Model:
         """Some of the places replaced by those of another one."""
         pairs = zip(self, other, strict=True)
         return Model(*(np.where(rows.reshape(-1, *[1] * (a.ndim - 1)), b, a) for a, b in pairs))
 
 
-Evaluate = Callable[[Floats, Places], Model]
+Evaluate = Callable[[Floats, Indices], Model]
 
 
 def descended(evaluate: Evaluate, x: Floats, steps: int = STEPS, little: float = LITTLE) -> Floats:
@@ -87,7 +85,7 @@ class _Searches:
     def __init__(self, evaluate: Evaluate, x: Floats, little: float) -> None:
         self.evaluate, self.little, self.found = evaluate, little, x.copy()
         count, n = x.shape
-        self.alive: Places = np.arange(count)
+        self.alive: Indices = np.arange(count)
         self.here = evaluate(x, self.alive)
         self.width, self.price = np.full(count, FIRST), np.full(count, PRICE)
         self.learned, self.idle = np.zeros((count, n, n)), np.zeros(count, dtype=np.intp)
@@ -120,7 +118,7 @@ class _Searches:
         self.idle = np.where(gained > self.little, 0, self.idle + better)
         self._keep((self.width > LEAST) & (self.idle < PATIENCE) & ((hoped > GAIN) | ~better) | missing)
 
-    def _keep(self, rows: NDArray[np.bool_]) -> None:
+    def _keep(self, rows: Flags) -> None:
         if not rows.all():
             self.alive, self.learned, self.pushed = self.alive[rows], self.learned[rows], self.pushed[rows]
             self.width, self.price, self.idle = self.width[rows], self.price[rows], self.idle[rows]

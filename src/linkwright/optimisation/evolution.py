@@ -11,12 +11,11 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Flags, Floats, Indices, Whole
 from linkwright.core.dataclass import dataclass
 from linkwright.optimisation.task import Judged, Task
 
-Floats = NDArray[np.float64]
 #: A search with one objective ends where the best of this many generations gained less than this share.
 IDLE, GAIN = 20, 1e-4
 
@@ -101,7 +100,7 @@ def _trials(judged: Judged, draw: np.random.Generator, size: int, k: int) -> Flo
     return np.clip(np.where(moved > 1, 2 - moved, moved), 0, 1)
 
 
-def dominates(a: Judged, b: Judged, i: NDArray[np.intp], j: NDArray[np.intp]) -> NDArray[np.bool_]:
+def dominates(a: Judged, b: Judged, i: Indices, j: Indices) -> Flags:
     """Which designs a[i] beat b[j]: feasible before not, less violation, no objective worse and one better."""
     va, vb = a.total[i], b.total[j]
     ga, gb = a.goals[i], b.goals[j]
@@ -110,7 +109,7 @@ def dominates(a: Judged, b: Judged, i: NDArray[np.intp], j: NDArray[np.intp]) ->
     return np.asarray(np.where((va == 0) & (vb == 0), front, va < vb))
 
 
-def joined(old: Judged, new: Judged, replaced: NDArray[np.intp], added: NDArray[np.intp]) -> Judged:
+def joined(old: Judged, new: Judged, replaced: Indices, added: Indices) -> Judged:
     """The old designs, some replaced by the new ones of the same number, and further new ones."""
 
     def merged(a: Floats, b: Floats) -> Floats:
@@ -124,13 +123,13 @@ def joined(old: Judged, new: Judged, replaced: NDArray[np.intp], added: NDArray[
     )
 
 
-def taken(judged: Judged, rows: NDArray[np.intp]) -> Judged:
+def taken(judged: Judged, rows: Indices) -> Judged:
     """Some of the designs."""
     values = {text: each[rows] for text, each in judged.values.items()}
     return Judged(judged.x[rows], judged.goals[rows], judged.violations[rows], values)
 
 
-def fronts(judged: Judged) -> NDArray[np.int64]:
+def fronts(judged: Judged) -> Whole:
     """The number of every design's front: 0 is beaten by none, 1 by none but those of 0, …"""
     size = len(judged.x)
     i, j = np.meshgrid(np.arange(size), np.arange(size), indexing="ij")
@@ -171,7 +170,7 @@ def survivors(judged: Judged, size: int) -> Judged:
     return taken(judged, np.concatenate([sure, last]))
 
 
-def ranked(judged: Judged) -> NDArray[np.intp]:
+def ranked(judged: Judged) -> Indices:
     """Rows, the best first."""
     if judged.goals.shape[1] == 1:
         return np.lexsort((judged.goals[:, 0], judged.total))

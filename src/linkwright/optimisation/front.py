@@ -6,12 +6,11 @@ import math
 from itertools import combinations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Floats, Indices
 from linkwright.core.dataclass import dataclass
 from linkwright.optimisation.task import Judged
 
-Floats = NDArray[np.float64]
 #: The share of all objectives that is added to the largest, so that no other one is left worse than need be.
 SHARED = 1e-4
 #: What a design that misses a demand, or does not move, lies behind all others.
@@ -85,7 +84,7 @@ def picked(judged: Judged, distance: Floats, count: int, apart: float) -> list[i
     return rows
 
 
-def without_own(judged: Judged, points: Floats) -> NDArray[np.intp]:
+def without_own(judged: Judged, points: Floats) -> Indices:
     """Points (R) whose nearest design is nearer to another one, so that the front has a gap there."""
     distance = nearest(judged, Scale.of(judged), points)
     rows, least = distance.argmin(axis=1), distance.min(axis=1)

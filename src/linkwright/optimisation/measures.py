@@ -8,9 +8,9 @@ from functools import cached_property, lru_cache
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright import units
+from linkwright.core.arrays import Floats
 from linkwright.core.expressions import Expression, parse
 from linkwright.core.outputs import Output
 from linkwright.engine.machine_code import available
@@ -33,7 +33,6 @@ from linkwright.study.terms import OWN, Asked, Term, metric_of
 from linkwright.study.vary import refuse_moved_positions
 from linkwright.words.sentence import Sentence
 
-Floats = NDArray[np.float64]
 #: Designs that a worker of a cluster takes at a time where they go one by one.
 FEW = 4
 

@@ -14,8 +14,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Floats
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.files.document import Document
 from linkwright.files.model_file import read_document
@@ -62,7 +62,6 @@ LAST, NEAR = 90, 0.03
 #: The same where designs go one by one: designs for each objective, places along a front, steps.
 POLISHED_ALONE, FRONT_ALONE, LAST_ALONE = 1, 6, 12
 _NO_ROWS = np.array([], dtype=np.intp)
-Floats = NDArray[np.float64]
 #: Designs of a front are alike whose objectives differ by less than this share.
 ALIKE = 1e-5
 #: Objectives below this share of the start's are none; so many times its size an objective lies below its aim that

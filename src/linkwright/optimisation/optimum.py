@@ -9,9 +9,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright import units
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.frozen import Frozen
 from linkwright.errors import LinkwrightError
@@ -22,8 +22,6 @@ from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.plot import Diagram
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

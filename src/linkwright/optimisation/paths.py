@@ -7,9 +7,9 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright import units
+from linkwright.core.arrays import Floats, Indices
 from linkwright.engine.stage import Backend
 from linkwright.errors import QuantityError
 from linkwright.mechanism.mechanism import Mechanism
@@ -17,7 +17,6 @@ from linkwright.study.objective import Part, PathError, of_path
 from linkwright.study.path_curvature import path_curvature
 from linkwright.words.sentence import Sentence
 
-Floats = NDArray[np.float64]
 #: Designs that one thread takes.
 ALONE = 512
 
@@ -50,7 +49,7 @@ def _threads(columns: Mapping[str, Floats]) -> int | None:
     return None if len(next(iter(columns.values()))) > ALONE else 1
 
 
-def _shared(names: Sequence[str], by: Sequence[str]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+def _shared(names: Sequence[str], by: Sequence[str]) -> tuple[Indices, Indices]:
     """Where the names that are in both stand, in the one and in the other."""
     both = [(k, by.index(name)) for k, name in enumerate(names) if name in by]
     own, places = np.array(both, dtype=np.intp).reshape(-1, 2).T

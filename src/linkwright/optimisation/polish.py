@@ -5,14 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
-from linkwright.optimisation.descent import LITTLE, STEPS, Model, Places, descended
+from linkwright.core.arrays import Floats, Indices
+from linkwright.optimisation.descent import LITTLE, STEPS, Model, descended
 from linkwright.optimisation.evolution import joined
 from linkwright.optimisation.front import SHARED
 from linkwright.optimisation.task import Judged, Side, Task
 
-Floats = NDArray[np.float64]
 #: What is kept from the edge of a demand, in its scales, and the step of differences where no exact slope is had.
 ROOM, STEP = 2e-7, 1e-5
 #: The least size of a demand beside the start's value.
@@ -50,7 +49,7 @@ class Polish:
         if not self.free.any() or sampled or not len(before.x):
             return before
 
-        def evaluate(free: Floats, rows: Places) -> Model:
+        def evaluate(free: Floats, rows: Indices) -> Model:
             return self._model(self._whole(before.x[rows], free), weights[rows], aims[rows])
 
         moved = descended(evaluate, before.x[:, self.free], steps, little)

@@ -8,9 +8,9 @@ from dataclasses import field
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright import units
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, LinkwrightError, ModelError, RequestError
 from linkwright.mechanism.mechanism import Mechanism
@@ -21,7 +21,6 @@ from linkwright.study.ranges import Range, parse_range
 from linkwright.study.vary import checked_addresses
 from linkwright.words.sentence import Sentence
 
-Floats = NDArray[np.float64]
 Robust = Literal["", "worst", "yield"]
 SETTINGS = (
     "vary", "minimize", "maximize", "keep", "define", "tolerance", "robust", "yield", "fluctuation", "steps",

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from linkwright.core.arrays import Floats
+
 #: Most steps, the share of the mean product that is aimed at, the same after a step of at least this length, and how
 #: near to the boundary a step goes.
 STEPS, AIM, SOON, GOOD, NEAR = 40, 0.1, 0.01, 0.9, 0.995

@@ -8,16 +8,15 @@ from functools import cached_property
 from itertools import product
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright import units
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, ModelError, QuantityError
 from linkwright.optimisation.measures import Measures
 from linkwright.optimisation.problem import Demand, Problem
 from linkwright.words.sentence import Sentence
 
-Floats = NDArray[np.float64]
 #: A number, and 1 where it must not become larger, -1 where it must not become smaller.
 Side = tuple[str, float]
 #: Samples of the tolerances while searching, where designs go one by one, and at the end; a violation below this

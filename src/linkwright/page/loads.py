@@ -10,8 +10,8 @@ from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Floats
 from linkwright.core.outputs import Output
 from linkwright.fields.signals import InputPhase, MovingPhase, SwingPhase
 from linkwright.kinematics.motion import Motion
@@ -24,7 +24,6 @@ from linkwright.loads.over_cycle import activity
 from linkwright.mechanism.mechanism import Mechanism
 
 Plain = dict[str, Any]
-Floats = NDArray[np.float64]
 
 
 def found_again(load: Load, motion: Motion) -> bool:

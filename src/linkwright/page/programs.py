@@ -7,8 +7,8 @@ from dataclasses import asdict, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Floats
 from linkwright.core.inputs import mode_groups
 from linkwright.core.outputs import SLIDE, owners_of, row_name, row_names
 from linkwright.engine.cycle import CycleProgram
@@ -38,7 +38,6 @@ from linkwright.study.limit_stages import constants, limit_stages
 from linkwright.study.loaded_cycle import SIZES, along_input
 from linkwright.study.traced import Traced
 
-Floats = NDArray[np.float64]
 STEPS = 360
 
 

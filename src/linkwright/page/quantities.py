@@ -6,8 +6,8 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Floats
 from linkwright.core.outputs import KINDS, Output, row_names
 from linkwright.kinematics.names import canonical
 from linkwright.metrics.outputs import mechanism_outputs
@@ -108,7 +108,7 @@ def _turns(page: PagePrograms, link: str) -> bool:
     return bool(len(angle) > 2 and page.motion.positions.closed and abs(angle[-1] - angle[0]) > 4.0)
 
 
-def _returns_once(course: NDArray[np.float64]) -> bool:
+def _returns_once(course: Floats) -> bool:
     """Whether something goes to and fro once in a closed cycle and rests nowhere."""
     steps = np.diff(course, append=course[0])
     ways = np.where(np.abs(steps) <= 1e-9 * np.ptp(course), 0.0, np.sign(steps))

@@ -11,9 +11,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
-import numpy as np
-from numpy.typing import NDArray
-
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, ModelError
 from linkwright.parts.display import number, si_unit, unit
@@ -27,8 +25,6 @@ if TYPE_CHECKING:
     from linkwright.fields.base import Field
     from linkwright.plot import Diagram
     from linkwright.worked.page import Step
-
-Floats = NDArray[np.float64]
 
 
 def fault(code: str, key: str, **values: object) -> Finding:

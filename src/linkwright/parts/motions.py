@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from linkwright.parts.base import Floats
+from linkwright.core.arrays import Floats
 
 
 def plain_motions(space: Floats) -> list[Floats]:

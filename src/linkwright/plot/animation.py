@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
 from linkwright.kinematics.motion import Motion
@@ -26,7 +27,7 @@ from linkwright.plot.drawing.picture import Box, bounds, document
 from linkwright.plot.drawing.scene import Scene, laid_out
 from linkwright.plot.drawing.vectors import Arrows, scale_of
 from linkwright.plot.drawing.video import gif, mp4
-from linkwright.plot.svg.element import Element, Floats, circle, group
+from linkwright.plot.svg.element import Element, circle, group
 from linkwright.plot.svg.render import png
 from linkwright.whole_files import write_whole
 from linkwright.words import LANGUAGES, say

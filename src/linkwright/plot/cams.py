@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from linkwright.cams.curves import RollerCurve
+from linkwright.core.arrays import Floats
 from linkwright.errors import RequestError
 from linkwright.plot.drawing.picture import Box, Drawing, bounds, document
-from linkwright.plot.svg.element import Element, Floats, circle, path
+from linkwright.plot.svg.element import Element, circle, path
 from linkwright.plot.svg.text import text_element, width
 from linkwright.plot.symbols.base import points
 from linkwright.words import LANGUAGES, say

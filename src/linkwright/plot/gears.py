@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.errors import RequestError
 from linkwright.plot.drawing.picture import Box, Drawing, bounds, document
-from linkwright.plot.svg.element import Element, Floats, circle, element, path, path_data
+from linkwright.plot.svg.element import Element, circle, element, path, path_data
 from linkwright.plot.svg.text import text_element, width
 from linkwright.plot.symbols.base import points, ring
 from linkwright.words import LANGUAGES, say

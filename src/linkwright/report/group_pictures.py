@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from linkwright.core.arrays import Floats
 from linkwright.plot.drawing.draw import Sheet, laid_out_beside
 from linkwright.plot.drawing.machine import Part
 from linkwright.plot.drawing.names import point_labels
 from linkwright.plot.drawing.picture import bounds, document
 from linkwright.plot.drawing.positions import Shown
 from linkwright.plot.drawing.scene import Scene
-from linkwright.plot.svg.element import Floats, group
+from linkwright.plot.svg.element import group
 from linkwright.plot.svg.render import natural_size
 from linkwright.report.case import Case
 from linkwright.structure.group import Group

@@ -8,8 +8,8 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.core.outputs import KINDS, RESIDUALS, Output
-from linkwright.kinematics.cycle import Floats
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.plot.force_names import link_numbers
 from linkwright.report.document import literal

@@ -9,8 +9,8 @@ from itertools import chain, count
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.errors import LinkwrightError, RequestError
@@ -26,8 +26,6 @@ from linkwright.metrics.outputs import mechanism_outputs
 from linkwright.registry import offered
 from linkwright.study.terms import pivot
 from linkwright.words.sentence import Sentence
-
-Floats = NDArray[np.float64]
 
 #: A mean torque of this share of the largest one is zero but for rounding.
 IDLE = 1e-9

@@ -10,8 +10,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Floats, Indices
 from linkwright.core.inputs import Input, turned
 from linkwright.core.search import lowest
 from linkwright.engine.numpy_backend import NumpyProgram
@@ -22,9 +22,6 @@ from linkwright.kinematics.change_points import MEETING, TOUCH
 from linkwright.kinematics.cycle import Positions
 from linkwright.kinematics.passing import NEAR
 from linkwright.study.traced import Traced
-
-Floats = NDArray[np.float64]
-Numbers = NDArray[np.intp]
 
 #: Designs whose positions are evaluated together.
 BLOCK = 4096
@@ -70,7 +67,7 @@ class ChangePoints:
         self.along = NumpyProgram(program)
         self.anywhere = NumpyProgram(_anywhere(program))
 
-    def designs(self, columns: Mapping[str, Floats]) -> Numbers:
+    def designs(self, columns: Mapping[str, Floats]) -> Indices:
         """Numbers of the designs that touch a change point, or may not pass, between two positions."""
         count = len(next(iter(columns.values())))
         found = [
@@ -79,7 +76,7 @@ class ChangePoints:
         ]
         return np.concatenate(found) if found else np.empty(0, dtype=np.intp)
 
-    def _block(self, columns: Mapping[str, Floats]) -> Numbers:
+    def _block(self, columns: Mapping[str, Floats]) -> Indices:
         return np.unique(
             np.concatenate([self._low(columns), self._parallel(columns), self._meeting(columns)])
         )
@@ -92,7 +89,7 @@ class ChangePoints:
             return program.run_designs(table, arrays, length=count)
         return code.store(table, arrays, length=count)
 
-    def _meeting(self, columns: Mapping[str, Floats]) -> Numbers:
+    def _meeting(self, columns: Mapping[str, Floats]) -> Indices:
         """Designs in which the outer pins of a group meet between two positions, or pass too near to each other."""
         positions = self.traced.positions
         if self.pins is None or self.pins_anywhere is None:
@@ -119,7 +116,7 @@ class ChangePoints:
         quality = at(share[:, None])[rows, groups + group, 0]
         return np.unique(design[(quality < -TOUCH) | (least <= MEETING * largest[design, group, 0])])
 
-    def _parallel(self, columns: Mapping[str, Floats]) -> Numbers:
+    def _parallel(self, columns: Mapping[str, Floats]) -> Indices:
         """Designs in which guides become parallel between two positions."""
         if self.sines is None:
             return np.empty(0, dtype=np.intp)
@@ -131,7 +128,7 @@ class ChangePoints:
         )
         return np.flatnonzero((sign * following < 0.0).any(axis=(1, 2)))
 
-    def _low(self, columns: Mapping[str, Floats]) -> Numbers:
+    def _low(self, columns: Mapping[str, Floats]) -> Indices:
         if not self.groups:
             return np.empty(0, dtype=np.intp)
         table = self.traced.table(self.along.program, columns)
@@ -148,7 +145,7 @@ class ChangePoints:
         least = self._refined(self.traced.table(self.anywhere.program, columns)[design], group, place)
         return np.unique(design[least <= TOUCH])
 
-    def _refined(self, table: Floats, group: Numbers, place: Numbers) -> Floats:
+    def _refined(self, table: Floats, group: Indices, place: Indices) -> Floats:
         """The smallest value of each group's quality between the neighbours of a position."""
         rows = np.arange(len(place))
 
@@ -159,7 +156,7 @@ class ChangePoints:
 
         return lowest(quality, np.zeros(len(place)), np.ones(len(place)))[1]
 
-    def _inputs(self, place: Numbers, share: Floats) -> dict[str, Floats]:
+    def _inputs(self, place: Indices, share: Floats) -> dict[str, Floats]:
         """Inputs at shares of the way from the position before to the one after, by the drivers' laws."""
         time = self.traced.positions.time
         step = time[1] - time[0]

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Floats, Indices
 from linkwright.engine.stage import Backend
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.solve import solve_motion
@@ -17,8 +17,6 @@ from linkwright.study.metric_cycle import MetricCycle, metric_cycle
 from linkwright.study.swept_designs import SweptDesigns, swept_designs
 from linkwright.study.terms import Asked, measured
 from linkwright.words.sentence import Sentence
-
-Floats = NDArray[np.float64]
 
 
 def side_by_side(
@@ -34,7 +32,7 @@ def numbers_of(
     mechanism: Mechanism,
     columns: Mapping[str, Floats],
     names: Sequence[str],
-    designs: NDArray[np.intp],
+    designs: Indices,
     *,
     partial: bool = False,
     threads: int | None = None,

@@ -7,8 +7,9 @@ from dataclasses import field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from linkwright.core.arrays import Flags, Floats, Whole
 from linkwright.core.dataclass import dataclass
 from linkwright.core.frozen import Frozen
 from linkwright.core.html import columns_html
@@ -32,8 +33,6 @@ if TYPE_CHECKING:
 
 #: Designs of a piece that goes to a cluster; fewer stay on this machine.
 SHARED = 4096
-Floats = NDArray[np.float64]
-Counts = NDArray[np.int64]
 
 
 @dataclass(eq=False)
@@ -52,7 +51,7 @@ class Sweep(Frozen):
     mechanism: Mechanism
     varied: Mapping[str, Floats]
     positions: int
-    assembled: Counts
+    assembled: Whole
     summaries: Mapping[Summary, Floats]
     quantities: Mapping[str, Quantity] = field(repr=False)
     unloaded: Mapping[int, str] = field(default_factory=dict)
@@ -66,9 +65,9 @@ class Sweep(Frozen):
         return len(self.assembled)
 
     @property
-    def ok(self) -> NDArray[np.bool_]:
+    def ok(self) -> Flags:
         """Which designs pass the whole cycle, (designs,)."""
-        good: NDArray[np.bool_] = self.assembled == self.positions
+        good: Flags = self.assembled == self.positions
         if self.unloaded:
             good[list(self.unloaded)] = False
         return good
@@ -82,7 +81,7 @@ class Sweep(Frozen):
             )
         return self.summaries[found]
 
-    def columns(self) -> dict[str, Floats | Counts]:
+    def columns(self) -> dict[str, Floats | Whole]:
         """Varied dimensions, assembled positions and summaries by name."""
         named = {summary.name: values for summary, values in self.summaries.items()}
         return {**self.varied, "assembled": self.assembled, **named}

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.engine.program import Program
@@ -17,8 +17,6 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.study.one_by_one import changes_of, sentence_of
 from linkwright.study.traced import Traced
 from linkwright.words.sentence import Sentence
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -32,7 +30,7 @@ class Failure:
 
     group: str | None
     kind: str
-    designs: NDArray[np.intp]
+    designs: Indices
     example: str
 
     @property
@@ -51,7 +49,7 @@ class Failure:
 def explained(
     mechanism: Mechanism,
     varied: Mapping[str, Floats],
-    ok: NDArray[np.bool_],
+    ok: Flags,
     positions: int,
     unloaded: Mapping[int, str],
     limit: int,
@@ -70,7 +68,7 @@ def explained(
 
 
 def _by_group(
-    mechanism: Mechanism, columns: Mapping[str, Floats], numbers: NDArray[np.intp], count: int
+    mechanism: Mechanism, columns: Mapping[str, Floats], numbers: Indices, count: int
 ) -> list[Failure]:
     """Each design under the group that fails at most of its positions."""
     traced = _traced(mechanism, columns, count)

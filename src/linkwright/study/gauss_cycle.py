@@ -12,8 +12,8 @@ from collections.abc import Iterable, Mapping
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import Expression
 from linkwright.core.inputs import turned
@@ -34,7 +34,6 @@ from linkwright.study.limit_stages import edge_name, part_edge, whole_turns
 from linkwright.study.loaded_cycle import friction_doubt
 from linkwright.study.traced import VALID, Traced
 
-Floats = NDArray[np.float64]
 #: Numbers of pieces of the whole turn to try one after another, and the share of them that a stretch between two cuts
 #: has at least.
 PIECES, LEAST = (12, 28, 56, 112), 0.25

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.engine.numpy_backend import numpy_program
 from linkwright.engine.program import Program
 from linkwright.engine.recent import Recent
@@ -22,9 +22,6 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.study.loaded_cycle import along_input, doubtful, doubts, with_loads
 from linkwright.study.traced import NEAREST, VALID, Traced
 from linkwright.study.vary import positions_steps
-
-Floats = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 
 #: Newton steps per position, and of one attempt at the beginning; the change of a coordinate (rad, or share of the
 #: mechanism's size) in one step to which the known design is refined.
@@ -63,7 +60,7 @@ class Following:
         wanted: Sequence[Reduction],
         threads: int | None,
         backend: Backend,
-    ) -> tuple[Results, NDArray[np.intp]]:
+    ) -> tuple[Results, Indices]:
         """Reductions (designs,) of designs with the given columns, and the numbers of those of which friction is not
         certain, or loads have no value somewhere."""
         results = self._way(self.finer).reduced(columns, wanted, threads, backend)
@@ -232,7 +229,7 @@ class Approach:
         state[done < 1.0] = np.nan
         return {name: state[:, place] for place, name in enumerate(self.names)}
 
-    def _newton(self, table: Floats, state: Floats, expected: Floats, sign: Floats) -> tuple[Floats, Mask]:
+    def _newton(self, table: Floats, state: Floats, expected: Floats, sign: Floats) -> tuple[Floats, Flags]:
         """States at parts of the ways, and which of them are certain; ``expected`` changes are NaN at first."""
         known = np.asarray(np.isfinite(expected).all(axis=1))
         start = self._unit(state + np.where(known[:, None], expected, 0.0))
@@ -243,7 +240,7 @@ class Approach:
             off = (np.abs(new - start) / self.scale).max(axis=1)
             near = np.where(known, off <= EXPECTED * change + 1e-9, change <= FIRST_CHANGE)
             kept = np.asarray(np.sign(determinants) == sign).all(axis=1)
-            good: Mask = np.asarray((residual < CONVERGED) & (change <= LARGEST_CHANGE) & near & kept)
+            good: Flags = np.asarray((residual < CONVERGED) & (change <= LARGEST_CHANGE) & near & kept)
             return new, good
 
     def _unit(self, state: Floats) -> Floats:

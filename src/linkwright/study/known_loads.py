@@ -11,8 +11,8 @@ from collections.abc import Iterable, Mapping
 from dataclasses import field
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import kind_of, owners_of
 from linkwright.engine.cycle import CycleProgram
@@ -33,8 +33,6 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.study.limit_stages import constants, limit_stages, whole_turns
 from linkwright.study.traced import Traced
 from linkwright.words.sentence import Sentence
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -6,8 +6,8 @@ from collections.abc import Collection, Iterable, Mapping
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Floats, Indices
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output, kind_of, owners_of
 from linkwright.engine.cycle import CycleProgram
@@ -25,7 +25,6 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.study.limit_stages import constants, limit_stages, whole_turns
 from linkwright.study.traced import VALID, Traced, design_table
 
-Floats = NDArray[np.float64]
 #: The output that is the sum of magnitudes which may not exist, and that is 1 where friction is not certain.
 SIZES, RUBBING = "sizes of loads", "doubt of friction"
 
@@ -40,7 +39,7 @@ class LoadedCycle:
 
     def evaluate(
         self, part: Mapping[str, Floats], threads: int | None, backend: Backend
-    ) -> tuple[Results, NDArray[np.intp]]:
+    ) -> tuple[Results, Indices]:
         """Results of designs with the given columns, and the numbers of those of which limits or friction are not
         certain, or loads have no value somewhere."""
         results = self.cycle.evaluate(
@@ -144,9 +143,7 @@ def doubts(traced: Traced, loads: AlongInput) -> dict[str, Scalar]:
     return found
 
 
-def doubtful(
-    results: Results, loads: AlongInput, count: int, limits: Iterable[Output] = ()
-) -> NDArray[np.intp]:
+def doubtful(results: Results, loads: AlongInput, count: int, limits: Iterable[Output] = ()) -> Indices:
     """Numbers of the designs that pass all ``count`` positions, but with limits or friction that are not certain, or
     loads that have no value somewhere."""
     doubt = np.zeros(len(results[VALID_COUNT]))

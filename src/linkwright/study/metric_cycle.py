@@ -7,8 +7,8 @@ from dataclasses import replace
 from functools import cached_property, partial
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.cycle_gradient import CycleGradient, cycle_gradient
@@ -37,10 +37,6 @@ from linkwright.study.seen import Seen
 from linkwright.study.steady_designs import REST, SIGNALS, SteadyDesigns
 from linkwright.study.terms import Asked, Term, all_parts, term
 from linkwright.study.traced import VALID, Traced, design_table
-
-Floats = NDArray[np.float64]
-Mask = NDArray[np.bool_]
-Places = NDArray[np.intp]
 
 #: Designs of one call.
 BLOCK = 2048
@@ -119,7 +115,7 @@ class Found:
     points."""
 
     values: Mapping[str, Floats]
-    certain: Mask
+    certain: Flags
 
 
 class MetricCycle:
@@ -215,7 +211,7 @@ class MetricCycle:
         """What the terms depend on."""
         return self._forwards.dimensions
 
-    def met(self, columns: Mapping[str, Floats]) -> tuple[Mask, Mask]:
+    def met(self, columns: Mapping[str, Floats]) -> tuple[Flags, Flags]:
         """Which designs are certain with these pieces alone: but for their true speed, and altogether."""
         seen, rows = self._read(columns, "auto")
         found = np.isfinite(rows).all(axis=0)
@@ -230,7 +226,7 @@ class MetricCycle:
         gauss = replace(self.gauss, wanted=following[0])
         return MetricCycle(self.traced, gauss, self.terms, self.analysis, self.loads)
 
-    def _block(self, columns: Mapping[str, Floats], backend: Backend) -> tuple[Floats, Mask]:
+    def _block(self, columns: Mapping[str, Floats], backend: Backend) -> tuple[Floats, Flags]:
         """Rows (terms, designs), and which are certain; designs that pass, but are not met, with finer pieces."""
         rows, sure, left = self._found(columns, backend)
         if len(left) and self.finer is not None:
@@ -238,7 +234,7 @@ class MetricCycle:
             rows[:, left], sure[left] = again, certain
         return rows, sure
 
-    def _found(self, columns: Mapping[str, Floats], backend: Backend) -> tuple[Floats, Mask, Places]:
+    def _found(self, columns: Mapping[str, Floats], backend: Backend) -> tuple[Floats, Flags, Indices]:
         """The same with these pieces alone, and the numbers of those that pass, but are not met."""
         seen, rows = self._read(columns, backend)
         sure = seen.sure & np.isfinite(rows).all(axis=0)

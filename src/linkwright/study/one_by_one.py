@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Floats
 from linkwright.core.inputs import mode_inputs
 from linkwright.engine.trace import Mask
 from linkwright.errors import LinkwrightError
@@ -19,8 +19,6 @@ from linkwright.kinetostatics.run import run_forces
 from linkwright.kinetostatics.signals import STEPS
 from linkwright.study.traced import Traced
 from linkwright.words.sentence import Sentence
-
-Floats = NDArray[np.float64]
 
 #: The field that is 1 at the positions that a design reaches on its way through change points, else 0.
 REACHED = "reached"

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from itertools import combinations_with_replacement
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.derivative import forward
@@ -22,8 +22,6 @@ from linkwright.kinematics.names import point_key
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.study.limit_stages import constants
 from linkwright.study.traced import VALID, Traced, design_table
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,8 +8,8 @@ from functools import cache, cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Floats, Whole
 from linkwright.core.dataclass import dataclass
 from linkwright.core.piecewise import (
     LOOKS,
@@ -31,9 +31,6 @@ from linkwright.engine.program import Program
 from linkwright.engine.stage import Run, code_for
 from linkwright.metrics.summary import Summary
 from linkwright.study import piece_kernels
-
-Floats = NDArray[np.float64]
-Wholes = NDArray[np.int64]
 
 #: Sides of a signal on which its summaries lie, and the two extremes of the integral of its lack of the mean.
 SIDES: Mapping[str, tuple[str, ...]] = {
@@ -162,7 +159,7 @@ class PieceSummaries:
 
     # compiled ---------------------------------------------------------------------------------------
     @cached_property
-    def _jobs(self) -> tuple[Wholes, tuple[str, ...], tuple[tuple[str, str], ...]]:
+    def _jobs(self) -> tuple[Whole, tuple[str, ...], tuple[tuple[str, str], ...]]:
         """The jobs of the kernels, the signals that they begin with, and the extremes in their order."""
         jobs: list[list[int]] = []
         owners: list[tuple[str, str]] = []

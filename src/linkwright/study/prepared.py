@@ -11,6 +11,7 @@ from typing import Literal
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.core.outputs import row_name
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.llvm_backend import CompiledProgram, compile_program
@@ -20,7 +21,7 @@ from linkwright.engine.program import Program
 from linkwright.engine.trace import Mask, Scalar, absolute, select
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.change_points import is_way, nearness, parts
-from linkwright.kinematics.cycle import Floats, Positions, over_cycle
+from linkwright.kinematics.cycle import Positions, over_cycle
 from linkwright.kinematics.design import Design
 from linkwright.kinematics.motion import Motion, Rows
 from linkwright.kinematics.passing import NEAR

@@ -6,16 +6,15 @@ import math
 import re
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from linkwright import units
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import QuantityError, RequestError
 from linkwright.fields.signals import PhaseField
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words.sentence import Sentence
-
-Floats = NDArray[np.float64]
 
 #: Values of a range without a number of its own.
 USUAL_COUNT = 11

@@ -5,13 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Floats
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.study.ranges import Range
 from linkwright.words.sentence import Sentence
-
-Floats = NDArray[np.float64]
 
 #: Designs of one study, at most.
 MOST = 1_000_000

@@ -5,15 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
-from linkwright.core.piecewise import POINTS, WEIGHTS, Floats, Peak, weights_at, weights_up_to
+from linkwright.core.arrays import Flags, Floats
+from linkwright.core.piecewise import POINTS, WEIGHTS, Peak, weights_at, weights_up_to
 from linkwright.metrics import true_speed
 from linkwright.metrics.summary import Summary
 from linkwright.study.piece_summaries import SIDES, Reduced
 from linkwright.study.steady_designs import SMOOTH, SteadyDesigns
-
-Mask = NDArray[np.bool_]
 
 
 class Seen:
@@ -24,14 +22,14 @@ class Seen:
     """
 
     def __init__(
-        self, values: Mapping[str, Floats], found: Reduced, steady: SteadyDesigns, pieces: int, passed: Mask
+        self, values: Mapping[str, Floats], found: Reduced, steady: SteadyDesigns, pieces: int, passed: Flags
     ) -> None:
         self.values, self.found, self.steady, self.pieces = values, found, steady, pieces
         self.passed, self.certain = passed, passed.copy()
         self.running = np.ones(len(passed), dtype=np.bool_)
 
     @property
-    def sure(self) -> Mask:
+    def sure(self) -> Flags:
         """Of which designs all that was asked is met."""
         return self.certain & self.running
 

@@ -7,8 +7,8 @@ from dataclasses import field
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.frozen import Frozen, locked
 from linkwright.core.html import html_table
@@ -32,7 +32,6 @@ if TYPE_CHECKING:
 
     from linkwright.plot import Diagram
 
-Floats = NDArray[np.float64]
 Way = Literal["auto", "forward", "reverse"]
 
 #: From this number of dimensions on, the gradient of a summary is found by a reverse sweep.

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Floats
 from linkwright.engine.derivative import forward, reverse
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
@@ -20,8 +20,6 @@ from linkwright.study.known_loads import KnownLoads
 from linkwright.study.loaded_cycle import RUBBING, friction_doubt
 from linkwright.study.traced import VALID, Traced
 from linkwright.words.sentence import Sentence
-
-Floats = NDArray[np.float64]
 
 
 class Slopes:

@@ -5,9 +5,9 @@ from __future__ import annotations
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
-from linkwright.core.piecewise import POINTS, TO_LAST, Floats, Peak, largest, weights_at
+from linkwright.core.arrays import Flags, Floats
+from linkwright.core.piecewise import POINTS, TO_LAST, Peak, largest, weights_at
 from linkwright.engine.cycle import Known
 from linkwright.engine.program import Program
 from linkwright.engine.stage import Run, Stage
@@ -17,8 +17,6 @@ from linkwright.metrics.summary import Summary
 from linkwright.metrics.true_speed import EFFORT, INERTIA, required
 from linkwright.study.gauss_cycle import SHARE
 from linkwright.study.piece_summaries import UP_TO, integral
-
-Mask = NDArray[np.bool_]
 
 #: Polynomials whose last orders are below this share of a signal's size meet it.
 SMOOTH = 2e-11
@@ -81,7 +79,7 @@ class SteadyDesigns:
         """Their cycles of steady running."""
         return SteadyCycles(self.share, self.lift * self.work + self.inertia, self.inertia)
 
-    def number(self, part: Summary) -> tuple[Floats, Mask]:
+    def number(self, part: Summary) -> tuple[Floats, Flags]:
         """A number (designs,), and of which designs it is certain; NaN where the driver does no work."""
         size, speeds = self._speeds(part)
         largest_torque = np.abs(self.torque).max(axis=(1, 2))

@@ -7,8 +7,9 @@ from dataclasses import field
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.dataclass import dataclass
 from linkwright.core.frozen import Frozen
 from linkwright.core.html import columns_html
@@ -36,7 +37,6 @@ if TYPE_CHECKING:
 
     from linkwright.plot import Diagram
 
-Floats = NDArray[np.float64]
 Sampling = Literal["grid", "sobol"]
 Progress = Callable[[int, int], None]
 
@@ -60,7 +60,7 @@ class Study(Frozen):
     metrics: Mapping[str, Floats]
     dimensions: Mapping[str, str]
     better: Mapping[str, str | None]
-    ok: NDArray[np.bool_]
+    ok: Flags
     failures: tuple[Failure, ...]
     sampling: str = "grid"
     notes: tuple[str, ...] = field(default=())
@@ -284,7 +284,7 @@ class _Work:
             (*found.notes, *self.notes),
         )  # fmt: skip
 
-    def _together(self, asked: list[Criterion], designs: NDArray[np.intp]) -> dict[str, set[int]]:
+    def _together(self, asked: list[Criterion], designs: Indices) -> dict[str, set[int]]:
         """Numbers of many designs at once; which designs' they are certain of, by name."""
         if len(designs) < FEW:
             return {}
@@ -325,12 +325,12 @@ class _Work:
             self.troubled[index] = error.sentence
         self.notes |= dict.fromkeys(each.notes)
 
-    def _leave_out_idle(self, ok: NDArray[np.bool_]) -> None:
+    def _leave_out_idle(self, ok: Flags) -> None:
         """Leaves out what nobody asked for and none of the designs that move has."""
         found = {name: values for name, values in self.values.items() if not np.isnan(values[ok]).all()}
         self.values = found or self.values
 
-    def _refuse_idle(self, ok: NDArray[np.bool_]) -> None:
+    def _refuse_idle(self, ok: Flags) -> None:
         """Raises for a metric that has a value for none of the designs that move."""
         for name, values in self.values.items():
             if np.isnan(values[ok]).all():

@@ -6,8 +6,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Floats, Indices, Whole
 from linkwright.core.dataclass import dataclass
 from linkwright.core.inputs import Input, mode_groups
 from linkwright.engine.llvm_backend import compile_program
@@ -27,9 +27,6 @@ from linkwright.study.iterated_groups import MARGIN, following
 from linkwright.study.loaded_cycle import LoadedCycle, loaded_cycle
 from linkwright.study.one_by_one import OneByOne
 from linkwright.study.traced import NEAREST, VALID, Traced
-
-Floats = NDArray[np.float64]
-Counts = NDArray[np.int64]
 
 #: Designs of one block, and of one whose inputs are found design by design.
 BLOCK, LOADED_BLOCK = 1 << 16, 1 << 9
@@ -76,7 +73,7 @@ class SweepRun:
             self.follow = following(self.traced, names, self.program.fields)
         self.margins = None if self.follow is None else np.full(self.designs, np.nan)
 
-    def swept(self) -> tuple[Counts, dict[Summary, Floats]]:
+    def swept(self) -> tuple[Whole, dict[Summary, Floats]]:
         """Assembled positions (designs,), and every summary (designs,)."""
         assembled = np.zeros(self.designs, dtype=np.int64)
         values = {summary: np.empty(self.designs) for summary in self.asked}
@@ -176,7 +173,7 @@ class SweepRun:
         return loaded_cycle(self.traced, self.columns, tuple(self.quantities), self.reductions)
 
     def _again(
-        self, results: Results, doubtful: NDArray[np.intp], part: Mapping[str, Floats]
+        self, results: Results, doubtful: Indices, part: Mapping[str, Floats]
     ) -> tuple[Results, dict[int, str]]:
         """The results of all designs together, those of which something is not certain found one by one."""
         if not len(doubtful):
@@ -186,7 +183,7 @@ class SweepRun:
             results[name][doubtful] = column
         return results, {int(doubtful[index]): sentence for index, sentence in failed.items()}
 
-    def _noted(self, found: tuple[Results, dict[int, str]], numbers: NDArray[np.intp]) -> Results:
+    def _noted(self, found: tuple[Results, dict[int, str]], numbers: Indices) -> Results:
         """The results; sentences of designs that failed are kept under their numbers in the whole sweep."""
         results, failed = found
         self.unloaded.update({int(numbers[index]): sentence for index, sentence in failed.items()})

@@ -6,8 +6,8 @@ from collections.abc import Iterable, Mapping
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Floats
 from linkwright.core.outputs import Output
 from linkwright.core.piecewise import POINTS
 from linkwright.engine.cycle import CycleProgram
@@ -27,8 +27,6 @@ from linkwright.study.gauss_cycle import GaussCycle, side_by_side
 from linkwright.study.metric_cycle import Found
 from linkwright.study.terms import Term, chosen_subjects, metric_of
 from linkwright.study.traced import VALID, Traced, design_table
-
-Floats = NDArray[np.float64]
 
 #: Designs whose curves are kept at the same time.
 BLOCK = 256

@@ -8,8 +8,8 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Floats
 from linkwright.core.inputs import mode_inputs, turned
 from linkwright.core.outputs import row_name
 from linkwright.engine.program import Program
@@ -29,8 +29,6 @@ from linkwright.kinetostatics.traced_loads import TURNING
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.study.vary import positions_steps
 from linkwright.words.sentence import Sentence
-
-Floats = NDArray[np.float64]
 
 #: The truth output that says which positions of a design are solved.
 VALID = "valid"

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from linkwright.core.arrays import Floats
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.assembly import AssemblyError
 from linkwright.kinematics.cycle import Positions, over_cycle
@@ -14,9 +15,6 @@ from linkwright.mechanism.geometry import mechanism_size
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
 from linkwright.words.sentence import Sentence
-
-Floats = NDArray[np.float64]
-
 
 #: The change of a dimension with which it is tried, as share of its value or of the mechanism's size.
 SMALL = 1e-4

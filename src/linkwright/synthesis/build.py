@@ -8,11 +8,11 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.core.arrays import Complexes
 from linkwright.synthesis.assessment import TYPES, Assessment
 from linkwright.synthesis.linkage import Guide, Linkage
 from linkwright.synthesis.result import Candidate
 
-Complexes = NDArray[np.complex128]
 NAMES = {
     "crank_rocker": ("crank", "rocker"),
     "double_crank": ("crank", "follower"),

@@ -22,14 +22,9 @@ dU = i U dψ,  dψ = (c dc - Re(V* U) db + Re(V* dD)) / Re(i V* b U),  dD = dd -
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Complexes, Flags, Floats, Whole
 from linkwright.core.dataclass import dataclass
-
-Floats = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
-Flags = NDArray[np.bool_]
-Whole = NDArray[np.int64]
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,10 +8,9 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
-Whole = NDArray[np.int64]
+from linkwright.core.arrays import Floats, Whole
+
 #: Residuals (K, r) and their Jacobian (K, r, m) at parameters (K, m) of the starts numbered ``who`` (K,).
 System = Callable[[Floats, Whole], tuple[Floats, Floats]]
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.core.arrays import Complexes, Flags, Floats, Whole
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError
 from linkwright.mechanism.mechanism import Mechanism
@@ -18,8 +19,6 @@ from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.plot import Diagram
-
-Complexes = NDArray[np.complex128]
 
 
 @dataclass(frozen=True, eq=False)
@@ -179,9 +178,7 @@ def note(key: str, **values: object) -> Sentence:
     return Sentence(f"synthesize.{key}", **values)
 
 
-def ranking(
-    error: NDArray[np.float64], transmission: NDArray[np.float64], sound: NDArray[np.bool_], size: float
-) -> NDArray[np.int64]:
+def ranking(error: Floats, transmission: Floats, sound: Flags, size: float) -> Whole:
     """Order of candidates: sound ones first, then by error, then by transmission angle.
 
     Errors below 1e-9 of ``size`` (the target's own) are alike; others are compared to about a quarter of a per cent.

@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Floats, Whole
 from linkwright.core.dataclass import dataclass
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.parts.base import Floats
 from linkwright.study.designs import sweep_curves
 
 #: Bins per position in which machines are counted, and how far they reach, in linear standard deviations; values
@@ -52,7 +51,7 @@ class Counted:
         self.count = 0
         self.sums = np.zeros((2, len(middle)))
         self.least, self.largest = np.full(len(middle), np.inf), np.full(len(middle), -np.inf)
-        self.bins: NDArray[np.int64] = np.zeros((len(middle), BINS), dtype=np.int64)
+        self.bins: Whole = np.zeros((len(middle), BINS), dtype=np.int64)
 
     def add(self, values: Floats) -> None:
         """Counts curves of more machines, (machines, n)."""

@@ -14,8 +14,8 @@ from dataclasses import field, fields, is_dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Flags, Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.drivers.base import Driver
 from linkwright.errors import LinkwrightError
@@ -24,7 +24,6 @@ from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.loads.base import Load
 from linkwright.mechanism.mechanism import Link, Mechanism
-from linkwright.parts.base import Floats
 from linkwright.study.designs import sweep_curves
 from linkwright.tolerance.turned import TurnedByReaction
 from linkwright.words.sentence import Sentence
@@ -51,7 +50,7 @@ class FollowedPins:
     _known: dict[str, Floats] = field(default_factory=dict, compare=False, repr=False)
 
     @property
-    def followed(self) -> NDArray[np.bool_]:
+    def followed(self) -> Flags:
         """Positions (n,) at which every pin lies where its reaction presses it."""
         return np.asarray(self.residual <= LAG)
 

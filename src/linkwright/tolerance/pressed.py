@@ -13,11 +13,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.core.outputs import PLACES
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.names import output_meant
 from linkwright.kinetostatics.forces import Forces, solve_forces
-from linkwright.parts.base import Floats
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:

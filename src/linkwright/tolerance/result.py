@@ -8,11 +8,12 @@ from typing import ClassVar
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError, ModelError
 from linkwright.kinetostatics.forces import Forces
 from linkwright.metrics.summary import Summary, wanted
-from linkwright.parts.base import Block, Floats, Result, Row, fault
+from linkwright.parts.base import Block, Result, Row, fault
 from linkwright.parts.display import number, shown, unit
 from linkwright.parts.steps import put
 from linkwright.study.designs import Sweep, sweep

@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, ClassVar, Self
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.core.spline import Floats, Spline
+from linkwright.core.spline import Spline
 from linkwright.drivers.base import Law
 from linkwright.drivers.table import TableLaw
 from linkwright.fields.base import TimeTableValues

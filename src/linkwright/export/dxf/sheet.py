@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.errors import RequestError
 from linkwright.export.dxf.strokes import Stroke, strokes, unbroken
 from linkwright.export.results import Results
@@ -17,7 +18,6 @@ from linkwright.plot.drawing.machine import Part
 from linkwright.plot.drawing.names import link_labels, point_labels
 from linkwright.plot.drawing.scene import laid_out
 from linkwright.plot.drawing.view import moved
-from linkwright.plot.svg.element import Floats
 from linkwright.plot.symbols.base import PIN, Vec, points
 from linkwright.words.characters import one_line
 from linkwright.words.sentence import Sentence

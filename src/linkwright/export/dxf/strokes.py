@@ -7,8 +7,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.plot.svg.element import Element, Floats
+from linkwright.plot.svg.element import Element
 from linkwright.plot.symbols.base import points
 
 _NUMBER = r"(-?\d*\.?\d+)"

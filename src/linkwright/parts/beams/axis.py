@@ -8,13 +8,10 @@ from functools import cached_property
 
 import numpy as np
 from numpy.polynomial import Polynomial, legendre
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Floats, Indices
 from linkwright.core.dataclass import dataclass
 from linkwright.mechanism.mechanism import Link
-from linkwright.parts.base import Floats
-
-Numbers = NDArray[np.intp]
 
 #: Stations between two corners.
 STATIONS = 201
@@ -57,7 +54,7 @@ class LinkAxis:
         steps = np.diff(self.corners, axis=0)
         return np.asarray(steps / np.linalg.norm(steps, axis=1)[:, None])
 
-    def at(self, s: Floats, piece: Numbers) -> Floats:
+    def at(self, s: Floats, piece: Indices) -> Floats:
         """Points at places s of given pieces, (k, 2)."""
         return np.asarray(self.corners[piece] + (s - self.places[piece])[:, None] * self.tangents[piece])
 
@@ -87,7 +84,7 @@ class LinkAxis:
             couple = np.where(within, 0.0, couple)
         return s, couple
 
-    def stations(self, points: Sequence[float]) -> tuple[Floats, Numbers]:
+    def stations(self, points: Sequence[float]) -> tuple[Floats, Indices]:
         """Places along the axis, every corner and named point twice (left and right), and their pieces."""
         found, pieces = [], []
         for piece, (begin, end) in enumerate(zip(self.places[:-1], self.places[1:], strict=True)):
@@ -151,11 +148,11 @@ class SpreadMass:
         length = self.axis.length
         return np.array([m0[-1], *(m1[-1] / length), m2[-1] / length**2])
 
-    def below(self, stations: Floats, pieces: Numbers) -> tuple[Floats, Floats, Floats]:
+    def below(self, stations: Floats, pieces: Indices) -> tuple[Floats, Floats, Floats]:
         """∫ρ ds, ∫ρ r ds, ∫ρ |r|² ds below every station, (k,), (k, 2), (k,), r from the mass centre."""
         return self._sums(stations, pieces[1:], self.density)
 
-    def _sums(self, edges: Floats, pieces: Numbers, density: Polynomial) -> tuple[Floats, Floats, Floats]:
+    def _sums(self, edges: Floats, pieces: Indices, density: Polynomial) -> tuple[Floats, Floats, Floats]:
         nodes, weights = legendre.leggauss(4)
         ends = np.clip(edges, *self.span)
         half, middle = 0.5 * np.diff(ends), 0.5 * (ends[1:] + ends[:-1])

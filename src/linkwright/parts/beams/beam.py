@@ -12,10 +12,11 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding
 from linkwright.fields.base import Quantities, Quantity, Schema, Word, quantity_schema
-from linkwright.parts.base import Block, Floats, Problem, Result, Row, fault
+from linkwright.parts.base import Block, Problem, Result, Row, fault
 from linkwright.parts.beams.elastic import ElasticLine, Hold, Point, Spread, free_motions, solve_line
 from linkwright.parts.beams.materials import Material, material_field
 from linkwright.parts.beams.sections import Section, section_field

@@ -14,8 +14,8 @@ import numpy as np
 from numpy.polynomial import Polynomial
 from numpy.typing import ArrayLike
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.parts.base import Floats
 
 #: A value below this share of the largest along the beam is zero but for rounding.
 ROUNDING = 1e-13

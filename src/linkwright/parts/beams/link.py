@@ -9,14 +9,15 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from linkwright.core.arrays import Floats, Indices
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, LinkwrightError
 from linkwright.fields.base import Quantity, Text
 from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.kinetostatics.link_balance import applied_rows
 from linkwright.mechanism.mechanism import Link, Mechanism
-from linkwright.parts.base import Block, Floats, Result, Row, fault
-from linkwright.parts.beams.axis import LinkAxis, Numbers, SpreadMass
+from linkwright.parts.base import Block, Result, Row, fault
+from linkwright.parts.beams.axis import LinkAxis, SpreadMass
 from linkwright.parts.beams.beam import polynomial_text
 from linkwright.parts.beams.materials import Material, material_field
 from linkwright.parts.beams.sections import Section, require_modulus, section_field
@@ -168,7 +169,7 @@ class LinkStress(Result):
         return SpreadMass(self.axis, self.link)
 
     @cached_property
-    def _laid_out(self) -> tuple[Floats, Numbers]:
+    def _laid_out(self) -> tuple[Floats, Indices]:
         return self.axis.stations(
             [float(s) for s in self.axis.nearest(np.array(list(self.link.points.values())))[0]]
         )

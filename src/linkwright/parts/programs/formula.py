@@ -9,10 +9,10 @@ import numpy as np
 
 from linkwright import units
 from linkwright.core import expressions
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import Expression
 from linkwright.errors import QuantityError
-from linkwright.parts.base import Floats
 from linkwright.words.sentence import Sentence
 
 SENSES = {"<=": "<=", "≤": "<=", ">=": ">=", "≥": ">=", "=": "=", "==": "="}

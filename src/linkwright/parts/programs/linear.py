@@ -5,10 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Flags, Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.parts.base import Floats
 from linkwright.parts.programs.problem import Model
 
 
@@ -20,7 +19,7 @@ class LinearForm:
     constant: float
     rows: Floats
     right: Floats
-    equal: NDArray[np.bool_]
+    equal: Flags
     scales: Floats
     sizes: Floats
     bounds: Floats

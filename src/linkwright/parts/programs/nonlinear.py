@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.parts.base import Floats
 from linkwright.parts.programs.problem import Model
 
 #: A scaled excess up to this size counts as none.

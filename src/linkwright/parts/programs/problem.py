@@ -10,8 +10,8 @@ from functools import cached_property
 import numpy as np
 
 from linkwright import units
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.parts.base import Floats
 from linkwright.parts.programs.formula import Constraint, Formula
 
 

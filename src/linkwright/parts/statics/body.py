@@ -9,10 +9,11 @@ from typing import ClassVar
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding
 from linkwright.fields.base import Word
-from linkwright.parts.base import Block, Floats, Problem, Result, Row, fault
+from linkwright.parts.base import Block, Problem, Result, Row, fault
 from linkwright.parts.display import number
 from linkwright.parts.fields import Listed, Named, Table
 from linkwright.parts.motions import plain_motions

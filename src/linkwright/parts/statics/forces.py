@@ -11,10 +11,11 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding
 from linkwright.fields.base import Quantities, Quantity
-from linkwright.parts.base import Block, Floats, Problem, Result, Row, fault
+from linkwright.parts.base import Block, Problem, Result, Row, fault
 from linkwright.parts.display import number
 from linkwright.parts.fields import Either, Named, Table
 from linkwright.parts.steps import put

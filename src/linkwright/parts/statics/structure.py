@@ -6,13 +6,14 @@ from typing import ClassVar
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, ModelError
 from linkwright.kinematics.constraint_system import ConstraintSystem
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.parts.base import Block, Floats, Result, Row, fault
+from linkwright.parts.base import Block, Result, Row, fault
 from linkwright.parts.statics.body import describe
 from linkwright.structure import StructureError, structure
 from linkwright.words import Say

@@ -6,8 +6,8 @@ import math
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.parts.base import Floats
 
 #: Distributions that can be fitted: their names in SciPy, and the parameters that are held.
 DISTRIBUTIONS: dict[str, tuple[str, dict[str, float]]] = {

@@ -10,10 +10,11 @@ from typing import Any, ClassVar
 import numpy as np
 
 from linkwright import units
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding
 from linkwright.fields.base import Quantity, Text, Word
-from linkwright.parts.base import Block, Floats, Problem, Result, Row, Scale, fault
+from linkwright.parts.base import Block, Problem, Result, Row, Scale, fault
 from linkwright.parts.display import number
 from linkwright.parts.fields import AnyQuantity, Listed, Named, Numbers, Sample, Table, Whole
 from linkwright.parts.statistics.describe import (

@@ -9,13 +9,14 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, LinkwrightError
 from linkwright.fields.base import Quantity, Text
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.parts.base import Block, Floats, Result, Row, fault
+from linkwright.parts.base import Block, Result, Row, fault
 from linkwright.parts.display import shown
 from linkwright.parts.fields import Whole
 from linkwright.parts.mechanism_field import MECHANISM, OfMechanism

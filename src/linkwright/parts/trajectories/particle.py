@@ -10,12 +10,13 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, LinkwrightError, ModelError
 from linkwright.fields.base import Quantity, Text
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.parts.base import Block, Floats, Problem, Result, Row, fault
+from linkwright.parts.base import Block, Problem, Result, Row, fault
 from linkwright.parts.mechanism_field import load_beside
 from linkwright.parts.steps import put
 from linkwright.words import Say

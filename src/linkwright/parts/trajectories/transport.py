@@ -7,8 +7,8 @@ import math
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.parts.base import Floats
 
 REST, FORWARD, BACKWARD, FLIGHT = "rest", "forward", "backward", "flight"
 MODES = (REST, FORWARD, BACKWARD, FLIGHT)

@@ -6,12 +6,10 @@ import math
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from linkwright.core.arrays import Complexes, Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.parts.base import Floats
-
-Complexes = NDArray[np.complex128]
 
 
 @dataclass(frozen=True)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.core.outputs import Output
 from linkwright.errors import RequestError
-from linkwright.kinematics.cycle import Floats
 from linkwright.plot.diagrams.base import DIAGRAMS, Request
 from linkwright.plot.diagrams.outputs import known_link, main_output, turning_links
 from linkwright.plot.diagrams.panels import Curve, OverInput, Panel, look

@@ -5,9 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from linkwright.kinematics.cycle import Floats
+from linkwright.core.arrays import Flags, Floats
 from linkwright.plot.diagrams.marks import acting
 from linkwright.plot.diagrams.picture import INK
 from linkwright.plot.diagrams.source import InputAxis, Source
@@ -16,7 +15,6 @@ from linkwright.plot.diagrams.units import round_up, significant
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-Mask = NDArray[np.bool_]
 #: Two labels nearer than these shares of the picture's size, across and up, are not both written.
 NEAR = np.array([0.09, 0.05])
 _HALO: dict[str, Any] = {
@@ -69,7 +67,7 @@ def mark_inputs(axes: Axes, curve: Floats, axis: InputAxis, colour: str) -> None
     _arrow(axes, curve, good, colour)
 
 
-def _round_places(axis: InputAxis, good: Mask) -> list[tuple[int, str]]:
+def _round_places(axis: InputAxis, good: Flags) -> list[tuple[int, str]]:
     """Indices nearest to round values of the axis, each once, with their texts."""
     shown = axis.values * axis.unit.factor
     span = float(np.ptp(shown[np.isfinite(shown)]))
@@ -101,7 +99,7 @@ def _outward(curve: Floats, index: int, middle: Floats) -> Floats:
     return np.asarray(sign * normal / length)
 
 
-def _arrow(axes: Axes, curve: Floats, good: Mask, colour: str) -> None:
+def _arrow(axes: Axes, curve: Floats, good: Flags, colour: str) -> None:
     """One arrow head where the curve is long, in the direction of the motion."""
     steps = np.hypot(*np.diff(curve, axis=0).T)
     steps = np.where(good[1:] & good[:-1], steps, 0.0)

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import row_names
 from linkwright.errors import RequestError
-from linkwright.kinematics.cycle import Floats
 from linkwright.kinetostatics.forces import Forces
 from linkwright.plot.diagrams.axes import wrapped
 from linkwright.plot.diagrams.base import DIAGRAMS, Kind, Request

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from linkwright.kinematics.cycle import Floats
+from linkwright.core.arrays import Floats
 from linkwright.plot.diagrams.axes import Legend, equal, framed
 from linkwright.plot.diagrams.base import DIAGRAMS, Kind, Request
 from linkwright.plot.diagrams.curve_marks import draw_curve, jumps, mark_inputs

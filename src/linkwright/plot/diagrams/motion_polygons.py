@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.errors import LinkwrightError, RequestError
-from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion
 from linkwright.plot.diagrams.axes import wrapped
 from linkwright.plot.diagrams.base import DIAGRAMS, Kind, Request

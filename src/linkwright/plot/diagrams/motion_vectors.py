@@ -12,9 +12,9 @@ from dataclasses import field
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.joints.lower import SlidingJoint
-from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import canonical
 from linkwright.plot.diagrams.position import place_of

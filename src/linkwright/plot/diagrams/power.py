@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from linkwright.core.arrays import Floats
 from linkwright.core.outputs import Output
-from linkwright.kinematics.cycle import Floats
 from linkwright.kinetostatics.forces import Forces
 from linkwright.metrics.analysis import Analysis
 from linkwright.plot.diagrams.base import DIAGRAMS, Request

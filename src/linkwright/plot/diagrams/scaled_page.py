@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.kinematics.cycle import Floats
 from linkwright.plot.diagrams.picture import INK
 from linkwright.plot.diagrams.units import round_up
 from linkwright.plot.svg.text import split_index

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from linkwright.kinematics.cycle import Floats
+from linkwright.core.arrays import Floats
 from linkwright.kinetostatics.forces import Forces
 from linkwright.plot.diagrams.base import DIAGRAMS, Request
 from linkwright.plot.diagrams.panels import Curve, OverInput, Panel

@@ -7,8 +7,8 @@ from collections.abc import Iterable
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.kinematics.cycle import Floats
 from linkwright.metrics.quantities import si_unit
 
 _FIXED = {

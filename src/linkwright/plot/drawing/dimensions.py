@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
 from linkwright.kinematics.names import find_point
@@ -14,7 +15,6 @@ from linkwright.plot.drawing.guides import direction, line_start
 from linkwright.plot.drawing.labels import Label, Obstacles
 from linkwright.plot.drawing.machine import Machine
 from linkwright.plot.drawing.view import moved
-from linkwright.plot.svg.element import Floats
 from linkwright.plot.symbols.base import SYMBOLS, Shape, Vec, placed, points
 from linkwright.words.sentence import Sentence
 

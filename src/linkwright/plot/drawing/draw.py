@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
@@ -29,7 +30,7 @@ from linkwright.plot.drawing.vectors import (
 )
 from linkwright.plot.drawing.view import DIAGONAL
 from linkwright.plot.force_names import carries
-from linkwright.plot.svg.element import Element, Floats, group
+from linkwright.plot.svg.element import Element, group
 from linkwright.plot.symbols.base import points
 from linkwright.words import LANGUAGES, say
 from linkwright.words.sentence import Sentence

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.errors import LinkwrightError
 from linkwright.joints.lower import SlidingJoint
 from linkwright.kinematics.motion import Motion
 from linkwright.plot.drawing.machine import Machine
-from linkwright.plot.svg.element import Floats
 from linkwright.plot.symbols.base import LINE, Vec
 from linkwright.words.sentence import Sentence
 

@@ -7,10 +7,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.joints.lower import SlidingJoint
 from linkwright.plot.drawing.machine import Machine, Part
 from linkwright.plot.drawing.view import Placement
-from linkwright.plot.svg.element import Floats
 from linkwright.plot.symbols.base import SYMBOLS, Vec, points
 from linkwright.plot.symbols.guides_and_blocks import HEIGHT, LENGTH
 

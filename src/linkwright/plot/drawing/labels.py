@@ -12,8 +12,9 @@ from dataclasses import field
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.plot.svg.element import Element, Floats, element
+from linkwright.plot.svg.element import Element, element
 from linkwright.plot.svg.text import name_width, split_index, text_element
 from linkwright.plot.symbols.base import Vec
 

@@ -8,6 +8,7 @@ from typing import Literal
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.joints.lower import SlidingJoint, TurningJoint
 from linkwright.kinematics.motion import Motion
@@ -15,7 +16,6 @@ from linkwright.loads.base import Load
 from linkwright.loads.marks import Mark
 from linkwright.mechanism.mechanism import Link
 from linkwright.plot.drawing.view import Placement, View
-from linkwright.plot.svg.element import Floats
 from linkwright.plot.symbols.base import PIN, SYMBOLS, Shape, Vec, points
 
 Layer = Literal["ground", "bodies", "blocks", "pins", "tops", "marks"]

@@ -6,9 +6,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.plot.drawing.scene import Scene
 from linkwright.plot.drawing.vectors import Torques, Vectors
-from linkwright.plot.svg.element import Element, Floats, coordinates, element, group, number
+from linkwright.plot.svg.element import Element, coordinates, element, group, number
 from linkwright.plot.symbols.arrows import arrow_points
 from linkwright.plot.symbols.base import SYMBOLS
 

@@ -6,11 +6,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.plot.drawing.labels import Label
 from linkwright.plot.drawing.machine import Machine, flat
 from linkwright.plot.drawing.scene import Scene
 from linkwright.plot.drawing.view import moved
-from linkwright.plot.svg.element import Floats
 from linkwright.plot.symbols.base import Vec, points
 
 LINK_SIZE = 12.0

@@ -6,10 +6,11 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
 from linkwright.plot.drawing.picture import Box
-from linkwright.plot.svg.element import Element, Floats, element, path
+from linkwright.plot.svg.element import Element, element, path
 from linkwright.plot.svg.text import text_element, width
 from linkwright.plot.symbols.base import points
 from linkwright.registry import offered

@@ -7,10 +7,11 @@ from pathlib import Path
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
 from linkwright.plot.drawing.style import CSS
-from linkwright.plot.svg.element import Element, Floats, element, number
+from linkwright.plot.svg.element import Element, element, number
 from linkwright.plot.svg.render import png, save_picture
 from linkwright.words.sentence import Sentence
 

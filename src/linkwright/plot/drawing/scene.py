@@ -7,6 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.kinematics.motion import Motion
 from linkwright.plot.drawing.guides import guides, welds
@@ -14,7 +15,7 @@ from linkwright.plot.drawing.inputs import input_arrows
 from linkwright.plot.drawing.machine import LAYERS, Machine, Part, bodies, pins
 from linkwright.plot.drawing.view import DIAGONAL, fitted, followed, moved, placements
 from linkwright.plot.drawing.wheels import wheels
-from linkwright.plot.svg.element import Element, Floats, group, number, path
+from linkwright.plot.svg.element import Element, group, number, path
 from linkwright.plot.symbols.base import SYMBOLS
 
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
 from linkwright.joints.base import HigherPair
@@ -16,7 +17,6 @@ from linkwright.kinematics.names import canonical, find_point
 from linkwright.plot.drawing.labels import Label
 from linkwright.plot.drawing.view import View
 from linkwright.plot.force_names import Symbol, reaction_index, reaction_pairs
-from linkwright.plot.svg.element import Floats
 from linkwright.plot.symbols.base import EMPTY, SYMBOLS, Shape, Vec, joined
 from linkwright.words.sentence import Sentence
 

@@ -6,10 +6,10 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.motion import Motion
-from linkwright.plot.svg.element import Floats
 from linkwright.plot.symbols.base import Vec
 from linkwright.words.sentence import Sentence
 

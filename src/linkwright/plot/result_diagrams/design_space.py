@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.errors import RequestError
-from linkwright.kinematics.cycle import Floats
 from linkwright.plot.diagrams.axes import Legend, framed
 from linkwright.plot.diagrams.base import Request
 from linkwright.plot.diagrams.picture import COLOURS, new_figure

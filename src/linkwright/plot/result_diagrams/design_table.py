@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright import units
+from linkwright.core.arrays import Flags, Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
-from linkwright.kinematics.cycle import Floats
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.plot.diagrams.units import Unit, unit_of
 from linkwright.registry import offered
@@ -59,7 +58,7 @@ class DesignTable:
     title: str
     varied: tuple[Varied, ...]
     measures: tuple[Measure, ...]
-    ok: NDArray[np.bool_]
+    ok: Flags
 
     @property
     def moving(self) -> tuple[Varied, ...]:

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.kinematics.cycle import Floats
 from linkwright.parts.display import UNITS, unit
 from linkwright.plot.diagrams.axes import Legend, angle_ticks, framed
 from linkwright.plot.diagrams.base import Request

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from linkwright.kinematics.cycle import Floats
+from linkwright.core.arrays import Floats
 from linkwright.parts.programs.problem import Variable
 from linkwright.parts.programs.program import Optimum, unit_of
 from linkwright.plot.diagrams.axes import framed

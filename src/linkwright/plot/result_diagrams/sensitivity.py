@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from linkwright import units
+from linkwright.core.arrays import Floats
 from linkwright.errors import RequestError
-from linkwright.kinematics.cycle import Floats
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.plot.diagrams.axes import Legend, framed, label_input
 from linkwright.plot.diagrams.base import RESULT_DIAGRAMS, Request, ResultKind

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from linkwright.kinematics.cycle import Floats
+from linkwright.core.arrays import Floats
 from linkwright.machine.torque_curve import TorqueCurve
 from linkwright.plot.diagrams.axes import framed, label_input
 from linkwright.plot.diagrams.base import RESULT_DIAGRAMS, Request, ResultKind

@@ -4,13 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
-import numpy as np
-from numpy.typing import NDArray
-
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.words.characters import printable
 
-Floats = NDArray[np.float64]
 Attribute = str | float
 _ESCAPES = str.maketrans({"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;"})
 

@@ -6,7 +6,8 @@ import math
 
 import numpy as np
 
-from linkwright.plot.svg.element import Element, Floats, path
+from linkwright.core.arrays import Floats
+from linkwright.plot.svg.element import Element, path
 from linkwright.plot.symbols.base import EMPTY, SYMBOLS, Shape, Vec, placed, points
 
 HEAD = 9.0

@@ -11,8 +11,9 @@ from collections.abc import Callable, Iterable
 import numpy as np
 from numpy.typing import ArrayLike
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.plot.svg.element import Element, Floats
+from linkwright.plot.svg.element import Element
 from linkwright.registry import Registry
 
 Vec = tuple[float, float]

@@ -7,8 +7,9 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike
 
+from linkwright.core.arrays import Floats
 from linkwright.core.plane import convex_hull
-from linkwright.plot.svg.element import Floats, circle, path
+from linkwright.plot.svg.element import circle, path
 from linkwright.plot.symbols.base import SYMBOLS, Shape, Vec, placed, points, ring
 
 

@@ -6,7 +6,8 @@ import math
 
 import numpy as np
 
-from linkwright.plot.svg.element import Floats, circle, element, path
+from linkwright.core.arrays import Floats
+from linkwright.plot.svg.element import circle, element, path
 from linkwright.plot.symbols.base import SYMBOLS, Shape, Vec, placed, points, ring
 
 

@@ -6,9 +6,9 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.core.outputs import KINDS, RESIDUALS, SLIDE, Output
 from linkwright.errors import LinkwrightError
-from linkwright.kinematics.cycle import Floats
 from linkwright.kinematics.table import motion_results
 from linkwright.kinetostatics.table import force_results
 from linkwright.report.case import Case

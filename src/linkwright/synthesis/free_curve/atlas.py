@@ -20,21 +20,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.core.arrays import Complexes, Floats, Indices, Whole
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.cache import folder
 from linkwright.engine.threads import cores, spread_over
 from linkwright.synthesis.free_curve.kernels import kernels
 from linkwright.synthesis.free_curve.likeness import ANGLES, MARKS, POINTS, REACH, RINGS, TURNS
-from linkwright.synthesis.free_curve.nodes import (
-    Complexes,
-    Design,
-    Draw,
-    Floats,
-    Whole,
-    node_paths,
-    random_structure,
-    turned_paths,
-)
+from linkwright.synthesis.free_curve.nodes import Design, Draw, node_paths, random_structure, turned_paths
 from linkwright.synthesis.free_curve.target import Target, even_points, normal
 
 #: Points of a curve; lengths of the parts tried for open curves; steps of one byte in a coordinate.
@@ -139,7 +131,7 @@ class Matches:
     distances: NDArray[np.floating[Any]]
     laid: Callable[[int], Laid]
 
-    def order(self, draw: Draw, most: int) -> NDArray[np.intp]:
+    def order(self, draw: Draw, most: int) -> Indices:
         """Linkages with at most so many joints: the nearest, then all others drawn, the nearer the likelier early."""
         joints = np.array([len(each) // 4 for each in self.atlas.structures])
         order = np.argsort(self.distances, kind="stable")
@@ -158,7 +150,7 @@ def parts(closed: bool) -> list[Part]:
     return [(0, M)] if closed else [(at, length) for length, step in PARTS for at in range(0, M, step)]
 
 
-def places(first: int, length: int) -> NDArray[np.intp]:
+def places(first: int, length: int) -> Indices:
     """Points of a part."""
     last = length * (POINTS - 1) / POINTS if length == M else length
     return np.round(first + np.linspace(0, last, POINTS)).astype(int) % M

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from linkwright.synthesis.free_curve.nodes import Complexes
+from linkwright.core.arrays import Complexes
 from linkwright.synthesis.result import refuse
 
 _TOKEN = re.compile(r"([MmLlHhVvCcSsQqTtAaZz])|([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)|([^\s,])")

@@ -9,12 +9,13 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike
 
+from linkwright.core.arrays import Complexes
 from linkwright.engine.machine_code import available
 from linkwright.synthesis.demands import whole
 from linkwright.synthesis.free_curve.curve_file import read_curve
 from linkwright.synthesis.free_curve.drawn import drawing
 from linkwright.synthesis.free_curve.linkages import Placed, kind_of, linkage_of
-from linkwright.synthesis.free_curve.nodes import Complexes, Design
+from linkwright.synthesis.free_curve.nodes import Design
 from linkwright.synthesis.free_curve.search import JOINTS, Search
 from linkwright.synthesis.free_curve.target import EVEN, Target, even_points, symmetric_distance
 from linkwright.synthesis.path_generation.generate import complex_points

@@ -8,8 +8,9 @@ from string import ascii_uppercase
 
 import numpy as np
 
+from linkwright.core.arrays import Complexes
 from linkwright.synthesis.free_curve.kernels import BLOCK, GUIDE, PIVOT, POINT, SLIDER
-from linkwright.synthesis.free_curve.nodes import Complexes, Design, Node, node_paths, rods_of
+from linkwright.synthesis.free_curve.nodes import Design, Node, node_paths, rods_of
 from linkwright.synthesis.free_curve.target import EVEN, Target, even_points
 from linkwright.synthesis.linkage import Guide, Linkage
 

@@ -7,17 +7,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.synthesis.free_curve.kernels import BLOCK, DYAD, GUIDE, PIVOT, POINT, SLIDER
-from linkwright.synthesis.free_curve.nodes import (
-    Design,
-    Draw,
-    Floats,
-    Node,
-    flat,
-    links_of,
-    pivots_of,
-    turned_paths,
-)
+from linkwright.synthesis.free_curve.nodes import Design, Draw, Node, flat, links_of, pivots_of, turned_paths
 
 #: Positions of a turn at which a new dyad must close.
 TURN = 96

@@ -7,14 +7,11 @@ pivots, pins, slides, points of links and the drawing point.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Complexes, Floats, Whole
 from linkwright.core.dataclass import dataclass
 from linkwright.synthesis.free_curve.kernels import BLOCK, DYAD, FAR, GUIDE, PIVOT, POINT, SLIDER, kernels
 
-Floats = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
-Whole = NDArray[np.int64]
 Node = tuple[int, int, int, int]
 Draw = np.random.Generator
 

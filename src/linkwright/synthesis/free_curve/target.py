@@ -7,11 +7,11 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Complexes, Floats, Whole
 from linkwright.synthesis.free_curve.distances import GRID, HALF
 from linkwright.synthesis.free_curve.kernels import FAR, kernels
-from linkwright.synthesis.free_curve.nodes import Complexes, Design, Floats, Whole, node_paths
+from linkwright.synthesis.free_curve.nodes import Design, node_paths
 from linkwright.synthesis.free_curve.promise import NUMBERS, ROWS
 
 #: Positions of a turn at which a design is examined.
@@ -200,5 +200,5 @@ def curve_distance(a: Complexes, b: Complexes, closed: bool) -> float:
     return min(found)
 
 
-def _columns(points: Complexes) -> NDArray[np.float64]:
+def _columns(points: Complexes) -> Floats:
     return np.column_stack([points.real, points.imag])

@@ -13,9 +13,8 @@ import math
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from linkwright.core.arrays import Floats
 
 #: Intervals at first, and evaluations after which a range is given up.
 FIRST, MOST = 256, 400_000

@@ -14,12 +14,9 @@ Sources: Freudenstein 1955, Trans. ASME 77; Hartenberg and Denavit 1964, Kinemat
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Floats
 from linkwright.synthesis.motion_generation.burmester import five_poses
-
-Floats = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 
 ZEROS = 72
 #: Share of the largest singular value below which pairs of angles do not determine a four-bar.

@@ -8,14 +8,11 @@ only the linkage's own numbers.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Floats, Whole
 from linkwright.core.dataclass import dataclass
 from linkwright.synthesis.function_generation.generators import Generator
 from linkwright.synthesis.least_squares import minimise, with_differences
-
-Floats = NDArray[np.float64]
-Whole = NDArray[np.int64]
 
 TRIED, KEPT, LEFT, STEPS = 12_000, 240, 24, 120
 #: Residual per unit of what is missing to assemble a position.

@@ -7,8 +7,9 @@ import math
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from linkwright.core.arrays import Complexes, Floats
 from linkwright.synthesis.assessment import assess_four_bars
 from linkwright.synthesis.build import four_bar_candidate
 from linkwright.synthesis.demands import allowed_transmission, whole
@@ -22,9 +23,6 @@ from linkwright.synthesis.function_generation.generators import (
     TurningFourBar,
 )
 from linkwright.synthesis.result import Candidate, Synthesis, different, note, ranked, refuse
-
-Floats = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 
 FINE = 181
 #: Candidates whose points differ less than this share of their size are one.

@@ -14,15 +14,13 @@ from fractions import Fraction
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Complexes, Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.synthesis.crank_family import CrankFamily
 from linkwright.synthesis.function_generation.certain import least_sine
 from linkwright.synthesis.linkage import Guide, Linkage
 
-Floats = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 Points = dict[str, Complexes]
 
 #: Denominator of a gear ratio up to which a geared linkage is followed until it repeats itself.

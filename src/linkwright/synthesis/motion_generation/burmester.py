@@ -16,11 +16,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.core.arrays import Complexes, Flags, Floats
 from linkwright.core.dataclass import dataclass
-
-Floats = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
-Flags = NDArray[np.bool_]
 
 #: A solution is real where its conjugate differs by less than this, relative; centres farther than FAR are sliders.
 REAL, FAR = 1e-6, 1e7

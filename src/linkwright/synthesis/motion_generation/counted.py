@@ -25,13 +25,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.core.arrays import Complexes, Flags, Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.synthesis.nine_points.classes import MIX, PROBES
 from linkwright.synthesis.nine_points.start import displacements
-
-Floats = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
-Flags = NDArray[np.bool_]
 
 FILE = "mixed_starts.npz"
 #: Four-bars through M poses and 10 - 2 M points.

@@ -15,8 +15,8 @@ from __future__ import annotations
 from itertools import combinations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Complexes, Flags, Floats, Whole
 from linkwright.core.dataclass import dataclass
 from linkwright.synthesis.least_squares import minimise
 from linkwright.synthesis.motion_generation.burmester import (
@@ -30,10 +30,6 @@ from linkwright.synthesis.motion_generation.burmester import (
     sliders,
 )
 
-Floats = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
-Whole = NDArray[np.int64]
-
 LINES, GRID, SPREAD = 60, 18, 9
 SUBSETS, FIT_STEPS = 60, 60
 
@@ -45,7 +41,7 @@ class Window:
     low: complex
     high: complex
 
-    def holds(self, z: Complexes) -> NDArray[np.bool_]:
+    def holds(self, z: Complexes) -> Flags:
         """Which places lie inside."""
         across = (z.real >= self.low.real) & (z.real <= self.high.real)
         return np.asarray(across & (z.imag >= self.low.imag) & (z.imag <= self.high.imag))

@@ -7,8 +7,9 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from linkwright.core.arrays import Complexes, Floats, Whole
 from linkwright.synthesis.assessment import Assessment, assess_four_bars, assess_slider_cranks
 from linkwright.synthesis.build import (
     candidate,
@@ -32,10 +33,6 @@ from linkwright.synthesis.motion_generation.families import (
 from linkwright.synthesis.motion_generation.mixed import counted_solutions, mixed_solutions
 from linkwright.synthesis.result import Candidate, Synthesis, different, note, ranked, ranking, refuse
 
-Floats = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
-Whole = NDArray[np.int64]
-Flags = NDArray[np.bool_]
 Pose = Sequence[float]
 
 MOST_DYADS = 360

@@ -10,17 +10,13 @@ Source: Tong, Myszka and Murray 2013, ASME DETC2013-12326 (mixed exact pose and 
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Complexes, Floats, Whole
 from linkwright.synthesis.least_squares import minimise, with_differences
 from linkwright.synthesis.motion_generation.burmester import Dyads
 from linkwright.synthesis.motion_generation.counted import KNOWN, Places, all_four_bars, real_ones
 from linkwright.synthesis.nine_points.classes import CLASSES, is_real, relatives
 from linkwright.synthesis.nine_points.query import nine_points
-
-Floats = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
-Whole = NDArray[np.int64]
 
 STARTS, LEFT, STEPS = 800, 120, 80
 

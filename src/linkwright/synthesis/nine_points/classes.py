@@ -8,12 +8,8 @@ is exact.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
-Flags = NDArray[np.bool_]
-Whole = NDArray[np.int64]
+from linkwright.core.arrays import Complexes, Flags, Whole
 
 CLASSES = 1442
 #: Constants of the key that tells classes apart: any general complex numbers do.

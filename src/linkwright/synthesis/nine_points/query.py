@@ -8,8 +8,8 @@ other ways: to the points turned about the first one, from where the solutions a
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Complexes, Flags, Whole
 from linkwright.core.dataclass import dataclass
 from linkwright.synthesis.nine_points.classes import (
     CLASSES,
@@ -22,9 +22,6 @@ from linkwright.synthesis.nine_points.classes import (
 )
 from linkwright.synthesis.nine_points.start import start_set
 from linkwright.synthesis.nine_points.tracker import MOST_STEPS, TOLERANCE, track
-
-Complexes = NDArray[np.complex128]
-Whole = NDArray[np.int64]
 
 #: Other ways that are tried at most; with more classes missing the points are special, and other ways miss them too.
 TURNS, SPECIAL = 8, 100
@@ -66,9 +63,7 @@ def nine_points(points: Complexes) -> NinePoints:
     return NinePoints(found, q, scale, lost, extra)
 
 
-def _completed(
-    found: Complexes, solutions: Complexes, arrived: NDArray[np.bool_], q: Complexes
-) -> tuple[Complexes, int]:
+def _completed(found: Complexes, solutions: Complexes, arrived: Flags, q: Complexes) -> tuple[Complexes, int]:
     """The classes with those of lost and crossed paths, and how many further passes it took."""
     q0, u0 = start_set()
     found = filled(found, conjugate(found))
@@ -87,7 +82,7 @@ def _completed(
     return found, extra
 
 
-def _doubtful(solutions: Complexes, arrived: NDArray[np.bool_]) -> Whole:
+def _doubtful(solutions: Complexes, arrived: Flags) -> Whole:
     """Starts whose path was lost, and both of every pair with the same end."""
     good = np.flatnonzero(arrived)
     keys = class_keys(solutions[good])

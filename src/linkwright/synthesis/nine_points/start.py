@@ -15,13 +15,10 @@ from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Complexes, Whole
 from linkwright.synthesis.nine_points.classes import CLASSES, class_keys, new_classes
 from linkwright.synthesis.nine_points.tracker import track
-
-Complexes = NDArray[np.complex128]
-Whole = NDArray[np.int64]
 
 FILE = "start_set.npz"
 

@@ -19,16 +19,11 @@ Source: Wampler, Morgan and Sommese 1992, J. Mech. Des. 114; Allgower and Georg 
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Complexes, Flags, Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.machine_code import available
 from linkwright.engine.threads import cores, spread_over
-
-Floats = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
-Flags = NDArray[np.bool_]
-Whole = NDArray[np.int64]
 
 #: Paths that are carried together: their matrices stay in the processor's cache.
 CHUNK = 181

@@ -10,15 +10,12 @@ programming (Kraft 1988).
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Complexes, Floats, Whole
 from linkwright.synthesis.crank_family import couplers
 from linkwright.synthesis.least_squares import minimise, with_differences
 from linkwright.synthesis.path_generation.projection import ProjectedPaths
 
-Floats = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
-Whole = NDArray[np.int64]
 Linear = tuple[Complexes, Complexes, Complexes]
 
 #: Starts are moved this far inside the bounds, so that no sine begins at its turning point.

@@ -8,14 +8,12 @@ Source: Roberts 1875, Proc. London Math. Soc. 7.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright.synthesis.assessment import Assessment, assess_four_bars
 from linkwright.synthesis.build import four_bar_candidate, path_of_four_bar
 from linkwright.synthesis.linkage import Linkage
 from linkwright.synthesis.result import Candidate, Synthesis, refuse
 
-Complexes = NDArray[np.complex128]
 Four = tuple[complex, complex, complex, complex]
 
 

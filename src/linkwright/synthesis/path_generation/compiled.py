@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Complexes, Flags, Floats, Whole
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.threads import cores, spread_over
 from linkwright.synthesis.crank_family import CrankFamily
@@ -21,11 +21,6 @@ from linkwright.synthesis.path_generation.kernels import (
     kernels,
 )
 from linkwright.synthesis.path_generation.projection import Demand, ProjectedPaths
-
-Floats = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
-Flags = NDArray[np.bool_]
-Whole = NDArray[np.int64]
 
 #: Starts of one share of a thread's work.
 SHARE = 512

@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from linkwright.core.arrays import Complexes
 from linkwright.synthesis.assessment import assess_four_bars
 from linkwright.synthesis.build import four_bar_candidate, path_of_four_bar
 from linkwright.synthesis.crank_family import couplers
@@ -15,10 +16,6 @@ from linkwright.synthesis.path_generation.projection import Demand
 from linkwright.synthesis.path_generation.search import Found, search
 from linkwright.synthesis.requirements.slider_crank import positive
 from linkwright.synthesis.result import Candidate, Synthesis, different, note, ranked, refuse
-
-Floats = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
-Whole = NDArray[np.int64]
 
 #: Solutions whose lengths agree so far (relative) are one.
 ALIKE = 1e-4

@@ -9,19 +9,14 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Complexes, Flags, Floats, Whole
 from linkwright.engine.machine_code import available
 from linkwright.synthesis.crank_family import CrankFamily, couplers
 from linkwright.synthesis.least_squares import minimise
 from linkwright.synthesis.path_generation.bounded import BoundedPaths
 from linkwright.synthesis.path_generation.compiled import CompiledPaths
 from linkwright.synthesis.path_generation.projection import Demand, ProjectedPaths
-
-Floats = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
-Flags = NDArray[np.bool_]
-Whole = NDArray[np.int64]
 
 #: Starts tried, iterated, and carried to the end: timed and untimed; in arrays.
 TIMED, UNTIMED = (4000, 256, 32), (20000, 1536, 128)

@@ -11,8 +11,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Complexes, Flags
 from linkwright.synthesis.assessment import Assessment, assess_four_bars
 from linkwright.synthesis.build import four_bar_candidate
 from linkwright.synthesis.demands import whole
@@ -20,8 +20,6 @@ from linkwright.synthesis.linkage import Guide, Linkage
 from linkwright.synthesis.requirements.slider_crank import angle_between_limits, not_negative, positive
 from linkwright.synthesis.result import Candidate, Synthesis, SynthesisError, note, refuse
 
-Complexes = NDArray[np.complex128]
-Floats = NDArray[np.float64]
 SAMPLES = 20_001
 #: A rocker swings less than half a turn.
 LARGEST_SWING = math.pi
@@ -92,7 +90,7 @@ def _ratio(theta: float) -> float:
     return (math.pi + theta) / (math.pi - theta)
 
 
-def _good(swing: float, theta: float) -> NDArray[np.bool_]:
+def _good(swing: float, theta: float) -> Flags:
     """Which of the family are crank-rockers of one circuit with the swing and θ."""
     pivots, limits = _family(swing, theta)
     facts, pins = _assess(pivots, limits)
@@ -128,7 +126,7 @@ def _assess(pivots: Complexes, limits: Complexes) -> tuple[Assessment, tuple[Com
 
 def _limit_positions_right(
     pivots: Complexes, pins: tuple[Complexes, Complexes], swing: float, theta: float
-) -> NDArray[np.bool_]:
+) -> Flags:
     """Whether the four-bar of one circuit has the swing and θ: its own limit positions, from its lengths."""
     a, d = np.abs(pins[0][:, 0] - pivots), np.abs(pivots)
     b, c = np.abs(pins[1][:, 0] - pins[0][:, 0]), 1.0

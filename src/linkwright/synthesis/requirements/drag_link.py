@@ -15,15 +15,12 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Complexes, Floats
 from linkwright.synthesis.assessment import TYPES, Assessment, assess_four_bars
 from linkwright.synthesis.build import four_bar_candidate
 from linkwright.synthesis.requirements.slider_crank import angle_between_limits, positive
 from linkwright.synthesis.result import Synthesis, SynthesisError, refuse
-
-Floats = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 
 GRID, ROUNDS, BEST = 60_000, 40, 60
 DOUBLE = TYPES.index("double_crank")

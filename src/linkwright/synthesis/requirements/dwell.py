@@ -10,17 +10,14 @@ Source: Norton, Design of Machinery, sec. 3.9; Kåsa 1976, IEEE Trans. Instrum. 
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Complexes, Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.synthesis.crank_family import CrankFamily, couplers
 from linkwright.synthesis.function_generation.generators import Stephenson
 from linkwright.synthesis.linkage import Linkage
 from linkwright.synthesis.requirements.slider_crank import positive
 from linkwright.synthesis.result import Candidate, Synthesis, SynthesisError, refuse
-
-Complexes = NDArray[np.complex128]
-Floats = NDArray[np.float64]
 
 #: Crank-rockers tried, positions of a turn, arcs kept; positions of the turn of a candidate.
 ATLAS, SAMPLES, ARCS, FINE = 4000, 72, 40, 3600

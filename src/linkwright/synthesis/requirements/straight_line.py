@@ -16,8 +16,8 @@ import math
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.core.arrays import Complexes
 from linkwright.core.dataclass import dataclass
 from linkwright.synthesis.assessment import assess_four_bars
 from linkwright.synthesis.build import coupler_unit, four_bar_candidate, path_of_four_bar
@@ -25,8 +25,6 @@ from linkwright.synthesis.linkage import Linkage
 from linkwright.synthesis.requirements.slider_crank import positive
 from linkwright.synthesis.result import Candidate, Synthesis, refuse
 
-Complexes = NDArray[np.complex128]
-Floats = NDArray[np.float64]
 SAMPLES = 361
 
 
