@@ -127,9 +127,7 @@ def _no_such_joint(joint: str, groups: dict[str, tuple[Group, tuple[str, str]]])
 def _drawn_states(mechanism: Mechanism, structure: Structure, drawing: Drawing) -> dict[str, float]:
     """Chain coordinates of the groups without closed form."""
     states: dict[str, float] = {}
-    for group in structure.groups:
-        if not group.unknowns or closed_form(group):
-            continue
+    for group in _open.get(structure, None, lambda: _without_closed_form(structure)):
         if not drawing and any(step.turns for step in group.unknowns):
             raise AssemblyError(
                 Sentence(
@@ -152,6 +150,13 @@ def _drawn_states(mechanism: Mechanism, structure: Structure, drawing: Drawing) 
     for link in _counted(mechanism, structure):
         states[turn_state(link)] = drawing.angle(link) or 0.0
     return states
+
+
+def _without_closed_form(structure: Structure) -> tuple[Group, ...]:
+    return tuple(group for group in structure.groups if group.unknowns and not closed_form(group))
+
+
+_open: Recent[Structure, tuple[Group, ...]] = Recent(64)
 
 
 def _counted(mechanism: Mechanism, structure: Structure) -> list[str]:

@@ -161,7 +161,10 @@ class _Search:
     def __init__(self, motion: Motion, output: Output) -> None:
         self.motion = motion
         self.output = output
-        self.value_names, self.rate_names = program_names(motion.mechanism, output)
+        courses = motion.solver.programs.courses
+        if output not in courses:
+            courses[output] = program_names(motion.mechanism, output)
+        self.value_names, self.rate_names = courses[output]
         self.between = Between(motion)
         positions = motion.positions
         self.period = positions.period if self.between.closes else None

@@ -45,6 +45,7 @@ class MotionPrograms:
         self.manner = manner
         self.point_keys: dict[str, str] = {}
         self.meanings: dict[str, Output] = {}
+        self.courses: dict[Output, tuple[tuple[str, ...], tuple[str, str]]] = {}
         self.lock = threading.RLock()
         self._programs: dict[tuple[str, ...], NumpyProgram] = {}
 

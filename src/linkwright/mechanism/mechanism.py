@@ -244,7 +244,9 @@ class Mechanism(Frozen):
             new[address] = self._checked(address, expression.evaluate(new))
         moved = {self._owners.get(each) for each in (*changes, *kept) if new[each] != known[each]}
         value, parameters = new.__getitem__, {name: new[name] for name in self.parameters}
-        renewed = {sort: {name for kind, name in filter(None, moved) if kind == sort} for sort in _SORTS}
+        renewed: dict[str, set[str]] = {sort: set() for sort in _SORTS}
+        for sort, name in filter(None, moved):
+            renewed[sort].add(name)
         links = {"frame": self.frame, **self.links}
         links |= {name: links[name].with_dimensions(value) for name in renewed["link"]}
         joints = {name: self.joints[name].with_dimensions(value) for name in renewed["joint"]}

@@ -278,19 +278,21 @@ class Analysis:
         solved = grid.motion if self.forces is None else grid.forces
         rows = np.stack(solved.rows.fetch(names, lambda missing: self._read(missing, solved)))
         pieces, count = rows.reshape(len(names), -1, POINTS), len(names)
+        both = np.empty((2, count, POINTS, pieces.shape[1]))
+        both[0] = pieces.swapaxes(1, 2)
+        np.negative(both[0], out=both[1])
+        values = both.reshape(2 * count, *both.shape[2:])
+        tops = values.max(axis=1)
+        size = tops.max(axis=1).reshape(2, count).max(axis=0)
         with np.errstate(all="ignore"):
-            means, met = grid.means(pieces)
-            squares, even = grid.means(pieces * pieces)
+            means, met = grid.means(pieces, size)
+            squares, even = grid.means(pieces * pieces, size * size)
             sizes = np.sqrt(squares)
-        values = np.ascontiguousarray(pieces.swapaxes(1, 2))
-        both = np.concatenate([values, -values])
-        tops = both.max(axis=1)
-        piece, place, top, rough = largest(both, tops)
+        piece, place, top, rough = largest(values, tops)
         time = grid.edges[piece] + 0.5 * (place + 1.0) * np.diff(grid.edges)[piece]
         high, low = top[:count], -top[count:]
         time[np.tile(high - low <= ROUNDING * np.abs(high), 2)] = grid.start
-        highest = tops.max(axis=1)
-        smooth = rough <= np.tile(grid.tolerance * np.maximum(highest[:count], highest[count:]), 2)
+        smooth = rough <= np.tile(grid.tolerance * size, 2)
         first, last, never = time[:count], time[count:], np.full(count, np.nan)
         above, below, upwards = smooth[:count], smooth[count:], np.abs(high) >= np.abs(low)
         found = {

@@ -137,9 +137,11 @@ class CycleGrid:
             return found
         return Piecewise(self.edges, pieces, self.function(signal, of), self.edges, tolerance)
 
-    def means(self, values: Floats) -> tuple[Floats, Flags]:
-        """Means over the time of signals (k, pieces, POINTS), and which of them polynomials meet everywhere."""
-        met = tails(values).max(axis=1) <= self.tolerance * np.abs(values).max(axis=(1, 2))
+    def means(self, values: Floats, sizes: Floats) -> tuple[Floats, Flags]:
+        """Means over the time of signals (k, pieces, POINTS), and which of them polynomials meet everywhere.
+
+        ``sizes``: the largest of their sizes, (k,)."""
+        met = tails(values).max(axis=1) <= self.tolerance * sizes
         return 0.5 * (values @ WEIGHTS) @ np.diff(self.edges) / (self.end - self.start), met
 
     def extremes_between(

@@ -36,7 +36,7 @@ def metrics(result: Motion | Forces, names: Iterable[str] | str | None = None) -
     rows: list[MetricValue] = []
     skipped: list[str] = []
     chosen = {name: metric() for name, metric in _chosen(asked).items()}
-    applying = {name for name, metric in chosen.items() if metric.applies(analysis)}
+    applying = [name for name, metric in chosen.items() if metric.applies(analysis)]
     for name in applying:
         if not chosen[name].own_values:
             chosen[name].asked(analysis)
