@@ -140,6 +140,15 @@ def test_an_interruption_says_from_which_file_it_goes_on(
         raise KeyboardInterrupt
 
     files = [lw.optimize(press, evaluations=200, progress=stop).state for _ in range(2)]
+    far = lw.optimize(
+        press, keep={"stroke guide": "at least 200 mm"}, evaluations=200, progress=stop, state="far.json"
+    )
+    assert (
+        far.best.missed == ("stroke guide",) and "--state far.json" in far.text()
+    )  # not that none can meet it
+    vary = {"crank.length": "300..400 mm", "rod.length": "100..200 mm"}
+    with pytest.raises(KeyboardInterrupt, match=r"--state still\.json"):  # not that none can move
+        lw.optimize(press, vary=vary, evaluations=200, progress=stop, state="still.json")
     assert [each and each.name for each in files] == ["Press.search.json", "Press_2.search.json"]
     assert all(each is not None and each.exists() for each in files)
 

@@ -100,10 +100,11 @@ def optimize(
         of the start, so none has a branch defect or another order of positions.
 
     Raises:
-        OptimizeError: the demands cannot be met together; ``nearest`` is the design that misses them least.
+        OptimizeError: the demands cannot be met together; ``nearest`` is the design that misses them least. A search
+            that was stopped before any met them gives that design with what it misses.
         ModelError: settings that cannot be read, with all findings.
-        KeyboardInterrupt: stopped before the first designs were known; of a machine whose designs go one by one it is
-            a ``SearchInterrupted`` with the file ``state`` that holds those that were.
+        KeyboardInterrupt: stopped before the first designs were known, or one that moves; a ``SearchInterrupted``
+            with the file ``state`` where that holds some.
         LinkwrightError: a state of another problem; nothing moves.
     """
     mechanism, document, given = _source(source, settings)
@@ -180,9 +181,11 @@ class _Run:
         state, judged = self._searched()
         chosen = self._chosen(judged)
         if not np.isfinite(chosen.violations).all():
+            if self.stopped is not None:
+                raise SearchInterrupted(self.stopped)
             raise RequestError(self._nothing(judged))
         found = self._made(chosen, state, made=True)
-        if not (judged.total == 0).any():
+        if self.stopped is None and not (judged.total == 0).any():
             raise OptimizeError(self._failing(found), found)
         return found
 

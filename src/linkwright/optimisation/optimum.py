@@ -162,7 +162,7 @@ class OptimizeError(LinkwrightError):
 
 
 class SearchInterrupted(KeyboardInterrupt):
-    """A search stopped before its first designs were all known; it goes on from the file ``state``."""
+    """A search stopped before its first designs were all known, or one that moves; it goes on from ``state``."""
 
     def __init__(self, state: Path) -> None:
         self.state = state
