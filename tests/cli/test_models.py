@@ -30,7 +30,8 @@ driver: {turn: crank, about: O1, speed: 1 rad/s}
 
 
 def test_check_of_good_models(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["check", "gallery:jaw_crusher_sixbar", "gallery:slider_crank_inline"]) == 0
+    models = ["jaw_crusher_sixbar", "slider_crank_inline", "jaw_crusher_sixbar_as_reported"]
+    assert main(["check", *(f"gallery:{name}" for name in models)]) == 0
     shown = capsys.readouterr().out
     assert "gallery:jaw_crusher_sixbar: fine (5 moving links, mobility 1)" in shown
     assert "gallery:slider_crank_inline: fine (3 moving links, mobility 1)" in shown

@@ -309,3 +309,23 @@ def test_check_finds_more_of_a_stroke_than_there_is(
     file.write_text(PRESS.replace("PHASE", phase), encoding="utf-8")
     assert main(["check", str(file)]) == 1
     assert "press.yaml:13:" in (said := capsys.readouterr().out) and "too much of the stroke" in said
+
+
+@pytest.mark.parametrize(
+    ("load", "words"),
+    [
+        (
+            "{kind: torque, on: rocker, table: {over: rocker, x: [90 deg, 100 deg], y: [0 N·m, 5 N·m]}}",
+            "100° to",
+        ),
+        ('{kind: torque, on: rocker, magnitude: "5 N·m * sqrt(rocker - 2 rad)"}', "no finite real value"),
+    ],
+)
+def test_check_tries_tables_and_expressions_over_the_cycle(
+    load: str, words: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "m.yaml"
+    path.write_text(CRANK_ROCKER.replace("LOAD", load), "utf-8")
+    assert main(["check", str(path)]) == 1
+    said = capsys.readouterr().out
+    assert "m.yaml:12:9: loads.push: " in said and words in said

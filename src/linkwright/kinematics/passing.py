@@ -98,11 +98,12 @@ def plainly_passed(
         return None
     names = [each for group in modal(motion) for each in measures(motion, group)]
     followed = [program_names(mechanism, output)[0] for output in outputs]
-    rows = _turned(mechanism, structure, motion, [*names, *chain.from_iterable(followed)], steps)
+    wanted = tuple(dict.fromkeys((*names, *chain.from_iterable(followed))))
+    rows = _turned(mechanism, structure, motion, wanted, steps)
     if rows is None or not nothing_passed(names, rows[: len(names)]):
         return None
-    left = iter(rows[len(names) :])
-    return [_reverses([next(left) for _ in each], mechanism.size) for each in followed]
+    found = dict(zip(wanted, rows, strict=True))
+    return [_reverses([found[name] for name in each], mechanism.size) for each in followed]
 
 
 def _reverses(rows: Sequence[Sequence[float]], size: float) -> bool:

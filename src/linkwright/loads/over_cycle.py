@@ -112,19 +112,24 @@ class CycleCourse:
 
 
 def evaluate(load: Load, signals: Signals) -> Floats:
+    """The same, with errors that name the load."""
+    try:
+        return magnitudes(load, signals)
+    except LinkwrightError as error:
+        raise LinkwrightError(Sentence("loads.of_load", name=load.name, cause=error)) from None
+
+
+def magnitudes(load: Load, signals: Signals) -> Floats:
     """Magnitude of a load at every position, (n,), in SI; zero outside its phase.
 
     A load with a phase but without any magnitude (a force by its components) gives 1 within the phase.
 
     Raises:
         LinkwrightError: an expression that has no finite value, a table that does not cover the positions, or
-            a phase whose limit positions do not exist; the sentence names the load.
+            a phase whose limit positions do not exist.
     """
-    try:
-        found = load.from_cycle(signals)
-        return _evaluated(load, CycleCourse(load, signals)) if found is None else found
-    except LinkwrightError as error:
-        raise LinkwrightError(Sentence("loads.of_load", name=load.name, cause=error)) from None
+    found = load.from_cycle(signals)
+    return _evaluated(load, CycleCourse(load, signals)) if found is None else found
 
 
 def activity(load: Load, signals: Signals) -> Activity:

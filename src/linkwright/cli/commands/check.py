@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from linkwright import gallery
 from linkwright.cli.session import Session
+from linkwright.core.expressions import Expression
 from linkwright.errors import NO_FILE, Finding, LinkwrightError, ModelError
 from linkwright.words import Say
 from linkwright.words.sentence import Sentence
@@ -16,6 +17,7 @@ from linkwright.words.sentence import Sentence
 if TYPE_CHECKING:
     from linkwright.fields.nodes import Node
     from linkwright.fields.signals import MovingPhase, SwingPhase
+    from linkwright.loads.base import Load
     from linkwright.mechanism.mechanism import Mechanism
     from linkwright.structure.group import Structure
 
@@ -90,7 +92,8 @@ def findings_of(name: str) -> tuple[list[Finding], dict[str, object]]:
         if getattr(phase, "part", None) or not each
     ]
     unsure = [load for load in unsure if all(each.code != "no-motion" for each in found)]
-    idle = _never_acting(name, mechanism, unsure) if unsure and not turned else []
+    varying = [load for load, each in mechanism.loads.items() if _varies(each)]
+    idle = _of_loads(name, mechanism, unsure, varying) if (unsure or varying) and not turned else []
     notes += _assumed(name, mechanism, built)
     mended = [*turned, *idle, *_of_settings(name, mechanism), *notes]
     return [*found, *(_located(each, root, place) for each in mended)], fact
@@ -157,14 +160,19 @@ def _swings(mechanism: Mechanism) -> dict[str, MovingPhase | SwingPhase]:
     return {load: phase for load, phase in phases.items() if isinstance(phase, MovingPhase | SwingPhase)}
 
 
-def _never_acting(name: str, mechanism: Mechanism, loads: Sequence[str]) -> list[Finding]:
+def _varies(load: Load) -> bool:
+    """Whether a load's size follows an expression or a table, which may not hold for all positions."""
+    return getattr(load, "table", None) is not None or isinstance(getattr(load, "magnitude", 0.0), Expression)
+
+
+def _of_loads(name: str, mechanism: Mechanism, loads: Sequence[str], varying: Sequence[str]) -> list[Finding]:
     """Loads whose phase the motion does not have: of an output that never reverses, of more than its stroke, while
-    an output moves as it never does."""
+    an output moves as it never does; and ``varying`` ones that have no value somewhere in the cycle."""
     from linkwright.fields.signals import MovingPhase
     from linkwright.kinematics.solve import try_motion
     from linkwright.kinetostatics.signals import MotionSignals
     from linkwright.loads.base import AT_REST
-    from linkwright.loads.over_cycle import activity
+    from linkwright.loads.over_cycle import activity, magnitudes
 
     signals, found = MotionSignals(try_motion(mechanism, TRIED)), []
     for load in loads:
@@ -183,6 +191,11 @@ def _never_acting(name: str, mechanism: Mechanism, loads: Sequence[str]) -> list
                 Sentence("check.never_do"),
             )
             found.append(Finding("warning", name, key, told, remedy, "no-motion"))
+    for load in varying:
+        try:
+            magnitudes(mechanism.loads[load], signals)
+        except LinkwrightError as error:
+            found.append(Finding("error", name, f"loads.{load}", error.sentence, code="load"))
     return found
 
 
