@@ -145,3 +145,14 @@ def test_machines_without_a_gradient_of_their_swept_area_say_so() -> None:
             lw.LinkwrightError, match=r"swept_area of .* has a gradient where one driver turns"
         ):
             lw.objective(machine, "swept_area", vary=[address])
+
+
+def test_the_least_area_for_a_stroke_is_found_with_exact_gradients() -> None:
+    """A stroke of 0.5 m needs a crank of 0.25 m, and the plate (0.5 + 0.5) 0.4 m²."""
+    found = lw.optimize(
+        lw.loads(SLIDER), vary={"crank.length": "0.1..0.6 m"}, minimize="swept_area_of_link plate",
+        keep={"plate.B.x range": "at least 0.5 m"}, evaluations=200,
+    )  # fmt: skip
+    assert found.exact
+    assert found.mechanism().dimension("crank.length") == pytest.approx(0.25, rel=1e-6)
+    assert area(found.mechanism(), "plate") == pytest.approx(0.4, rel=1e-6)

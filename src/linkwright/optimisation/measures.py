@@ -28,7 +28,9 @@ from linkwright.optimisation.problem import Problem
 from linkwright.study.alternatives import Alternative
 from linkwright.study.cluster import current, in_turn
 from linkwright.study.criteria import criterion
-from linkwright.study.metric_cycle import MetricCycle, metric_cycle
+from linkwright.study.design_numbers import side_by_side
+from linkwright.study.metric_cycle import MetricCycle
+from linkwright.study.swept_designs import SweptDesigns
 from linkwright.study.terms import OWN, Asked, Term, metric_of
 from linkwright.study.vary import refuse_moved_positions
 from linkwright.words.sentence import Sentence
@@ -54,8 +56,8 @@ class Measures:
             name for _, names in self.expressions.values() for name in names.values()
             if name not in self._dimensions and name not in problem.paths
         ))  # fmt: skip
-        self.cycle = None if self._moves_positions() else self._cycle()
-        self.side_by_side = self.cycle is not None or not self.numbers
+        self.cycles = [] if self._moves_positions() else self._cycles()
+        self.side_by_side = bool(self.cycles) or not self.numbers
         self.backend: Backend = "llvm" if available() else "numpy"
         self.paths = PathErrors(self.mechanism, problem.addresses, problem.paths, self.backend)
         self.evaluations = 0
@@ -107,18 +109,13 @@ class Measures:
         return False
 
     # many designs ------------------------------------------------------------------------------------
-    def _cycle(self) -> MetricCycle | None:
-        terms = [self._term(name) for name in self.numbers]
-        found = (
-            metric_cycle(
-                self.mechanism, self.problem.addresses, terms, steps=self.problem.steps, asked=self._asked
-            )
-            if terms
-            else None
-        )
-        if found is None or {each.name for each in found.terms} != set(self.numbers):
-            return None
-        return found
+    def _cycles(self) -> list[MetricCycle | SweptDesigns]:
+        """What finds all numbers of all designs at once; none where some are found one by one."""
+        terms, problem = [self._term(name) for name in self.numbers], self.problem
+        if not terms:
+            return []
+        found = side_by_side(self.mechanism, problem.addresses, terms, self._asked, steps=problem.steps)
+        return found if {term.name for each in found for term in each.terms} == set(self.numbers) else []
 
     def _term(self, name: str) -> str | Term:
         if _is_metric(name) or not is_summary(name):
@@ -139,13 +136,12 @@ class Measures:
             return units.DIMENSIONS["area"]
         if name in self._dimensions:
             return dimension_of(self.mechanism, name) or units.NONE
-        if self.cycle is not None:
-            term = next(each for each in self.cycle.terms if each.name == name)
+        for cycle, term in ((each, term) for each in self.cycles for term in each.terms if term.name == name):
             if term.dimension:
                 return powers(term.dimension)
             summary = one(term.parts[0])
             angle = summary.kind in ("argmin", "argmax")
-            return powers("angle" if angle else self.cycle.traced.named.quantity(summary.output).dimension)
+            return powers("angle" if angle else cycle.traced.named.quantity(summary.output).dimension)
         found = criterion(name).measure(self._alternative(self.mechanism))
         if found is None and not is_summary(name):
             metric = metric_of(name)
@@ -162,10 +158,10 @@ class Measures:
     def _found(self, columns: Mapping[str, Floats], count: int) -> dict[str, Floats]:
         if not self.numbers:
             return {}
-        if self.cycle is not None:
+        if self.cycles:
             with np.errstate(all="ignore"):
-                seen = self.cycle.evaluate(columns, backend=self.backend)
-            return {name: np.where(seen.certain, seen.values[name], np.nan) for name in self.numbers}
+                seen = [cycle.evaluate(columns, backend=self.backend) for cycle in self.cycles]
+            return {name: np.where(s.certain, v, np.nan) for s in seen for name, v in s.values.items()}
         designs = [*zip(*(column.tolist() for column in columns.values()), strict=True)]
         new = [each for each in dict.fromkeys(designs) if each not in self.judged]
         client = current()
@@ -238,10 +234,11 @@ class Measures:
             slopes[name] = np.tile([1.0 if address == name else 0.0 for address in by], (count, 1))
         for name in self.paths.parts:
             found[name], slopes[name] = self.paths.with_slopes(name, columns, by)
-        if self.numbers:
-            numbers, gradients = self._numbers_with_slopes(columns, by)
-            found |= zip(self.numbers, numbers, strict=True)
-            slopes |= zip(self.numbers, gradients, strict=True)
+        for cycle in self.cycles:
+            names = [each.name for each in cycle.terms]
+            numbers, gradients = self._numbers_with_slopes(cycle, names, columns, by)
+            found |= zip(names, numbers, strict=True)
+            slopes |= zip(names, gradients, strict=True)
         values = {text: self._combined(text, found) for text in self.expressions}
         return values, {text: self._chained(text, found, slopes) for text in self.expressions}
 
@@ -264,14 +261,17 @@ class Measures:
         return total
 
     def _numbers_with_slopes(
-        self, columns: Mapping[str, Floats], by: tuple[str, ...]
+        self,
+        cycle: MetricCycle | SweptDesigns,
+        names: list[str],
+        columns: Mapping[str, Floats],
+        by: tuple[str, ...],
     ) -> tuple[Floats, Floats]:
-        """Values (numbers, designs) and gradients (numbers, designs, k) of design numbers."""
-        assert self.cycle is not None
-        own = [k for k, address in enumerate(by) if address in self.cycle.dimensions]
-        asked, mine = [{name: 1.0} for name in self.numbers], [by[k] for k in own]
+        """Values (numbers, designs) and gradients (numbers, designs, k) of design numbers that a cycle finds."""
+        own = [k for k, address in enumerate(by) if address in cycle.dimensions]
+        asked, mine = [{name: 1.0} for name in names], [by[k] for k in own]
         with np.errstate(all="ignore"):
-            values, part = self.cycle.gradients(asked, columns, mine, backend=self.backend)
+            values, part = cycle.gradients(asked, columns, mine, backend=self.backend)
         slopes = np.zeros((*values.shape, len(by)))
         slopes[:, :, own] = part
         return values, slopes

@@ -15,16 +15,25 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import Analysis
 from linkwright.study.metric_cycle import MetricCycle, metric_cycle
 from linkwright.study.swept_designs import SweptDesigns, swept_designs
-from linkwright.study.terms import Asked, measured
+from linkwright.study.terms import Asked, Term, measured
 from linkwright.words.sentence import Sentence
 
 
 def side_by_side(
-    mechanism: Mechanism, varied: Iterable[str], names: Sequence[str], asked: Asked | None = None
+    mechanism: Mechanism,
+    varied: Iterable[str],
+    names: Sequence[str | Term],
+    asked: Asked | None = None,
+    *,
+    steps: int = 360,
 ) -> list[MetricCycle | SweptDesigns]:
-    """What finds those design numbers that are found of all designs at once; ``asked``: see ``terms.term``."""
-    by = tuple(varied)
-    found = (metric_cycle(mechanism, by, names, asked=asked), swept_designs(mechanism, by, names))
+    """What finds those design numbers that are found of all designs at once; ``asked``, ``steps``: see
+    ``metric_cycle``."""
+    by, plain = tuple(varied), [name for name in names if isinstance(name, str)]
+    found = (
+        metric_cycle(mechanism, by, names, steps=steps, asked=asked),
+        swept_designs(mechanism, by, plain),
+    )
     return [each for each in found if each is not None and each.terms]
 
 

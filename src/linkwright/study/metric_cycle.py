@@ -324,19 +324,6 @@ class MetricCycle:
         return design_table(cycle.dimensions, known, columns)
 
     # gradients --------------------------------------------------------------------------------------
-    def gradient(
-        self,
-        weights: Mapping[str, float],
-        columns: Mapping[str, Floats],
-        by: Sequence[str],
-        *,
-        threads: int | None = 1,
-        backend: Backend = "auto",
-    ) -> tuple[Floats, Floats]:
-        """A weighted sum of terms (designs,) and its gradient (designs, by); NaN where it is not certain."""
-        values, slopes = self.gradients([weights], columns, by, threads=threads, backend=backend)
-        return values[0], slopes[0]
-
     def gradients(
         self,
         sums: Sequence[Mapping[str, float]],

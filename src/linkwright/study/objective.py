@@ -115,7 +115,10 @@ class OverMetrics:
 
     def many(self, columns: Mapping[str, Floats], threads: int | None) -> tuple[Floats, Floats]:
         """Values (designs,) and gradients (designs, names)."""
-        return self.cycle.gradient(self.weights, columns, self.names, threads=threads, backend=self.backend)
+        values, slopes = self.cycle.gradients(
+            [self.weights], columns, self.names, threads=threads, backend=self.backend
+        )
+        return values[0], slopes[0]
 
     def values(self, columns: Mapping[str, Floats], threads: int | None) -> Floats:
         """Values (designs,)."""

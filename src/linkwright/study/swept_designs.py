@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from functools import cached_property
 
 import numpy as np
@@ -104,40 +104,41 @@ class SweptDesigns:
         self, columns: Mapping[str, Floats], *, threads: int | None = None, backend: Backend = "auto"
     ) -> Found:
         """The areas of the designs with the given columns, (designs,) each."""
-        values, _ = self._found(columns, None, threads, backend)
+        values, _ = self._found(columns, np.empty((0, len(self.terms))), threads, backend)
         rows = dict(zip((each.name for each in self.terms), values, strict=True))
         return Found(rows, np.asarray(np.isfinite(values).all(axis=0)))
 
-    def gradient(
+    def gradients(
         self,
-        weights: Mapping[str, float],
+        sums: Sequence[Mapping[str, float]],
         columns: Mapping[str, Floats],
-        by: Iterable[str],
+        by: Sequence[str],
         *,
         threads: int | None = 1,
         backend: Backend = "auto",
     ) -> tuple[Floats, Floats]:
-        """A weighted sum of areas (designs,) and its gradient (designs, by); NaN of designs that do not pass."""
-        factors = np.array([weights[each.name] for each in self.terms])
+        """Weighted sums of areas (sums, designs) and their gradients (sums, designs, by); NaN of designs that do not
+        pass."""
+        factors = np.array([[weights.get(each.name, 0.0) for each in self.terms] for weights in sums])
         values, fields = self._found(columns, factors, threads, backend)
-        names = [f"by {name}" for name in self._rows]
-        _, slopes = self._backwards.evaluate(
-            self._table(self._backwards.cycle, columns),
-            self._gauss.positions,
-            dict(zip(names, fields.swapaxes(0, 1), strict=True)),
-            threads=threads,
-            backend=backend,
-        )
+        table, names = self._table(self._backwards.cycle, columns), [f"by {name}" for name in self._rows]
+        slopes = np.full((*fields.shape[:2], len(by)), np.nan)
         places = [self._backwards.wrt.index(name) for name in by]
-        return factors @ values, slopes[:, places]
+        for slope, field in zip(slopes, fields, strict=True):
+            given = dict(zip(names, field.swapaxes(0, 1), strict=True))
+            _, found = self._backwards.evaluate(
+                table, self._gauss.positions, given, threads=threads, backend=backend
+            )
+            slope[:] = found[:, places]
+        return factors @ values, slopes
 
     def _found(
-        self, columns: Mapping[str, Floats], factors: Floats | None, threads: int | None, backend: Backend
+        self, columns: Mapping[str, Floats], factors: Floats, threads: int | None, backend: Backend
     ) -> tuple[Floats, Floats]:
-        """Areas (terms, designs), and where they are weighted the derivatives (designs, rows, n) of their sum."""
+        """Areas (terms, designs), and derivatives (sums, designs, rows, n) of their sums by factors (sums, terms)."""
         table = self._table(self._curves_of, columns)
         values = np.full((len(self.terms), len(table)), np.nan)
-        fields = np.zeros((len(table) if factors is not None else 0, len(self._rows), self._gauss.count))
+        fields = np.zeros((len(factors), len(table), len(self._rows), self._gauss.count))
         for first in range(0, len(table), BLOCK):
             part = table[first : first + BLOCK]
             ((_, known, _),) = self._curves_of.blocks(
@@ -149,9 +150,9 @@ class SweptDesigns:
                 for number, chosen in enumerate(self._chosen):
                     hull = max((SweptHull(curves, own) for own in chosen), key=lambda each: each.area)
                     values[number, first + k] = hull.area
-                    if factors is not None:
+                    if factors[:, number].any():
                         weights = hull.weights().swapaxes(2, 3).reshape(len(self._rows), -1)
-                        fields[first + k] += factors[number] * weights
+                        fields[:, first + k] += factors[:, number, None, None] * weights
         return values, fields
 
     def _curves(self, rows: Floats) -> Curves:
