@@ -6,11 +6,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 import linkwright as lw
 from linkwright.engine.sweep import Backend
 from linkwright.study import sweep
 from linkwright.study.designs import sweep_curves
+from linkwright.study.one_by_one import OneByOne
+
+Floats = NDArray[np.float64]
 
 CRANK = np.array([20.0, 35.0, 50.0, 65.0]) / 1000
 ROD = np.array([150.0, 400.0, 170.0, 220.0]) / 1000
@@ -264,19 +268,40 @@ def test_one_design_among_others_that_passes_change_points_is_found() -> None:
     assert found["follower.angular_velocity min"][1] == pytest.approx(10.0, rel=1e-9)
 
 
-def test_loads_on_groups_that_newton_solves() -> None:
-    """A sweep whose program has both loads that follow the motion and chain coordinates."""
+@pytest.mark.parametrize(
+    ("size", "limits", "speed"),
+    [
+        ('magnitude: "20 N*(1 + sin(input))"', None, 6.0),
+        ("ramp: [5 N, 20 N], phase: {of: plate, from: min, to: max}", 2, 6.0),
+        ("ramp: [5 N, 20 N], phase: {of: plate, from: min, to: max, last: 0.3}", 2, -6.0),
+        ("ramp: [5 N, 20 N], phase: {of: bar_2, from: max, to: min}", 4, 6.0),
+    ],
+)
+def test_loads_on_groups_that_newton_solves(
+    size: str, limits: int | None, speed: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """All designs together, but where an output has more than two limits; against every design alone."""
+    alone: list[int] = []
+    rows = OneByOne.rows
+
+    def counted(
+        self: OneByOne, names: tuple[str, ...], columns: dict[str, Floats]
+    ) -> tuple[dict[str, Floats], dict[int, str]]:
+        alone.append(len(columns["crank.A.x"]))
+        return rows(self, names, columns)
+
+    monkeypatch.setattr(OneByOne, "rows", counted)
     text = lw.dump(lw.load("gallery:triad"))
-    text += """
-loads:
-  push: {kind: force, on: plate, at: R, direction: 90 deg, magnitude: "20 N*(1 + sin(input))"}
-"""
-    mechanism = lw.loads(text)
+    text += f"\nloads:\n  push: {{kind: force, on: plate, at: R, direction: 90 deg, {size}}}\n"
+    mechanism = lw.loads(text).with_dimensions({"driver.speed": speed})
     varied = np.array([0.029, 0.03, 0.031])
-    found = sweep(mechanism, {"crank.A.x": varied}, outputs=["driver.effort rms"])
+    found = sweep(mechanism, {"crank.A.x": varied}, outputs=["driver.effort rms", "load push mean"], steps=90)
+    assert sum(alone) == (3 if limits == 4 else 0)
     for index, value in enumerate(varied):
-        torque = lw.solve_forces(mechanism.with_dimensions({"crank.A.x": float(value)})).input_torque
-        assert found["driver.effort rms"][index] == pytest.approx(np.sqrt((torque**2).mean()), rel=1e-9)
+        forces = lw.solve_forces(mechanism.with_dimensions({"crank.A.x": float(value)}), steps=90)
+        rms = np.sqrt((forces.input_torque**2).mean())
+        assert found["driver.effort rms"][index] == pytest.approx(rms, rel=1e-12)
+        assert found["load push mean"][index] == pytest.approx(forces.load("push").magnitude.mean(), rel=1e-9)
 
 
 @pytest.mark.parametrize(

@@ -161,8 +161,8 @@ def sweep(
 
     A dimension that changes the positions of the input is refused. Friction beside wheels, racks or cams or near
     locking, loads that divide by an output or follow a link that turns through, those between limit positions where
-    the cycle is no whole number of turns at constant speed or a group has no closed form, and motion through change
-    points are found design by design, in milliseconds each.
+    the cycle is no whole number of turns at constant speed, and motion through change points are found design by
+    design, in milliseconds each.
     """
     positions = over_cycle(mechanism, steps)
     columns = design_values(mechanism, vary)

@@ -7,20 +7,21 @@ from collections.abc import Iterable, Mapping, Sequence
 import numpy as np
 
 from linkwright.core.arrays import Flags, Floats, Indices
+from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.numpy_backend import numpy_program
 from linkwright.engine.program import Program
 from linkwright.engine.recent import Recent
-from linkwright.engine.reductions import Reduction
-from linkwright.engine.sweep import Backend, Results
-from linkwright.engine.sweep import sweep as engine_sweep
+from linkwright.engine.reductions import VALID_COUNT, Reduction, Results
+from linkwright.engine.stage import Backend, Stage
 from linkwright.engine.trace import Scalar, select
 from linkwright.kinematics.cycle import Positions, over_cycle
 from linkwright.kinematics.step_rule import StepRule
 from linkwright.kinetostatics.traced_loads import AlongInput
 from linkwright.mechanism.geometry import mechanism_size
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.study.limit_stages import Way, constants, limit_stages
 from linkwright.study.loaded_cycle import along_input, doubtful, doubts, with_loads
-from linkwright.study.traced import NEAREST, VALID, Traced
+from linkwright.study.traced import NEAREST, VALID, Traced, design_table
 from linkwright.study.vary import positions_steps
 
 #: Newton steps per position, and of one attempt at the beginning; the change of a coordinate (rad, or share of the
@@ -61,8 +62,8 @@ class Following:
         threads: int | None,
         backend: Backend,
     ) -> tuple[Results, Indices]:
-        """Reductions (designs,) of designs with the given columns, and the numbers of those of which friction is not
-        certain, or loads have no value somewhere."""
+        """Reductions (designs,) of designs with the given columns, and the numbers of those of which limits or
+        friction are not certain, or loads have no value somewhere."""
         results = self._way(self.finer).reduced(columns, wanted, threads, backend)
         failed = np.flatnonzero(results["valid.count"] != self.traced.positions.count)
         if len(failed):
@@ -70,7 +71,7 @@ class Following:
             again = self._way(self.finer * FINER).reduced(part, wanted, threads, backend)
             for name, column in again.items():
                 results[name][failed] = column
-        return results, doubtful(results, self.loads, self.traced.positions.count)
+        return results, doubtful(results, self.loads, self.traced.positions.count, self.loads.outputs)
 
     def _way(self, finer: int) -> _Way:
         if finer not in self.ways:
@@ -90,7 +91,7 @@ class Following:
 
 def following(traced: Traced, names: Iterable[str], fields: Iterable[str]) -> Following | None:
     """The program for some outputs, with the loads and the friction behind its ``fields``; what was made for the same
-    mechanism lately serves again. None where these cannot be traced, or go by limit positions."""
+    mechanism lately serves again. None where these cannot be traced."""
     asked, given = tuple(dict.fromkeys(names)), tuple(fields)
     key = (traced.solver.manner, traced.positions.key, asked)
     return _followings.get(traced.mechanism, key, lambda: _found(traced, asked, given))
@@ -98,7 +99,7 @@ def following(traced: Traced, names: Iterable[str], fields: Iterable[str]) -> Fo
 
 def _found(traced: Traced, asked: tuple[str, ...], fields: tuple[str, ...]) -> Following | None:
     loads = along_input(traced, traced.solver.manner.free, fields)
-    return None if loads is None or loads.outputs else Following(traced, asked, loads)
+    return None if loads is None else Following(traced, asked, loads)
 
 
 _followings: Recent[Mechanism, Following | None] = Recent(8)
@@ -134,6 +135,18 @@ class _Way:
         outputs |= self.doubts
         self.program = Program.of(trace, outputs, following)
         self.approach = Approach(self.traced, traced.nominal.states)
+        self.starts = {name: f"start:{name}" for name in following}
+        way = Way(following, passed, self.starts)
+        self.limits = tuple(limit_stages(self.traced, loads.outputs, valued=loads.valued, way=way))
+        self._cycles: dict[tuple[Reduction, ...], CycleProgram] = {}
+
+    def _cycle(self, wanted: tuple[Reduction, ...]) -> CycleProgram:
+        """The limits that the loads need, then the reductions over the positions."""
+        if wanted not in self._cycles:
+            named = {each.name: each for each in wanted}
+            last = Stage(self.program, named, valid=VALID, count=VALID_COUNT, starts=self.starts)
+            self._cycles[wanted] = CycleProgram((*self.limits, last))
+        return self._cycles[wanted]
 
     def reduced(
         self,
@@ -143,20 +156,20 @@ class _Way:
         backend: Backend,
     ) -> Results:
         start = self.approach.states(columns)
-        designs = len(next(iter(columns.values())))
-        begin = {**self.rule.begin, "alive": 1.0}
-        start |= {
-            name: start[value] if isinstance(value, str) else np.full(designs, value)
-            for name, value in begin.items()
-        }
-        found = engine_sweep(
-            self.program,
-            self.traced.table(self.program, columns, self.loads.constants),
+        known = {**self.traced.solver.nominal.parameters, **self.loads.constants}
+        known |= constants(self.traced) if self.limits else {}
+        for name, value in {**self.rule.begin, "alive": 1.0}.items():
+            if isinstance(value, str):
+                start[name] = start[value]
+            else:
+                known[self.starts[name]] = value
+        given = {**columns, **{self.starts[name]: column for name, column in start.items()}}
+        more = (Reduction(MARGIN, "min"), *(Reduction(name, "sum") for name in self.doubts))
+        cycle = self._cycle((*wanted, *more))
+        found = cycle.evaluate(
+            design_table(cycle.dimensions, known, given),
             self.arrays,
-            [*wanted, Reduction(MARGIN, "min"), *(Reduction(name, "sum") for name in self.doubts)],
             tables=self.loads.tables,
-            start=np.stack([start[name] for name in self.program.states], axis=1),
-            valid=VALID,
             threads=threads,
             backend=_quicker(backend),
         )

@@ -11,6 +11,7 @@ from math import pi
 
 import numpy as np
 
+from linkwright.core.dataclass import dataclass
 from linkwright.core.inputs import Input
 from linkwright.core.outputs import Output
 from linkwright.engine.program import Program
@@ -38,6 +39,16 @@ NEAR_STEPS, AT = 5, 1e-9
 EDGE_STEPS = 40
 
 
+@dataclass(frozen=True)
+class Way:
+    """How groups without closed form are followed over the positions: the values of the states at the ``following``
+    one, where the way so far was ``passed``, and what ``starts`` the states."""
+
+    following: Mapping[str, Scalar]
+    passed: Mask
+    starts: Mapping[str, str]
+
+
 def limit_stages(
     traced: Traced,
     outputs: Iterable[Swinging],
@@ -45,11 +56,13 @@ def limit_stages(
     judged: bool = True,
     valued: Iterable[Output] = (),
     shown: Iterable[Output] = (),
+    way: Way | None = None,
 ) -> list[Stage]:
     """For every output its cycle values ``limit:OUTPUT:max`` and ``:min`` (rad of the input), of the ``valued`` ones
     also ``value:OUTPUT:max`` and ``:min``, of those that are ``shown`` ``extreme:OUTPUT:max`` and ``:min`` (angles
     as the machine itself has them), and where ``judged`` ``doubt:OUTPUT``: above zero where these are not certain to
-    be its only limits."""
+    be its only limits. Groups without closed form are followed on their ``way``; from the positions
+    next to the limits Newton's method finds these."""
     asked, known, named = tuple(dict.fromkeys(outputs)), set(valued), set(shown)
     if not asked:
         return []
@@ -60,8 +73,8 @@ def limit_stages(
             there[value_name(each, kind)] = output_value(traced.solver.motion, each)
         if isinstance(each, Output) and each in named:
             there[extreme_name(each, kind)] = traced.named.quantity(each.name).value
-        refined.append(_refined(traced, each, kind, there))
-    return [_seen(traced, asked, judged), *refined, *([_doubt(traced, asked)] if judged else [])]
+        refined.append(_refined(traced, each, kind, there, way is not None))
+    return [_seen(traced, asked, judged, way), *refined, *([_doubt(traced, asked)] if judged else [])]
 
 
 def rates(traced: Traced, output: Swinging) -> tuple[Scalar, Scalar]:
@@ -85,11 +98,13 @@ def _course(traced: Traced, output: Swinging) -> Scalar:
     return (across * c - along * s) / (1.0 + along * c + across * s)
 
 
-def _seen(traced: Traced, outputs: Iterable[Swinging], judged: bool) -> Stage:
+def _seen(traced: Traced, outputs: Iterable[Swinging], judged: bool, way: Way | None) -> Stage:
     """The inputs of the positions with the largest and the smallest value; where ``judged`` how many positions have a
-    growing value, and the sum of their directions on the circle of inputs."""
+    growing value, and the sum of their directions on the circle of inputs; on a ``way`` also the carried states."""
     trace, around = traced.solver.motion.trace, _direction(traced)
-    found: dict[str, Scalar | bool] = {"input": trace.position("input"), VALID: traced.counted_for_certain}
+    sure = traced.counted_for_certain if way is None else way.passed
+    states = {} if way is None else _carried(traced)
+    found: dict[str, Scalar | bool] = {"input": trace.position("input"), VALID: sure, **states}
     wanted: dict[str, Reduction] = {}
     for each in outputs:
         found[f"{each}"] = _course(traced, each)
@@ -97,16 +112,41 @@ def _seen(traced: Traced, outputs: Iterable[Swinging], judged: bool) -> Stage:
             f"near:{each}:{kind}": Reduction("input", f"at_{kind}", f"{each}")  # type: ignore[arg-type]
             for kind in ("max", "min")
         }
+        wanted |= {
+            f"{name}:{each}:{kind}": Reduction(name, f"at_{kind}", f"{each}")  # type: ignore[arg-type]
+            for name, kind in product(states, ("max", "min"))
+        }
         if judged:
             grows = select(rates(traced, each)[0] > 0.0, 1.0, 0.0)
             sums = {"grows": grows, **{part: grows * place for part, place in around.items()}}
             found |= {f"{part}:{each}": value for part, value in sums.items()}
             wanted |= {f"sum {part}:{each}": Reduction(f"{part}:{each}", "sum") for part in sums}
-    program, count = Program.of(trace, found), ASSEMBLED if judged else ""
+    count = ASSEMBLED if judged else ""
+    if way is not None:
+        followed = Program.of(trace, found, way.following)
+        return Stage(followed, wanted, valid=VALID, count=count, starts=way.starts)
+    program = Program.of(trace, found)
     if traced.lines:
         t = Trace()
         program = Program.of(t, traced.at_input(program, t, t.position("input")))
     return Stage(program, wanted, valid=VALID, count=count)
+
+
+def _carried(traced: Traced) -> dict[str, Scalar]:
+    """What is carried from position to position, and the determinants whose signs tell assemblies apart."""
+    motion = traced.solver.motion
+    found = {f"carried:{name}": value for name, value in motion.next_states.items()}
+    groups = ((name, placed) for name, placed in motion.placed.items() if placed.coordinates)
+    return found | {f"determinant:{name}": placed.determinant for name, placed in groups}
+
+
+def _other_assembly(there: Mapping[str, Scalar], beside: Mapping[str, Scalar]) -> Scalar:
+    """0 where no determinant has another sign than at the position beside, and all groups are closed; else 1."""
+    different: Scalar = select(there[VALID], 0.0, 1.0)  # type: ignore[arg-type]
+    for name in beside:
+        if name.startswith("determinant:"):
+            different = different + select(there[name] * beside[name] > 0.0, 0.0, 1.0)
+    return different
 
 
 def _direction(traced: Traced) -> dict[str, Scalar]:
@@ -127,7 +167,9 @@ def extreme_name(output: Output, kind: str) -> str:
     return f"extreme:{output}:{kind}"
 
 
-def _refined(traced: Traced, output: Swinging, kind: str, values: Mapping[str, Scalar]) -> Stage:
+def _refined(
+    traced: Traced, output: Swinging, kind: str, values: Mapping[str, Scalar], followed: bool
+) -> Stage:
     """The input where the rate is zero, within one step of the nearest position, and values there."""
     t = Trace()
     (driver,) = traced.mechanism.drivers
@@ -135,8 +177,14 @@ def _refined(traced: Traced, output: Swinging, kind: str, values: Mapping[str, S
     speed = t.parameter(f"{driver}.speed")
     rate, second = rates(traced, output)
     sought = {"rate": rate, "second": second, **values}
-    motion = Program.of(traced.solver.motion.trace, sought)
-    there = traced.at_input(motion, t, x)
+    states = _carried(traced) if followed else {}
+    beside = {name: t.parameter(f"{name}:{output}:{kind}") for name in states}
+    judged = {**states, VALID: traced.solver.motion.valid} if followed else {}
+    motion = Program.of(traced.solver.motion.trace, {**sought, **judged})
+    there = traced.at_input(
+        motion, t, x, {name.removeprefix("carried:"): value for name, value in beside.items()}
+    )
+    other = _other_assembly(there, beside) if followed else 0.0
     falling = there["rate"] if kind == "max" else -there["rate"]
     before = falling > 0.0
     step = t.parameter(STEP) * sign(speed)
@@ -148,7 +196,7 @@ def _refined(traced: Traced, output: Swinging, kind: str, values: Mapping[str, S
     following = select((newton - low1) * (newton - high1) <= 0.0, newton, 0.5 * (low1 + high1))
     program = Program.of(
         t,
-        {"x": following, "moved": absolute(following - x), **{name: there[name] for name in sought}},
+        {"x": following, "moved": absolute(following - x) + other, **{name: there[name] for name in sought}},
         {"x": following, "low": low1, "high": high1},
     )
     name = limit_name(output, kind)

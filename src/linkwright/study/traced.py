@@ -123,9 +123,8 @@ class Traced:
     ) -> dict[str, Any]:
         """The outputs of a program of the motion at the input x, rad, of the only driver; ``more`` inputs by name."""
         (driver,) = self.mechanism.drivers
-        given = {**turned(driver, x, cos, sin), **(more or {})}
-        given |= {name: first + turns * x for name, (first, turns) in self.lines.items()}
-        return inlined(program, trace, given)
+        lines = {name: first + turns * x for name, (first, turns) in self.lines.items()}
+        return inlined(program, trace, {**turned(driver, x, cos, sin), **lines, **(more or {})})
 
     @cached_property
     def lines(self) -> dict[str, tuple[float, float]]:
