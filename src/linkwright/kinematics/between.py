@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from functools import cached_property
 
 import numpy as np
 
 from linkwright.core.arrays import Floats, Indices
+from linkwright.core.once import cached_property
 from linkwright.core.outputs import row_name
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.change_points import Passage, closes, passages, signs

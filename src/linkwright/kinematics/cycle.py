@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Iterable, Mapping, Sequence
 from dataclasses import replace
-from functools import cached_property
 from itertools import chain
 from math import cos, sin
 
@@ -14,6 +13,7 @@ from numpy.typing import ArrayLike
 from linkwright.core.arrays import Floats, Indices
 from linkwright.core.dataclass import dataclass
 from linkwright.core.inputs import driven
+from linkwright.core.once import cached_property
 from linkwright.drivers.base import Driver
 from linkwright.engine.recent import Recent
 from linkwright.errors import LinkwrightError

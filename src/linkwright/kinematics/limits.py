@@ -9,7 +9,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from functools import cached_property
 from itertools import pairwise
 from typing import Literal, NamedTuple
 
@@ -17,6 +16,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats, Indices
 from linkwright.core.dataclass import dataclass
+from linkwright.core.once import cached_property
 from linkwright.core.outputs import Output, kind_of
 from linkwright.core.search import ends, zero, zeros
 from linkwright.engine.recent import Recent

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterable, Mapping
 from dataclasses import field
-from functools import cached_property
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
@@ -12,6 +11,7 @@ import numpy as np
 from linkwright.core.arrays import Floats, Indices
 from linkwright.core.dataclass import dataclass
 from linkwright.core.frozen import FrozenDict, locked
+from linkwright.core.once import cached_property
 from linkwright.core.outputs import KINDS, SLIDE, Output, row_name
 from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import Positions

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from functools import cached_property
 from typing import Literal
 
 import numpy as np
@@ -11,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Floats
 from linkwright.core.inputs import mode_groups
+from linkwright.core.once import cached_property
 from linkwright.kinematics.change_points import (
     Passage,
     cut_off,

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,6 +10,7 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.frozen import locked
+from linkwright.core.once import cached_property
 from linkwright.core.outputs import kind_of, row_name, row_names
 from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import over_cycle

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from functools import cached_property
 from typing import TYPE_CHECKING
 
+from linkwright.core.once import cached_property
 from linkwright.core.outputs import SLIDE, Output, row_name, row_names
 from linkwright.engine.in_turn import InTurn
 from linkwright.engine.numpy_backend import NumpyProgram

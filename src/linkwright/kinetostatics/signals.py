@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from functools import cached_property
 
 import numpy as np
 
 from linkwright.core.arrays import Flags, Floats
+from linkwright.core.once import cached_property
 from linkwright.core.outputs import Output
 from linkwright.kinematics.cycle import CycleError, Positions, over_cycle
 from linkwright.kinematics.limits import limit_inputs, limit_positions

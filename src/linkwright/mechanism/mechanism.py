@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import field, fields, replace
-from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.frozen import Frozen, FrozenDict, frozen
+from linkwright.core.once import cached_property
 from linkwright.drivers.base import Driver
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.fields.base import Field, Quantities, Quantity

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
-from functools import cached_property, partial
+from functools import partial
 from math import isnan
 from typing import Any, Literal, TypeAlias, overload
 
@@ -12,6 +12,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats, Indices
 from linkwright.core.dataclass import dataclass
+from linkwright.core.once import cached_property
 from linkwright.core.outputs import Output
 from linkwright.core.piecewise import POINTS, Piecewise, largest
 from linkwright.core.search import lowest

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
-from functools import cached_property, partial
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from linkwright.core.arrays import Flags, Floats
+from linkwright.core.once import cached_property
 from linkwright.core.outputs import kind_of
 from linkwright.core.piecewise import (
     POINTS,
