@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import json
-import math
 from typing import Any
 
+from linkwright.core.plain import plain
 from linkwright.errors import Finding
 
 
 def json_text(value: object) -> str:
     """JSON text of plain data and arrays, a list of numbers on one line; what is not finite becomes null."""
-    return _written(_plain(value), "")
+    return _written(plain(value), "")
 
 
 def finding_data(finding: Finding) -> dict[str, str]:
@@ -24,18 +24,6 @@ def finding_data(finding: Finding) -> dict[str, str]:
         "remedy": finding.remedy,
         "code": finding.code,
     }
-
-
-def _plain(value: Any) -> Any:
-    if hasattr(value, "tolist"):
-        value = value.tolist()
-    if isinstance(value, dict):
-        return {str(key): _plain(each) for key, each in value.items()}
-    if isinstance(value, list | tuple):
-        return [_plain(each) for each in value]
-    if isinstance(value, float) and not math.isfinite(value):
-        return None
-    return value
 
 
 def _written(value: Any, margin: str) -> str:

@@ -41,6 +41,21 @@ def run_part(options: argparse.Namespace, session: Session, kinds: Sequence[str]
     return 0
 
 
+class PartCommand:
+    """A command that solves a file of its kinds and does nothing else."""
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+
+    def arguments(self, parser: argparse.ArgumentParser, say: Say) -> None:
+        """The options that all commands for machine parts have."""
+        part_arguments(parser, say)
+
+    def run(self, options: argparse.Namespace, session: Session) -> int:
+        """Solves the file's problem."""
+        return run_part(options, session, kinds_of(self.name))
+
+
 def refuse_outputs(options: argparse.Namespace, session: Session) -> None:
     """Raises UsageError for files that could not be written, before any work is done."""
     from linkwright.cli.tables import PICTURES, refuse_output

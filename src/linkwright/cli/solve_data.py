@@ -10,7 +10,8 @@ from linkwright.cli.columns import Column, pick
 from linkwright.cli.data import finding_data
 from linkwright.cli.solve_columns import leading, point_keys
 from linkwright.cli.solve_remarks import closeness, largest
-from linkwright.cli.solving import Solved, reaction_pairs
+from linkwright.cli.solving import Solved
+from linkwright.plot.force_names import reaction_pairs
 from linkwright.words import Say
 
 

@@ -9,7 +9,7 @@ from functools import partial
 import numpy as np
 
 from linkwright.cli.columns import Column
-from linkwright.cli.solving import Solved, reaction_pairs, steady
+from linkwright.cli.solving import Solved, steady
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError
@@ -17,6 +17,7 @@ from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces
 from linkwright.metrics.analysis import Kind
+from linkwright.plot.force_names import reaction_pairs
 from linkwright.words import Say
 from linkwright.words.width import aligned
 

@@ -21,6 +21,7 @@ from linkwright.kinetostatics.table import force_results
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.cycle_grid import CycleGrid
+from linkwright.plot.force_names import reaction_pairs
 from linkwright.words import Say
 
 #: Steps of the grid on which largest values are sought, at least.
@@ -77,7 +78,7 @@ class Solved:
 def solve(mechanism: Mechanism, warnings: list[Finding], options: argparse.Namespace, say: Say) -> Solved:
     """Solves as the options say; raises LinkwrightError."""
     motion, rows = _motion(mechanism, options, say)
-    wanted = options.forces if options.forces is not None else has_loads(mechanism) or options.static
+    wanted = options.forces if options.forces is not None else mechanism.has_loads or options.static
     forces, trouble = None, None
     if wanted:
         try:
@@ -92,20 +93,6 @@ def steady(mechanism: Mechanism) -> bool:
     """Whether inputs say where a position is: all drivers have constant speed."""
     drivers = mechanism.drivers.values()
     return bool(drivers) and all(driver.law.constant_speed is not None for driver in drivers)
-
-
-def reaction_pairs(mechanism: Mechanism) -> list[tuple[str, str]]:
-    """Joint and link of every force that is not merely the reverse of another one."""
-    found: list[tuple[str, str]] = []
-    for name, joint in mechanism.joints.items():
-        links = [link for link in joint.joined if link != "frame"]
-        found += [(name, link) for link in (links if len(joint.joined) > 2 else links[-1:])]
-    return found
-
-
-def has_loads(mechanism: Mechanism) -> bool:
-    """Whether there is anything that joints would have to carry."""
-    return bool(mechanism.loads) or any(link.mass or link.inertia for link in mechanism.links.values())
 
 
 def _motion(mechanism: Mechanism, options: argparse.Namespace, say: Say) -> tuple[Motion, Indices]:

@@ -18,7 +18,6 @@ from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import solve_forces
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.plot.force_names import carries
 from linkwright.worked.solution import worked
 from linkwright.worked.terms import TWO, ZERO, Term
 
@@ -55,7 +54,7 @@ class Sheet:
 def _lines(mechanism: Mechanism, at: float) -> tuple[Line, ...]:
     """The equations of the position that the cycle passes at an input."""
     motion, index = passed(mechanism, at)
-    source = solve_forces(motion) if carries(mechanism) else motion
+    source = solve_forces(motion) if mechanism.has_loads else motion
     return lines_of(worked(source, index))
 
 

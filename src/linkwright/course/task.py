@@ -12,7 +12,6 @@ from linkwright.course.chain import Line
 from linkwright.course.mistakes import Sheet
 from linkwright.errors import LinkwrightError, QuantityError, RequestError
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.plot.force_names import carries
 from linkwright.registry import offered
 from linkwright.study.ranges import dimension_of
 from linkwright.units import DIMENSIONS, parse
@@ -156,7 +155,7 @@ def _questions(sheet: Sheet, given: Any) -> tuple[Question, ...]:
         for output, group in ordered
         if (group == last or output.kind in TURNING) and abs(sheet.values[output]) > NOTHING
     ]
-    if carries(sheet.mechanism):
+    if sheet.mechanism.has_loads:
         whole = [each for each in sheet.values if each.kind == "reaction" and not each.component]
         chosen += [each for each in whole if sheet.values[each] > NOTHING]
         chosen += [each for each in sheet.values if each.kind == "effort"]

@@ -12,7 +12,6 @@ from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.table import MetricsTable
-from linkwright.plot.force_names import carries
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
@@ -42,7 +41,7 @@ class Results:
         if not isinstance(source, Mechanism):
             raise RequestError(Sentence("export.no_source", name=type(source).__name__))
         motion = solve_motion(source, steps=steps)
-        return cls(motion, solve_forces(motion) if carries(source) else None, language)
+        return cls(motion, solve_forces(motion) if source.has_loads else None, language)
 
     @property
     def mechanism(self) -> Mechanism:

@@ -7,6 +7,7 @@ import re
 from collections.abc import Mapping
 from typing import Any
 
+from linkwright.core.plain import Plain
 from linkwright.drivers.base import Driver
 from linkwright.fields.references import PLACE
 from linkwright.files.read_model import KEPT
@@ -15,7 +16,6 @@ from linkwright.mechanism.geometry import STRUCTURAL_POINTS, from_drawing
 from linkwright.mechanism.mechanism import GRAVITY, LINK_FIELDS, Cycle, Link, Mechanism, Vec
 from linkwright.units import NONE, number, si_symbol
 
-Plain = dict[str, Any]
 _SAFE = re.compile(
     r"[^\W\d_][^,\[\]{}#&*!|>'\"%@`:\n\t\\]*(?<! )|[+-]?\d[^,\[\]{}#&*!|>'\"%@`:\n\t\\]*(?<! )"
 )

@@ -329,6 +329,11 @@ class Mechanism(Frozen):
 
         return structure(self)
 
+    @property
+    def has_loads(self) -> bool:
+        """Whether there is anything that joints would have to carry: loads, masses or moments of inertia."""
+        return bool(self.loads) or any(link.mass or link.inertia for link in self.links.values())
+
     def _repr_svg_(self) -> str | None:
         """The drawing, as notebooks show it; None where it cannot be put together."""
         from linkwright.plot.drawing.draw import picture_of

@@ -16,6 +16,7 @@ import numpy as np
 
 from linkwright.core.inputs import mode_inputs
 from linkwright.core.outputs import row_name
+from linkwright.core.plain import Plain
 from linkwright.engine.javascript import javascript
 from linkwright.engine.portable import Kernels
 from linkwright.engine.wasm import wasm_module
@@ -34,7 +35,6 @@ from linkwright.plot.drawing.view import fitted, placements
 from linkwright.study.loaded_cycle import SIZES
 from linkwright.words import LANGUAGES, catalogue, say
 
-Plain = dict[str, Any]
 #: What of a position's outcome a page can find itself.
 _OUTCOMES = ("apart", "singular", "lost", "rrr_far", "rrr_near", "rrp_far", "rpr_near", "rpp_parallel")
 #: Words of the page's area that are said here, not by the page.

@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 
 from linkwright.core.outputs import row_name
+from linkwright.core.plain import Plain
 from linkwright.joints.marks import CamContact, RackWay, Wheel, Wheels
 from linkwright.kinematics.names import canonical
 from linkwright.loads.base import Load
@@ -28,7 +29,6 @@ from linkwright.plot.drawing.loads import named_points
 from linkwright.plot.drawing.machine import Machine, Part, bodies, flat, support_direction
 from linkwright.plot.symbols.base import PIN, SYMBOLS, Shape, Vec
 
-Plain = dict[str, Any]
 _LENGTHS = 2
 
 

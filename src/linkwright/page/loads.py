@@ -7,12 +7,12 @@ several drivers. The magnitudes themselves are traced.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any
 
 import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.outputs import Output
+from linkwright.core.plain import Plain
 from linkwright.fields.signals import InputPhase, MovingPhase, SwingPhase
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import program_names
@@ -22,8 +22,6 @@ from linkwright.loads.base import Load
 from linkwright.loads.magnitude import angles_of, has_formula
 from linkwright.loads.over_cycle import activity
 from linkwright.mechanism.mechanism import Mechanism
-
-Plain = dict[str, Any]
 
 
 def found_again(load: Load, motion: Motion) -> bool:

@@ -12,13 +12,13 @@ from typing import Any
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.plain import Plain
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.closed_loops import ClosedLoops, Key, LoopBuilder, Terms, upstream
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import canonical
 from linkwright.mechanism.mechanism import Mechanism
 
-Plain = dict[str, Any]
 #: Relative and absolute change (m, rad) by which dimensions are tried.
 TRIED = 1e-3, 1e-4
 SAME = 1e-12

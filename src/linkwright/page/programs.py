@@ -31,7 +31,6 @@ from linkwright.loads.magnitude import magnitude
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.page.dimensions import geometry_addresses
 from linkwright.page.loads import angles, fields, found_again, phases, traced_names
-from linkwright.plot.force_names import carries
 from linkwright.structure.group import Group
 from linkwright.study.iterated_groups import ITERATIONS
 from linkwright.study.limit_stages import constants, limit_stages
@@ -51,7 +50,7 @@ class PagePrograms:
     def __init__(self, motion: Motion) -> None:
         self.motion = motion
         self.mechanism: Mechanism = motion.mechanism
-        self.forces: Forces | None = solve_forces(motion) if carries(self.mechanism) else None
+        self.forces: Forces | None = solve_forces(motion) if self.mechanism.has_loads else None
         self.free = frozenset(geometry_addresses(self.mechanism))
 
     @cached_property

@@ -3,20 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import Any
 
 import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.outputs import KINDS, Output, row_names
+from linkwright.core.plain import Plain
 from linkwright.kinematics.names import canonical
 from linkwright.metrics.outputs import mechanism_outputs
 from linkwright.page.programs import PagePrograms
 from linkwright.plot.force_names import reaction_pairs
 from linkwright.words import LANGUAGES, say
-
-Plain = dict[str, Any]
-
 
 #: Numbers over the cycle that are shown of a signal.
 _NUMBERS = {

@@ -52,8 +52,3 @@ def reaction_index(mechanism: Mechanism, joint: str, on: str) -> str:
     comma = "," if len(numbers) > 10 else ""
     shared = [name for name, each in mechanism.joints.items() if set(each.joined) == set(joined)]
     return f"{numbers[other]}{comma}{numbers[on]}" + (f",{joint}" if len(shared) > 1 else "")
-
-
-def carries(mechanism: Mechanism) -> bool:
-    """Whether there is anything that joints would have to carry."""
-    return bool(mechanism.loads) or any(link.mass or link.inertia for link in mechanism.links.values())

@@ -17,7 +17,6 @@ from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.plot.force_names import carries
 from linkwright.report.numbers import Heads
 from linkwright.report.settings import Settings
 from linkwright.structure.group import Structure
@@ -85,7 +84,7 @@ class Case:
     @cached_property
     def forces(self) -> Forces:
         """Joint forces over the cycle; raises Missing where nothing acts."""
-        if not carries(self.mechanism):
+        if not self.mechanism.has_loads:
             raise Missing(Sentence("report.no_loads"))
         return solve_forces(self.motion)
 
@@ -158,7 +157,7 @@ class Case:
             motion, (index,) = self._passing([self.moment])
         if not motion.ok[index]:
             raise Missing(motion.outcomes[index].sentence)
-        return (solve_forces(motion) if carries(self.mechanism) else motion), index
+        return (solve_forces(motion) if self.mechanism.has_loads else motion), index
 
     @property
     def worked_place(self) -> float | None:
@@ -257,7 +256,7 @@ class Case:
     @cached_property
     def numbered_forces(self) -> Forces:
         """Forces at the numbered positions."""
-        if not carries(self.mechanism):
+        if not self.mechanism.has_loads:
             raise Missing(Sentence("report.no_loads"))
         return solve_forces(self.numbered.motion)
 

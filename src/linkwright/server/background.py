@@ -6,9 +6,8 @@ import threading
 from collections.abc import Callable
 from typing import Any
 
+from linkwright.core.plain import Plain
 from linkwright.errors import LinkwrightError
-
-Plain = dict[str, Any]
 
 
 class Stopped(Exception):

@@ -8,13 +8,14 @@ from collections.abc import Mapping
 from typing import Any
 
 from linkwright import units
+from linkwright.core.plain import Plain
 from linkwright.errors import LinkwrightError, QuantityError
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Scalar
 from linkwright.joints.base import JOINTS
 from linkwright.joints.cam import CamJoint
 from linkwright.joints.rack import RackPair
-from linkwright.server.draft import Draft, Plain, fresh, picture
+from linkwright.server.draft import Draft, fresh, picture
 from linkwright.units import number
 from linkwright.words.sentence import Sentence
 

@@ -6,14 +6,13 @@ import hashlib
 import json
 import threading
 from pathlib import Path
-from typing import Any
 
+from linkwright.core.plain import Plain
 from linkwright.errors import LinkwrightError
 from linkwright.files.source import decode
 from linkwright.whole_files import write_whole
 from linkwright.words.sentence import Sentence
 
-Plain = dict[str, Any]
 _ENDINGS = (".yaml", ".yml", ".json")
 _DRAFTS = ".linkwright"
 #: Bytes of a text that is taken.

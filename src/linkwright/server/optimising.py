@@ -6,6 +6,7 @@ from collections.abc import Callable
 from contextlib import suppress
 from functools import partial
 
+from linkwright.core.plain import Plain
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.files.document import Document
 from linkwright.files.model_file import read_text
@@ -17,7 +18,7 @@ from linkwright.optimisation.optimize import optimize
 from linkwright.optimisation.optimum import OptimizeError, Optimum
 from linkwright.optimisation.problem import problem
 from linkwright.optimisation.report import comparison
-from linkwright.server.background import Job, Plain
+from linkwright.server.background import Job
 from linkwright.study.criteria import criterion
 from linkwright.words import speaker
 from linkwright.words.sentence import Sentence

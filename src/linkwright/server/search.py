@@ -8,9 +8,10 @@ from functools import partial
 
 import numpy as np
 
+from linkwright.core.plain import Plain
 from linkwright.errors import LinkwrightError
 from linkwright.files.write import dump
-from linkwright.server.background import Job, Plain
+from linkwright.server.background import Job
 from linkwright.synthesis.result import Candidate, Synthesis
 from linkwright.words.sentence import Sentence
 

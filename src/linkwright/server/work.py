@@ -8,8 +8,8 @@ from collections.abc import Callable, Mapping
 from contextlib import suppress
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any
 
+from linkwright.core.plain import Plain
 from linkwright.errors import Finding, LinkwrightError
 from linkwright.files.document import Document
 from linkwright.files.model_file import gallery_names, read_text
@@ -22,7 +22,6 @@ from linkwright.server.search import linkages
 from linkwright.words import LANGUAGES
 from linkwright.words.sentence import Sentence, in_language
 
-Plain = dict[str, Any]
 #: What the studio hands out, by the ending of the file.
 TAKEN = (".report.pdf", ".report.html", ".html", ".xlsx", ".csv", ".json", ".svg", ".pdf", ".png", ".dxf")
 NEW = "format: 1\nname: New mechanism\n"

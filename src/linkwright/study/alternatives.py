@@ -74,7 +74,7 @@ class Alternative:
     @property
     def loaded(self) -> bool:
         """Whether anything in it has mass or a load."""
-        return has_loads(self.mechanism)
+        return self.mechanism.has_loads
 
     @property
     def pivot(self) -> tuple[str, str]:
@@ -108,11 +108,6 @@ class Alternative:
         """The output and its rates in time, (n,) each."""
         place, rate, second = map(self.motion.read, self.output.course)
         return place, rate, second
-
-
-def has_loads(mechanism: Mechanism) -> bool:
-    """Whether there is anything that joints would have to carry."""
-    return bool(mechanism.loads) or any(link.mass or link.inertia for link in mechanism.links.values())
 
 
 def alternatives(

@@ -21,7 +21,7 @@ from linkwright.metrics.outputs import mechanism_outputs
 from linkwright.metrics.quantities import si_unit
 from linkwright.metrics.summary import is_summary
 from linkwright.registry import offered
-from linkwright.study.alternatives import Alternative, has_loads, output_of_machine
+from linkwright.study.alternatives import Alternative, output_of_machine
 from linkwright.study.criteria import Criterion, NoSuchSubject, criteria
 from linkwright.study.design_numbers import side_by_side
 from linkwright.study.designs import sweep
@@ -224,7 +224,7 @@ def study(
 def _criteria(mechanism: Mechanism, metrics: Iterable[str] | str | None) -> list[Criterion]:
     if metrics is not None:
         return criteria(metrics)
-    return [each for each in criteria(USUAL) if has_loads(mechanism) or not each.forces]
+    return [each for each in criteria(USUAL) if mechanism.has_loads or not each.forces]
 
 
 class _Work:

@@ -15,7 +15,6 @@ from linkwright.kinematics.solve import solve_motion
 from linkwright.kinematics.table import motion_results
 from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.kinetostatics.table import force_results
-from linkwright.plot.force_names import carries
 from linkwright.units import parse
 
 Find = Callable[[str], float]
@@ -52,7 +51,7 @@ def machine(given: Mapping[str, Any]) -> Find:
 
 
 def _forces(motion: Any) -> Forces | None:
-    return solve_forces(motion) if carries(motion.mechanism) else None
+    return solve_forces(motion) if motion.mechanism.has_loads else None
 
 
 def limits(given: Mapping[str, Any]) -> Find:

@@ -2,7 +2,7 @@
 
 A module ``NAME`` has ``arguments(parser, say)``, which adds its options, and ``run(options, session)``, which
 returns the exit code. Its words are the area ``NAME`` of the catalogue, at least ``summary`` (one line for the
-list of commands), ``description`` and ``examples``.
+list of commands), ``description`` and ``examples``. The commands ``PARTS`` have words alone.
 """
 
 from __future__ import annotations
@@ -14,6 +14,9 @@ from typing import Protocol, cast
 from linkwright.cli.session import Session
 from linkwright.core.installed import modules_within
 from linkwright.words import Say
+
+#: Commands that solve the file of a machine part and do nothing else.
+PARTS = ("beam", "program", "statistics", "tolerance", "trajectory", "vibration")
 
 
 class Command(Protocol):
@@ -28,9 +31,13 @@ class Command(Protocol):
 
 def names() -> tuple[str, ...]:
     """Names of all commands, without importing any."""
-    return tuple(modules_within(__path__))
+    return tuple(sorted([*modules_within(__path__), *PARTS]))
 
 
 def command(name: str) -> Command:
-    """The module of a command."""
+    """The module of a command, or what does its work."""
+    if name in PARTS:
+        from linkwright.cli.part import PartCommand
+
+        return PartCommand(name)
     return cast(Command, importlib.import_module(f"{__name__}.{name}"))

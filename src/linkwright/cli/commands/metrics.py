@@ -85,14 +85,13 @@ def _evaluated(
     mechanism: Mechanism, names: list[str] | None, options: argparse.Namespace
 ) -> tuple[MetricsTable, LinkwrightError | None]:
     """The numbers, and why there are no forces where they failed."""
-    from linkwright.cli.solving import has_loads
     from linkwright.errors import LinkwrightError
     from linkwright.kinematics.solve import solve_motion
     from linkwright.kinetostatics.forces import solve_forces
     from linkwright.metrics import metrics
 
     motion = solve_motion(mechanism, steps=options.steps, failures="mark" if options.mark else "raise")
-    if options.forces is False or not (options.forces or has_loads(mechanism)):
+    if options.forces is False or not (options.forces or mechanism.has_loads):
         return metrics(motion, names), None
     try:
         forces = solve_forces(motion)

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import json
-import math
 from typing import Any
 
+from linkwright.core.plain import plain
 from linkwright.export.base import FORMATS, Format
 from linkwright.export.results import Results
 from linkwright.export.tables import tables
@@ -17,7 +17,7 @@ def content(results: Results, *, indent: int = 1) -> bytes:
     What is not a finite number is null. ``indent``: spaces per level.
     """
     return (
-        json.dumps(_plain(_data(results)), ensure_ascii=False, allow_nan=False, indent=indent) + "\n"
+        json.dumps(plain(_data(results)), ensure_ascii=False, allow_nan=False, indent=indent) + "\n"
     ).encode()
 
 
@@ -60,18 +60,6 @@ def _data(results: Results) -> dict[str, Any]:
         },
         "metrics": results.metrics.data(),
     }
-
-
-def _plain(value: Any) -> Any:
-    if hasattr(value, "tolist"):
-        value = value.tolist()
-    if isinstance(value, dict):
-        return {str(key): _plain(each) for key, each in value.items()}
-    if isinstance(value, list | tuple):
-        return [_plain(each) for each in value]
-    if isinstance(value, float) and not math.isfinite(value):
-        return None
-    return value
 
 
 FORMATS.register("json")(Format((".json",), content))

@@ -29,7 +29,6 @@ from linkwright.plot.drawing.vectors import (
     scale_of,
 )
 from linkwright.plot.drawing.view import DIAGONAL
-from linkwright.plot.force_names import carries
 from linkwright.plot.svg.element import Element, group
 from linkwright.plot.symbols.base import points
 from linkwright.words import LANGUAGES, say
@@ -188,7 +187,7 @@ class Sheet:
             below.text(self.notes[-1])
         for each in arrows:
             if each.empty([self.shown]):
-                word = "nothing" if each.kind == "force" and not carries(mechanism) else "zero"
+                word = "nothing" if each.kind == "force" and not mechanism.has_loads else "zero"
                 self.notes.append(say(f"drawing.{word}_{each.kind}", language))
                 below.text(self.notes[-1])
         self.elements += below.elements

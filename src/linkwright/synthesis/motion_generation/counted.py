@@ -27,7 +27,7 @@ from numpy.typing import NDArray
 
 from linkwright.core.arrays import Complexes, Flags, Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.synthesis.nine_points.classes import MIX, PROBES
+from linkwright.synthesis.nine_points.classes import MIX, PROBES, conjugate
 from linkwright.synthesis.nine_points.start import displacements
 
 FILE = "mixed_starts.npz"
@@ -70,13 +70,13 @@ def all_four_bars(places: Places) -> Complexes:
         more = ends[arrived]
         more[:, :8:2] /= way
         more[:, 1:8:2] *= way
-        found = _distinct(np.concatenate([found, more, _conjugate(more)]))
+        found = _distinct(np.concatenate([found, more, conjugate(more)]))
     return found
 
 
 def real_ones(u: Complexes) -> Complexes:
     """Those of the solutions that are four-bars of the real plane."""
-    off = np.abs(_conjugate(u) - u).max(1)
+    off = np.abs(conjugate(u) - u).max(1)
     return np.asarray(u[off < REAL * np.abs(u).max(1)])
 
 
@@ -228,13 +228,6 @@ def _distinct(u: Complexes) -> Complexes:
             break
         repeated[np.maximum(one, two)[near & (np.abs(found[two] - found[one]) < SAME)]] = True
     return u[~repeated]
-
-
-def _conjugate(u: Complexes) -> Complexes:
-    v = u.conj()
-    v[:, :8] = v[:, [1, 0, 3, 2, 5, 4, 7, 6]]
-    v[:, 8:] = -v[:, 8:] / (1 + v[:, 8:])
-    return v
 
 
 def _size(step: Complexes, u: Complexes) -> Floats:
