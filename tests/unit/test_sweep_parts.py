@@ -71,6 +71,9 @@ def test_a_cluster_gives_the_same_bits(tmp_path: Path) -> None:
     near = {"values": [f"{share * bar} m" for share in (0.999, 1, 1.001)]}
     search = {"vary": {"bar_1.R.x": near}, "evaluations": 12, "population": 6}
     here = lw.sweep(crank, columns, outputs=NUMBERS, steps=40)
+    wide = {"coupler.length": "2..4 m:40", "rocker.length": "1.5..2.8 m:30"}
+    study = {"vary": wide, "metrics": ["travel", "transmission_angle"], "steps": 40}
+    whole = lw.study(crank, **study)
     alone = lw.optimize(group, minimize="peak_input_torque", **search)
     parts = lw.sweep_parts(crank, VARY, tmp_path / "here", outputs=NUMBERS, part=256, steps=60)
     options = {"n_workers": 1, "threads_per_worker": 2, "dashboard_address": ":0", "processes": False}
@@ -81,11 +84,15 @@ def test_a_cluster_gives_the_same_bits(tmp_path: Path) -> None:
         with lw.on_cluster(client):
             there = lw.sweep(crank, columns, outputs=NUMBERS, steps=40)
             shared = lw.optimize(group, minimize="peak_input_torque", **search)
+            pieces = lw.study(crank, **study)
         again = lw.sweep_parts(
             crank, VARY, tmp_path / "there", outputs=NUMBERS, part=256, steps=60, client=client
         )
     assert contents(parts.folder) == contents(again.folder)
     for name, column in here.columns().items():
         assert column.tobytes() == there.columns()[name].tobytes()
+    assert 512 < whole.ok.sum() < 1200 and whole.dimensions == pieces.dimensions
+    for name, column in whole.metrics.items():
+        assert column.tobytes() == pieces.metrics[name].tobytes()
     assert not alone.exact
     assert dict(alone.best.values) == dict(shared.best.values)

@@ -22,6 +22,7 @@ from linkwright.metrics.quantities import si_unit
 from linkwright.metrics.summary import is_summary
 from linkwright.registry import offered
 from linkwright.study.alternatives import Alternative, output_of_machine
+from linkwright.study.cluster import current, in_turn
 from linkwright.study.criteria import Criterion, NoSuchSubject, criteria
 from linkwright.study.design_numbers import side_by_side
 from linkwright.study.designs import sweep
@@ -39,9 +40,10 @@ if TYPE_CHECKING:
 
 Sampling = Literal["grid", "sobol"]
 Progress = Callable[[int, int], None]
+_Piece = tuple[dict[str, Floats], dict[str, str], dict[str, None], dict[int, str]]
 
-#: Fewer designs than this are solved one by one.
-FEW = 8
+#: Fewer designs than this are solved one by one; designs that a worker of a cluster takes at a time.
+FEW, PIECE = 8, 512
 #: What is measured when nobody says what, as far as it applies.
 USUAL = ("travel", "transmission_angle", "peak_input_torque", "rms_input_torque", "peak_reaction")
 
@@ -261,16 +263,11 @@ class _Work:
         if not ok.any():
             raise LinkwrightError(_none_moves(self.count, found.failures()))
         numbers = [each for each in self.asked if not is_summary(each.name)]
-        together = self._together(numbers, np.flatnonzero(ok)) if numbers else {}
-        alone = {
-            int(index): [each for each in numbers if index not in together.get(each.name, ())]
-            for index in np.flatnonzero(ok)
-        }
-        for done, (index, single) in enumerate(alone.items(), 1):
-            if single:
-                self._measure(index, single)
-            if self.progress is not None and numbers:
-                self.progress(done, len(alone))
+        client, designs = current(), np.flatnonzero(ok)
+        if client is not None and numbers and len(designs) > PIECE:
+            self._shared(client, numbers, designs)
+        elif numbers:
+            self.found(numbers, designs, len(designs) >= FEW)
         failures = [*found.failures(), *self._troubles()]
         ok[list(self.troubled)] = False
         if not ok.any():
@@ -284,10 +281,39 @@ class _Work:
             (*found.notes, *self.notes),
         )  # fmt: skip
 
+    def found(self, asked: list[Criterion], designs: Indices, together: bool) -> None:
+        """Numbers of the designs, at once as far as they are certain so (``together``), the others one by one."""
+        certain = self._together(asked, designs) if together else {}
+        for done, index in enumerate(designs.tolist(), 1):
+            single = [each for each in asked if index not in certain.get(each.name, ())]
+            if single:
+                self._measure(index, single)
+            if self.progress is not None:
+                self.progress(done, len(designs))
+
+    def _shared(self, client: Any, asked: list[Criterion], designs: Indices) -> None:
+        """The same in pieces on a cluster."""
+        parts = [designs[first : first + PIECE] for first in range(0, len(designs), PIECE)]
+        names = [each.name for each in asked]
+        tasks = [
+            (self.mechanism, {a: c[part] for a, c in self.columns.items()}, names, str(self.output), self.fluctuation,
+             self.steps) for part in parts
+        ]  # fmt: skip
+        pieces: dict[int, _Piece] = {}
+        for done, (number, piece) in enumerate(in_turn(client, _piece, tasks), 1):
+            pieces[number] = piece
+            if self.progress is not None:
+                self.progress(done, len(parts))
+        for number, part in enumerate(parts):
+            values, dimensions, notes, troubled = pieces[number]
+            for name in names:
+                self.values[name][part] = values[name]
+            self.dimensions |= {name: kind for name, kind in dimensions.items() if kind != "dimensionless"}
+            self.notes |= notes
+            self.troubled |= {int(part[index]): why for index, why in troubled.items()}
+
     def _together(self, asked: list[Criterion], designs: Indices) -> dict[str, set[int]]:
         """Numbers of many designs at once; which designs' they are certain of, by name."""
-        if len(designs) < FEW:
-            return {}
         wanted = Asked(self.output, self.fluctuation)
         part = {address: column[designs] for address, column in self.columns.items()}
         sure: dict[str, set[int]] = {}
@@ -345,6 +371,21 @@ class _Work:
             return []
         numbers = np.array(sorted(self.troubled), dtype=np.intp)
         return [Failure(None, "metric", numbers, self.troubled[int(numbers[0])])]
+
+
+def _piece(
+    mechanism: Mechanism,
+    columns: Mapping[str, Floats],
+    names: list[str],
+    output: str,
+    fluctuation: float,
+    steps: int,
+) -> _Piece:
+    """Numbers of some designs, on a worker of a cluster: values, dimensions, notes, and what is wrong with which."""
+    asked = criteria(names)
+    work = _Work(mechanism, columns, asked, output, fluctuation, steps, None)
+    work.found(asked, np.arange(work.count), True)
+    return work.values, work.dimensions, work.notes, work.troubled
 
 
 def _output(mechanism: Mechanism, name: str | None) -> Output:
