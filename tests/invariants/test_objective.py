@@ -163,12 +163,55 @@ def test_a_design_that_cannot_turn_has_no_value():
         ("jaw_crusher_sixbar", "driver.effort argmax", ["crank.length"], "place"),
         ("jaw_crusher_sixbar", "jaw.angle range", ["jaw.mass"], "no influence"),
         ("jaw_crusher_sixbar", "jaw.angle range", ["driver.start"], "position"),
-        ("stephenson_sixbar_triad", "driver.effort rms", ["crank.length"], "without closed form"),
+        ("stephenson_sixbar_triad", "rms_input_torque", ["crank.length"], "gradient"),
     ],
 )
 def test_refusals_say_why(model, terms, vary, words):
     with pytest.raises(lw.LinkwrightError, match=words):
         lw.objective(lw.load(f"gallery:{model}"), terms, vary=vary)
+
+
+def pushed_triad(phase: str, speed: float) -> lw.Mechanism:
+    load = f"{{kind: force, on: plate, at: R, direction: 90 deg, ramp: [5 N, 20 N], phase: {{{phase}}}}}"
+    text = lw.dump(lw.load("gallery:triad"))
+    return lw.loads(f"{text}\nloads: {{push: {load}}}\n").with_dimensions({"driver.speed": speed})
+
+
+@pytest.mark.parametrize(
+    ("phase", "speed", "steps"),
+    [("of: plate, from: min, to: max", 6.0, 90), ("of: bar_1, from: max, to: min, last: 0.4", -6.0, 24)],
+)
+def test_groups_that_newton_solves_have_values_and_gradients(phase, speed, steps):
+    """Against each design solved alone and differences of fourth order of these; one design cannot pass."""
+    triad = pushed_triad(phase, speed)
+    names, target = ["crank.A.x", "plate.R.y", "bar_1.mass"], np.full((steps, 2), 0.2)
+    terms = {"driver.effort rms": 1.0, "plate.angular_velocity max": 0.1, lw.PathError("R", target): 40.0}
+    f = lw.objective(triad, terms, vary=names, steps=steps)
+
+    def alone(values):
+        forces = lw.solve_forces(triad.with_dimensions(dict(zip(names, values, strict=True))), steps=steps)
+        gaps = ((forces.motion.point("R").position - target) ** 2).sum(axis=1).mean()
+        rms = np.sqrt((forces.input_torque**2).mean())
+        return rms + 0.1 * forces.motion.link("plate").angular_velocity.max() + 40.0 * gaps
+
+    far = f.start.copy()
+    far[0] = 0.08
+    values, gradients = f.many(np.stack([f.start, 1.002 * f.start, far]))
+    assert values[:2] == pytest.approx([alone(f.start), alone(1.002 * f.start)], rel=1e-12)
+    assert np.isnan(values[2]) and np.isnan(gradients[2]).all()
+    assert f.values(np.stack([f.start, far])) == pytest.approx([values[0], np.nan], rel=1e-12, nan_ok=True)
+    for k, step in enumerate(1e-3 * f.start):
+        a, b, c, d = (alone(f.start + j * step * np.eye(3)[k]) for j in (-2, -1, 1, 2))
+        assert gradients[0, k] == pytest.approx((a - 8 * b + 8 * c - d) / (12 * step), rel=1e-7, abs=1e-7)
+
+
+def test_groups_that_newton_solves_are_refused_at_inputs_and_loads_by_four_limits():
+    with pytest.raises(lw.LinkwrightError, match="more than two limits"):
+        lw.objective(
+            pushed_triad("of: bar_2, from: max, to: min", 6.0), "driver.effort rms", vary=["plate.R.y"]
+        )
+    with pytest.raises(lw.LinkwrightError, match="inputs other than its cycle"):
+        lw.objective(lw.load("gallery:triad"), "driver.effort rms", vary=["plate.R.y"], at=[0.0, 0.1])
 
 
 CIRCLE = np.stack([np.cos(np.arange(9.0)), np.sin(np.arange(9.0))], axis=1)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from functools import cached_property
 
 import numpy as np
 
@@ -73,6 +74,20 @@ class Following:
                 results[name][failed] = column
         return results, doubtful(results, self.loads, self.traced.positions.count, self.loads.outputs)
 
+    def states(
+        self, columns: Mapping[str, Floats], threads: int | None, backend: Backend
+    ) -> dict[str, Floats]:
+        """What is carried, (designs, n) by name, at the positions that were asked for; NaN for designs that do not
+        pass."""
+        found, passed = self._way(self.finer).states(columns, threads, backend)
+        failed = np.flatnonzero(~passed)
+        if len(failed):
+            part = {address: column[failed] for address, column in columns.items()}
+            again, passed = self._way(self.finer * FINER).states(part, threads, backend)
+            for name, rows in again.items():
+                found[name][failed] = np.where(passed[:, None], rows, np.nan)
+        return found
+
     def _way(self, finer: int) -> _Way:
         if finer not in self.ways:
             self.ways[finer] = _Way(self.traced, self.names, finer, self.loads)
@@ -123,14 +138,14 @@ class _Way:
         }
         quantities = self.traced.quantities(names)
         motion = self.traced.solver.motion
-        trace = motion.trace
+        self.trace = trace = motion.trace
         self.rule = StepRule(motion, trace.position("step"))
         passed = trace.logic("and", motion.valid, trace.compare("less", 0.5, trace.state("alive")))
         passed = trace.logic("and", passed, self.rule.kept)
-        counts = trace.logic("and", passed, trace.compare("less", 0.5, trace.position("counted")))
+        self.counts = trace.logic("and", passed, trace.compare("less", 0.5, trace.position("counted")))
         outputs: dict[str, Scalar | bool] = {name: each.carrier for name, each in quantities.items()}
-        following = {**self.rule.following, "alive": select(passed, 1.0, 0.0)}
-        outputs |= {NEAREST: self.traced.nearest, VALID: counts, MARGIN: self.rule.margin}
+        self.following = following = {**self.rule.following, "alive": select(passed, 1.0, 0.0)}
+        outputs |= {NEAREST: self.traced.nearest, VALID: self.counts, MARGIN: self.rule.margin}
         self.doubts = doubts(self.traced, loads)
         outputs |= self.doubts
         self.program = Program.of(trace, outputs, following)
@@ -148,13 +163,33 @@ class _Way:
             self._cycles[wanted] = CycleProgram((*self.limits, last))
         return self._cycles[wanted]
 
-    def reduced(
-        self,
-        columns: Mapping[str, Floats],
-        wanted: Sequence[Reduction],
-        threads: int | None,
-        backend: Backend,
-    ) -> Results:
+    @cached_property
+    def _carrying(self) -> CycleProgram:
+        """What is carried from position to position, as fields."""
+        program = Program.of(
+            self.trace, {**self.traced.solver.motion.next_states, VALID: self.counts}, self.following
+        )
+        keep = tuple(self.traced.solver.motion.next_states)
+        return CycleProgram((Stage(program, valid=VALID, count=VALID_COUNT, starts=self.starts, keep=keep),))
+
+    def states(
+        self, columns: Mapping[str, Floats], threads: int | None, backend: Backend
+    ) -> tuple[dict[str, Floats], Flags]:
+        """What is carried, (designs, n) by name, at the positions that count, and which designs pass."""
+        cycle, count = self._carrying, int(self.arrays["counted"].sum())
+        parts, passed = [], []
+        for _, known, _ in cycle.blocks(
+            self._table(cycle, columns), self.arrays, threads=threads, backend=_quicker(backend)
+        ):
+            parts.append(known.fields)
+            passed.append(known.values[VALID_COUNT] == count)
+        names = self.traced.solver.motion.next_states
+        return {
+            n: np.concatenate([part[n] for part in parts])[:, :: self.finer] for n in names
+        }, np.concatenate(passed)
+
+    def _table(self, cycle: CycleProgram, columns: Mapping[str, Floats]) -> Floats:
+        """What a cycle program takes of the designs, (designs, dimensions)."""
         start = self.approach.states(columns)
         known = {**self.traced.solver.nominal.parameters, **self.loads.constants}
         known |= constants(self.traced) if self.limits else {}
@@ -164,10 +199,20 @@ class _Way:
             else:
                 known[self.starts[name]] = value
         given = {**columns, **{self.starts[name]: column for name, column in start.items()}}
+        return design_table(cycle.dimensions, known, given)
+
+    def reduced(
+        self,
+        columns: Mapping[str, Floats],
+        wanted: Sequence[Reduction],
+        threads: int | None,
+        backend: Backend,
+    ) -> Results:
+        """Reductions (designs,), those of the branch margin and of the doubts among them."""
         more = (Reduction(MARGIN, "min"), *(Reduction(name, "sum") for name in self.doubts))
         cycle = self._cycle((*wanted, *more))
         found = cycle.evaluate(
-            design_table(cycle.dimensions, known, given),
+            self._table(cycle, columns),
             self.arrays,
             tables=self.loads.tables,
             threads=threads,

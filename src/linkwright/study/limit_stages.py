@@ -17,6 +17,7 @@ from linkwright.core.outputs import Output
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import Reduction
 from linkwright.engine.stage import Stage
+from linkwright.engine.states import states_as_fields
 from linkwright.engine.trace import Mask, Scalar, Trace, absolute, cos, minimum, select, sign, sin, sqrt
 from linkwright.fields.signals import SwingPhase
 from linkwright.kinematics.names import program_names
@@ -42,7 +43,8 @@ EDGE_STEPS = 40
 @dataclass(frozen=True)
 class Way:
     """How groups without closed form are followed over the positions: the values of the states at the ``following``
-    one, where the way so far was ``passed``, and what ``starts`` the states."""
+    one, where the way so far was ``passed``, and what ``starts`` the states; with nothing ``following`` they are
+    fields."""
 
     following: Mapping[str, Scalar]
     passed: Mask
@@ -124,6 +126,7 @@ def _seen(traced: Traced, outputs: Iterable[Swinging], judged: bool, way: Way | 
     count = ASSEMBLED if judged else ""
     if way is not None:
         followed = Program.of(trace, found, way.following)
+        followed = followed if way.following else states_as_fields(followed)
         return Stage(followed, wanted, valid=VALID, count=count, starts=way.starts)
     program = Program.of(trace, found)
     if traced.lines:

@@ -21,7 +21,7 @@ from linkwright.engine.reductions import Reduction
 from linkwright.engine.stage import Backend, Stage
 from linkwright.engine.states import states_as_fields
 from linkwright.engine.table import Table
-from linkwright.engine.trace import Mask, Scalar, Trace, absolute, maximum
+from linkwright.engine.trace import Mask, Scalar, Trace, absolute, maximum, select
 from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import Positions, at_inputs, over_cycle
 from linkwright.kinematics.names import point_key
@@ -30,13 +30,14 @@ from linkwright.kinetostatics.named import Quantity
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.summary import KINDS, Summary, is_metric, reductions, wanted
-from linkwright.study.limit_stages import constants, limit_stages
+from linkwright.study.iterated_groups import ITERATIONS, Following, following
+from linkwright.study.limit_stages import Way, constants, limit_stages
 from linkwright.study.loaded_cycle import along_input, friction_doubt, with_loads
 from linkwright.study.metric_cycle import MetricCycle, metric_cycle
 from linkwright.study.swept_designs import SweptDesigns, swept, swept_designs
 from linkwright.study.terms import refuse_obstacle
 from linkwright.study.traced import CLEAR, VALID, Traced, design_table
-from linkwright.study.vary import checked_addresses, refuse_moved_positions
+from linkwright.study.vary import checked_addresses, positions_steps, refuse_moved_positions
 from linkwright.units import LARGEST
 from linkwright.words.sentence import Sentence
 
@@ -85,20 +86,32 @@ class OverPositions:
     known: Mapping[str, float]
     tables: Mapping[str, Table]
     backend: Backend
+    following: Following | None = None
 
     def many(self, columns: Mapping[str, Floats], threads: int | None) -> tuple[Floats, Floats]:
         """Values (designs,) and gradients (designs, names)."""
         table = self._table(columns)
+        fields = self._states(columns, threads)
         return self.gradient.evaluate(
-            table, self.arrays, tables=self.tables, threads=threads, backend=self.backend
+            table, self.arrays, fields, tables=self.tables, threads=threads, backend=self.backend
         )
 
     def values(self, columns: Mapping[str, Floats], threads: int | None) -> Floats:
         """Values (designs,)."""
+        fields = self._states(columns, threads)
         found = self.gradient.plain.evaluate(
-            self._table(columns), self.arrays, tables=self.tables, threads=threads, backend=self.backend
+            self._table(columns),
+            self.arrays,
+            fields,
+            tables=self.tables,
+            threads=threads,
+            backend=self.backend,
         )
         return np.asarray(found[self.gradient.value])
+
+    def _states(self, columns: Mapping[str, Floats], threads: int | None) -> dict[str, Floats]:
+        """Chain coordinates of groups without closed form, (designs, n)."""
+        return {} if self.following is None else self.following.states(columns, threads, self.backend)
 
     def _table(self, columns: Mapping[str, Floats]) -> Floats:
         return design_table(self.gradient.cycle.dimensions, self.known, columns)
@@ -199,9 +212,9 @@ def objective(
     friction too, NaN where it is near locking.
 
     Raises:
-        LinkwrightError: unknown names; groups without closed form, and the friction and loads that :func:`sweep`
-            finds design by design, through which no gradient is found yet; positions too far apart to count the turns
-            of a link that a dyad places and a wheel follows.
+        LinkwrightError: unknown names; the friction and loads that :func:`sweep` finds design by design, and design
+            numbers of groups without closed form, through which no gradient is found yet; positions too far apart to
+            count the turns of a link that a dyad places and a wheel follows.
     """
     names = checked_addresses(mechanism, vary)
     given = _weighted(terms)
@@ -318,16 +331,26 @@ class _Builder:
         self.terms = terms
         self.names = names
         plain = Traced(mechanism, names, positions)
-        motion = plain.solver.motion
-        if any(placed.next_states for placed in motion.placed.values()):
-            raise RequestError(Sentence("study.objective_iterates", name=mechanism.name))
-        self.turns = counted_turns(plain)
+        self.following: Following | None = None
+        if any(placed.next_states for placed in plain.solver.motion.placed.values()):
+            self.following = following(plain, (), ())
+        self.turns = None if self.following else counted_turns(plain)
         outputs = [summary.output for summary in self.summaries]
         loads = along_input(plain, names, plain.program(plain.quantities(outputs)).fields)
         if loads is None:
             raise RequestError(Sentence("study.objective_loads", name=mechanism.name))
         self.loads = loads
         self.traced = with_loads(plain, loads)
+        if self.following is not None:
+            self._refuse_ways(plain)
+
+    def _refuse_ways(self, plain: Traced) -> None:
+        """Refuses groups without closed form on other ways than the cycle, and loads by more limits than two."""
+        cycle = over_cycle(plain.mechanism, positions_steps(plain.positions))
+        signals = MotionSignals(plain.nominal)
+        more = any(len(signals.limits(output)) != 2 for output in self.loads.outputs)
+        if more or plain.nominal.modes or plain.positions.key != cycle.key:
+            raise RequestError(Sentence("study.objective_iterates", name=plain.mechanism.name))
 
     @cached_property
     def summaries(self) -> dict[Summary, float]:
@@ -349,7 +372,9 @@ class _Builder:
         program = Program.of(self.traced.solver.motion.trace, {**outputs, VALID: self._valid()})
         made = {each.name: each for each in reductions(self.summaries, self.quantities)}
         made |= {f"path {k}": Reduction(f"path {k}", "mean") for k in range(len(self.paths))}
-        loaded = limit_stages(self.traced, self.loads.outputs, judged=False, valued=self.loads.valued)
+        loaded = self._limits()
+        if self.following is not None:
+            program = states_as_fields(program)
         if self.turns is not None:
             loaded = [self.turns, *loaded]
             refuse_turns(self.traced, loaded[1:], self.turns.keep)
@@ -364,7 +389,16 @@ class _Builder:
         known = {**self.traced.solver.nominal.parameters, **constants(self.traced), **self.loads.constants}
         arrays = {**self.traced.positions.arrays, **targets}
         gradient = cycle_gradient(cycle, VALUE, own)
-        return OverPositions(own, gradient, arrays, known, self.loads.tables, backend)
+        return OverPositions(own, gradient, arrays, known, self.loads.tables, backend, self.following)
+
+    def _limits(self) -> list[Stage]:
+        """The limit positions that the loads need; in groups without closed form by Newton's steps from the position
+        next to them."""
+        outputs, valued = self.loads.outputs, self.loads.valued
+        if self.following is None:
+            return limit_stages(self.traced, outputs, judged=False, valued=valued)
+        near = Traced(self.traced.mechanism, self.names, self.traced.positions, iterations=ITERATIONS)
+        return limit_stages(near, outputs, valued=valued, way=Way({}, near.solver.motion.valid, {}))
 
     def _valid(self) -> Mask:
         """Where a position is reached, all loads have values, and the friction is certain."""
@@ -402,6 +436,8 @@ class _Builder:
             total = total + weight * _summary(t, summary, self.quantities[summary.output])
         for k, (_, weight) in enumerate(self.paths):
             total = total + weight * t.parameter(f"path {k}")
+        for output in self.loads.outputs if self.following else ():
+            total = select(t.parameter(f"doubt:{output}") <= 0.0, total, np.nan)
         return Program.of(t, {VALUE: total})
 
 

@@ -116,8 +116,9 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
     "objective_reverses": "{name!r}: the load {load!r} has the sign of the rate of {output}, which changes it "
     "{count} times in a turn, where gradients of design numbers take two changes; for outputs use sensitivity, for "
     "design numbers study",
-    "objective_iterates": "{name!r} has a group without closed form, through which no gradient of many designs is "
-    "found; for outputs use sensitivity, for design numbers study",
+    "objective_iterates": "{name!r} has a group without closed form, and passes change points, is given inputs other "
+    "than its cycle, or has loads by an output with more than two limits, so no gradient of many designs is found; "
+    "for outputs use sensitivity, for design numbers study",
     "objective_turns": "{name!r}: {links} turns so far between two positions that its turns cannot be counted; "
     "give more steps, or more inputs",
     "objective_turned_loads": "{name!r}: loads go by limits of what a wheel, rack, belt or cam on {links} moves, "

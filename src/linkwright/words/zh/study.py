@@ -100,7 +100,8 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
     "因此不能成批求梯度；输出的梯度请用 sensitivity（逐个方案计算），设计指标请用 study",
     "objective_reverses": "{name!r}：载荷“{load}”的符号取自 {output} 的变化率，它在一转中变号 {count} 次，"
     "而设计指标的梯度只容许两次；输出的梯度请用 sensitivity，设计指标请用 study",
-    "objective_iterates": "{name!r} 含有没有闭式解的杆组，不能成批求梯度；输出的梯度请用 sensitivity，"
+    "objective_iterates": "{name!r} 含有没有闭式解的杆组，又通过变位点、另给了循环以外的输入位置，"
+    "或有载荷取决于极限多于两个的输出，因此不能成批求梯度；输出的梯度请用 sensitivity，"
     "设计指标请用 study",
     "objective_turns": "“{name}”：{links} 在相邻两个位置之间转得太多，不能确定整圈数；请增加步数或输入位置",
     "objective_turned_loads": "“{name}”：载荷取决于 {links} 上的齿轮、齿条、带或凸轮所带动构件的极限，"
