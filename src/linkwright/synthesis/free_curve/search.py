@@ -49,7 +49,7 @@ ONE_DYAD = 0, SLIDING
 #: Eight-bars of 8 joints have a pool apart from six-bars, linkages of one sliding dyad from four-bars, as in one pool
 #: each would crowd out the other.
 LEVELS = (
-    Level(5, 0, 0.5), Level(5, SLIDING, 0.5, apart=True), Level(7, SIX_BARS, 1.5), Level(8, SIX_BARS, 2.0),
+    Level(5, 0, 0.5), Level(5, SLIDING, 0.5, apart=True), Level(8, SIX_BARS, 3.5),
     Level(8, 3, 2.5, apart=True), Level(9, 2, 2.5), Level(10, 2, 3.5), Level(12, None, 7.0),
 )  # fmt: skip
 #: Starts that begin together, how many of all descend further, and their share of a level's time.
@@ -62,6 +62,8 @@ ROUND, MERGED, ENDED = 4.0, 0.85, 0.96
 POOL, BATCH = 30, 0.2
 #: Chance that a design with room for one more joint gets one.
 PARTED = 0.8
+#: Joints that one more dyad brings: its pin and its point of a link, or a pivot of its own as well.
+HUNG = 2, 3
 #: Dyads drawn of which a promising one is taken.
 DRAWS = 96
 #: Share of the attempts that close that goes on after each of two steps, among this many recent ones.
@@ -131,11 +133,13 @@ def _same(a: Design, b: Design) -> bool:
     return abs(a.value - b.value) < near
 
 
-def _largest(pools: dict[Level, Pool], level: Level, fewer: int, numbers: int) -> list[Pool]:
-    """Pools of the ``numbers`` largest numbers of joints, at least ``fewer`` below those of a level."""
-    joints = {each.joints for each in pools if each.joints <= level.joints - fewer and not level.apart}
-    found = sorted(joints)[-numbers:]
-    return [pool for each, pool in pools.items() if each.joints in found and pool.designs]
+def _lacking(pools: dict[Level, Pool], level: Level, joints: tuple[int, ...]) -> list[Pool]:
+    """Pools whose designs lack one of these numbers of joints to have those of a level that is not apart."""
+    return [
+        pool
+        for each, pool in pools.items()
+        if level.joints - each.joints in joints and pool.designs and not level.apart
+    ]
 
 
 @dataclass
@@ -162,7 +166,7 @@ class Search:
         """Designs that meet the demands, of every number of joints; an interrupt gives those found so far."""
         levels = [each for each in LEVELS if each.joints <= self.joints]
         if levels[-1].joints < self.joints:
-            levels.append(Level(self.joints, SIX_BARS if self.joints == 6 else None, LEVELS[-1].part))
+            levels.append(Level(self.joints, SIX_BARS if self.joints < JOINTS[1] else None, LEVELS[-1].part))
         self.begin, self.draw = time.perf_counter(), np.random.default_rng(self.seed)
         self.best = {level: Pool() for level in levels}
         with ThreadPoolExecutor(cores()) as self.workers:
@@ -201,7 +205,7 @@ class Search:
         pools: dict[Level, Pool] = {}
         parts = np.cumsum([level.part for level in self.best])
         for level, part in zip(self.best, parts / parts[-1], strict=True):
-            fewer = _largest(pools, level, 1, 1)
+            fewer = _lacking(pools, level, (1, 2))
             pool = pools[level] = Pool()
             over = self.begin + (begin + (end - begin) * part) * self.seconds
             try:
@@ -217,7 +221,7 @@ class Search:
 
     def _level(self, level: Level, pools: dict[Level, Pool], end: float) -> None:
         """Attempts until the time is over."""
-        pool, below = pools[level], _largest(pools, level, 2, 2)
+        pool, below = pools[level], _lacking(pools, level, HUNG)
 
         def work(seed: int) -> None:
             draw, stop = np.random.default_rng(seed), min(time.perf_counter() + BATCH, end)
