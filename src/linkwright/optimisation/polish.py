@@ -14,6 +14,8 @@ from linkwright.optimisation.task import Judged, Side, Task
 
 #: What is kept from the edge of a demand, in its scales, and the step of differences where no exact slope is had.
 ROOM, STEP = 2e-7, 1e-5
+#: A place in the cube nearer to a bound lies on it.
+AT_BOUND = 1e-8
 #: The least size of a demand beside the start's value.
 FINE = 1e-3
 #: The value of an objective without weight: below all others.
@@ -53,6 +55,7 @@ class Polish:
             return self._model(self._whole(before.x[rows], free), weights[rows], aims[rows])
 
         moved = descended(evaluate, before.x[:, self.free], steps, little)
+        moved = np.where(np.minimum(moved, 1.0 - moved) < AT_BOUND, np.round(moved), moved)
         after = self.task.judge(self._whole(before.x, moved))
         was, now = (_weighed(each.goals, weights, aims).max(axis=1) for each in (before, after))
         with np.errstate(invalid="ignore"):
