@@ -37,9 +37,9 @@ class Undercut:
     corner: tuple[float, float]
 
 
-def undercuts(curve: CamCurve, looks: int = LOOKS) -> tuple[Undercut, ...]:
+def undercuts(curve: CamCurve) -> tuple[Undercut, ...]:
     """All parts of the way whose contact is cut away, in order."""
-    search = _Search(curve, looks)
+    search = _Search(curve)
     cut = search.depth(search.phi) > search.slack
     if cut.all():
         phi = search.phi[int(np.argmax(search.depth(search.phi)))]
@@ -69,10 +69,10 @@ def _undercut(search: _Search, low: float, high: float) -> Undercut:
 class _Search:
     """The depth g at any places, from a first look at many and Newton steps of the best."""
 
-    def __init__(self, curve: CamCurve, looks: int) -> None:
+    def __init__(self, curve: CamCurve) -> None:
         self.curve, self.period = curve, curve.program.period
         inner = self._narrow()
-        phi = curve.program.places(looks)
+        phi = curve.program.places(LOOKS)
         self.phi = np.unique(np.concatenate([phi, *inner]) % self.period)
         if curve.closed:
             self.psi = self.phi

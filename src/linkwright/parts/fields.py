@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 from linkwright import units
 from linkwright.core import expressions
 from linkwright.core.dataclass import dataclass
-from linkwright.core.expressions import Expression
 from linkwright.errors import QuantityError
 from linkwright.fields.base import Field, Schema, table_schema
 from linkwright.fields.nodes import Mapping as MappingNode
@@ -109,6 +108,26 @@ class Either(Field):
 
     def shape(self) -> Schema:
         return {"anyOf": [self.short.shape(), self.table.shape()]}
+
+
+@dataclass(frozen=True)
+class Known(Either):
+    """A name of some known values, or a table; ``code``: of the finding for another name."""
+
+    known: Mapping[str, Any]
+    code: str
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
+        found = super().read(reader, node, place, given)
+        if not isinstance(found, str):
+            return found
+        if found in self.known:
+            return self.known[found]
+        unknown_name(reader, node, place, self.code, found, list(self.known))
+        return None
+
+    def shape(self) -> Schema:
+        return {"anyOf": [{"enum": list(self.known)}, self.table.shape()]}
 
 
 @dataclass(frozen=True)
@@ -235,18 +254,3 @@ class AnyQuantity(Field):
 
     def shape(self) -> Schema:
         return {"type": ["string", "number"]}
-
-
-@dataclass(frozen=True)
-class FormulaOf(Field):
-    """An expression of the variable ``variable`` (dimension of ``across``), such as a law of u or a load of t."""
-
-    dimension: str
-    variable: str
-    across: str = "dimensionless"
-
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Expression | None:
-        return reader.formula(node, place, self.dimension, {self.variable: units.DIMENSIONS[self.across]})
-
-    def shape(self) -> Schema:
-        return {"type": "string", "x-dimension": self.dimension, "x-variables": [self.variable]}

@@ -20,11 +20,11 @@ if TYPE_CHECKING:
 MECHANISM = Text(required=True, doc="model file of the mechanism, beside this file, or gallery:NAME")
 
 
-def load_beside(name: str, folder: Path, key: str = "mechanism") -> Mechanism:
-    """The mechanism that a file in ``folder`` names under ``key``.
+def load_beside(name: str, folder: Path) -> Mechanism:
+    """The mechanism that a file in ``folder`` names.
 
     Raises:
-        ModelError: there is no such file, with a finding at ``key``; or what is wrong with it, at its own places.
+        ModelError: there is no such file, with a finding at ``mechanism``; or what is wrong in it, at its places.
     """
     try:
         return load(name if name.startswith(GALLERY) else folder / name)
@@ -33,7 +33,7 @@ def load_beside(name: str, folder: Path, key: str = "mechanism") -> Mechanism:
             raise
         missing = error.findings[0]
         message = Sentence("part.mechanism_file", name=name, message=missing.message)
-        raise ModelError([Finding("error", "", key, message, missing.remedy, "reference")]) from None
+        raise ModelError([Finding("error", "", "mechanism", message, missing.remedy, "reference")]) from None
 
 
 class OfMechanism(Problem):

@@ -92,11 +92,9 @@ def four_bar_candidate(
     return candidate(linkage, facts, index, error, worst=worst, curve=curve, values=values)
 
 
-def path_of_four_bar(
-    o1: complex, a: complex, b: complex, o2: complex, p: complex, count: int = 361
-) -> Complexes:
+def path_of_four_bar(o1: complex, a: complex, b: complex, o2: complex, p: complex) -> Complexes:
     """Path of P over a turn of O1A on the circuit of the pose, closed; NaN where it cannot be assembled."""
-    theta = np.linspace(0, 2 * np.pi, count)
+    theta = np.linspace(0, 2 * np.pi, 361)
     pin = o1 + (a - o1) * np.exp(1j * theta)
     coupler = coupler_unit(pin, abs(b - a), abs(b - o2), o2, ((o2 - a).conjugate() * (b - a)).imag)
     return np.asarray(pin + (p - a) / ((b - a) / abs(b - a)) * coupler)

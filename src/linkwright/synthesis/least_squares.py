@@ -14,22 +14,16 @@ from linkwright.core.arrays import Floats, Whole
 #: Residuals (K, r) and their Jacobian (K, r, m) at parameters (K, m) of the starts numbered ``who`` (K,).
 System = Callable[[Floats, Whole], tuple[Floats, Floats]]
 
-SHRINK, GROW, LARGEST = 0.2, 6.0, 1e12
+SHRINK, GROW, LARGEST, ENOUGH = 0.2, 6.0, 1e12, 1e-13
 
 
 def minimise(
-    system: System,
-    start: Floats,
-    *,
-    steps: int = 80,
-    keep: int = 6,
-    halve: int = 8,
-    tolerance: float = 1e-13,
+    system: System, start: Floats, *, steps: int = 80, keep: int = 6, halve: int = 8
 ) -> tuple[Floats, Floats, Whole]:
     """Local minima of Σ r² from the rows of ``start`` (K, m): parameters, sums (both best first) and start numbers.
 
     Every ``halve`` steps the worse half of the starts is given up, down to ``keep``. Ends when no start gains more
-    than ``tolerance`` of its sum in a step.
+    than ``ENOUGH`` of its sum in a step.
     """
     x, who = start.copy(), np.arange(len(start))
     damping = np.full(len(x), 1e-3)
@@ -41,7 +35,7 @@ def minimise(
         f2 = _sums(r2)
         better = f2 < f
         gain = np.where(better, f - f2, 0.0)
-        done = (gain <= tolerance * f) & better | (damping > LARGEST) | (f <= 1e-32)
+        done = (gain <= ENOUGH * f) & better | (damping > LARGEST) | (f <= 1e-32)
         x, f = np.where(better[:, None], trial, x), np.where(better, f2, f)
         r, jacobian = np.where(better[:, None], r2, r), np.where(better[:, None, None], j2, jacobian)
         damping = np.where(better, np.maximum(damping * SHRINK, 1e-15), damping * GROW)
@@ -55,12 +49,12 @@ def minimise(
     return x[order], f[order], who[order]
 
 
-def with_differences(residual: Callable[[Floats, Whole], Floats], size: float = 1e-7) -> System:
+def with_differences(residual: Callable[[Floats, Whole], Floats]) -> System:
     """The system of a residual function, its Jacobian by forward differences, all parameters and rows at once."""
 
     def system(x: Floats, who: Whole) -> tuple[Floats, Floats]:
         count, m = x.shape
-        h = size * np.maximum(1.0, np.abs(x))
+        h = 1e-7 * np.maximum(1.0, np.abs(x))
         moved = (x[:, None] + h[:, :, None] * np.eye(m)).reshape(-1, m)
         both = residual(np.concatenate([x, moved]), np.concatenate([who, np.repeat(who, m)]))
         r, beside = both[:count], both[count:].reshape(count, m, -1)

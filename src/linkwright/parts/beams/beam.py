@@ -18,7 +18,7 @@ from linkwright.errors import Finding
 from linkwright.fields.base import Quantities, Quantity, Schema, Word, quantity_schema
 from linkwright.parts.base import Block, Problem, Result, Row, fault
 from linkwright.parts.beams.elastic import ElasticLine, Hold, Point, Spread, free_motions, solve_line
-from linkwright.parts.beams.materials import Material, material_field
+from linkwright.parts.beams.materials import MATERIAL, Material
 from linkwright.parts.beams.sections import Section, section_field
 from linkwright.parts.display import number, shown
 from linkwright.parts.fields import Flag, Listed, Named, Table
@@ -123,12 +123,12 @@ class Beam(Problem):
     kind: ClassVar[str] = "beam"
     fields: ClassVar = {
         "length": Quantity("length", required=True, above=0.0, doc="length of the beam"),
-        "material": material_field(),
-        "section": section_field(required=True, doc="cross section: IPE 100, {rectangle: [b, h]}, {circle: [d]}, "
+        "material": MATERIAL,
+        "section": section_field("cross section: IPE 100, {rectangle: [b, h]}, {circle: [d]}, "
                                  "{second_moment: 2e-5 m⁴}"),
         "steps": Listed(
             Table({"start": Quantity("length", required=True, above=0.0, key="from", doc="from here on"),
-                   "section": section_field(required=True)}, SectionStep),
+                   "section": section_field()}, SectionStep),
             "[{from: 1 m, section: …}]", doc="other sections from places on",
         ),
         "supports": Named(

@@ -19,7 +19,7 @@ from linkwright.mechanism.mechanism import Link, Mechanism
 from linkwright.parts.base import Block, Result, Row, fault
 from linkwright.parts.beams.axis import LinkAxis, SpreadMass
 from linkwright.parts.beams.beam import polynomial_text
-from linkwright.parts.beams.materials import Material, material_field
+from linkwright.parts.beams.materials import MATERIAL, Material
 from linkwright.parts.beams.sections import Section, require_modulus, section_field
 from linkwright.parts.display import shown
 from linkwright.parts.fields import Listed, Whole
@@ -46,8 +46,8 @@ class LinkBending(OfMechanism):
         "axis": Listed(
             Text(), "[A, B, C]", doc="points through which a bent link's axis runs, straight unless given"
         ),
-        "material": material_field(),
-        "section": section_field(required=True, doc="cross section, bent in the plane of the mechanism"),
+        "material": MATERIAL,
+        "section": section_field("cross section, bent in the plane of the mechanism"),
         "safety": Quantity(
             "dimensionless", above=0.0, doc="safety against the strength, for the needed section"
         ),
@@ -77,7 +77,7 @@ class LinkBending(OfMechanism):
             return [
                 fault("beam.axis", "axis", link=self.link, names=", ".join(strange or self.axis), known=known)
             ]
-        found = require_modulus(self.section, "section")
+        found = require_modulus(self.section)
         off = self._off_axis(link)
         if off:
             found.append(fault("beam.crooked", "link", link=self.link, names=", ".join(off)))

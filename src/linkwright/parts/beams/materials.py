@@ -3,16 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
 
 from linkwright.core.dataclass import dataclass
 from linkwright.fields.base import Field, Quantity, Text
-from linkwright.parts.fields import Either, Table, unknown_name
-
-if TYPE_CHECKING:
-    from linkwright.fields.nodes import Node
-    from linkwright.files.plain_reader import Place
-    from linkwright.files.reader import Reader
+from linkwright.parts.fields import Known, Table
 
 
 @dataclass(frozen=True)
@@ -46,28 +40,7 @@ FIELDS: Mapping[str, Field] = {
     "strength": Quantity("pressure", above=0.0, doc="yield strength"),
     "density": Quantity("density", above=0.0, doc="density"),
 }
-
-
-@dataclass(frozen=True)
-class MaterialField(Either):
-    """A name of the table, or ``{modulus: 210 GPa, strength: 235 MPa, density: 7850 kg/m³}``."""
-
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
-        found = super().read(reader, node, place, given)
-        if not isinstance(found, str):
-            return found
-        if found in TABLE:
-            return TABLE[found]
-        unknown_name(reader, node, place, "beam.no_material", found, list(TABLE))
-        return None
-
-    def shape(self) -> dict[str, Any]:
-        found = super().shape()
-        found["anyOf"][0] = {"enum": list(TABLE)}
-        return found
-
-
-def material_field(*, required: bool = True) -> MaterialField:
-    """The key of a material."""
-    return MaterialField(Text(), Table(FIELDS, Material), required=required, doc=f"material: {', '.join(TABLE)}, "
-                         "or {modulus: 210 GPa, strength: 235 MPa}")  # fmt: skip
+MATERIAL = Known(
+    Text(), Table(FIELDS, Material), TABLE, "beam.no_material", required=True,
+    doc=f"material: {', '.join(TABLE)}, or {{modulus: 210 GPa, strength: 235 MPa}}",
+)  # fmt: skip

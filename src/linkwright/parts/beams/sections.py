@@ -10,7 +10,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding
 from linkwright.fields.base import Field, Quantities, Quantity, Text
 from linkwright.parts.base import fault
-from linkwright.parts.fields import Either, Table, unknown_name
+from linkwright.parts.fields import Known, Table
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
@@ -100,27 +100,18 @@ FIELDS: Mapping[str, Field] = {
 
 
 @dataclass(frozen=True)
-class SectionField(Either):
+class SectionField(Known):
     """``IPE 100``, or one shape with its dimensions, or ``{second_moment: …, area: …, modulus: …}``."""
 
     def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
         found = super().read(reader, node, place, given)
-        if isinstance(found, str):
-            if found in IPE:
-                return profile(found)
-            unknown_name(reader, node, place, "beam.no_profile", found, list(IPE))
-            return None
-        return None if found is None else _shaped(reader, node, place, found)
-
-    def shape(self) -> dict[str, Any]:
-        found = super().shape()
-        found["anyOf"][0] = {"enum": list(IPE)}
-        return found
+        return _shaped(reader, node, place, found) if isinstance(found, dict) else found
 
 
-def section_field(*, required: bool = False, doc: str = "cross section") -> SectionField:
+def section_field(doc: str = "cross section") -> SectionField:
     """The key of a cross section."""
-    return SectionField(Text(), Table(FIELDS), required=required, doc=doc)
+    profiles = {name: profile(name) for name in IPE}
+    return SectionField(Text(), Table(FIELDS), profiles, "beam.no_profile", required=True, doc=doc)
 
 
 def _shaped(reader: Reader, node: Node, place: Place, found: dict[str, Any]) -> Section | None:
@@ -139,6 +130,6 @@ def _shaped(reader: Reader, node: Node, place: Place, found: dict[str, Any]) -> 
     return made
 
 
-def require_modulus(section: Section, key: str) -> list[Finding]:
+def require_modulus(section: Section) -> list[Finding]:
     """A finding where stresses cannot be told from the section."""
-    return [] if section.area and section.modulus else [fault("beam.no_modulus", key)]
+    return [] if section.area and section.modulus else [fault("beam.no_modulus", "section")]

@@ -91,13 +91,13 @@ class Model:
         """Scales of the variables."""
         return np.array([v.size for v in self.variables.values()])
 
-    def samples(self, count: int, seed: int = 7) -> Floats:
+    def samples(self, count: int) -> Floats:
         """Starts within the bounds, (variables, count): the middle, then an even sequence of Sobol's."""
         from scipy.stats import qmc
 
         middle = np.array([v.middle for v in self.variables.values()])
         power = max(count - 1, 1).bit_length()
-        even = qmc.Sobol(len(middle), seed=seed).random_base2(power).T
+        even = qmc.Sobol(len(middle), seed=7).random_base2(power).T
         low = np.where(np.isfinite(self.lows), self.lows, middle - 5 * self.sizes)
         high = np.where(np.isfinite(self.highs), self.highs, middle + 5 * self.sizes)
         spread = low[:, None] + even * (high - low)[:, None]

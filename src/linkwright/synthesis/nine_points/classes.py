@@ -55,9 +55,9 @@ def turned(u: Complexes, way: complex) -> Complexes:
     return v
 
 
-def is_real(u: Complexes, tolerance: float = 1e-7) -> Flags:
+def is_real(u: Complexes) -> Flags:
     """Which solutions are four-bars of the real plane."""
-    return np.asarray(np.abs(conjugate(u) - u).max(1) < tolerance * np.abs(u).max(1))
+    return np.asarray(np.abs(conjugate(u) - u).max(1) < 1e-7 * np.abs(u).max(1))
 
 
 def class_keys(u: Complexes) -> Complexes:
