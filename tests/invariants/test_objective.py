@@ -200,6 +200,9 @@ def test_groups_that_newton_solves_have_values_and_gradients(phase, speed, steps
     assert values[:2] == pytest.approx([alone(f.start), alone(1.002 * f.start)], rel=1e-12)
     assert np.isnan(values[2]) and np.isnan(gradients[2]).all()
     assert f.values(np.stack([f.start, far])) == pytest.approx([values[0], np.nan], rel=1e-12, nan_ok=True)
+    one = lw.sensitivity(triad, of=["driver.effort rms"], by=names, steps=steps)
+    rms = lw.objective(triad, "driver.effort rms", vary=names, steps=steps)
+    assert one.gradient("driver.effort rms") == pytest.approx(rms(rms.start)[1], rel=1e-9)
     for k, step in enumerate(1e-3 * f.start):
         a, b, c, d = (alone(f.start + j * step * np.eye(3)[k]) for j in (-2, -1, 1, 2))
         assert gradients[0, k] == pytest.approx((a - 8 * b + 8 * c - d) / (12 * step), rel=1e-7, abs=1e-7)

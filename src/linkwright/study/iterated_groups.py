@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from linkwright.core.arrays import Flags, Floats, Indices
+from linkwright.core.outputs import Output
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.numpy_backend import numpy_program
 from linkwright.engine.program import Program
@@ -118,6 +119,14 @@ def _found(traced: Traced, asked: tuple[str, ...], fields: tuple[str, ...]) -> F
 
 
 _followings: Recent[Mechanism, Following | None] = Recent(8)
+
+
+def limits_beside(traced: Traced, outputs: Iterable[Output], valued: Iterable[Output]) -> list[Stage]:
+    """The stages that find limit positions, by Newton's steps from the positions next to them, where what is carried
+    from position to position is given as fields."""
+    mechanism, free = traced.mechanism, traced.solver.manner.free
+    near = Traced(mechanism, free, traced.positions, iterations=ITERATIONS, turning=traced.turning)
+    return limit_stages(near, outputs, valued=valued, way=Way({}, near.solver.motion.valid, {}))
 
 
 class _Way:

@@ -30,6 +30,7 @@ from linkwright.loads.base import Load
 from linkwright.loads.magnitude import angles_of, by_rate, has_formula
 from linkwright.loads.over_cycle import activity
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.study.iterated_groups import limits_beside
 from linkwright.study.limit_stages import constants, limit_stages, whole_turns
 from linkwright.study.traced import Traced
 from linkwright.words.sentence import Sentence
@@ -93,15 +94,19 @@ def _moving(
     """Limit positions and values there, with their derivatives; None where others are not certain to be missing."""
     if all(getattr(load, "phase", None) is None or by_rate(load) is not None for load in loads):
         return {}, {}
-    if not whole_turns(plain) or plain.solver.motion.next_states or plain.solver.manner.flipping:
+    if not whole_turns(plain) or plain.solver.motion.angles.carried or plain.solver.manner.flipping:
         return None
-    cycle = CycleProgram(tuple(limit_stages(plain, along.outputs, valued=along.valued)))
+    states = {name: row[None, :] for name, row in plain.nominal.states.items()}
+    stages = (limits_beside if states else limit_stages)(plain, along.outputs, valued=along.valued)
+    cycle = CycleProgram(tuple(stages))
     middles = _middle_numbers(plain, along)
     numbers = constants(plain)
     known = {**plain.solver.nominal.parameters, **numbers, **along.constants, **middles}
     table = np.array([[known[name] for name in cycle.dimensions]])
     arrays = plain.positions.arrays
-    found = cycle.evaluate(table, arrays, tables=along.tables, backend="numpy") if along.outputs else {}
+    found = (
+        cycle.evaluate(table, arrays, states, tables=along.tables, backend="numpy") if along.outputs else {}
+    )
     if any(found[f"doubt:{output}"][0] != 0.0 for output in along.outputs):
         return None
     slopes = {}
@@ -112,7 +117,7 @@ def _moving(
             slopes[name] = np.zeros(len(by))
             if own:
                 gradient = cycle_gradient(cycle, name, own)
-                row = gradient.evaluate(table, arrays, tables=along.tables, backend="numpy")[1][0]
+                row = gradient.evaluate(table, arrays, states, tables=along.tables, backend="numpy")[1][0]
                 slopes[name][[by.index(each) for each in own]] = row
     return numbers, slopes
 

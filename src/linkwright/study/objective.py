@@ -30,8 +30,8 @@ from linkwright.kinetostatics.named import Quantity
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.summary import KINDS, Summary, is_metric, reductions, wanted
-from linkwright.study.iterated_groups import ITERATIONS, Following, following
-from linkwright.study.limit_stages import Way, constants, limit_stages
+from linkwright.study.iterated_groups import Following, following, limits_beside
+from linkwright.study.limit_stages import constants, limit_stages
 from linkwright.study.loaded_cycle import along_input, friction_doubt, with_loads
 from linkwright.study.metric_cycle import MetricCycle, metric_cycle
 from linkwright.study.swept_designs import SweptDesigns, swept, swept_designs
@@ -392,13 +392,11 @@ class _Builder:
         return OverPositions(own, gradient, arrays, known, self.loads.tables, backend, self.following)
 
     def _limits(self) -> list[Stage]:
-        """The limit positions that the loads need; in groups without closed form by Newton's steps from the position
-        next to them."""
+        """The limit positions that the loads need."""
         outputs, valued = self.loads.outputs, self.loads.valued
         if self.following is None:
             return limit_stages(self.traced, outputs, judged=False, valued=valued)
-        near = Traced(self.traced.mechanism, self.names, self.traced.positions, iterations=ITERATIONS)
-        return limit_stages(near, outputs, valued=valued, way=Way({}, near.solver.motion.valid, {}))
+        return limits_beside(self.traced, outputs, valued)
 
     def _valid(self) -> Mask:
         """Where a position is reached, all loads have values, and the friction is certain."""

@@ -60,7 +60,7 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
     "not beside wheels, racks or cams, in more than {most} pairs, or near self-locking; leave the friction out of "
     "the model, or vary the dimension in a study",
     "ramp_slope": "loads.{name}: a ramp between limit positions has a derivative where these are the only two in one "
-    "turn at constant speed, and all groups have a closed form; change the dimension in study instead",
+    "turn at constant speed, and no turns of links are counted; change the dimension in study instead",
     "cycle_load_slope": "loads.{name}: a load of the kind {kind!r} is found from the whole cycle, for which no "
     "derivative is known; vary the dimension in a study instead",
     "not_followed": "it could not be followed from position to position together with the others; give more "

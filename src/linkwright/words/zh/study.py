@@ -54,7 +54,7 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
     "friction_slope": "运动副中的摩擦只有在各反力与其成线性关系且远离自锁时才有导数：含有齿轮、齿条或凸轮，"
     "摩擦副多于 {most} 个，或接近自锁时没有；请去掉模型中的摩擦，或在 study 中改变尺寸",
     "ramp_slope": "loads.{name}：极限位置之间的斜坡载荷，只有在原动件匀速转一整周、其间仅有两个极限位置"
-    "且各杆组有闭式解时才有导数；请改在 study 中改变尺寸",
+    "且不累计构件的整圈数时才有导数；请改在 study 中改变尺寸",
     "cycle_load_slope": "loads.{name}：{kind} 类载荷由整个循环求得，没有导数；请改在 study 中改变尺寸",
     "not_followed": "该方案不能与其他方案一起逐个位置地连续求解；请增加步数",
     "no_closed_form": "“{name}”：没有闭式解的杆组，而只有它们给出与奇异位置的接近程度；请另选输出",
