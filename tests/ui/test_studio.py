@@ -59,6 +59,11 @@ def asked(studio: Studio, name: str, body: Any, **headers: str) -> tuple[int, An
     return answer.status, json.loads(text) if text else None
 
 
+def saving(name: str, text: str, version: str = "", draft: str = "") -> dict[str, str]:
+    """A request that writes a text into a file of which the version was seen last."""
+    return {"name": name, "text": text, "version": version, "draft": draft}
+
+
 def test_only_this_page_may_ask(tmp_path: Path) -> None:
     """No secret, a foreign name for this server (DNS rebinding), a foreign origin, a form: all refused."""
     with serving(tmp_path) as studio:
@@ -128,12 +133,47 @@ def test_files_below_the_folder_only(tmp_path: Path) -> None:
             status, found = asked(studio, "open", {"name": name})
             assert status == (400 if "\0" in name else 422), name
             assert "secret" not in json.dumps(found)
-            assert asked(studio, "save", {"name": name, "text": "x", "version": ""})[0] in (400, 422), name
+            assert asked(studio, "save", saving(name, "x"))[0] in (400, 422), name
         assert asked(studio, "keep", b"", Content_Length="3000000")[0] == 413
         assert asked(studio, "keep", b"[]")[0] == 400
         assert asked(studio, "solve", {"text": 3})[0] == 400
         assert asked(studio, "open", {"name": 3})[0] == 400
     assert outside.read_text() == "secret"
+
+
+def test_what_cannot_be_read_or_written_is_said(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Folders, circles of links, names too long, texts too large: a sentence each, and the server goes on."""
+    (tmp_path / "folder.yaml").mkdir()
+    (tmp_path / "circle.yaml").symlink_to("circle.yaml")
+    (tmp_path / "large.yaml").write_text("# x\n" * 250_001)
+    (tmp_path / "there.yaml").write_text("")
+    with serving(tmp_path) as studio:
+        for name, reason in (
+            ("folder.yaml", "is a folder"),
+            ("circle.yaml", "no model file"),
+            ("large.yaml", "larger than"),
+            ("long" * 80 + ".yaml", "long"),
+        ):
+            for request in ("open", "disk", "state", "save"):
+                status, found = asked(studio, request, {"window": "w", **saving(name, "x")})
+                assert status == 422, (name, request)
+                assert reason in found["error"], (name, request)
+        assert asked(studio, "save", saving("there.yaml/x.yaml", "x"))[0] == 422
+        assert not asked(studio, "save", saving("there.yaml", "x"))[1]["saved"]
+        assert (tmp_path / "there.yaml").read_text() == ""
+
+        def failing(*_: Any) -> Any:
+            raise ZeroDivisionError("by nought")
+
+        monkeypatch.setattr(work, "edited", failing)
+        monkeypatch.setattr(work, "linkages", lambda *_: failing)
+        status, found = asked(studio, "edit", {"text": "", "action": {}, "language": "zh"})
+        assert (status, "ZeroDivisionError：by nought" in found["error"]) == (500, True)
+        number = asked(studio, "curve", {"points": [], "closed": True})[1]["number"]
+        assert "by nought" in list(followed(studio, number))[-1]["sentence"]
+    assert "failing" in capsys.readouterr().err
 
 
 DRAWN: tuple[dict[str, Any], ...] = (
@@ -728,6 +768,59 @@ def test_a_stroke_before_the_file_is_open_is_drawn_into_the_file(tmp_path: Path)
         assert tab.locator("textarea").input_value().startswith(head)
 
 
+GEARED = """format: 1
+frame: {points: {O1: [0 mm, 0 mm], O2: [180 mm, 0 mm]}}
+links:
+  c1: {points: [O1, A], length: 50 mm}
+  c2: {points: [O2, B], length: 40 mm}
+joints:
+  mesh: {kind: gear, links: [c1, c2], teeth: [40, 20], module: 6 mm}
+driver: {turn: c1, about: O1, speed: 90 rpm}
+"""
+
+
+@needs_chromium
+def test_saving_asks_before_it_overwrites_and_a_drag_that_the_file_refuses_goes_back(tmp_path: Path) -> None:
+    """Another file of the same name stays until it is said; what changed on the disk can be taken; keys undo text."""
+    (tmp_path / "a.yaml").write_text(GEARED)
+    (tmp_path / "b.yaml").write_text("# another machine\n")
+    with serving(tmp_path, "a.yaml") as studio, browser() as chromium:
+        tab = chromium.new_page(viewport={"width": 1360, "height": 900})
+        tab.set_default_timeout(20_000)
+        tab.goto(studio.url)
+        agreed = "() => desk.session.value?.data.text === desk.text.value"
+        tab.wait_for_function(agreed)
+        tab.locator('.handle[data-key="O2"]').focus()
+        tab.keyboard.press("Shift+ArrowRight")
+        tab.locator(".said", has_text="the external pair needs 0.18 m").wait_for()
+        tab.wait_for_function(agreed)
+        area = tab.locator("textarea")
+        assert area.input_value() == GEARED
+        assert tab.evaluate("() => linkwright.sessions[0].model.values['frame.O2.x']") == 0.18
+        area.focus()
+        tab.keyboard.press("Control+End")
+        tab.keyboard.type("# mine", delay=5)
+        tab.keyboard.press("Control+z")
+        assert area.input_value() == GEARED
+        tab.keyboard.press("Control+y")
+        assert area.input_value() == GEARED + "# mine"
+        name, banner = tab.get_by_label("File name"), tab.locator(".banner")
+        name.fill("b.yaml")
+        tab.get_by_role("button", name="Save", exact=True).click()
+        banner.get_by_text("There is a file b.yaml already").wait_for()
+        assert (tmp_path / "b.yaml").read_text() == "# another machine\n"
+        name.fill("c")
+        tab.get_by_role("button", name="Save", exact=True).click()
+        banner.wait_for(state="detached")
+        assert (tmp_path / "c.yaml").read_text() == GEARED + "# mine"
+        assert not Files(tmp_path).open("a.yaml")["recovered"]
+        (tmp_path / "c.yaml").write_text(GEARED + "# theirs")
+        banner.get_by_role("button", name="Take its text").click()
+        tab.keyboard.press("Control+s")
+        banner.wait_for(state="detached")
+        assert (tmp_path / "c.yaml").read_text() == area.input_value() == GEARED + "# theirs"
+
+
 @needs_chromium
 def test_findings_stand_at_their_lines_and_two_windows_notice_each_other(tmp_path: Path) -> None:
     text = lw.read_document("gallery:crank_rocker").text
@@ -784,9 +877,7 @@ def test_a_killed_server_loses_nothing(tmp_path: Path, monkeypatch: pytest.Monke
         status, found = asked(studio, "open", {"name": "a.yaml"})
         assert (status, found["recovered"], found["text"]) == (200, True, "format: 1\nname: kept\n")
         assert (tmp_path / "a.yaml").read_text() == "format: 1\n"
-        saved = asked(studio, "save", {"name": "a.yaml", "text": found["text"], "version": found["version"]})[
-            1
-        ]
+        saved = asked(studio, "save", saving("a.yaml", found["text"], found["version"]))[1]
         assert saved["saved"]
         new = {"name": asked(studio, "open", {})[1]["name"], "text": "x: 1", "window": "w", "serial": 0}
         asked(studio, "keep", new)
@@ -794,6 +885,6 @@ def test_a_killed_server_loses_nothing(tmp_path: Path, monkeypatch: pytest.Monke
         assert (again["name"], again["text"], again["recovered"]) == ("machine.yaml", "x: 1", True)
         assert asked(studio, "open", {"fresh": True})[1]["name"] == "machine2.yaml"
         (tmp_path / "a.yaml").write_text("format: 1\nname: from outside\n")
-        again = asked(studio, "save", {"name": "a.yaml", "text": "x: 1", "version": saved["version"]})[1]
+        again = asked(studio, "save", saving("a.yaml", "x: 1", saved["version"]))[1]
         assert not again["saved"]
         assert "from outside" in (tmp_path / "a.yaml").read_text()

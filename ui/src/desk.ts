@@ -30,6 +30,10 @@ export interface Solved {
 /** Rest after typing before a text is solved, ms. */
 export const WAIT = 250;
 const WATCH = 1500, LOOK = 400;
+/** Letters typed within this time of each other are one step, ms. */
+const PAUSE = 700;
+/** Characters of a text that the server takes. */
+const LARGEST = 1_000_000;
 
 /** A linkage for a curve: its file, how far off it is (m), its curve. */
 export interface Candidate {
@@ -66,7 +70,8 @@ export class Desk {
   readonly solved = signal<Solved>({ findings: [], model: null, sentence: "" });
   readonly drawing = signal(true);
   readonly elsewhere = signal<string | null>(null);
-  readonly onDisk = signal("");
+  /** A file on the disk that is not the one that was opened, and so is not overwritten unasked. */
+  readonly onDisk = signal<{ name: string; version: string } | null>(null);
   readonly dirty = signal(false);
   readonly sought = signal<Sought | null>(null);
   private readonly window = crypto.randomUUID();
@@ -74,6 +79,9 @@ export class Desk {
   readonly history = new History<string>(() => this.text.value, (text) => this.put(text, 0));
   private version = "";
   private serial = 0;
+  private typed = -PAUSE;
+  /** The text before the last change of the machine by hand, and the text that wrote. */
+  private moved: { before: string; text: string } | null = null;
   private stale = false;
   private solving: Promise<void> | null = null;
   private timer = 0;
@@ -93,6 +101,10 @@ export class Desk {
   };
 
   async ask<T>(name: string, body: Record<string, unknown> = {}): Promise<T | null> {
+    if (typeof body.text === "string" && body.text.length > LARGEST) {
+      this.page.note.value = this.say("large", { most: String(LARGEST) });
+      return null;
+    }
     try {
       const answer = await fetch(`/api/${name}`, {
         method: "POST",
@@ -111,11 +123,14 @@ export class Desk {
   /** Takes a text as a step of its own. */
   change(text: string, wait = 0): void {
     if (text === this.text.value) return;
-    this.history.mark();
+    const now = wait ? performance.now() : -PAUSE;
+    if (now - this.typed >= PAUSE || !wait) this.history.mark();
     this.put(text, wait);
+    this.typed = now;
   }
 
   private put(text: string, wait: number): void {
+    this.typed = -PAUSE;
     this.text.value = text;
     this.dirty.value = true;
     void this.keep();
@@ -150,7 +165,8 @@ export class Desk {
       if (opened && opened.text !== this.text.value) this.elsewhere.value = opened.text;
       this.serial = state.serial;
     }
-    this.onDisk.value = state.version !== this.version ? state.version : "";
+    const { name } = this, known = this.onDisk.value;
+    if (!known || known.name === name.value) this.onDisk.value = state.version === this.version ? null : { name: name.value, version: state.version };
   }
 
   takeTheirs(): void {
@@ -175,7 +191,7 @@ export class Desk {
     [this.version, this.serial] = [opened.version, opened.serial];
     this.history.clear();
     this.elsewhere.value = null;
-    this.onDisk.value = "";
+    this.onDisk.value = null;
     this.text.value = opened.text;
     this.dirty.value = opened.recovered;
     this.page.note.value = opened.recovered ? this.say("recovered") : "";
@@ -184,29 +200,37 @@ export class Desk {
     this.drawing.value = this.session.value === null;
   }
 
-  async save(name: string): Promise<void> {
-    if (name !== this.name.value) {
-      this.name.value = name;
-      const there = await this.ask<{ version: string; serial: number }>("open", { name });
-      if (!there) return;
-      [this.version, this.serial] = [there.version, there.serial];
-    }
-    await this.keep();
-    const saved = await this.ask<{ saved: boolean; version: string }>("save", { name, text: this.text.value, version: this.version });
+  /** Writes the file; another one than the open one only where there is none, or in place of the given version. */
+  async save(asked: string, version?: string): Promise<void> {
+    const name = /\.(ya?ml|json)$/i.test(asked) ? asked : `${asked}.yaml`, own = name === this.name.value;
+    if (own) await this.keep();
+    const text = this.text.value;
+    const saved = await this.ask<{ saved: boolean; version: string; serial: number }>("save", {
+      name, text, version: version ?? (own ? this.version : ""), draft: this.name.value,
+    });
     if (!saved) return;
-    if (!saved.saved) {
-      this.onDisk.value = saved.version;
-      return;
-    }
+    this.onDisk.value = saved.saved ? null : { name, version: saved.version };
+    if (!saved.saved) return;
+    if (!own) [this.name.value, this.serial] = [name, saved.serial];
     this.version = saved.version;
-    this.dirty.value = false;
+    this.dirty.value = text !== this.text.value;
     this.page.note.value = this.say("saved");
   }
 
+  /** Writes the file in place of the one on the disk that has been in the way. */
   async overwrite(): Promise<void> {
-    this.version = this.onDisk.value;
-    this.onDisk.value = "";
-    await this.save(this.name.value);
+    const there = this.onDisk.value;
+    if (there) await this.save(there.name, there.version);
+  }
+
+  /** Goes on with the text of the open file as it is on the disk now. */
+  async takeDisk(): Promise<void> {
+    const there = await this.ask<{ text: string; version: string }>("disk", { name: this.name.value });
+    if (!there) return;
+    this.version = there.version;
+    this.onDisk.value = null;
+    this.change(there.text);
+    this.dirty.value = false;
   }
 
   private clear(): void {
@@ -230,7 +254,13 @@ export class Desk {
   private async once(): Promise<void> {
     const text = this.text.value;
     const solved = await this.ask<Solved>("solve", { text });
-    if (!solved || text !== this.text.value) return;
+    if (text !== this.text.value) return;
+    if (!solved) {
+      const sentence = this.page.note.value;
+      if (sentence !== this.say("gone")) this.solved.value = { findings: [], model: null, sentence, text };
+      return;
+    }
+    if (!solved.model && this.moved?.text === text) return this.refuse(this.moved.before, solved);
     this.solved.value = { ...solved, text };
     if (!solved.model?.module) return;
     const session = new Session(solved.model, await code(solved.model, 0), 0), old = this.session.value;
@@ -246,8 +276,21 @@ export class Desk {
     const values = Object.fromEntries(dimensions.filter((d) => session.model.values[d.address] !== d.value).map((d) => [d.address, session.model.values[d.address]]));
     if (!Object.keys(values).length || session.data.text !== this.text.value) return;
     const { text, missing } = session.text();
-    if (!missing.length) return this.change(text);
-    await this.write(values);
+    if (missing.length) {
+      if (!(await this.write(values))) back(session);
+      return;
+    }
+    this.moved = { before: this.text.value, text };
+    this.change(text);
+  }
+
+  /** Takes a change by hand back where the file does not admit it, and says why. */
+  private refuse(before: string, { findings, sentence }: Solved): void {
+    this.moved = null;
+    this.history.unmark();
+    if (this.session.value) back(this.session.value);
+    this.put(before, 0);
+    this.page.note.value = findings.filter(({ severity }) => severity === "error").map(({ message, remedy }) => [message, remedy].filter(Boolean).join("; ")).join("; ") || sentence;
   }
 
   /** Begins a search and looks what is found so far until it has ended. */
@@ -264,10 +307,11 @@ export class Desk {
     }
   }
 
-  /** Writes dimensions (SI) into the text. */
-  async write(values: Values): Promise<void> {
+  /** Writes dimensions (SI) into the text; false where it does not admit them. */
+  async write(values: Values): Promise<boolean> {
     const text = this.text.value, set = await this.ask<{ text: string }>("set", { text, values });
     if (set && text === this.text.value) this.change(set.text);
+    return set !== null;
   }
 
   /** Puts another machine beside the open one; none takes it away. */
@@ -314,4 +358,10 @@ export class Desk {
       this.change(text);
     }).finally(() => this.pending--));
   };
+}
+
+/** Puts a machine back where its text has it. */
+function back(session: Session): void {
+  session.model.change({ ...session.data.values });
+  session.touched();
 }

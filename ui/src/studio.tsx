@@ -109,6 +109,21 @@ function Text({ desk }: { desk: Desk }) {
     area.current!.focus();
     area.current!.setSelectionRange(start, start + (lines[line - 1]?.length ?? 0));
   };
+  /** Steps of text and drawing by the keys that undo typing elsewhere; the cursor goes where the text changes. */
+  const step = (event: KeyboardEvent) => {
+    const which = event.key.toLowerCase();
+    if (!(event.ctrlKey || event.metaKey) || (which !== "z" && which !== "y")) return;
+    event.preventDefault();
+    const before = desk.text.value;
+    if (which === "y" || event.shiftKey) desk.history.redo();
+    else desk.history.undo();
+    const now = desk.text.value;
+    if (now === before) return;
+    let same = 0;
+    while (same < Math.min(now.length, before.length) && now[now.length - 1 - same] === before[before.length - 1 - same]) same++;
+    area.current!.value = now;
+    area.current!.setSelectionRange(now.length - same, now.length - same);
+  };
   return (
     <section class="text" aria-label={desk.say("text")}>
       <div class="editor">
@@ -117,7 +132,7 @@ function Text({ desk }: { desk: Desk }) {
         </pre>
         <textarea
           ref={area} spellcheck={false} wrap="off" value={text} aria-label={desk.say("text")}
-          onInput={(event) => desk.change(event.currentTarget.value, WAIT)}
+          onInput={(event) => desk.change(event.currentTarget.value, WAIT)} onKeyDown={step}
           onScroll={(event) => (gutter.current!.scrollTop = event.currentTarget.scrollTop)}
         />
       </div>
@@ -202,7 +217,8 @@ function Room({ desk }: { desk: Desk }) {
       )}
       {desk.onDisk.value && (
         <p class="banner" role="alert">
-          {desk.say("on_disk")}
+          {desk.onDisk.value.name === desk.name.value ? desk.say("on_disk") : desk.say("there_already", { name: desk.onDisk.value.name })}
+          {desk.onDisk.value.name === desk.name.value && desk.onDisk.value.version && <button onClick={() => void desk.takeDisk()}>{desk.say("take_theirs")}</button>}
           <button onClick={() => void desk.overwrite()}>{desk.say("overwrite")}</button>
         </p>
       )}
@@ -233,6 +249,11 @@ async function open(): Promise<void> {
   const page = new Page(data, []), desk = new Desk(page);
   render(<Room desk={desk} />, document.getElementById("page")!);
   keys(page);
+  document.addEventListener("keydown", (event) => {
+    if (!(event.ctrlKey || event.metaKey) || event.key.toLowerCase() !== "s") return;
+    event.preventDefault();
+    if (desk.name.value) void desk.save(desk.name.value);
+  });
   Object.assign(globalThis, { linkwright: page, desk });
   await desk.open(data.file ? { name: data.file } : {});
 }

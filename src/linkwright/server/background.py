@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import threading
+import traceback
 from collections.abc import Callable
 from typing import Any
 
 from linkwright.core.plain import Plain
 from linkwright.errors import LinkwrightError
+from linkwright.words.sentence import Sentence, in_language
 
 
 class Stopped(Exception):
@@ -80,7 +82,17 @@ class Background:
                 work(Job(self, number, language))
             except LinkwrightError as error:
                 self.add(number, {"sentence": error.say(language)})
+            except Stopped:
+                raise
+            except Exception as error:
+                self.add(number, {"sentence": unexpected(error, language)})
             finally:
                 self.add(number, {"running": False})
         except Stopped:
             return
+
+
+def unexpected(error: Exception, language: str) -> str:
+    """The sentence for a fault of the program; where it arose is written to the terminal."""
+    traceback.print_exception(error)
+    return in_language(Sentence("studio.unexpected", kind=type(error).__name__, message=str(error)), language)

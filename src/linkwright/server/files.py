@@ -5,12 +5,14 @@ from __future__ import annotations
 import hashlib
 import json
 import threading
+from contextlib import suppress
 from pathlib import Path
 
 from linkwright.core.plain import Plain
 from linkwright.errors import LinkwrightError
 from linkwright.files.source import decode
-from linkwright.whole_files import write_whole
+from linkwright.whole_files import make_folder, write_whole
+from linkwright.words.reasons import reason_of
 from linkwright.words.sentence import Sentence
 
 _ENDINGS = (".yaml", ".yml", ".json")
@@ -29,12 +31,29 @@ class Files:
 
     def path(self, name: str) -> Path:
         """The path of a file below the folder; raises LinkwrightError for any other."""
-        path = (self.folder / name).resolve()
+        path = self.folder
+        with suppress(OSError, RuntimeError):  # links that lead in a circle
+            path = (self.folder / name).resolve()
         if not path.is_relative_to(self.folder) or path.suffix.lower() not in _ENDINGS or "\0" in name:
             raise LinkwrightError(Sentence("studio.outside", name=name))
         if any(part.startswith(".") for part in path.relative_to(self.folder).parts):
             raise LinkwrightError(Sentence("studio.outside", name=name))
         return path
+
+    def disk(self, name: str) -> Plain:
+        """A file's text and version as they are on the disk; no text and the version "" where there is none."""
+        path = self.path(name)
+        try:
+            if path.is_dir():
+                raise LinkwrightError(Sentence("file.is_folder", path=name))
+            if not path.is_file():
+                return {"text": "", "version": ""}
+            if path.stat().st_size > LARGEST:
+                raise LinkwrightError(Sentence("studio.large", most=LARGEST))
+            text = decode(path.read_bytes(), name)
+        except OSError as problem:
+            raise LinkwrightError(Sentence("model.unreadable", reason=reason_of(problem))) from None
+        return {"text": text, "version": hashlib.sha256(text.encode()).hexdigest()[:24]}
 
     def names(self) -> list[str]:
         """Model files of the folder and those below, at most 500."""
@@ -50,14 +69,12 @@ class Files:
 
     def open(self, name: str) -> Plain:
         """A file's text; a draft that is newer than what was saved comes first and is said (``recovered``)."""
-        path = self.path(name)
-        text = decode(path.read_bytes(), name) if path.is_file() else ""
-        version = _version(text)
+        found = self.disk(name)
         draft = self._draft(name)
-        recovered = draft is not None and draft["text"] != text
+        recovered = draft is not None and draft["text"] != found["text"]
         serial, _ = self._serial.get(name, (0, ""))
-        shown = draft["text"] if draft is not None and recovered else text
-        return {"name": name, "text": shown, "version": version, "serial": serial, "recovered": recovered}
+        shown = draft["text"] if draft is not None and recovered else found["text"]
+        return {**found, "name": name, "text": shown, "serial": serial, "recovered": recovered}
 
     def fresh(self, stem: str) -> str:
         """A name that no file and no draft has."""
@@ -90,29 +107,33 @@ class Files:
                 draft = self._draft(name)
                 return {"serial": known, "other": draft["text"] if draft else None}
             self._serial[name] = (known + 1, window)
-            folder = self.folder / _DRAFTS
-            folder.mkdir(exist_ok=True)
+            make_folder(self.folder / _DRAFTS)
             write_whole(self._draft_path(name), json.dumps({"name": name, "text": text}).encode())
         return {"serial": known + 1, "other": None}
 
     def state(self, name: str, window: str) -> Plain:
         """Whether another window has changed the draft, and the version of the file on the disk."""
-        path = self.path(name)
-        text = decode(path.read_bytes(), name) if path.is_file() else ""
+        version = self.disk(name)["version"]
         serial, writer = self._serial.get(name, (0, ""))
-        return {"serial": serial, "other": writer not in ("", window), "version": _version(text)}
+        return {"serial": serial, "other": writer not in ("", window), "version": version}
 
-    def save(self, name: str, text: str, version: str) -> Plain:
-        """Writes the file, if it is still the one that was opened (``version``); the draft is done with."""
+    def save(self, name: str, text: str, version: str, draft: str) -> Plain:
+        """Writes the file, if it is still the one that was opened (``version``; "" for one that is not there yet).
+
+        Its draft, and the one that the text was kept in under another name (``draft``), are done with.
+        """
         _small(text)
         path = self.path(name)
-        old = decode(path.read_bytes(), name) if path.is_file() else ""
-        if _version(old) != version:
-            return {"saved": False, "version": _version(old)}
-        path.parent.mkdir(parents=True, exist_ok=True)
+        there = self.disk(name)["version"]
+        if there != version:
+            return {"saved": False, "version": there}
+        make_folder(path.parent)
         write_whole(path, text.encode())
-        self._draft_path(name).unlink(missing_ok=True)
-        return {"saved": True, "version": _version(text)}
+        for each in (name, draft):
+            with suppress(OSError):
+                self._draft_path(each).unlink(missing_ok=True)
+        serial, _ = self._serial.get(name, (0, ""))
+        return {"saved": True, "version": self.disk(name)["version"], "serial": serial}
 
     def _draft_path(self, name: str) -> Path:
         return self.folder / _DRAFTS / f"{hashlib.sha256(name.encode()).hexdigest()[:24]}.json"
@@ -123,10 +144,6 @@ class Files:
         except (OSError, ValueError):
             return None
         return found if found.get("name") == name and isinstance(found.get("text"), str) else None
-
-
-def _version(text: str) -> str:
-    return hashlib.sha256(text.encode()).hexdigest()[:24]
 
 
 def _small(text: str) -> None:

@@ -18,8 +18,9 @@ from typing import Any
 from urllib.parse import parse_qs, urlsplit
 
 from linkwright.errors import LinkwrightError
+from linkwright.server.background import unexpected
 from linkwright.server.files import LARGEST, Files
-from linkwright.server.work import Work
+from linkwright.server.work import Work, language_of
 from linkwright.words import LANGUAGES, catalogue
 
 _POLICY = (
@@ -100,14 +101,16 @@ class _Handler(BaseHTTPRequestHandler):
             self._answer(answer, body)
 
     def _answer(self, answer: Any, body: bytes) -> None:
+        language = "en"
         try:
             asked = json.loads(body)
+            language = language_of(asked)
             status, found = 200, answer(asked)
         except LinkwrightError as error:
-            language = asked.get("language", "en") if isinstance(asked, dict) else "en"
-            status, found = 422, {"error": error.say(language if language in LANGUAGES else "en")}
-        except (KeyError, TypeError, ValueError, AttributeError):
-            status, found = 400, {"error": ""}
+            status, found = 422, {"error": error.say(language)}
+        except Exception as error:
+            misshapen = isinstance(error, (KeyError, TypeError, ValueError, AttributeError))
+            status, found = 400 if misshapen else 500, {"error": unexpected(error, language)}
         text = json.dumps(found, ensure_ascii=False, allow_nan=False)
         self._send(status, text.encode(), "application/json")
 

@@ -43,11 +43,14 @@ class Work:
                 _text(a, "name"), _text(a, "text"), _text(a, "window"), int(a["serial"])
             ),
             "state": lambda a: files.state(_text(a, "name"), _text(a, "window")),
-            "save": lambda a: files.save(_text(a, "name"), _text(a, "text"), _text(a, "version")),
-            "solve": lambda a: self._solve(_text(a, "text"), _language(a)),
+            "save": lambda a: files.save(
+                _text(a, "name"), _text(a, "text"), _text(a, "version"), _text(a, "draft")
+            ),
+            "disk": lambda a: files.disk(_text(a, "name")),
+            "solve": lambda a: self._solve(_text(a, "text"), language_of(a)),
             "edit": lambda a: {"text": edited(_text(a, "text"), dict(a["action"]))},
             "curve": lambda a: self.background.begin(
-                "curve", linkages(a["points"], bool(a["closed"])), _language(a)
+                "curve", linkages(a["points"], bool(a["closed"])), language_of(a)
             ),
             "optimize": self._optimize,
             "goals": self._goals,
@@ -102,17 +105,17 @@ class Work:
         """Begins the optimisation that the text's section asks."""
         from linkwright.server.optimising import optimised
 
-        return self.background.begin("optimum", optimised(_text(asked, "text")), _language(asked))
+        return self.background.begin("optimum", optimised(_text(asked, "text")), language_of(asked))
 
     def _goals(self, asked: Plain) -> Plain:
         """What an optimisation of a text's model can make least or keep."""
         from linkwright.server.optimising import goals
 
-        return {"goals": goals(_text(asked, "text"), _language(asked))}
+        return {"goals": goals(_text(asked, "text"), language_of(asked))}
 
     def _take(self, asked: Plain) -> Plain:
         """A report, or an export, of a text: its name and its bytes in base64."""
-        text, ending, language = _text(asked, "text"), _text(asked, "ending"), _language(asked)
+        text, ending, language = _text(asked, "text"), _text(asked, "ending"), language_of(asked)
         if ending not in TAKEN:
             raise LinkwrightError(Sentence("studio.no_ending", ending=ending))
         document = Document(text, "model", read_text)
@@ -177,6 +180,7 @@ def _text(asked: Plain, key: str) -> str:
     return value
 
 
-def _language(asked: Plain) -> str:
-    found = asked.get("language")
+def language_of(asked: object) -> str:
+    """The language that a request asks for its sentences."""
+    found = asked.get("language") if isinstance(asked, dict) else None
     return found if found in LANGUAGES else "en"

@@ -14,6 +14,8 @@ WORDS = {
     "ports": "ports go from 0 to {last}",
     "no_port": "port {port} cannot be used: {reason}; choose another one, or none for a free one",
     "outside": "{name} is no model file below the folder in which the studio was started",
+    "unexpected": "this should not have happened ({kind}: {message}); please report it with the text of the model; "
+    "the terminal of the studio shows where it arose",
     "large": "the text is larger than {most} bytes",
     "no_mapping": "the text is a list or a single value; begin with keys such as frame and links",
     "no_action": "there is no drawing action {name!r}",
@@ -32,6 +34,7 @@ WORDS = {
     "keep_mine": "Keep mine",
     "on_disk": "The file on the disk has changed since it was opened; save under another name, or overwrite "
     "it.",
+    "there_already": "There is a file {name} already; save under another name, or overwrite it.",
     "overwrite": "Overwrite",
     "draw": "Draw",
     "run": "Run",
