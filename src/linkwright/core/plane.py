@@ -16,7 +16,7 @@ _DIRECTIONS = np.exp(2j * np.pi * np.arange(24) / 24.0)
 
 
 def cross(a: Floats, b: Floats) -> Floats:
-    """a × b of vectors (n, 2), (n,)."""
+    """a × b of plane vectors (…, 2), (…)."""
     return np.asarray(a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0])
 
 

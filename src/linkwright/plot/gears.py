@@ -12,7 +12,7 @@ from linkwright.errors import RequestError
 from linkwright.plot.drawing.picture import Box, Drawing, bounds, document
 from linkwright.plot.svg.element import Element, circle, element, path, path_data
 from linkwright.plot.svg.text import text_element, width
-from linkwright.plot.symbols.base import points, ring
+from linkwright.plot.symbols.base import points, ring, vec
 from linkwright.words import LANGUAGES, say
 from linkwright.words.sentence import Sentence
 
@@ -42,7 +42,7 @@ def draw_pair(pair: GearPair, pinion_angle: float = 0.0, language: str = "en") -
     for gear, outline, at in gears:
         content.append(_body(gear, paper(outline), paper(at), scale))
     for gear, _, at in gears:
-        content += _circles(pair, gear, _vec(paper(at)), scale)
+        content += _circles(pair, gear, vec(paper(at)), scale)
     content.append(path(paper(contact_line(pair)), "lw-input-line"))
     box = bounds([paper(each) for each in extent])
     title = say("gears.title", language, first=pair.pinion.teeth, second=pair.wheel.teeth)
@@ -97,7 +97,7 @@ def contact_line(pair: GearPair) -> Floats:
 def _body(gear: Gear, outline: Floats, at: Floats, scale: float) -> Element:
     if not gear.internal:
         return path(outline, "lw-gear", closed=True)
-    rim = ring(_vec(at), scale * _outer_radius(gear), 180)
+    rim = ring(vec(at), scale * _outer_radius(gear), 180)
     data = path_data(outline, closed=True) + path_data(rim, closed=True)
     return element("path", {"class": "lw-gear", "fill-rule": "evenodd", "d": data})
 
@@ -135,7 +135,3 @@ def _outer_radius(gear: Gear) -> float:
 def _extent(gear: Gear, at: Floats) -> Floats:
     radius = _outer_radius(gear) if gear.internal else 0.5 * gear.tip_diameter
     return np.array([at - radius, at + radius])
-
-
-def _vec(row: Floats) -> tuple[float, float]:
-    return float(row[0]), float(row[1])

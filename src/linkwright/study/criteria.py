@@ -14,7 +14,7 @@ from linkwright.metrics.flywheel import SIZED
 from linkwright.metrics.summary import is_summary, wanted
 from linkwright.registry import offered
 from linkwright.study.alternatives import Alternative
-from linkwright.study.terms import OWN, Asked, governing, own
+from linkwright.study.terms import OWN, Asked, governing, metric_of, own
 from linkwright.words import say
 from linkwright.words.sentence import Sentence
 
@@ -48,11 +48,10 @@ class Criterion:
         """Its name in words."""
         if self.name in OWN:
             return say(f"compare.{self.name}.label", language)
-        metric, _, subject = self.name.partition(" ")
-        if metric in METRICS:
-            title = METRICS[metric]().label_in(language)
-            return f"{title}, {subject}" if subject else title
-        return self.name
+        if (found := metric_of(self.name)) is None:
+            return self.name
+        title = found[0]().label_in(language)
+        return f"{title}, {found[1]}" if found[1] else title
 
 
 def criteria(names: Iterable[str] | str) -> list[Criterion]:
@@ -70,12 +69,10 @@ def criterion(name: str) -> Criterion:
         return Criterion(name, OWN[name][1], lambda each: _own(each, name), forces)
     if is_summary(name):
         return Criterion(name, _better(name), lambda each: _summary(each, name), True)
-    metric, _, subject = name.partition(" ")
-    if metric in METRICS:
-        kind = METRICS[metric]
+    if (known := metric_of(name)) is not None:
+        kind, subject = known
         return Criterion(name, kind.better, lambda each: _metric(each, kind(), subject), kind.needs_forces)
-    known = [*OWN, *METRICS]
-    hint = offered(name, known)
+    hint = offered(name, [*OWN, *METRICS])
     raise RequestError(Sentence("study.no_metric", name=name, hint=hint))
 
 
@@ -114,8 +111,8 @@ def numbers_of(each: Alternative, name: str) -> Iterable[Number]:
     if name in OWN:
         found = own(name, each.analysis, Asked(each.output, each.fluctuation))
         return found.numbers if found else ()
-    metric, _, _ = name.partition(" ")
-    kind = METRICS[metric]() if metric in METRICS else None
+    metric, _ = metric_of(name) or (None, "")
+    kind = metric() if metric is not None else None
     return kind.numbers(each.analysis) if kind is not None and kind.applies(each.analysis) else ()
 
 

@@ -11,6 +11,7 @@ from numpy.polynomial import Polynomial, legendre
 
 from linkwright.core.arrays import Floats, Indices
 from linkwright.core.dataclass import dataclass
+from linkwright.core.plane import cross
 from linkwright.mechanism.mechanism import Link
 
 #: Stations between two corners.
@@ -70,11 +71,11 @@ class LinkAxis:
     def crossed(self, force: Floats, moment: Floats) -> tuple[Floats, Floats]:
         """Where forces (n, 2) with ``moment`` (n,) about the origin meet the axis: s (n,), and the couple that is
         left (n,) where they pass it by, at the corner where it is least."""
-        left = moment[:, None] - _cross(self.corners[None], force[:, None])
+        left = moment[:, None] - cross(self.corners[None], force[:, None])
         rows = np.arange(len(force))
         best = np.abs(left).argmin(axis=1)
         s, couple = self.places[best], left[rows, best]
-        turning = _cross((self.tangents * np.diff(self.places)[:, None])[None], force[:, None])
+        turning = cross((self.tangents * np.diff(self.places)[:, None])[None], force[:, None])
         with np.errstate(all="ignore"):
             share = left[:, :-1] / turning
         for piece in reversed(range(len(self.tangents))):
@@ -168,7 +169,3 @@ class SpreadMass:
         )
         m0, m1, m2 = (np.concatenate([np.zeros_like(part[:1]), np.cumsum(part, axis=0)]) for part in parts)
         return m0, m1, m2
-
-
-def _cross(a: Floats, b: Floats) -> Floats:
-    return np.asarray(a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0])

@@ -11,6 +11,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats, Indices
 from linkwright.core.dataclass import dataclass
+from linkwright.core.plane import cross
 from linkwright.errors import Finding, LinkwrightError
 from linkwright.fields.base import Quantity, Text
 from linkwright.kinetostatics.forces import Forces, solve_forces
@@ -120,11 +121,6 @@ class PointForce:
     force: Floats
     point: Floats
     couple: Floats
-
-
-def cross(a: Floats, b: Floats) -> Floats:
-    """a × b of plane vectors."""
-    return np.asarray(a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0])
 
 
 def _summed(steps: Floats) -> Floats:

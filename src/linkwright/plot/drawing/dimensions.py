@@ -15,7 +15,7 @@ from linkwright.plot.drawing.guides import direction, line_start
 from linkwright.plot.drawing.labels import Label, Obstacles
 from linkwright.plot.drawing.machine import Machine
 from linkwright.plot.drawing.view import moved
-from linkwright.plot.symbols.base import SYMBOLS, Shape, Vec, placed, points
+from linkwright.plot.symbols.base import SYMBOLS, Shape, Vec, placed, points, vec
 from linkwright.words.sentence import Sentence
 
 Dimension = str | tuple[str, str]
@@ -134,7 +134,7 @@ def _offsets(machine: Machine, name: str, index: int) -> Iterator[Distance]:
         if joint.guide == name and joint.offset:
             local = points([machine.local(name, joint.through), line_start(machine, joint)])
             start, end = moved(local, machine.view.transform(machine.placed[name], index))
-            yield Distance(_vec(start), _vec(end))
+            yield Distance(vec(start), vec(end))
 
 
 def _line(machine: Machine, measure: Distance, taken: Obstacles) -> Dimensioned:
@@ -146,7 +146,7 @@ def _line(machine: Machine, measure: Distance, taken: Obstacles) -> Dimensioned:
             a, b = b, a
         across = np.array([-along[1], along[0]])
         rises = (0.0, float(np.dot(np.subtract(b, a), across)))
-        b = _vec(np.array(b) - rises[1] * across)
+        b = vec(np.array(b) - rises[1] * across)
     base = [(offset, offset + (min(rises) if offset < 0 else max(rises))) for offset in _OFFSETS]
     shapes = [
         (SYMBOLS["dimension_line"](start=a, end=b, offset=place, rises=rises), offset, place)
@@ -185,7 +185,7 @@ def _middle(a: Vec, b: Vec, offset: float) -> tuple[Vec, ...]:
     length = float(np.hypot(b[0] - a[0], b[1] - a[1])) or 1.0
     along = ((b[0] - a[0]) / length, (b[1] - a[1]) / length)
     shares: Sequence[float] = (0.5, 0.4, 0.6, 0.3, 0.7)
-    return tuple(_vec(row) for row in placed([(share * length, offset) for share in shares], a, along))
+    return tuple(vec(row) for row in placed([(share * length, offset) for share in shares], a, along))
 
 
 def _off_line(a: Vec, b: Vec, c: Vec) -> bool:
@@ -196,7 +196,3 @@ def _off_line(a: Vec, b: Vec, c: Vec) -> bool:
 
 def _way(start: Vec, end: Vec) -> float:
     return math.atan2(end[1] - start[1], end[0] - start[0])
-
-
-def _vec(row: Floats) -> Vec:
-    return float(row[0]), float(row[1])

@@ -11,7 +11,7 @@ from linkwright.plot.drawing.labels import Label
 from linkwright.plot.drawing.machine import Machine, flat
 from linkwright.plot.drawing.scene import Scene
 from linkwright.plot.drawing.view import moved
-from linkwright.plot.symbols.base import Vec, points
+from linkwright.plot.symbols.base import Vec, points, vec
 
 LINK_SIZE = 12.0
 
@@ -54,11 +54,7 @@ def _anchors(cloud: Floats) -> tuple[Vec, ...]:
     ends = flat(cloud)
     if ends is None:
         sides = (cloud + np.roll(cloud, 1, axis=0)) / 2
-        return (_vec(cloud.mean(axis=0)), *map(_vec, sides))
+        return (vec(cloud.mean(axis=0)), *map(vec, sides))
     if len(ends) == 1 or np.hypot(*(ends[1] - ends[0])) < 1.0:
-        return (_vec(cloud[0]),)
-    return tuple(_vec(ends[0] + share * (ends[1] - ends[0])) for share in (0.5, 0.38, 0.62, 0.27, 0.73))
-
-
-def _vec(row: Floats) -> Vec:
-    return float(row[0]), float(row[1])
+        return (vec(cloud[0]),)
+    return tuple(vec(ends[0] + share * (ends[1] - ends[0])) for share in (0.5, 0.38, 0.62, 0.27, 0.73))

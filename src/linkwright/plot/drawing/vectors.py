@@ -17,7 +17,7 @@ from linkwright.kinematics.names import canonical, find_point
 from linkwright.plot.drawing.labels import Label
 from linkwright.plot.drawing.view import View
 from linkwright.plot.force_names import Symbol, reaction_index, reaction_pairs
-from linkwright.plot.symbols.base import EMPTY, SYMBOLS, Shape, Vec, joined
+from linkwright.plot.symbols.base import EMPTY, SYMBOLS, Shape, joined, vec
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
@@ -88,7 +88,7 @@ class Vectors:
     def shape(self, index: int, view: View, scale: float) -> Shape:
         """All arrows at one position; ``scale``: units of the paper per SI unit."""
         ends = [each for name in self.values if (each := self.ends(name, index, view, scale)) is not None]
-        return joined(SYMBOLS["arrow"](start=_vec(a), end=_vec(b), style=self.style) for a, b in ends)
+        return joined(SYMBOLS["arrow"](start=vec(a), end=vec(b), style=self.style) for a, b in ends)
 
     def labels(self, index: int, view: View, scale: float) -> list[Label]:
         """Names of the arrows that are seen, at their points, else along their shafts."""
@@ -99,7 +99,7 @@ class Vectors:
                 continue
             away = ends[0] if self.toward else ends[1]
             other = ends[1] if self.toward else ends[0]
-            places = tuple(_vec(away + share * (other - away)) for share in (0.0, 0.25, 0.5, 0.75))
+            places = tuple(vec(away + share * (other - away)) for share in (0.0, 0.25, 0.5, 0.75))
             found.append(Label(stem, places, f"{self.style}-name", NAME_SIZE, 5.0, index=low))
         return found
 
@@ -155,7 +155,7 @@ class Torques:
         found = []
         for name, (stem, low) in self.symbols.items():
             if self.seen(name, [index]):
-                place = (_vec(view.paper(self.places[name][index])),)
+                place = (vec(view.paper(self.places[name][index])),)
                 found.append(
                     Label(stem, place, f"{self.style}-name", NAME_SIZE, self.clear, False, index=low)
                 )
@@ -165,7 +165,7 @@ class Torques:
         place, turning = self.places[name][index], int(np.sign(self.values[name][index]))
         if not np.isfinite(place).all():
             return EMPTY
-        at = _vec(view.paper(place))
+        at = vec(view.paper(place))
         return SYMBOLS["moment"](at=at, turning=turning, radius=self.radius, style=self.style)
 
 
@@ -198,7 +198,7 @@ class Arrows:
             for name, (stem, low) in family.symbols.items():
                 track = family.track(name, view, scale)
                 if family.seen(name, run) and np.isfinite(track[list(run)]).all():
-                    place = (_vec(track[run[0]]),)
+                    place = (vec(track[run[0]]),)
                     label = Label(
                         stem, place, f"{family.style}-name", NAME_SIZE, family.clear, False, index=low
                     )
@@ -406,7 +406,3 @@ def _largest(values: Mapping[str, Floats], indices: Sequence[int]) -> float:
     at = list(indices)
     rows = [np.abs(v[at]) if v.ndim == 1 else np.hypot(*v[at].T) for v in values.values()]
     return max((float(row[np.isfinite(row)].max(initial=0.0)) for row in rows), default=0.0)
-
-
-def _vec(row: Floats) -> Vec:
-    return float(row[0]), float(row[1])

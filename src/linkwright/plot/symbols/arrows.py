@@ -8,7 +8,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.plot.svg.element import Element, path
-from linkwright.plot.symbols.base import EMPTY, SYMBOLS, Shape, Vec, placed, points
+from linkwright.plot.symbols.base import EMPTY, SYMBOLS, Shape, Vec, placed, points, vec
 
 HEAD = 9.0
 
@@ -39,9 +39,9 @@ def crank_arrow(
     size = HEAD
     back = max(1, round(size * (len(arc) - 1) / (abs(sweep) * radius)))
     elements: list[Element] = [path(_shortened(arc, size, both=turning == 0), f"{style}-line")]
-    elements.append(head(_place(arc[-1]), _chord(arc[-1 - back], arc[-1]), size, f"{style}-head"))
+    elements.append(head(vec(arc[-1]), _chord(arc[-1 - back], arc[-1]), size, f"{style}-head"))
     if turning == 0:
-        elements.append(head(_place(arc[0]), _chord(arc[back], arc[0]), size, f"{style}-head"))
+        elements.append(head(vec(arc[0]), _chord(arc[back], arc[0]), size, f"{style}-head"))
     return Shape(tuple(elements), (arc,))
 
 
@@ -58,9 +58,9 @@ def slide_arrow(
     a = length / 2
     line = placed([(-a, 0), (a, 0)], at, along)
     stroke = placed([(-a + (5 if both else 0), 0), (a - 5, 0)], at, along)
-    elements = [path(stroke, f"{style}-line"), head(_place(line[1]), along, 9.0, f"{style}-head")]
+    elements = [path(stroke, f"{style}-line"), head(vec(line[1]), along, 9.0, f"{style}-head")]
     if both:
-        elements.append(head(_place(line[0]), (-along[0], -along[1]), 9.0, f"{style}-head"))
+        elements.append(head(vec(line[0]), (-along[0], -along[1]), 9.0, f"{style}-head"))
     return Shape(tuple(elements), (line,))
 
 
@@ -69,10 +69,6 @@ def _shortened(arc: Floats, head: float, *, both: bool) -> Floats:
     step = float(np.hypot(*(arc[1] - arc[0])))
     count = max(1, round(0.7 * head / step))
     return points(arc[count if both else 0 : -count])
-
-
-def _place(row: Floats) -> Vec:
-    return float(row[0]), float(row[1])
 
 
 def _chord(a: Floats, b: Floats) -> Vec:

@@ -60,6 +60,11 @@ def ring(at: Vec, radius: float, count: int = 12) -> Floats:
     return np.stack([at[0] + radius * np.cos(angle), at[1] + radius * np.sin(angle)], axis=1)
 
 
+def vec(row: Floats) -> Vec:
+    """A point (2,) as two numbers."""
+    return float(row[0]), float(row[1])
+
+
 def hatching(start: Vec, end: Vec, side: int, *, step: float = 6.0, depth: float = 7.0) -> list[Floats]:
     """Short strokes on one side (+1: right of the way from start to end on the paper) of a line."""
     length = float(np.hypot(end[0] - start[0], end[1] - start[1]))
