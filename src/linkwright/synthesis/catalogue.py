@@ -64,7 +64,6 @@ TASKS: Mapping[str, Task] = {
             "offset": "length",
             "transmission_angle": "angle",
         },
-        ("stroke",),
     ),
     "crank_rocker": Task(
         crank_rocker,
@@ -75,31 +74,16 @@ TASKS: Mapping[str, Task] = {
             "link_ratio": "number",
             "count": "count",
         },
-        ("swing_angle", "quick_return_ratio", "frame"),
     ),
     "quick_return": Task(
-        quick_return,
-        {"quick_return_ratio": "number", "frame": "length", "stroke": "length", "rod": "length"},
-        ("quick_return_ratio", "frame"),
+        quick_return, {"quick_return_ratio": "number", "frame": "length", "stroke": "length", "rod": "length"}
     ),
-    "drag_link": Task(
-        drag_link,
-        {"quick_return_ratio": "number", "frame": "length", "link_ratio": "number"},
-        ("quick_return_ratio", "frame"),
-    ),
-    "toggle": Task(
-        toggle,
-        {"force_ratio": "number", "distance": "length", "stroke": "length"},
-        ("force_ratio", "distance", "stroke"),
-    ),
+    "drag_link": Task(drag_link, {"quick_return_ratio": "number", "frame": "length", "link_ratio": "number"}),
+    "toggle": Task(toggle, {"force_ratio": "number", "distance": "length", "stroke": "length"}),
     "dwell": Task(
-        dwell,
-        {"crank_angle": "angle", "swing_angle": "angle", "frame": "length", "seed": "count"},
-        ("crank_angle", "swing_angle"),
+        dwell, {"crank_angle": "angle", "swing_angle": "angle", "frame": "length", "seed": "count"}
     ),
-    "straight_line": Task(
-        straight_line, {"length": "length", "deviation": "length", "kind": "word"}, ("length",)
-    ),
+    "straight_line": Task(straight_line, {"length": "length", "deviation": "length", "kind": "word"}),
     "function": Task(
         function_generation,
         {
@@ -119,7 +103,6 @@ TASKS: Mapping[str, Task] = {
             "count": "count",
             "seed": "count",
         },
-        ("inputs",),
     ),
     "motion": Task(
         motion_generation,
@@ -132,7 +115,6 @@ TASKS: Mapping[str, Task] = {
             "link_ratio": "number",
             "count": "count",
         },
-        ("poses",),
     ),
     "path": Task(
         path_generation,
@@ -148,11 +130,8 @@ TASKS: Mapping[str, Task] = {
             "count": "count",
             "seed": "count",
         },
-        ("points",),
     ),
-    "exact_path": Task(
-        exact_path_generation, {"points": "points", "count": "count", "seed": "count"}, ("points",)
-    ),
+    "exact_path": Task(exact_path_generation, {"points": "points", "count": "count", "seed": "count"}),
     "free_curve": Task(
         free_curve,
         {
@@ -168,6 +147,5 @@ TASKS: Mapping[str, Task] = {
             "count": "count",
             "seed": "count",
         },
-        (),
     ),
 }

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
+from inspect import signature
 from pathlib import Path
 from typing import Any
 
@@ -38,11 +39,16 @@ SHAPES: Mapping[str, tuple[tuple[str, ...], int]] = {
 
 @dataclass(frozen=True)
 class Task:
-    """``run`` takes the demands as keywords; ``demands``: forms by name; ``needed``: those that must be given."""
+    """``run`` takes the demands as keywords; ``demands``: forms by name."""
 
     run: Callable[..., Synthesis]
     demands: Mapping[str, str]
-    needed: tuple[str, ...]
+
+    @property
+    def needed(self) -> tuple[str, ...]:
+        """The demands that must be given: those without a default."""
+        given = signature(self.run).parameters
+        return tuple(name for name, each in given.items() if each.default is each.empty)
 
 
 def tasks() -> dict[str, Task]:
