@@ -215,6 +215,49 @@ def test_drawing_writes_what_a_person_would() -> None:
     assert "kind: prismatic, guide: frame, through: G1, direction: 0 deg, block: slider1, at: B" in guided
 
 
+PRESS = """format: 1
+frame: {points: {O: [0 mm, 0 mm], P: [100 mm, 0 mm]}}
+links:
+  crank: {points: [O, A], length: 20 mm, mass: 1 kg}
+  rod: {points: [A, K], length: 80 mm}
+  lever: {points: [P, K], length: 60 mm}
+  wheel: {points: [O, B], length: 30 mm}
+joints:
+  K: {kind: revolute, pin_radius: 5 mm, friction: 0.1}
+  mesh: {kind: gear, links: [lever, wheel], teeth: [20, 40]}
+assembly: {K: left}
+drivers:
+  input: {turn: crank, about: O, speed: 60 rpm}
+loads:
+  pull: {kind: spring, between: [frame.P, rod.K], stiffness: 1 N/mm, free_length: 10 mm}
+  twist: {kind: torsion_spring, links: [frame, lever], stiffness: 1 N·m/rad, free_angle: 0 deg}
+"""
+#: Beginnings of the lines that a link takes along.
+TAKEN_ALONG = (
+    ("rod", ("  rod:", "  K:", "assembly:", "  pull:")),
+    ("lever", ("  lever:", "joints:", "  K:", "  mesh:", "assembly:", "  twist:")),
+    ("crank", ("  crank:", "drivers:", "  input:")),
+)
+
+
+@pytest.mark.parametrize(("link", "lines"), TAKEN_ALONG)
+def test_a_link_that_is_removed_takes_along_what_stands_on_it(link: str, lines: tuple[str, ...]) -> None:
+    """Joints and loads that name it in lists or by its points, drivers, words about pins of no two links."""
+    left = [line for line in PRESS.splitlines(keepends=True) if not line.startswith(lines)]
+    assert edited(PRESS, {"do": "remove", "what": "link", "name": link}) == "".join(left)
+    with pytest.raises(LinkwrightError, match="no link"):
+        edited("".join(left), {"do": "remove", "what": "link", "name": link})
+
+
+def test_a_slide_is_drawn_on_a_point_that_no_drawing_gives() -> None:
+    """The guide goes through where the machine has the point."""
+    slider = {"do": "link", "name": "slider1", "points": ["K"]}
+    guide = {"do": "guide", "link": "slider1", "at": "K", "angle": 30, "places": {"K": [0.07, 0.05]}}
+    text = edited(edited(PRESS, slider), guide)
+    assert "G1: [70 mm, 50 mm]" in text
+    assert "through: G1, direction: 30 deg, block: slider1, at: K" in text
+
+
 def test_comments_stay_where_they_are() -> None:
     text = (
         drawn()

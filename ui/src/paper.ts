@@ -204,7 +204,7 @@ export class Paper {
       case "guide": return this.slide(at, near);
       case "slot": return this.slot(at, near);
       case "gear": return this.pair(this.link(at), (links) => ({ do: "gear", links, teeth: this.value }));
-      case "rack": return this.pair(this.link(at), ([pinion, rack]) => ({ do: "rack", pinion, rack }));
+      case "rack": return this.pair(this.link(at), ([pinion, rack]) => ({ do: "rack", pinion, rack, places: this.places() }));
       case "cam": return this.cam(at, near);
       case "curve": {
         this.drawing = true;
@@ -235,14 +235,18 @@ export class Paper {
     this.choose([...this.chosen, name]);
   }
 
+  /** Where points stand that no drawing gives; all of them where none are named. */
+  private places(points = Object.keys(this.picture.points)): Record<string, Vec> {
+    return Object.fromEntries(points.filter((point) => this.picture.placed?.includes(point)).map((point) => [point, this.picture.points[point]]));
+  }
+
   private finish(): void {
     if (this.tool === "link" && this.chosen.length > 1) {
       const base = this.chosen.some((point) => this.picture.fixed.includes(point)) ? "arm" : "bar";
       let k = 1;
       while (`${base}${k}` in this.picture.links) k++;
       this.picture.links[`${base}${k}`] = [...this.chosen];
-      const places = Object.fromEntries(this.chosen.filter((point) => this.picture.placed?.includes(point)).map((point) => [point, this.picture.points[point]]));
-      this.act([{ do: "link", name: `${base}${k}`, points: this.chosen, places }]);
+      this.act([{ do: "link", name: `${base}${k}`, points: this.chosen, places: this.places(this.chosen) }]);
     }
     this.choose([]);
   }
@@ -264,7 +268,7 @@ export class Paper {
     this.picture.links[`slider${k}`] = [point];
     this.act([
       { do: "link", name: `slider${k}`, points: [point] },
-      { do: "guide", link: `slider${k}`, at: point, angle: step },
+      { do: "guide", link: `slider${k}`, at: point, angle: step, places: this.places() },
     ]);
     this.choose([]);
   }
@@ -272,7 +276,7 @@ export class Paper {
   private slot(at: Vec, near: string | null): void {
     if (!this.picked) this.picked = this.link(at);
     else if (near && !this.picture.links[this.picked].includes(near)) {
-      this.act([{ do: "slot", along: this.picked, at: near }]);
+      this.act([{ do: "slot", along: this.picked, at: near, places: this.places() }]);
       this.picked = null;
     }
     this.draw();
@@ -293,7 +297,7 @@ export class Paper {
   private cam(at: Vec, near: string | null): void {
     if (!this.picked) this.picked = this.link(at);
     else if (near && !this.picture.links[this.picked].includes(near)) {
-      this.act([{ do: "cam", cam: this.picked, at: near, lift: this.value }]);
+      this.act([{ do: "cam", cam: this.picked, at: near, lift: this.value, places: this.places() }]);
       this.picked = null;
     }
     this.draw();

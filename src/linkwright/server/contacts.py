@@ -15,7 +15,7 @@ from linkwright.fields.nodes import Scalar
 from linkwright.joints.base import JOINTS
 from linkwright.joints.cam import CamJoint
 from linkwright.joints.rack import RackPair
-from linkwright.server.draft import Draft, fresh, picture
+from linkwright.server.draft import Draft, fresh
 from linkwright.units import number
 from linkwright.words.sentence import Sentence
 
@@ -31,7 +31,7 @@ def add_cam(draft: Draft, action: Mapping[str, Any]) -> None:
     The base circle goes where the roller stands, so the lift begins in the drawing. A length as lift of a pinned
     follower is the way of the roller.
     """
-    shown = picture(draft.text)
+    shown = draft.shown()
     cam, at = str(action["cam"]), str(action["at"])
     centre = _pin(shown, cam)
     follower = _link_with(shown, at, cam)
@@ -69,7 +69,7 @@ def add_cam(draft: Draft, action: Mapping[str, Any]) -> None:
 def add_rack(draft: Draft, action: Mapping[str, Any]) -> None:
     """A slider as rack of a link that turns about a pin; the pitch radius is the pin's distance from the slider's
     way."""
-    shown = picture(draft.text)
+    shown = draft.shown()
     pinion, rack = str(action["pinion"]), str(action["rack"])
     centre = _pin(shown, pinion)
     _, guide = _guide_of(draft, rack)

@@ -21,10 +21,19 @@ if TYPE_CHECKING:
 
 
 class Draft(Document):
-    """A text that need not be a model yet: what is written into it is not checked."""
+    """A text that need not be a model yet: what is written into it is not checked.
 
-    def __init__(self, text: str) -> None:
+    ``places``: where points stand that no drawing gives, m.
+    """
+
+    def __init__(self, text: str, places: Mapping[str, list[float]] | None = None) -> None:
         self.name, self.text = "model", text
+        self._places = dict(places or {})
+
+    def shown(self) -> Plain:
+        """What can be drawn, with the points that no drawing gives."""
+        found = picture(self.text)
+        return {**found, "points": {**self._places, **found["points"]}}
 
     @property
     def root(self) -> MappingNode:

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 from linkwright import units
 from linkwright.errors import LinkwrightError
 from linkwright.fields.nodes import Mapping as MappingNode
-from linkwright.fields.nodes import Scalar
+from linkwright.fields.nodes import Node, Scalar, Sequence
 from linkwright.files.document import Document
 from linkwright.files.model_file import read_text
 from linkwright.files.write import flow
@@ -29,10 +29,10 @@ def edited(text: str, action: Mapping[str, Any]) -> str:
 
     ``do``: ``point`` (name, at, fixed), ``link`` (name, points), ``driver`` (link, about, speed), ``guide`` (link,
     at, angle), ``slot`` (along, at), ``gear`` (links, teeth), ``cam`` (cam, at, lift), ``rack`` (pinion, rack),
-    ``mass`` (link, mass), ``load`` (link, at, force), ``optimize`` (section), ``remove`` (link or point). Raises
-    LinkwrightError for an action that the text does not admit.
+    ``mass`` (link, mass), ``load`` (link, at, force), ``optimize`` (section), ``remove`` (link or point); ``places``
+    (m) of points that no drawing gives. Raises LinkwrightError for an action that the text does not admit.
     """
-    draft = Draft(text)
+    draft = Draft(text, dict(action.get("places") or {}))
     act = _ACTIONS.get(str(action.get("do")))
     if act is None:
         raise LinkwrightError(Sentence("studio.no_action", name=str(action.get("do"))))
@@ -77,7 +77,7 @@ def _driver(draft: Draft, action: Mapping[str, Any]) -> None:
 
 def _guide(draft: Draft, action: Mapping[str, Any]) -> None:
     """A block on a fixed guide through a point's place in the drawing."""
-    shown = picture(draft.text)
+    shown = draft.shown()
     through = fresh("G", [*shown["points"], *shown["fixed"]])
     _point(draft, {"name": through, "at": shown["points"][action["at"]], "fixed": True})
     name = fresh("guide", [key for key, _ in draft.section("joints") or ()])
@@ -90,7 +90,7 @@ def _guide(draft: Draft, action: Mapping[str, Any]) -> None:
 
 def _slot(draft: Draft, action: Mapping[str, Any]) -> None:
     """A block that slides along a moving link, from its first point to its last, at a point beside or on it."""
-    shown = picture(draft.text)
+    shown = draft.shown()
     ends = shown["links"].get(action["along"], [])
     if len(ends) < 2 or not all(point in shown["points"] for point in (*ends, action["at"])):
         raise LinkwrightError(Sentence("studio.no_slot", name=str(action["along"])))
@@ -144,23 +144,20 @@ def _load(draft: Draft, action: Mapping[str, Any]) -> None:
     })  # fmt: skip
 
 
+#: Keys of joints and loads whose words are no links.
+_NO_LINKS = ("kind", "at", "through")
+
+
 def _remove(draft: Draft, action: Mapping[str, Any]) -> None:
-    """A link with the joints, loads and the driver on it; or a point that no link has."""
+    """A link with what stands on it: joints, loads, drivers, assembly; or a point that no link has."""
     name = str(action["name"])
     if action.get("what") == "link":
+        if name not in picture(draft.text)["links"]:
+            raise LinkwrightError(Sentence("studio.no_link", name=name))
         draft.take_out("links", name)
-        for section in ("joints", "loads"):
-            for key, node in draft.section(section) or ():
-                named = (
-                    [value.text for _, value in node if isinstance(value, Scalar)]
-                    if isinstance(node, MappingNode)
-                    else []
-                )
-                if name in named:
-                    draft.take_out(section, key)
-        if picture(draft.text)["driver"] == name:
-            draft.cut_top("driver")
-    used = {point for points in picture(draft.text)["links"].values() for point in points}
+        _remove_what_names(draft, name)
+    links = picture(draft.text)["links"].values()
+    used = {point for points in links for point in points}
     for point, _ in list(draft.section("drawing") or ()):
         if point not in used:
             draft.take_out("drawing", point)
@@ -174,6 +171,38 @@ def _remove(draft: Draft, action: Mapping[str, Any]) -> None:
     ):
         kept = {key: texts(place) for key, place in points if key != name}
         draft.put("frame", "points", kept)
+
+
+def _remove_what_names(draft: Draft, link: str) -> None:
+    """Joints, loads and drivers of a link that is gone, and words about their joints and pins of no two links."""
+    gone = {link}
+    for section in ("joints", "loads", "drivers"):
+        for key, node in list(draft.section(section) or ()):
+            if gone & set(_named(node)):
+                draft.take_out(section, key)
+                gone |= {key} if section == "joints" else set()
+    driver = draft.root.get("driver")
+    if driver is not None and gone & set(_named(driver)):
+        draft.cut_top("driver")
+    shown = picture(draft.text)
+    ends = [*shown["fixed"], *(point for points in shown["links"].values() for point in points)]
+    names = {"frame", *shown["links"]}
+    joints = [key for key, node in draft.section("joints") or () if names & set(_named(node))]
+    for section in ("assembly", "joints"):
+        for key, _ in list(draft.section(section) or ()):
+            if ends.count(key) < 2 and key not in joints:
+                draft.take_out(section, key)
+
+
+def _named(node: Node) -> Iterator[str]:
+    """What may be links among the words of an entry: of ``link.point`` the link."""
+    if isinstance(node, Scalar):
+        yield node.text.split(".")[0]
+    for each in node.items if isinstance(node, Sequence) else ():
+        yield from _named(each)
+    for key, value in node if isinstance(node, MappingNode) else ():
+        if key not in _NO_LINKS:
+            yield from _named(value)
 
 
 _ACTIONS: dict[str, Callable[[Draft, Mapping[str, Any]], None]] = {
