@@ -128,3 +128,42 @@ def test_damage_that_reads_solves_or_is_refused(number: int) -> None:
         pytest.skip("nothing of forty reads")
     with suppress(lw.LinkwrightError):
         lw.solve_forces(lw.solve_motion(mechanism, steps=12))
+
+
+EVERY_VALUE = """
+format: 1
+name: all places of values
+parameters: {wrong: 3 qq, half: 0.5}
+frame: {points: {O: [0 m, 0 m], Q: [300 mm, 20 mm], G: [0.1 m, 0.4 m]}}
+links:
+  crank: {points: [O, A], length: 100 mm, mass: 2 kg, inertia: 0.01 kg·m², mass_centre: [20 mm, 0 mm]}
+  coupler: {points: [A, B, C], lengths: [280 mm, 120 mm], angle: 40 deg, also: {E: [10 mm, 20 mm]}}
+  rocker: {points: {Q: [0 mm, 0 mm], B: [0 mm, 250 mm]}, mass: 3 kg}
+  rod: {points: [C, D], length: 400 mm}
+  ram: {points: [D], mass: 5 kg}
+joints:
+  guide: {kind: prismatic, guide: frame, through: G, direction: 90 deg, block: ram, at: D, offset: 2 mm,
+    friction: 0.1}
+  A: {kind: revolute, friction: 0.1, pin_radius: 10 mm}
+assembly: {B: left, D: forward}
+gravity: [0, -9.81 m/s²]
+loads:
+  push: {kind: force, on: ram, at: D, direction: 90 deg, magnitude: 200 N, phase: {of: guide, from: min, to: max}}
+  tension: {kind: torque, on: rocker, table: {over: input, x: [0 deg, 360 deg], y: [1 N·m, 2 N·m]}}
+driver: {turn: crank, about: O, speed: 60 rpm, start: 10 deg}
+cycle: {turns: 1}
+"""
+VALUES = list(re.finditer(r"(?<=[ \[])-?[0-9][0-9.]*(?: [a-zN·²/]+)?(?=[],}])", EVERY_VALUE))[2:]
+
+
+def test_a_wrong_parameter_is_told_once_wherever_it_stands() -> None:
+    """The value that cannot be read is told; what it would have been used for is no error of its own."""
+    assert len(VALUES) > 35
+    for each in VALUES:
+        text = f"{EVERY_VALUE[: each.start()]}wrong{EVERY_VALUE[each.end() :]}"
+        _, findings = read_text(text, "m.yaml")
+        told = [str(finding) for finding in findings if finding.severity == "error"]
+        assert len(told) == 1 and "parameters.wrong" in told[0], (
+            text[each.start() - 20 : each.start() + 6],
+            told,
+        )

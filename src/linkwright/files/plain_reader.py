@@ -67,11 +67,12 @@ class PlainReader:
     def __init__(self, source: str, *, si: bool = False) -> None:
         self.source, self.si = source, si
         self.findings: list[Finding] = []
+        self.unread = 0
 
     @property
     def error_count(self) -> int:
-        """How many errors were found so far."""
-        return sum(finding.severity == "error" for finding in self.findings)
+        """How many errors were found so far, and values left ``unread`` because of an error that is told elsewhere."""
+        return self.unread + sum(finding.severity == "error" for finding in self.findings)
 
     def error(
         self,

@@ -112,6 +112,7 @@ class Reader(PlainReader):
     def _evaluated(self, value: Expression, node: Node, place: Place) -> float | None:
         self.used |= value.names
         if value.names & self.broken:
+            self.unread += 1
             return None
         if self._plain:
             self.finding(node, place, "no_parameter", "expression", text=value.text, what=self._plain)
@@ -137,6 +138,7 @@ class Reader(PlainReader):
         """Note the finding for a QuantityError, unless it only follows from a parameter that is wrong
         itself."""
         if not self.broken.isdisjoint(re.findall(r"\w+", text)):
+            self.unread += 1
             return
         offset = 0
         if isinstance(node, Scalar) and "\n" not in node.text:
@@ -157,6 +159,7 @@ class Reader(PlainReader):
             found = expressions.parse(text, kinds)
             self.used |= found.names
             if found.names & self.broken:
+                self.unread += 1
                 return None
             expressions.require(found, dimension, kinds)
             return found

@@ -112,7 +112,7 @@ class CycleCourse:
 
 
 def evaluate(load: Load, signals: Signals) -> Floats:
-    """The same, with errors that name the load."""
+    """:func:`magnitudes`, with errors that name the load."""
     try:
         return magnitudes(load, signals)
     except LinkwrightError as error:

@@ -152,7 +152,9 @@ class VibratingSystem(Problem):
             given[what] = {name: Tie(tie["between"], tie["rate"][0]) for name, tie in ties.items()}
         absorber = given.pop("absorber", None)
         system = cls(**given, turning=turning)
-        return system if absorber is None else system.quieted(absorber["on"], absorber["mass"])
+        if absorber is None or system.findings():
+            return system
+        return system.quieted(absorber["on"], absorber["mass"])
 
     def quieted(self, on: str, mass: float) -> VibratingSystem:
         """The system with the best damped absorber on its one mass; raises ModelError for other systems."""
