@@ -71,7 +71,7 @@ class PlainReader:
 
     @property
     def error_count(self) -> int:
-        """How many errors were found so far, and values left ``unread`` because of an error that is told elsewhere."""
+        """How many errors were found so far, and values ``unread`` by an error that is told elsewhere."""
         return self.unread + sum(finding.severity == "error" for finding in self.findings)
 
     def error(
