@@ -268,7 +268,7 @@ def test_forces_do_the_work_of_their_equations_and_what_presses_does_none(kind: 
         poses = {name: state.pose for name, state in states.items()}
         for multipliers in ([3.0, -1.4][: cut.rows], [-2.0, 0.6][: cut.rows]):
             power, pressed = 0.0, 0.0
-            push = cut.pressing(multipliers, poses)
+            push = cut.pressing(multipliers, poses, abs)
             one, other = (
                 cut.force_on(end, multipliers, poses)[0] for end in (moving.connection.a, moving.connection.b)
             )
@@ -295,7 +295,7 @@ def test_a_roller_or_an_edge_is_pressed_through_its_point_and_a_flat_face_at_rig
         centre = vec(bodies["two"].point(moving.local("two", "B"))[0])
         force, couple = cut.force_on("one", [2.5], poses)
         _, opposite = cut.force_on("two", [2.5], poses)
-        pressing = cut.pressing([2.5], poses)
+        pressing = cut.pressing([2.5], poses, abs)
         total = force if pressing is None else force + pressing
         own, driven = couple, -opposite
         about = cut.place("one", poses)

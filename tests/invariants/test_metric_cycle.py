@@ -189,7 +189,7 @@ def test_gradients_of_several_numbers_from_one_evaluation_are_those_of_each() ->
     sums = [*({name: 1.0} for name in names), {names[0]: 2.0, names[1]: -3.0}]
     values, slopes = cycle.gradients(sums, columns, by)
     for k, name in enumerate(names):
-        value, slope = cycle.gradient({name: 1.0}, columns, by)
+        (value,), (slope,) = cycle.gradients([{name: 1.0}], columns, by)
         assert values[k] == pytest.approx(value, rel=1e-13) and slopes[k] == pytest.approx(slope, rel=1e-11)
     assert values[3] == pytest.approx(2 * values[0] - 3 * values[1], rel=1e-12)
     assert slopes[3] == pytest.approx(2 * slopes[0] - 3 * slopes[1], rel=1e-9)

@@ -120,8 +120,13 @@ class Cut(ABC):
     def force_on(self, end: str, multipliers: Sequence[Scalar], poses: Poses) -> tuple[Vec, Scalar]:
         """Force and couple on one end from the multipliers of the rows."""
 
-    def pressing(self, multipliers: Sequence[Scalar], poses: Poses) -> Vec | None:
-        """A force on end ``on``, its opposite on the other, that follows from the multipliers and does no work."""
+    def pressing(
+        self, multipliers: Sequence[Scalar], poses: Poses, size: Callable[[Scalar], Scalar]
+    ) -> Vec | None:
+        """A force on end ``on``, its opposite on the other, that follows from the multipliers and does no work.
+
+        Linear in the multipliers, and in their sizes where teeth press with either flank: ``size`` gives these.
+        """
         return None
 
 

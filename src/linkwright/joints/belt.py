@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import cmath
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from math import asin
 from math import sqrt as sqrt_of
 from typing import TYPE_CHECKING, ClassVar
 
 from linkwright.core.dataclass import dataclass
-from linkwright.engine.trace import Mask, Scalar, maximum, reciprocal, sqrt
+from linkwright.engine.trace import Mask, Scalar, reciprocal, sqrt
 from linkwright.engine.vector import Vec
 from linkwright.fields.base import Field, Quantity, Word
 from linkwright.joints.base import JOINTS, Contact, Entry, Poses
@@ -157,9 +157,15 @@ class BeltCut(WheelCut):
     def force_on(self, end: str, multipliers: Sequence[Scalar], poses: Poses) -> tuple[Vec, Scalar]:
         pull = multipliers[0]
         clockwise, counter = self._strands(poses)
-        if isinstance(self.pull, float) and self.pull == 0.0:
-            force = counter * maximum(pull, 0.0) + clockwise * maximum(-pull, 0.0)
-        else:
-            force = counter * (self.pull + 0.5 * pull) + clockwise * (self.pull - 0.5 * pull)
+        force = counter * (self.pull + 0.5 * pull) + clockwise * (self.pull - 0.5 * pull)
         couple = self.k[0] * pull
         return (force, couple) if end == self.connection.a else (-force, -couple)
+
+    def pressing(
+        self, multipliers: Sequence[Scalar], poses: Poses, size: Callable[[Scalar], Scalar]
+    ) -> Vec | None:
+        """Without a pull of its own one strand is slack: both have half of the other's force more."""
+        if not isinstance(self.pull, float) or self.pull != 0.0:
+            return None
+        clockwise, counter = self._strands(poses)
+        return (counter + clockwise) * (0.5 * size(multipliers[0]))

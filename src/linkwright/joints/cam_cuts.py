@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 from linkwright.core.dataclass import dataclass
@@ -180,7 +180,9 @@ class GuidedCut(Cut):
         force, couple = n * multipliers[0], lift[1] * multipliers[0]
         return (force, couple) if end == self.on else (-force, -couple)
 
-    def pressing(self, multipliers: Sequence[Scalar], poses: Poses) -> Vec | None:
+    def pressing(
+        self, multipliers: Sequence[Scalar], poses: Poses, size: Callable[[Scalar], Scalar]
+    ) -> Vec | None:
         if self.touch == "flat":
             return None
         n, gap, offset, lift = self._at(poses)
@@ -257,7 +259,9 @@ class SwingingCut(Cut):
     def force_on(self, end: str, multipliers: Sequence[Scalar], poses: Poses) -> tuple[Vec, Scalar]:
         return ZERO, self._factor(end, poses) * multipliers[0]
 
-    def pressing(self, multipliers: Sequence[Scalar], poses: Poses) -> Vec | None:
+    def pressing(
+        self, multipliers: Sequence[Scalar], poses: Poses, size: Callable[[Scalar], Scalar]
+    ) -> Vec | None:
         """The contact force: its moments about pivot and centre are those of the couples."""
         follower, cam = poses[self.on], poses[self.connection.b]
         own, driven = self._factor(self.on, poses), -self._factor(self.connection.b, poses)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from math import atan, atan2, pi
 from math import cos as cos_of
@@ -183,8 +183,10 @@ class GearCut(RollingCut):
     slope: Scalar
     sense: float
 
-    def pressing(self, multipliers: Sequence[Scalar], poses: Poses) -> Vec | None:
+    def pressing(
+        self, multipliers: Sequence[Scalar], poses: Poses, size: Callable[[Scalar], Scalar]
+    ) -> Vec | None:
         """Away from the teeth of the other: an external a to its own centre, a ring outwards."""
         if isinstance(self.slope, float) and self.slope == 0.0:
             return None
-        return poses[self.carrier].spin(self.unit) * (self.sense * self.slope * absolute(multipliers[0]))
+        return poses[self.carrier].spin(self.unit) * (self.sense * self.slope * size(multipliers[0]))

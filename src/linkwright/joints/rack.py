@@ -464,7 +464,9 @@ class RackCut(Cut):
         force, couple = self._line(poses) * multipliers[0], self.lever * multipliers[0]
         return (force, couple) if end == self.connection.a else (-force, -couple)
 
-    def pressing(self, multipliers: Sequence[Scalar], poses: Poses) -> Vec | None:
+    def pressing(
+        self, multipliers: Sequence[Scalar], poses: Poses, size: Callable[[Scalar], Scalar]
+    ) -> Vec | None:
         if isinstance(self.slope, float) and self.slope == 0.0:
             return None
-        return self._line(poses).perp * (self.side * self.slope * absolute(multipliers[0]))
+        return self._line(poses).perp * (self.side * self.slope * size(multipliers[0]))

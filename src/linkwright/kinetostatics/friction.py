@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from functools import cached_property
 
 import numpy as np
 
@@ -71,6 +72,28 @@ class FrictionTerms:
                 ]
                 terms += [FrictionTerm(name, a, b, arm, slides) for a, b in pairs]
         return cls(motion, tuple(terms))
+
+    @cached_property
+    def blocks(self) -> tuple[tuple[FrictionTerm, ...], ...]:
+        """The terms in the order in which their joint forces follow, from the last group to the first: those of a
+        block from their own friction and that of the blocks before.
+
+        A block has the terms of one group; of more where a link has the same pin in several.
+        """
+        groups = [placed.group for placed in self.motion.placed.values()]
+        own, first = {}, {}
+        for term in self.terms:
+            at = [(k, c) for k, group in enumerate(groups) for c in group.joints if c.joint == term.joint]
+            own[term] = next(k for k, c in at if (c.a, c.b) == (term.a, term.b))
+            first[term] = min(k for k, c in at if term.b in (c.a, c.b))
+        blocks: list[list[FrictionTerm]] = []
+        reach = len(groups)
+        for term in sorted(self.terms, key=own.__getitem__, reverse=True):
+            if own[term] < reach:
+                blocks.append([])
+            blocks[-1].append(term)
+            reach = min(reach, first[term])
+        return tuple(map(tuple, blocks))
 
     def wrenches(self, sizes: Mapping[str, Scalar] | None = None) -> dict[str, list[Wrench]]:
         """The friction as loads on both links; magnitudes by the names of the fields, else inputs of these names."""

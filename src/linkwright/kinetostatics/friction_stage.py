@@ -1,37 +1,46 @@
 """Friction that agrees with the reactions it causes, as traced values: Newton's steps, and what they leave.
 
-Without wheels, racks and cams all joint forces are linear in the friction, so that the forces that press the parts
-of the joints together are f = |R + H f|, with R the reactions without friction. If the sizes of H have a spectral
-radius below 1, this is a contraction: one solution, to which every iteration comes.
+Joint forces are linear in the friction and in the sizes of the forces between teeth, which press with either flank.
+Teeth push apart without work, so that the latter change no force between teeth. Hence the forces that press the parts
+of the joints together are f = |R + A f + B |S + C f||, with R and S the forces without friction. If the sizes
+H = |A| + |B| |C| have a spectral radius below 1, this is a contraction: one solution, to which every iteration comes.
+Joint forces follow from the last group to the first, and the friction block by block with them.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping, Sequence
+from typing import Protocol
 
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.linear import product, solution
 from linkwright.engine.trace import Mask, Scalar, Value, absolute, maximum, select, slope, sqrt, stop
-from linkwright.engine.vector import Vec
+from linkwright.engine.vector import ZERO, Vec
 from linkwright.kinetostatics.friction import FrictionTerm, FrictionTerms, still_name
 from linkwright.kinetostatics.site import guide_state
-from linkwright.kinetostatics.trace import ForceTrace
+from linkwright.kinetostatics.trace import ForceTrace, Size
 from linkwright.loads.site import Wrench
-from linkwright.mechanism.mechanism import Mechanism
+from linkwright.structure.group import Connection
 
 #: Newton's steps, and what the last one may leave, as share of the largest force.
 STEPS, LEFT = 6, 1e-12
 #: Power of the sizes of H whose largest sum of a row bounds that of the spectral radius.
 POWER = 8
-#: More terms than this make programs that take longer to compile than they save.
+#: More terms than this in one block make programs that take longer to compile than they save.
 MOST = 16
 
 Wrenches = Mapping[str, list[Wrench]]
 
 
-def can_be_traced(mechanism: Mechanism, terms: int) -> bool:
-    """Whether the joint forces are linear in the friction, and its terms not too many."""
-    return not terms or (terms <= MOST and not any(joint.higher for joint in mechanism.joints.values()))
+class ForcesOf(Protocol):
+    """The joint forces under further wrenches, with the sizes of the forces between teeth."""
+
+    def __call__(self, wrenches: Wrenches, *, size: Size) -> ForceTrace: ...
+
+
+def can_be_traced(friction: FrictionTerms) -> bool:
+    """Whether no block has too many terms."""
+    return max(map(len, friction.blocks), default=0) <= MOST
 
 
 @dataclass(frozen=True)
@@ -42,27 +51,114 @@ class SolvedFriction:
     certain: Mask
 
 
-def solved_friction(friction: FrictionTerms, forces_of: Callable[[Wrenches], ForceTrace]) -> SolvedFriction:
-    """The friction at one position; ``forces_of``: the joint forces under further wrenches."""
-    motion, terms = friction.motion, friction.terms
-    plain, rubbing = forces_of({}), forces_of(friction.wrenches())
-    factors = [_factor(friction, term) for term in terms]
-    first = [_pressing(plain, term) for term in terms]
-    gains = [
-        [_slope(_pressing(rubbing, term), motion.trace.field_input(by.field)) * factor
-         for by, factor in zip(terms, factors, strict=True)]
-        for term in terms
-    ]  # fmt: skip
-    sizes = [_length(each) for each in first]
-    for step in range(STEPS):
-        sizes = _newton(first, gains, [stop(size) for size in sizes] if step == STEPS - 1 else sizes)
-    found = [_length(force) for force in _under(first, gains, sizes)]
-    gap, largest = 0.0, 0.0  # type: Scalar, Scalar
-    for size, again in zip(sizes, found, strict=True):
-        gap, largest = maximum(gap, absolute(again - size)), maximum(largest, again)
-    certain = motion.trace.logic("and", gap <= LEFT * largest, _bound(gains) < 1.0)
-    held = {term.field: size * c for term, size, c in zip(terms, sizes, factors, strict=True)}
+def solved_friction(friction: FrictionTerms, forces_of: ForcesOf) -> SolvedFriction:
+    """The friction at one position."""
+    held: dict[str, Scalar] = {term.field: 0.0 for term in friction.terms}
+    gap, largest, bound = 0.0, 0.0, 0.0  # type: Scalar, Scalar, Scalar
+    for terms in friction.blocks:
+        factors = [_factor(friction, term) for term in terms]
+        block = _block(friction, terms, factors, held, forces_of)
+        sizes = [_length(each) for each in block.under([0.0] * len(terms))[0]]
+        for step in range(STEPS):
+            sizes = _newton(block, [stop(size) for size in sizes] if step == STEPS - 1 else sizes)
+        for size, force in zip(sizes, block.under(sizes)[0], strict=True):
+            again = _length(force)
+            gap, largest = maximum(gap, absolute(again - size)), maximum(largest, again)
+        bound = maximum(bound, _bound(block.most))
+        held |= {term.field: size * c for term, size, c in zip(terms, sizes, factors, strict=True)}
+    certain = friction.motion.trace.logic("and", gap <= LEFT * largest, bound < 1.0)
     return SolvedFriction(held, certain)
+
+
+@dataclass(frozen=True)
+class _Teeth:
+    """The force between the teeth of one pair: without friction, what unit sizes of a block's pressing forces add to
+    it, and what its unit size adds to these."""
+
+    first: Scalar
+    gains: Sequence[Scalar]
+    presses: Sequence[Vec]
+
+
+@dataclass(frozen=True)
+class _Block:
+    """Pressing forces (terms,) without friction, and what unit sizes add to them (terms, terms)."""
+
+    first: Sequence[Vec]
+    gains: Sequence[Sequence[Vec]]
+    teeth: Sequence[_Teeth]
+
+    def under(self, sizes: Sequence[Scalar]) -> tuple[list[Vec], list[list[Vec]]]:
+        """The forces under friction of given pressing forces, and their slopes by these."""
+        forces = [
+            Vec(*(
+                free + product([[getattr(gain, axis) for gain in row]], sizes)[0]
+                for axis, free in (("x", force.x), ("y", force.y))
+            ))
+            for force, row in zip(self.first, self.gains, strict=True)
+        ]  # fmt: skip
+        slopes = [list(row) for row in self.gains]
+        for pair in self.teeth:
+            force = pair.first + product([pair.gains], sizes)[0]
+            side = select(force < 0.0, -1.0, 1.0)
+            for j, press in enumerate(pair.presses):
+                forces[j] = forces[j] + press * (force * side)
+                slopes[j] = [
+                    gain + press * (side * by) for gain, by in zip(slopes[j], pair.gains, strict=True)
+                ]
+        return forces, slopes
+
+    @property
+    def most(self) -> list[list[Scalar]]:
+        """The sizes of H."""
+        found = [[_length(gain) for gain in row] for row in self.gains]
+        for pair in self.teeth:
+            by = [absolute(gain) for gain in pair.gains]
+            for j, press in enumerate(pair.presses):
+                found[j] = [known + _length(press) * each for known, each in zip(found[j], by, strict=True)]
+        return found
+
+
+def _block(
+    friction: FrictionTerms,
+    terms: Sequence[FrictionTerm],
+    factors: Sequence[Scalar],
+    held: Mapping[str, Scalar],
+    forces_of: ForcesOf,
+) -> _Block:
+    """The linear forms of one block; ``held``: the friction found before, zero of the others."""
+    trace = friction.motion.trace
+    free: dict[str, Scalar] = {}
+    teeth: dict[str, Scalar] = {}
+    inputs: dict[str, Value] = {}
+
+    def none(connection: Connection, force: Scalar) -> Scalar:
+        free[connection.joint] = force
+        return 0.0
+
+    def given(connection: Connection, force: Scalar) -> Scalar:
+        name = connection.joint
+        teeth[name], inputs[name] = force, trace.field_input(f"teeth:{name}")
+        return inputs[name]
+
+    plain = forces_of(friction.wrenches(held), size=none)
+    fields = {term.field: trace.field_input(term.field) for term in terms}
+    rubbing = forces_of(friction.wrenches({**held, **fields}), size=given)
+    pressing = [_pressing(rubbing, term) for term in terms]
+    by = list(zip(fields.values(), factors, strict=True))
+    pairs = [
+        _Teeth(
+            free[name],
+            [slope(force, {each: 1.0}) * factor for each, factor in by],
+            [_slope(press, inputs[name]) for press in pressing],
+        )
+        for name, force in teeth.items()
+    ]
+    return _Block(
+        [_pressing(plain, term) for term in terms],
+        [[_slope(press, each) * factor for each, factor in by] for press in pressing],
+        [pair for pair in pairs if any(press != ZERO for press in pair.presses)],
+    )
 
 
 def caused(friction: FrictionTerms, forces: ForceTrace, field: str) -> Scalar:
@@ -102,34 +198,22 @@ def _length(force: Vec) -> Scalar:
     return select(square > 0.0, sqrt(select(square > 0.0, square, 1.0)), 0.0)
 
 
-def _under(first: list[Vec], gains: list[list[Vec]], sizes: list[Scalar]) -> list[Vec]:
-    """The forces under friction of given pressing forces."""
-    return [
-        Vec(*(
-            free + product([[getattr(gain, axis) for gain in row]], sizes)[0]
-            for axis, free in (("x", force.x), ("y", force.y))
-        ))
-        for force, row in zip(first, gains, strict=True)
-    ]  # fmt: skip
-
-
-def _newton(first: list[Vec], gains: list[list[Vec]], sizes: list[Scalar]) -> list[Scalar]:
-    """One step for f = |R + H f|."""
+def _newton(block: _Block, sizes: Sequence[Scalar]) -> list[Scalar]:
+    """One step for f = |R + A f + B |S + C f||."""
     matrix, gaps = [], []
-    for j, force in enumerate(_under(first, gains, sizes)):
+    for j, (force, slopes) in enumerate(zip(*block.under(sizes), strict=True)):
         length = _length(force)
         inverse = 1.0 / select(length > 0.0, length, 1.0)
         along = Vec(force.x * inverse, force.y * inverse)
-        row = [-along.dot(gain) for gain in gains[j]]
+        row = [-along.dot(each) for each in slopes]
         row[j] = row[j] + 1.0
         matrix.append(row)
         gaps.append(length - sizes[j])
     return [size + step for size, step in zip(sizes, solution(matrix, gaps), strict=True)]
 
 
-def _bound(gains: list[list[Vec]]) -> Scalar:
-    """At least the given power of the spectral radius of the sizes of H."""
-    sizes = [[_length(gain) for gain in row] for row in gains]
+def _bound(sizes: Sequence[Sequence[Scalar]]) -> Scalar:
+    """At least the given power of the spectral radius."""
     sums: list[Scalar] = [1.0] * len(sizes)
     for _ in range(POWER):
         sums = product(sizes, sums)

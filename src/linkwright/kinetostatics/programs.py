@@ -16,7 +16,7 @@ from linkwright.kinetostatics.friction import FrictionTerms
 from linkwright.kinetostatics.named import Named
 from linkwright.kinetostatics.outputs import ForceOutputs
 from linkwright.kinetostatics.site import of_cycle
-from linkwright.kinetostatics.trace import ForceTrace, trace_forces
+from linkwright.kinetostatics.trace import ForceTrace, Size, trace_forces
 from linkwright.kinetostatics.traced_loads import traced_magnitude
 from linkwright.loads.magnitude import followed_by
 
@@ -77,10 +77,10 @@ class ForcePrograms:
     def _terms(self) -> FrictionTerms:
         return FrictionTerms.of(self.motion.mechanism, self.motion.motion)
 
-    def _under(self, wrenches: Wrenches) -> ForceTrace:
+    def _under(self, wrenches: Wrenches, **teeth: Size) -> ForceTrace:
         """The forces under further wrenches."""
         return trace_forces(
-            self.motion.motion, inertia=self.inertia, extra=wrenches, along_input=self.along_input
+            self.motion.motion, inertia=self.inertia, extra=wrenches, along_input=self.along_input, **teeth
         )
 
     @cached_property

@@ -8,12 +8,13 @@ joint that carries it (d'Alembert; Artobolevsky, Theory of Mechanisms and Machin
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Set
+from collections.abc import Callable, Mapping, Set
 from dataclasses import field
+from functools import partial
 
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.linear import product, transposed
-from linkwright.engine.trace import Scalar
+from linkwright.engine.trace import Scalar, absolute
 from linkwright.engine.vector import ZERO, Vec
 from linkwright.joints.base import Cut
 from linkwright.joints.pose import Pose
@@ -23,6 +24,9 @@ from linkwright.kinematics.trace import MotionTrace
 from linkwright.kinetostatics.site import ACTS, TracedSite
 from linkwright.loads.site import Wrench
 from linkwright.structure.group import Connection, TreeJoint
+
+#: The size of the force between the teeth of a pair, from that force.
+Size = Callable[[Connection, Scalar], Scalar]
 
 
 @dataclass(frozen=True)
@@ -97,11 +101,13 @@ def trace_forces(
     inertia: bool,
     extra: Mapping[str, list[Wrench]] | None = None,
     along_input: Set[str],
+    size: Size = lambda _, force: absolute(force),
 ) -> ForceTrace:
     """Traces all joint forces of a traced motion.
 
     ``inertia`` False leaves the inertia forces out (static analysis); ``extra``: further wrenches by name, such
-    as the friction of joints; ``along_input``: loads whose magnitude is traced over the input.
+    as the friction of joints; ``along_input``: loads whose magnitude is traced over the input; ``size``: of the force
+    between the teeth of a pair.
     """
     forces = ForceTrace(motion)
     for name, load in motion.mechanism.loads.items():
@@ -112,7 +118,7 @@ def trace_forces(
     demands = {name: Demand() for name in ("frame", *motion.mechanism.links)}
     for name in motion.mechanism.links:
         demands[name] = forces.own[name] = _own_demand(motion, name, forces, inertia)
-    solver = _Reverse(forces, demands)
+    solver = _Reverse(forces, demands, size)
     for placed in reversed(list(motion.placed.values())):
         solver.solve(placed)
     return forces
@@ -144,8 +150,9 @@ def _lever(pose: Pose, local: Vec, force: Vec) -> Scalar:
 class _Reverse:
     """Goes through the groups from the last to the first."""
 
-    def __init__(self, forces: ForceTrace, demands: dict[str, Demand]) -> None:
+    def __init__(self, forces: ForceTrace, demands: dict[str, Demand], size: Size) -> None:
         self.forces = forces
+        self.size = size
         self.motion = forces.motion
         self.demands = demands
 
@@ -165,7 +172,7 @@ class _Reverse:
         found: dict[Connection, Vec] = {}
         poses = self.motion.poses
         for cut, own in _shares(placed, multipliers):
-            force = cut.pressing(own, poses)
+            force = cut.pressing(own, poses, partial(self.size, cut.connection))
             if force is None:
                 continue
             found[cut.connection] = force

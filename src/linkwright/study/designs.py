@@ -159,8 +159,8 @@ def sweep(
         LinkwrightError: unknown names (nearest ones offered), values that no design can have, dimensions that
             change the drive's law.
 
-    A dimension that changes the positions of the input is refused. Friction beside wheels, racks or cams or near
-    locking, loads that divide by an output or follow a link that turns through, those between limit positions where
+    A dimension that changes the positions of the input is refused. Friction near locking or in more than 16 pairs of
+    one group, loads that divide by an output or follow a link that turns through, those between limit positions where
     the cycle is no whole number of turns at constant speed, and motion through change points are found design by
     design, in milliseconds each.
     """

@@ -53,12 +53,12 @@ def known_loads(plain: Traced, fields: Iterable[str], by: tuple[str, ...]) -> Kn
     """What the loads behind a program's inputs per position take at the mechanism as it is.
 
     Raises:
-        LinkwrightError: friction in which the joint forces are not linear; loads that have no value somewhere, or no
+        LinkwrightError: friction in too many pairs of one group; loads that have no value somewhere, or no
             derivative.
     """
     rubbing = any(kind_of(name) == "friction" for name in fields)
     terms = plain.forces.friction.terms if rubbing else ()
-    if not can_be_traced(plain.mechanism, len(terms)):
+    if rubbing and not can_be_traced(plain.forces.friction):
         raise LinkwrightError(Sentence("study.friction_slope", most=MOST))
     given = [
         name

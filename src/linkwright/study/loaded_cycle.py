@@ -83,7 +83,7 @@ def along_input(traced: Traced, varied: Collection[str], fields: Iterable[str]) 
         given = traced.forces.fields_needed()
     names = owners_of("magnitude", given)
     terms = traced.forces.friction.terms if rubbing else ()
-    if len(names) + len(terms) < len(given) or not can_be_traced(mechanism, len(terms)):
+    if len(names) + len(terms) < len(given) or (rubbing and not can_be_traced(traced.forces.friction)):
         return None
     still = still_rates(traced.nominal, terms)
     swinging = dict.fromkeys(_swinging(term) for term in terms if _swings(traced, term))

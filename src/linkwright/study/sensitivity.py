@@ -166,8 +166,8 @@ def sensitivity(
         expressions) are included by the chain rule.
 
     Raises:
-        LinkwrightError: unknown names (nearest ones offered); friction near self-locking, or beside wheels, racks
-            or cams; dimensions that wheels of given size fix, as the distance of their centres.
+        LinkwrightError: unknown names (nearest ones offered); friction near self-locking, or in more than 16 pairs
+            of one group; dimensions that wheels of given size fix, as the distance of their centres.
         PositionError: the mechanism does not pass its cycle.
 
     Where the size of a vector is zero its derivative is taken as zero.

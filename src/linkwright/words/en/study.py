@@ -56,9 +56,8 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
     '"driver.effort rms"',
     "no_value_for": "{name!r} of {label!r} has no value for {subject!r}; {hint}",
     "not_asked": "{summary!r} was not asked for; there is {summaries}",
-    "friction_slope": "friction has a derivative where all joint forces are linear in it and it is far from locking: "
-    "not beside wheels, racks or cams, in more than {most} pairs, or near self-locking; leave the friction out of "
-    "the model, or vary the dimension in a study",
+    "friction_slope": "friction has a derivative where it is far from self-locking and no group has it in more than "
+    "{most} pairs; leave the friction out of the model, or vary the dimension in a study",
     "ramp_slope": "loads.{name}: a ramp between limit positions has a derivative where these are the only two in one "
     "turn at constant speed, and no turns of links are counted; change the dimension in study instead",
     "cycle_load_slope": "loads.{name}: a load of the kind {kind!r} is found from the whole cycle, for which no "
@@ -108,8 +107,9 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
     "objective_count": "{points} target points do not belong to {positions} positions; give as many inputs (at)",
     "objective_speed": "the true speed of {name!r}, or the torque that it follows from, changes too suddenly for a "
     "gradient, as where it almost stands still; find its numbers without one, by sweep or study",
-    "objective_loads": "{name!r} has friction beside wheels, racks or cams, or (for design numbers) on a guide that "
-    "is pressed from both sides, loads that divide by an output, follow a link that turns through or act against the "
+    "objective_loads": "{name!r} has friction in more than 16 pairs of one group, or (for design numbers) on a guide "
+    "that is pressed from both sides or beside teeth and chains that pull both ways, "
+    "loads that divide by an output, follow a link that turns through or act against the "
     "rotation of two moving links, or phases or design numbers over other cycles than whole turns at constant "
     "speed, so no gradient of many designs is found; for outputs "
     "use sensitivity, which takes one design at a time, for design numbers study",

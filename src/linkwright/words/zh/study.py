@@ -51,8 +51,8 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
     "no_metric": "没有指标“{name}”；{hint} 带汇总方式的输出也可以，如“driver.effort rms”",
     "no_value_for": "{label} 的 {name} 没有“{subject}”的值；{hint}",
     "not_asked": "没有要求“{summary}”；已有 {summaries}",
-    "friction_slope": "运动副中的摩擦只有在各反力与其成线性关系且远离自锁时才有导数：含有齿轮、齿条或凸轮，"
-    "摩擦副多于 {most} 个，或接近自锁时没有；请去掉模型中的摩擦，或在 study 中改变尺寸",
+    "friction_slope": "运动副中的摩擦只有在远离自锁、且每个杆组的摩擦副不多于 {most} 个时才有导数；"
+    "请去掉模型中的摩擦，或在 study 中改变尺寸",
     "ramp_slope": "loads.{name}：极限位置之间的斜坡载荷，只有在原动件匀速转一整周、其间仅有两个极限位置"
     "且不累计构件的整圈数时才有导数；请改在 study 中改变尺寸",
     "cycle_load_slope": "loads.{name}：{kind} 类载荷由整个循环求得，没有导数；请改在 study 中改变尺寸",
@@ -94,7 +94,8 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
     "objective_count": "目标有 {points} 个点，而位置有 {positions} 个；请给出同样多的输入（at）",
     "objective_speed": "“{name}”的真实速度或决定它的力矩变化过于突然（如几乎停转处），不能求梯度；"
     "请用 sweep 或 study 求其数值",
-    "objective_loads": "{name!r} 除齿轮、齿条或凸轮外还含有摩擦，或（求设计指标时）有摩擦的导路两侧交替受压，"
+    "objective_loads": "{name!r} 的一个杆组中摩擦副多于 16 个，或（求设计指标时）有摩擦的导路两侧交替受压、"
+    "有摩擦时轮齿或链条受力交替换向，"
     "或载荷以输出为除数、取决于整转构件的转角、与两个活动构件的相对转动反向，"
     "或在原动件并非匀速转整数周的循环上用到载荷的阶段或设计指标，"
     "因此不能成批求梯度；输出的梯度请用 sensitivity（逐个方案计算），设计指标请用 study",
