@@ -37,12 +37,38 @@ SHAPES: Mapping[str, tuple[tuple[str, ...], int]] = {
 }
 
 
+#: The form of each demand, the same in all tasks.
+FORMS: Mapping[str, str] = {
+    name: form
+    for form, names in {
+        "length": "stroke offset frame rod distance length deviation bound file_unit",
+        "angle": "swing_angle crank_angle transmission_angle input_zero output_zero direction",
+        "number": "rod_ratio offset_ratio quick_return_ratio link_ratio force_ratio gear_ratio size error seconds",
+        "count": "count seed joints",
+        "flag": "scale_free turning least_squares equation_error phase closed",
+        "word": "kind linkage",
+        "file": "file",
+        "point": "pivot",
+        "points": "points fixed_pivots moving_pivots",
+        "window": "within pivot_line",
+        "poses": "poses",
+        "angles": "angles inputs outputs",
+        "lengths": "places",
+    }.items()
+    for name in names.split()
+}
+
+
 @dataclass(frozen=True)
 class Task:
-    """``run`` takes the demands as keywords; ``demands``: forms by name."""
+    """``run`` takes the demands as keywords, and some tasks a ``progress``, which is none."""
 
     run: Callable[..., Synthesis]
-    demands: Mapping[str, str]
+
+    @property
+    def demands(self) -> Mapping[str, str]:
+        """The demands with their forms."""
+        return {name: FORMS[name] for name in signature(self.run).parameters if name != "progress"}
 
     @property
     def needed(self) -> tuple[str, ...]:
