@@ -13,7 +13,7 @@ from linkwright.laws.smoothest import FoundProgram
 from linkwright.parts.base import Block, Row
 from linkwright.parts.display import number, shown
 from linkwright.parts.steps import put
-from linkwright.words import Say
+from linkwright.words import Say, language_of
 from linkwright.words.sentence import in_language
 from linkwright.worked.page import Step
 
@@ -86,7 +86,7 @@ def _remarks(design: CamDesign, say: Say) -> list[str]:
     """Junctions where something jumps; what binds a program that was found."""
     program = design.cam.program
     if isinstance(program, FoundProgram):
-        named = ", ".join(in_language(each.what, _language(say)) for each in program.binding) or "–"
+        named = ", ".join(in_language(each.what, language_of(say)) for each in program.binding) or "–"
         return [say("cams.binding", names=named)]
     if not isinstance(program, MotionProgram):
         return []
@@ -97,10 +97,6 @@ def _remarks(design: CamDesign, say: Say) -> list[str]:
         if places:
             found.append(say(key, places=", ".join(places)))
     return found
-
-
-def _language(say: Say) -> str:
-    return str(getattr(say, "keywords", {}).get("language", "en"))
 
 
 def _shape(design: CamDesign, say: Say) -> Block:

@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from linkwright.core.arrays import Floats
+from linkwright.engine.sweep import Progress
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.files.document import Document
 from linkwright.files.model_file import read_document
@@ -44,7 +45,6 @@ from linkwright.whole_files import write_whole
 from linkwright.words.sentence import Sentence
 from linkwright.words.titles import title_said
 
-Progress = Callable[[int, int], None]
 #: Evaluations where designs go one after the other and nobody says how many; seconds between two saved states.
 SLOW, SAVED = 400, 2.0
 #: Share of the evaluations that the first designs take, and the most that one sweep has; how many of them the local

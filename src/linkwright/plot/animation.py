@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -34,9 +34,9 @@ from linkwright.words import LANGUAGES, say
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
+    from linkwright.engine.sweep import Progress
     from linkwright.kinetostatics.forces import Forces
 
-Progress = Callable[[int, int], None]
 FILM_RATE = 25
 STEPS = 360
 LABEL_FRAMES = 12

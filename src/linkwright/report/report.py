@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from itertools import chain
 from pathlib import Path
 
 from linkwright.core.dataclass import dataclass
+from linkwright.engine.sweep import Progress
 from linkwright.errors import LinkwrightError, QuantityError, RequestError
 from linkwright.files.model_file import load
 from linkwright.files.source import GALLERY
@@ -38,7 +39,6 @@ from linkwright.words.titles import gallery_title
 #: Characters across a page in a table.
 WIDEST = 108
 ENDINGS = (".pdf", ".html", ".docx", ".typ")
-Progress = Callable[[int, int], None]
 
 
 @dataclass(frozen=True)

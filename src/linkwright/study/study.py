@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import field
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -36,10 +36,10 @@ from linkwright.words.sentence import Sentence
 if TYPE_CHECKING:
     import pandas
 
+    from linkwright.engine.sweep import Progress
     from linkwright.plot import Diagram
 
 Sampling = Literal["grid", "sobol"]
-Progress = Callable[[int, int], None]
 _Piece = tuple[dict[str, Floats], dict[str, str], dict[str, None], dict[int, str]]
 
 #: Fewer designs than this are solved one by one; designs that a worker of a cluster takes at a time.

@@ -40,6 +40,11 @@ def speaker(language: str) -> Say:
     return partial(say, language=language)
 
 
+def language_of(speaks: Say) -> str:
+    """The language of a speaker."""
+    return str(getattr(speaks, "keywords", {}).get("language", LANGUAGES[0]))
+
+
 @cache
 def catalogue(area: str, language: str) -> Mapping[str, str]:
     """All texts of an area; raises KeyError for an area or a language that does not exist."""

@@ -16,7 +16,7 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.parts.base import Block, Result, Row, fault
 from linkwright.parts.statics.body import describe
 from linkwright.structure import StructureError, structure
-from linkwright.words import Say
+from linkwright.words import Say, language_of
 from linkwright.words.sentence import Sentence
 from linkwright.worked.page import Step
 
@@ -119,9 +119,4 @@ class StructureForces(Result):
     def steps(self, say: Say) -> list[Step]:
         from linkwright.worked.solution import worked
 
-        return list(worked(self.forces, language=_language(say)).steps)
-
-
-def _language(say: Say) -> str:
-    """The language of a speaker."""
-    return str(getattr(say, "keywords", {}).get("language", "en"))
+        return list(worked(self.forces, language=language_of(say)).steps)
