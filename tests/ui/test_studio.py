@@ -837,6 +837,12 @@ def test_saving_asks_before_it_overwrites_and_a_drag_that_the_file_refuses_goes_
         tab.keyboard.press("Shift+ArrowRight")
         tab.locator(".said", has_text="the external pair needs 0.18 m").wait_for()
         tab.wait_for_function(agreed)
+        field = tab.get_by_label("Value of c1.length")
+        for wrong, limit in (("", False), ("-5", True)):
+            field.fill(wrong)
+            field.press("Enter")
+            assert field.input_value() == "50"
+            assert ("must stay above zero" in tab.locator(".status").first.inner_text()) == limit
         area = tab.locator("textarea")
         assert area.input_value() == GEARED
         assert tab.evaluate("() => linkwright.sessions[0].model.values['frame.O2.x']") == 0.18
@@ -847,6 +853,13 @@ def test_saving_asks_before_it_overwrites_and_a_drag_that_the_file_refuses_goes_
         assert area.input_value() == GEARED
         tab.keyboard.press("Control+y")
         assert area.input_value() == GEARED + "# mine"
+        assert tab.locator(".said").inner_text() == "Not saved; kept as a draft."
+        area.fill(GEARED.replace("40 mm", "40 mmm"))
+        tab.locator(".findings .error").wait_for()
+        tab.get_by_role("button", name="Move", exact=True).click()
+        tab.locator('[data-point="B"]').click(force=True)
+        tab.locator(".said", has_text="B stands where its lengths put it").wait_for()
+        area.fill(GEARED + "# mine")
         name, banner = tab.get_by_label("File name"), tab.locator(".banner")
         name.fill("b.yaml")
         tab.get_by_role("button", name="Save", exact=True).click()

@@ -120,6 +120,7 @@ function Slider({ page, session, dimension }: { page: Page; session: Session; di
       <input
         ref={field} type="number" step="any" value={shown(now)} disabled={locked} aria-label={page.say("value_of", { name: address })}
         onChange={(event) => {
+          if (!event.currentTarget.value) return void (event.currentTarget.value = String(shown(now)));
           session.begin();
           to(Number(event.currentTarget.value));
           done(false);

@@ -131,6 +131,7 @@ export class Desk {
 
   private put(text: string, wait: number): void {
     this.typed = -PAUSE;
+    this.page.note.value = "";
     this.text.value = text;
     this.dirty.value = true;
     void this.keep();
@@ -235,6 +236,7 @@ export class Desk {
 
   private clear(): void {
     this.session.value = null;
+    this.solved.value = { findings: [], model: null, sentence: "" };
     this.side();
   }
 
@@ -261,6 +263,7 @@ export class Desk {
       return;
     }
     if (!solved.model && this.moved?.text === text) return this.refuse(this.moved.before, solved);
+    if (solved.picture && this.solved.value.picture) hold(solved.picture, this.solved.value.picture);
     this.solved.value = { ...solved, text };
     if (!solved.model?.module) return;
     const session = new Session(solved.model, await code(solved.model, 0), 0), old = this.session.value;
@@ -358,6 +361,13 @@ export class Desk {
       this.change(text);
     }).finally(() => this.pending--));
   };
+}
+
+/** Points that lengths have placed stay where they were while a text is written that no machine comes of. */
+function hold(picture: Picture, { placed = [], points }: Picture): void {
+  const used = Object.values(picture.links).flat(), held = placed.filter((point) => used.includes(point) && !(point in picture.points));
+  for (const point of held) picture.points[point] = points[point];
+  picture.placed = [...(picture.placed ?? []), ...held];
 }
 
 /** Puts a machine back where its text has it. */

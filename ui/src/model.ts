@@ -85,8 +85,11 @@ export class Model {
 
   /** Takes other values, or goes as far towards them as the machine can; `wall` says what stopped it. */
   change(target: Values): void {
-    this.wall = this.notPositive(target) ?? this.evaluate(target);
-    if (this.wall) {
+    this.wall = this.notPositive(target);
+    if (this.wall) target = this.values;
+    const met = this.evaluate(target);
+    this.wall ??= met;
+    if (met) {
       let good = this.values, low = 0, high = 1;
       for (let k = 0; k < BISECTIONS; k++) {
         const middle = 0.5 * (low + high), tried = mixed(this.values, target, middle);

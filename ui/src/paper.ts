@@ -43,6 +43,8 @@ export class Paper {
   private size: Vec = [600, 420];
   /** Called with the points of a curve that was drawn, m, and whether it is closed. */
   drawn: ((points: Vec[], closed: boolean) => void) | null = null;
+  /** Called with a point that cannot be moved on the paper. */
+  refused: ((point: string) => void) | null = null;
   /** A curve to be reached, and curves of candidates, the shown one first, m. */
   target: Vec[] = [];
   candidates: Vec[][] = [];
@@ -80,6 +82,7 @@ export class Paper {
   set(picture: Picture): void {
     const first = !Object.keys(this.picture.points).length;
     this.picture = picture;
+    if (this.picked && !(this.picked in picture.links)) this.picked = null;
     this.chosen = this.chosen.filter((name) => name in picture.points);
     if (first || this.outside()) this.fit();
     this.draw();
@@ -184,7 +187,12 @@ export class Paper {
     this.svg.focus();
     this.svg.setPointerCapture(event.pointerId);
     switch (this.tool) {
-      case "select": this.dragged = near && !this.picture.placed?.includes(near) ? near : null; return;
+      case "select": {
+        const placed = near !== null && this.picture.placed?.includes(near);
+        this.dragged = placed ? null : near;
+        if (placed) this.refused?.(near);
+        return;
+      }
       case "fixed": {
         if (!near) this.add(this.fresh(false), this.world(at), true);
         return;

@@ -22,6 +22,7 @@ function Drafting({ desk }: { desk: Desk }) {
   const { picture, mobility, text } = desk.solved.value;
   useEffect(() => {
     paper.current = new Paper(host.current!, desk.act);
+    paper.current.refused = (name) => (desk.page.note.value = desk.say("placed", { name }));
     paper.current.drawn = (points, closed) => void desk.search("curve", { points, closed });
     const observer = new ResizeObserver(([{ contentRect: box }]) => paper.current!.resize(box.width, box.height));
     observer.observe(host.current!);

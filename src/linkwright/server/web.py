@@ -20,7 +20,7 @@ from urllib.parse import parse_qs, urlsplit
 from linkwright.errors import LinkwrightError
 from linkwright.server.background import unexpected
 from linkwright.server.files import LARGEST, Files
-from linkwright.server.work import Work, language_of
+from linkwright.server.work import Work, language_of, said
 from linkwright.words import LANGUAGES, catalogue
 
 _POLICY = (
@@ -107,7 +107,7 @@ class _Handler(BaseHTTPRequestHandler):
             language = language_of(asked)
             status, found = 200, answer(asked)
         except LinkwrightError as error:
-            status, found = 422, {"error": error.say(language)}
+            status, found = 422, {"error": said(error, language)}
         except Exception as error:
             misshapen = isinstance(error, (KeyError, TypeError, ValueError, AttributeError))
             status, found = 400 if misshapen else 500, {"error": unexpected(error, language)}

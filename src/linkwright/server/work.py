@@ -6,11 +6,12 @@ import base64
 import threading
 from collections.abc import Callable, Mapping
 from contextlib import suppress
+from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from linkwright.core.plain import Plain
-from linkwright.errors import Finding, LinkwrightError
+from linkwright.errors import Finding, LinkwrightError, ModelError
 from linkwright.files.document import Document
 from linkwright.files.model_file import gallery_names, read_text
 from linkwright.files.source import read_source
@@ -178,6 +179,13 @@ def _text(asked: Plain, key: str) -> str:
     if not isinstance(value, str):
         raise TypeError(key)
     return value
+
+
+def said(error: LinkwrightError, language: str) -> str:
+    """What is wrong; of a model its findings without the name of a file, which the page's text has not."""
+    if isinstance(error, ModelError):
+        error = ModelError([replace(each, where="") for each in error.findings])
+    return error.say(language)
 
 
 def language_of(asked: object) -> str:

@@ -61,6 +61,7 @@ WORDS = {
     "line": "line {line}",
     "gone": "The server does not answer; changes are kept in this window until it does.",
     "paper": "Drawing paper",
+    "placed": "{name} stands where its lengths put it; change them in the text, or drag it under Run.",
     "value": "Value",
     "slot": "Slot",
     "gear": "Gears",
