@@ -6,6 +6,7 @@ repeats until they agree.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -14,6 +15,9 @@ from tests.reference.adapted_loads import reference_loads
 from tests.reference.adapter import guide_direction, link_points, reference_motion
 from tests.reference.agreement import slide_coordinate
 from tests.reference.formulas import push_along_guide, torque
+from tests.reference.geared import pressed_forces
+from tests.reference.geared_judge import TIMES, well_placed
+from tests.reference.geared_mechanisms import geared_case
 from tests.reference.multibody import Array, Forces, Load, Motion
 
 import linkwright as lw
@@ -85,3 +89,34 @@ def test_friction_of_moving_joints(pin: float, slot: float, speed: float) -> Non
     assert forces.balance_residual.max() < 1e-7 and np.abs(forces.power_residual).max() < 1e-7
     lost = (found.effort("driver driver") - smooth) * speed
     assert lost.mean() > 1.0
+
+
+@pytest.mark.parametrize("seed", [4, 6, 8, 25, 39])
+def test_friction_beside_wheels_belts_and_racks(seed: int) -> None:
+    """What presses teeth apart presses the joints, whose friction changes the forces of the teeth."""
+    case = geared_case(seed)
+    reference = well_placed(case)
+    assert reference is not None
+    plain = lw.loads(case.text)
+    rubbing = {
+        name: replace(joint, friction=0.1, pin_radius=0.01)
+        if joint.coordinate == "turn"
+        else replace(joint, friction=0.1)
+        for name, joint in plain.joints.items()
+        if joint.coordinate in ("turn", "slide") and len(joint.joined) == 2
+    }
+    mechanism = replace(plain, joints={**plain.joints, **rubbing})
+    forces = lw.solve_forces(lw.solve_motion(mechanism, times=TIMES))
+    found, _ = pressed_forces(reference, case.loads())
+    smooth = found.effort("driver driver")
+    for _ in range(60):
+        friction = friction_loads(mechanism, reference, found).values()
+        found, _ = pressed_forces(reference, [*case.loads(), *friction])
+    effort = found.effort("driver driver")
+    largest = float(np.abs(found.lam).max())
+    assert forces.input_torque == pytest.approx(effort, rel=1e-9, abs=1e-9 * largest)
+    for name in rubbing:
+        link = mechanism.joints[name].joined[-1]
+        near = found.on(name, link)[0]
+        assert forces.reaction(name, on=link) == pytest.approx(near, rel=1e-9, abs=1e-9 * largest)
+    assert np.abs(effort - smooth).max() > 1e-4 * np.abs(smooth).max()
