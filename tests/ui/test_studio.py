@@ -870,11 +870,17 @@ def test_saving_asks_before_it_overwrites_and_a_drag_that_the_file_refuses_goes_
         banner.wait_for(state="detached")
         assert (tmp_path / "c.yaml").read_text() == GEARED + "# mine"
         assert not Files(tmp_path).open("a.yaml")["recovered"]
-        (tmp_path / "c.yaml").write_text(GEARED + "# theirs")
+        (tmp_path / "c.yaml").write_bytes((GEARED + "# theirs").replace("\n", "\r\n").encode())
         banner.get_by_role("button", name="Take its text").click()
         tab.keyboard.press("Control+s")
         banner.wait_for(state="detached")
-        assert (tmp_path / "c.yaml").read_text() == area.input_value() == GEARED + "# theirs"
+        area.press("Control+End")
+        tab.keyboard.type("\n# and mine")
+        tab.keyboard.press("Control+s")
+        tab.locator(".said", has_text="Saved.").wait_for()
+        wanted = GEARED + "# theirs\n# and mine"
+        assert area.input_value() == wanted
+        assert (tmp_path / "c.yaml").read_bytes().decode() == wanted.replace("\n", "\r\n")
 
 
 @needs_chromium

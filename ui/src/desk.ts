@@ -132,7 +132,7 @@ export class Desk {
   private put(text: string, wait: number): void {
     this.typed = -PAUSE;
     this.page.note.value = "";
-    this.text.value = text;
+    this.text.value = plain(text);
     this.dirty.value = true;
     void this.keep();
     window.clearTimeout(this.timer);
@@ -163,7 +163,7 @@ export class Desk {
     }
     if (state.other && state.serial !== this.serial) {
       const opened = await this.ask<{ text: string; serial: number }>("open", { name: this.name.value });
-      if (opened && opened.text !== this.text.value) this.elsewhere.value = opened.text;
+      if (opened && plain(opened.text) !== this.text.value) this.elsewhere.value = opened.text;
       this.serial = state.serial;
     }
     const { name } = this, known = this.onDisk.value;
@@ -193,7 +193,7 @@ export class Desk {
     this.history.clear();
     this.elsewhere.value = null;
     this.onDisk.value = null;
-    this.text.value = opened.text;
+    this.text.value = plain(opened.text);
     this.dirty.value = opened.recovered;
     this.page.note.value = opened.recovered ? this.say("recovered") : "";
     this.clear();
@@ -362,6 +362,9 @@ export class Desk {
     }).finally(() => this.pending--));
   };
 }
+
+/** A text with the ends of lines that a text field has; the server writes those of the file. */
+const plain = (text: string) => text.replaceAll("\r\n", "\n");
 
 /** Points that lengths have placed stay where they were while a text is written that no machine comes of. */
 function hold(picture: Picture, { placed = [], points }: Picture): void {

@@ -71,7 +71,7 @@ class Files:
         """A file's text; a draft that is newer than what was saved comes first and is said (``recovered``)."""
         found = self.disk(name)
         draft = self._draft(name)
-        recovered = draft is not None and draft["text"] != found["text"]
+        recovered = draft is not None and _plain(draft["text"]) != _plain(found["text"])
         serial, _ = self._serial.get(name, (0, ""))
         shown = draft["text"] if draft is not None and recovered else found["text"]
         return {**found, "name": name, "text": shown, "serial": serial, "recovered": recovered}
@@ -120,13 +120,16 @@ class Files:
     def save(self, name: str, text: str, version: str, draft: str) -> Plain:
         """Writes the file, if it is still the one that was opened (``version``; "" for one that is not there yet).
 
-        Its draft, and the one that the text was kept in under another name (``draft``), are done with.
+        The ends of lines stay those of the file. Its draft, and the one that the text was kept in under another name
+        (``draft``), are done with.
         """
         _small(text)
         path = self.path(name)
-        there = self.disk(name)["version"]
-        if there != version:
-            return {"saved": False, "version": there}
+        there = self.disk(name)
+        if there["version"] != version:
+            return {"saved": False, "version": there["version"]}
+        if "\r\n" in there["text"]:
+            text = _plain(text).replace("\n", "\r\n")
         make_folder(path.parent)
         write_whole(path, text.encode())
         for each in (name, draft):
@@ -144,6 +147,10 @@ class Files:
         except (OSError, ValueError):
             return None
         return found if found.get("name") == name and isinstance(found.get("text"), str) else None
+
+
+def _plain(text: str) -> str:
+    return text.replace("\r\n", "\n")
 
 
 def _small(text: str) -> None:
