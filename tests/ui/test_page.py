@@ -281,6 +281,7 @@ def test_a_cloud_of_tolerances_keeps_its_bound(opened: Opened, tmp_path: Path) -
 def test_locked_dimensions_stay(opened: Opened, tmp_path: Path) -> None:
     made_of, path = made(tmp_path, "jaw_crusher_sixbar")
     opened.open(path)
+    assert opened.tab.locator(".results .hint").count() == 0
     for address in ("pitman.length", "toggle.length"):
         opened.tab.get_by_role("button", name=f"Lock {address}").click()
     opened.drag("B", 6.0, 3.0)
@@ -321,6 +322,7 @@ def test_friction_is_solved_again(opened: Opened, tmp_path: Path) -> None:
     assert changed
     agrees(opened, mechanism.with_dimensions(changed), forces=True, tolerance=1e-10)
     assert opened.tab.locator(".note").count() == 0
+    assert f"those of the {STEPS} positions" in opened.tab.locator(".results .hint").inner_text()
     opened.run("s => { for (const term of s.data.friction) term.arm *= 400; s.take({...s.model.values}); }")
     assert opened.run("s => s.model.row('effort:driver').every(Number.isNaN)")
     assert "locks" in opened.tab.locator(".note").first.inner_text()

@@ -7,7 +7,7 @@ import { Curves } from "./curves";
 import type { Dimension } from "./data";
 import { type Page, save } from "./living";
 import { Machine } from "./machine";
-import { isForce } from "./numbers";
+import { isForce, sampled } from "./numbers";
 import type { Session } from "./session";
 import { digits, quantity } from "./words";
 import "./page.css";
@@ -287,6 +287,13 @@ function Notes({ page, session }: { page: Page; session: Session }) {
   return <>{notes(page, session).map((each) => <p class="note" key={each}>{each}</p>)}</>;
 }
 
+/** Says where largest values are those of the positions, not of what lies between them. */
+function Sampled({ page, session }: { page: Page; session: Session }) {
+  const what = sampled(session.model), ids = new Set(session.data.numbers.map(({ signal }) => signal)), { n } = session.model;
+  if (!what || n < 2 || (what === "forces" && ![...ids].some(isForce))) return null;
+  return <p class="hint">{page.say(`sampled_${what}`, { count: String(n) })}</p>;
+}
+
 export function Card({ page, session }: { page: Page; session: Session }) {
   return (
     <article class="card">
@@ -304,7 +311,7 @@ export function Card({ page, session }: { page: Page; session: Session }) {
       <div class="results">
         <Curves page={page} session={session} />
         {session.data.numbers.length > 0 && (
-          <div class="scroll" role="region" tabIndex={0} aria-label={page.region(session, "numbers")}><Numbers page={page} session={session} /></div>
+          <div class="scroll" role="region" tabIndex={0} aria-label={page.region(session, "numbers")}><Numbers page={page} session={session} /><Sampled page={page} session={session} /></div>
         )}
       </div>
       {session.data.source && <p class="source">{session.data.source}</p>}

@@ -33,13 +33,20 @@ function extreme(model: Model, id: string, row: Float64Array, of: (x: number) =>
   const signal = model.signals[id];
   let at = 0;
   for (let i = 1; i < model.n; i++) if (of(row[i]) < of(row[at])) at = i;
-  if (isForce(id) && model.main.program.fields.length) return of(row[at]);
+  if (sampled(model) === "forces" && isForce(id)) return of(row[at]);
   const value = (call: Call) => {
     const [a, b] = signal.rows.map((name) => call.row(name)[0]);
     const x = formed(signal, a, b);
     return of(signal.form === "angle" ? x + TURN * Math.round((row[at] - x) / TURN) : x);
   };
   return model.solver.refined(value, at, of(row[at])).value;
+}
+
+/** Of what the least and largest values are those of the positions: forces where friction or parts of the cycle are found
+ * at the positions alone, everything without a steady drive. */
+export function sampled({ main, data }: Model): "forces" | "all" | null {
+  if (!data.positions.steady) return "all";
+  return main.program.fields.length ? "forces" : null;
 }
 
 /** Input from one limit position to the other over the rest of the turn, at least 1; NaN for other ways than a single one
