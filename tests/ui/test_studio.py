@@ -881,6 +881,9 @@ def test_saving_asks_before_it_overwrites_and_a_drag_that_the_file_refuses_goes_
         wanted = GEARED + "# theirs\n# and mine"
         assert area.input_value() == wanted
         assert (tmp_path / "c.yaml").read_bytes().decode() == wanted.replace("\n", "\r\n")
+        with tab.expect_download() as handed:
+            tab.get_by_label("Report and export").select_option(".report.html")
+        assert handed.value.suggested_filename == "c.report.html"
 
 
 @needs_chromium

@@ -339,11 +339,11 @@ export class Desk {
   /** A report or an export of the machine, as a download. */
   async take(ending: string): Promise<void> {
     this.page.note.value = this.say("making");
-    const found = await this.ask<{ name: string; content: string }>("take", { text: this.text.value, ending });
+    const found = await this.ask<{ content: string }>("take", { text: this.text.value, ending });
     if (!found) return;
     this.page.note.value = "";
     const stem = this.name.value.replace(/\.\w+$/, "") || "machine";
-    save(new Blob([bytes(found.content)]), found.name.replace(/^machine/, stem));
+    save(new Blob([bytes(found.content)]), `${stem}${ending}`);
   }
 
   /** Carries out actions of drawing on the text, as one step, in the order in which they were asked. */

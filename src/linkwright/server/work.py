@@ -115,14 +115,13 @@ class Work:
         return {"goals": goals(_text(asked, "text"), language_of(asked))}
 
     def _take(self, asked: Plain) -> Plain:
-        """A report, or an export, of a text: its name and its bytes in base64."""
+        """A report, or an export, of a text: its bytes in base64."""
         text, ending, language = _text(asked, "text"), _text(asked, "ending"), language_of(asked)
         if ending not in TAKEN:
             raise LinkwrightError(Sentence("studio.no_ending", ending=ending))
         document = Document(text, "model", read_text)
         with TemporaryDirectory() as folder:
-            stem = "report" if ending.startswith(".report") else "machine"
-            path = Path(folder) / f"{stem}{ending.removeprefix('.report')}"
+            path = Path(folder) / f"machine{ending.removeprefix('.report')}"
             if ending.startswith(".report"):
                 from linkwright.report.report import report
 
@@ -133,7 +132,7 @@ class Work:
                 more: Plain = {"text": text} if ending == ".html" else {}
                 export(document.mechanism, path, language=language, **more)
             content = path.read_bytes()
-        return {"name": path.name, "content": base64.b64encode(content).decode()}
+        return {"content": base64.b64encode(content).decode()}
 
 
 def solved(text: str, language: str) -> Plain:
