@@ -876,6 +876,7 @@ def test_saving_asks_before_it_overwrites_and_a_drag_that_the_file_refuses_goes_
         banner.wait_for(state="detached")
         area.press("Control+End")
         tab.keyboard.type("\n# and mine")
+        tab.locator(".said", has_text="Not saved; kept as a draft.").wait_for()
         tab.keyboard.press("Control+s")
         tab.locator(".said", has_text="Saved.").wait_for()
         wanted = GEARED + "# theirs\n# and mine"
