@@ -87,6 +87,7 @@ export class Desk {
   private timer = 0;
   private queue: Promise<void> = Promise.resolve();
   private ready: Promise<void> = Promise.resolve();
+  private saving: Promise<void> = Promise.resolve();
   /** Actions of drawing that are not in the text yet. */
   pending = 0;
 
@@ -202,7 +203,11 @@ export class Desk {
   }
 
   /** Writes the file; another one than the open one only where there is none, or in place of the given version. */
-  async save(asked: string, version?: string): Promise<void> {
+  save(asked: string, version?: string): Promise<void> {
+    return (this.saving = this.saving.then(() => this.saved(asked, version)));
+  }
+
+  private async saved(asked: string, version?: string): Promise<void> {
     const name = /\.(ya?ml|json)$/i.test(asked) ? asked : `${asked}.yaml`, own = name === this.name.value;
     if (own) await this.keep();
     const text = this.text.value;
@@ -215,7 +220,7 @@ export class Desk {
     if (!own) [this.name.value, this.serial] = [name, saved.serial];
     this.version = saved.version;
     this.dirty.value = text !== this.text.value;
-    this.page.note.value = this.say("saved");
+    this.page.note.value = this.dirty.value ? "" : this.say("saved");
   }
 
   /** Writes the file in place of the one on the disk that has been in the way. */
