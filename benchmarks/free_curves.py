@@ -101,6 +101,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--seconds", type=float, default=15.0, help="time for each curve")
     parser.add_argument("--angle", type=float, default=20.0, help="least transmission angle, deg")
     parser.add_argument("--size", type=float, default=6.0, help="farthest joint, rms radii")
+    parser.add_argument("--swinging", action="store_true", help="the input need not turn fully")
     parser.add_argument("--processor", action="store_true", help="measure processor time over all cores")
     options = parser.parse_args(arguments)
     if options.processor:
@@ -123,13 +124,14 @@ def measured(
     curve: NDArray[np.complex128], closed: bool, seed: int, options: argparse.Namespace
 ) -> tuple[list[float], str]:
     """Least errors with up to 5, 8, 10 and 12 joints within the demands, and a line of text."""
-    target = Target(curve, closed, math.radians(options.angle), options.size)
+    target = Target(curve, closed, math.radians(options.angle), options.size, not options.swinging)
     begin = time.process_time()
     search = searching.Search(target, options.joints, options.seconds, seed)
     designs, best = search.run(), dict.fromkeys(searching.JOINTS, (math.inf, math.nan, math.nan))
-    spent, turn = time.process_time() - begin, np.linspace(0, 2 * np.pi, 3601)
+    spent = time.process_time() - begin
     for each in designs:
-        least, size = node_paths(each.nodes, each.x, turn)[1], Placed(each, target).size()
+        judged = target.judged(each, 3601)
+        least, size = node_paths(each.nodes, each.x, judged)[1], Placed(each, target).size()
         angle = math.degrees(math.asin(math.sqrt(max(least, 0))))
         if angle >= options.angle and size <= options.size:
             drawn = Placed(each, target).curve(8000)

@@ -54,12 +54,11 @@ def _some(joints: int, draw: Draw) -> Whole:
     return flat(SLIDING[kind]) if kind < len(SLIDING) else random_structure(2, joints, draw)
 
 
-@pytest.mark.parametrize("closed", [True, False])
-def test_gradients_are_slopes(closed: bool) -> None:
+@pytest.mark.parametrize(("closed", "rest"), [(True, 0), (False, 48), (False, 0)])
+def test_gradients_are_slopes(closed: bool, rest: int) -> None:
     draw = np.random.default_rng(4)
     target = Target(FOUR, closed, math.radians(50), 3.0)
     points, near = target._tables[MIDDLE.points, False]
-    poses = 96 if closed else 144
     room, options, checked = np.zeros(60000), np.array([math.sin(math.radians(50)) ** 2, 3.0, 1.0, 4e-6]), 0
     while checked < 10:
         nodes = _some(8, draw)
@@ -70,7 +69,7 @@ def test_gradients_are_slopes(closed: bool) -> None:
             at: np.ndarray, slope: np.ndarray, nodes: np.ndarray = nodes, joints: int = joints
         ) -> float:
             arrays = [each.ctypes.data for each in (near, options, room, slope)]
-            found = kernels()("deviation", nodes.ctypes.data, joints, 96, poses, int(closed), at.ctypes.data,
+            found = kernels()("deviation", nodes.ctypes.data, joints, 96, 96 + rest, int(closed), at.ctypes.data,
                               points.ctypes.data, MIDDLE.points, *arrays)  # fmt: skip
             return float(found)
 
@@ -339,6 +338,21 @@ def test_the_solver_draws_the_same_curve_within_the_demands() -> None:
     reach = max(np.abs(each - size * middle).max() for each in places.values()) / (size * radius)
     assert reach <= 6.0
     assert found.best.values["size"] == pytest.approx(reach, rel=2e-3)
+
+
+def test_an_input_that_swings_keeps_the_demands_while_it_draws() -> None:
+    found = lw.free_curve(FOUR, seconds=1.0, joints=8, turning=False, transmission_angle=math.radians(30))
+    assert not found.best.turns
+    for each in found:
+        machine = each.mechanism()
+        motion = lw.solve_motion(machine, steps=1500)
+        assert curve_distance(motion.point("P").position @ [1, 1j], FOUR, False) == pytest.approx(
+            each.error, rel=0.03
+        )
+        if not each.turns:
+            angle = lw.metrics(motion, "transmission_angle").value("transmission_angle")
+            assert angle == pytest.approx(each.transmission_angle, abs=1e-3)
+            assert angle >= math.radians(30)
 
 
 @pytest.mark.parametrize(

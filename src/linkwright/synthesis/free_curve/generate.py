@@ -39,13 +39,14 @@ def free_curve(
     joints: int = 12,
     transmission_angle: float = math.radians(20),
     size: float = 6.0,
+    turning: bool = True,
     error: float = 0.0,
     seconds: float = 15.0,
     count: int = 6,
     seed: int = 0,
     progress: Callable[[float, float], None] | None = None,
 ) -> Synthesis:
-    """Linkages with a turning crank that draw a curve, best first.
+    """Linkages that draw a curve, best first.
 
     Args:
         points: corners of the curve in order, (n, 2) or complex (n,), m; n ≥ 2.
@@ -55,8 +56,10 @@ def free_curve(
         joints: most joints (pivots, pins, slides, points of links and the drawing point), 5 to 12: a four-bar, a
             slider-crank and a crank with a swinging block have 5, a six-bar up to 8; with 10 there are eight- and
             ten-bars, with 12 twelve-bars as well.
-        transmission_angle: least of every dyad over the whole turn, rad.
-        size: greatest distance of any joint from the curve's centroid over the turn, in rms radii of the curve.
+        transmission_angle: least of every dyad, rad.
+        size: greatest distance of any joint from the curve's centroid, in rms radii of the curve.
+        turning: the crank turns fully, and both demands hold over its whole turn; without it an open curve may be
+            drawn by an input that swings, and they hold while it draws.
         error: an error that is good enough: linkages within it come with the fewest links first; 0: the least
             error first.
         seconds: time of the search on all cores; more time finds better linkages.
@@ -70,7 +73,7 @@ def free_curve(
         radii of the curve (both even in arc length; as they lie, the curve's centroid and rms radius kept);
         ``worst``: the greatest nearest distance, the same unit. ``values``: joints, links, size, the share drawn in
         the given direction, the greatest speed at one turn of the crank per second. An open curve is drawn between
-        the ends of the model's cycle; the crank turns on from there.
+        the ends of the model's cycle; a crank that ``turns`` goes on from there.
 
     Raises:
         SynthesisError: no curve, or demands out of range; none was found within the demands or within ``error``
@@ -88,7 +91,7 @@ def free_curve(
     not_negative(error=error)
     if not available():
         raise refuse("free_curve.compiler")
-    target = Target(curve, closes, transmission_angle, size)
+    target = Target(curve, closes, transmission_angle, size, turning)
     search = Search(target, int(joints), seconds, int(seed), progress)
     return _ranked(target, search.run(), curve, error, int(count), search)
 
@@ -117,16 +120,16 @@ def _ranked(
 ) -> Synthesis:
     found = [(each, _facts(each, target)) for each in designs]
     within = [(each, facts) for each, facts in found if Placed(each, target).keeps()]
-    notes = [note("free_curve.measure", angle=f"{math.degrees(target.least):g}", size=f"{target.largest:g}")]
+    how = "turning" if target.turning else "swinging"
+    asked = {"angle": f"{math.degrees(target.least):g}", "size": f"{target.largest:g}"}
+    notes = [note(f"free_curve.{how}", **asked), note("free_curve.measure")]
     counts = {"attempts": search.attempts, "designs": len(found)}
     if not within:
         nearest = [_candidate(each, target) for each, _ in _front(found)[:count]]
         near = (
             Synthesis("free_curve", tuple(nearest), "curve", curve, counts, tuple(notes)) if nearest else None
         )
-        raise refuse(
-            "free_curve.none", near, angle=f"{math.degrees(target.least):g}", size=f"{target.largest:g}"
-        )
+        raise refuse(f"free_curve.none_{how}", near, **asked)
     front = _front(within)
     good = sorted(
         (each for each in front if each[1][0] <= error), key=lambda each: (each[0].links, each[1][0])
@@ -173,7 +176,8 @@ def _shown(curve: Complexes, closed: bool) -> Complexes:
 
 def _candidate(design: Design, target: Target) -> Candidate:
     placed = Placed(design, target)
-    linkage, (_, links, angle, size) = linkage_of(placed), _facts(design, target)
+    linkage, (_, links, _, size) = linkage_of(placed), _facts(design, target)
+    angle = placed.over_a_turn() if placed.turns() else placed.transmission_angle()
     given = target.centre + target.radius * target.points
     mean, most = symmetric_distance(even_points(placed.curve(4 * EVEN), EVEN, target.closed), given)
     how, curve = drawing(placed), placed.curve(SHOWN)
@@ -183,6 +187,6 @@ def _candidate(design: Design, target: Target) -> Candidate:
         "fastest_at_1_Hz": how.fastest, "fastest_to_mean": how.unevenness,
     }  # fmt: skip
     return Candidate(
-        linkage, mean / target.radius, kind_of(design), (), True, -angle, max(lengths) / min(lengths),
+        linkage, mean / target.radius, kind_of(design), (), placed.turns(), angle, max(lengths) / min(lengths),
         most / target.radius, _shown(curve, target.closed), values,
     )  # fmt: skip

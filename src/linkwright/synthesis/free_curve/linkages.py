@@ -8,7 +8,7 @@ from string import ascii_uppercase
 
 import numpy as np
 
-from linkwright.core.arrays import Complexes
+from linkwright.core.arrays import Complexes, Floats
 from linkwright.synthesis.free_curve.kernels import BLOCK, GUIDE, PIVOT, POINT, SLIDER
 from linkwright.synthesis.free_curve.nodes import Design, Node, node_paths, rods_of
 from linkwright.synthesis.free_curve.target import EVEN, Target, even_points
@@ -45,14 +45,24 @@ class Placed:
         return -angle if self.design.mirror else angle
 
     def size(self) -> float:
-        """Greatest distance of a node from the curve's centroid over a turn, in rms radii."""
-        paths = node_paths(self.design.nodes, self.design.x, np.linspace(0, 2 * np.pi, 721))[0]
+        """Greatest distance of a node from the curve's centroid where the demands hold, in rms radii."""
+        paths = node_paths(self.design.nodes, self.design.x, self.target.judged(self.design, 721))[0]
         return float(np.abs(paths - self.middle).max() * abs(self.factor) / self.target.radius)
 
     def transmission_angle(self) -> float:
-        """Least one of every dyad over a turn, rad; 0 where one does not close."""
-        least = node_paths(self.design.nodes, self.design.x, np.linspace(0, 2 * np.pi, TURN + 1))[1]
-        return math.asin(math.sqrt(max(least, 0.0)))
+        """Least one of every dyad where the demands hold, rad; 0 where one does not close."""
+        return self._least(self.target.judged(self.design, TURN + 1))
+
+    def over_a_turn(self) -> float:
+        """The same over a whole turn of the crank."""
+        return self._least(np.linspace(0, 2 * np.pi, TURN + 1))
+
+    def turns(self) -> bool:
+        """Whether the crank turns fully within the demand."""
+        return self.target.turning or self.over_a_turn() >= self.target.least
+
+    def _least(self, crank: Floats) -> float:
+        return math.asin(math.sqrt(max(node_paths(self.design.nodes, self.design.x, crank)[1], 0.0)))
 
     def keeps(self) -> bool:
         """Whether the target's demands hold."""
@@ -69,9 +79,10 @@ def linkage_of(placed: Placed) -> Linkage:
     pose = placed(node_paths(design.nodes, design.x, np.array([begin]))[0][:, 0])
     points = {name: complex(place) for name, place in zip(names, pose, strict=True)}
     frame = tuple(names[k] for k, row in enumerate(design.rows) if row[0] in (PIVOT, GUIDE) and k != 1)
-    links = _links(design.rows, names)
+    driven = "crank" if placed.turns() else "input"
+    links = _links(design.rows, names, driven)
     return Linkage(
-        kind_of(design), points, frame, links, ("crank", "O"), _guides(placed, names, links),
+        kind_of(design), points, frame, links, (driven, "O"), _guides(placed, names, links),
         span=None if closed else (ends[0], ends[1]),
     )  # fmt: skip
 
@@ -98,7 +109,7 @@ def _guides(placed: Placed, names: list[str], links: dict[str, tuple[str, ...]])
     return found
 
 
-def _links(rows: list[Node], names: list[str]) -> dict[str, tuple[str, ...]]:
+def _links(rows: list[Node], names: list[str], driven: str) -> dict[str, tuple[str, ...]]:
     links: dict[tuple[int, int], list[int]] = {(0, 1): [0, 1]}
     blocks = []
     for k, (kind, i, j, _) in enumerate(rows):
@@ -107,13 +118,13 @@ def _links(rows: list[Node], names: list[str]) -> dict[str, tuple[str, ...]]:
             links[i, j].append(k)
         elif kind in SLIDES:
             blocks.append([k if kind == SLIDER else j])
-    named = [*zip(_link_names(), links.values(), strict=False)]
+    named = [*zip(_link_names(driven), links.values(), strict=False)]
     named += [(f"block{number + 1}" if number else "block", each) for number, each in enumerate(blocks)]
     return {name: tuple(names[k] for k in nodes) for name, nodes in named}
 
 
-def _link_names() -> Iterator[str]:
-    yield from ("crank", "coupler", "rocker")
+def _link_names(driven: str) -> Iterator[str]:
+    yield from (driven, "coupler", "rocker")
     number = 4
     while True:
         yield f"link{number}"

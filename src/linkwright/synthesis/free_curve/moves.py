@@ -11,7 +11,7 @@ from linkwright.core.arrays import Floats
 from linkwright.synthesis.free_curve.kernels import BLOCK, DYAD, GUIDE, PIVOT, POINT, SLIDER
 from linkwright.synthesis.free_curve.nodes import Design, Draw, Node, flat, links_of, pivots_of, turned_paths
 
-#: Positions of a turn at which a new dyad must close.
+#: Positions of a turn, or of the drawn part, at which a new dyad must close.
 TURN = 96
 #: Where a new node comes, which entry of that row then names it (0: none), the node and its two numbers.
 Parting = tuple[int, int, Node, tuple[float, float]]
@@ -19,14 +19,14 @@ Parting = tuple[int, int, Node, tuple[float, float]]
 PINNED = {DYAD: (1, 2), SLIDER: (1,), BLOCK: (1, 2)}
 
 
-def with_dyad(design: Design, draw: Draw, most: int) -> Design | None:
+def with_dyad(design: Design, draw: Draw, most: int, turning: bool = True) -> Design | None:
     """One more dyad at the drawing point P: G = dyad(P, F), and P + w (G - P) draws, with w = 0 where P was.
 
     The curve is unchanged and w has a slope at once, so more links never cost accuracy. F is a pivot, a node, a new
     pivot or a new point of a link. None where the dyad could not close, or there is no room.
     """
     rows, x, last = design.rows, design.x, design.joints - 1
-    paths = turned_paths(design.nodes, x, TURN)
+    paths = turned_paths(design.nodes, x, TURN, turning)
     if most - design.joints < 2 or paths is None:
         return None
     values: list[float] = []

@@ -101,15 +101,16 @@ def node_paths(nodes: Whole, x: Floats, crank: Floats) -> tuple[Complexes, float
     return paths, least
 
 
-def turned_paths(nodes: Whole, x: Floats, count: int) -> Complexes | None:
+def turned_paths(nodes: Whole, x: Floats, count: int, turning: bool = True) -> Complexes | None:
     """Positions (joints, count) of all nodes over a turn in even steps from 0; None where a dyad does not close.
 
-    ``count``: a multiple of 8. Fast, and without the care of :func:`node_paths`.
+    ``count``: a multiple of 8; without ``turning`` over the crank's range in x. Fast, and without the care of
+    :func:`node_paths`.
     """
     joints = len(nodes) // 4
     numbers, places = np.append(x, (0.0, 0.0, 0.0)), np.zeros((2, joints, count))
     addresses = [each.ctypes.data for each in (numbers, *places)]
-    closes = kernels()("place", nodes.ctypes.data, joints, count, count, 1, *addresses) >= 0.0
+    closes = kernels()("place", nodes.ctypes.data, joints, count, count, int(turning), *addresses) >= 0.0
     return np.asarray(places[0] + 1j * places[1]) if closes else None
 
 

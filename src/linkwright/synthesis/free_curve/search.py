@@ -295,7 +295,7 @@ class Search:
         if below and kind < 0.5:
             base = below[int(draw.integers(len(below)))].pick(draw)
             if kind < 0.25:
-                design = with_dyad(base, draw, most)
+                design = with_dyad(base, draw, most, self.target.turning)
                 if design is not None:
                     return design
             elif most - base.joints > 1:

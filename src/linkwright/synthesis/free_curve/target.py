@@ -46,13 +46,16 @@ class Target:
     """A curve (complex, at least two different points), closed or open, as the search sees it.
 
     Args:
-        least: least transmission angle over the whole turn, rad.
+        least: least transmission angle, rad.
         largest: greatest distance of a node from the curve's centroid, in its rms radii.
+        turning: both hold over a whole turn of the crank; without it an open curve's hold on the drawn part.
     """
 
-    def __init__(self, curve: Complexes, closed: bool, least: float, largest: float) -> None:
+    def __init__(
+        self, curve: Complexes, closed: bool, least: float, largest: float, turning: bool = True
+    ) -> None:
         even = even_points(curve, EVEN, closed)
-        self.closed, self.least, self.largest = closed, least, largest
+        self.closed, self.least, self.largest, self.turning = closed, least, largest, turning or closed
         self.centre = complex(even.mean())
         self.radius = float(np.sqrt(np.mean(np.abs(even - self.centre) ** 2)))
         self.points = (even - self.centre) / self.radius
@@ -81,11 +84,10 @@ class Target:
         x = design.x.copy()
         limits = [np.sin(self.least + more) ** 2, self.largest * (1 - 2 * more), weight, fineness.soft**2]
         options = np.array(limits)
-        poses = fineness.drawn + (0 if self.closed else fineness.rest)
         arrays = [each.ctypes.data for each in (x, points, near, options, _ROOM.array)]
         value = kernels()(
-            "descend", design.nodes.ctypes.data, design.joints, fineness.drawn, poses, int(self.closed), *arrays[:2],
-            fineness.points, *arrays[2:], iterations,
+            "descend", design.nodes.ctypes.data, design.joints, fineness.drawn, self._poses(fineness),
+            int(self.closed), *arrays[:2], fineness.points, *arrays[2:], iterations,
         )  # fmt: skip
         return replace(design, x=x, value=value)
 
@@ -105,14 +107,13 @@ class Target:
     def grown(self, design: Design, numbers: Floats, most: int) -> list[Design]:
         """Designs with one more dyad after rows of nine uniform numbers, the most promising first."""
         draws, (points, near) = len(numbers), self._tables[COARSE.points, design.mirror]
-        poses = MIDDLE.drawn + (0 if self.closed else MIDDLE.rest)
         options = np.array([np.sin(self.least) ** 2])
         made, x = np.zeros((draws, ROWS), np.int64), np.zeros((draws, NUMBERS))
         counts, gains, own = np.zeros(draws, np.int64), np.zeros(draws), design.x.copy()
         arrays = [each.ctypes.data for each in (near, options, _ROOM.array)]
         results = [each.ctypes.data for each in (made, x, counts, gains)]
         kernels()(
-            "promises", design.nodes.ctypes.data, design.joints, MIDDLE.drawn, poses, int(self.closed),
+            "promises", design.nodes.ctypes.data, design.joints, MIDDLE.drawn, self._poses(MIDDLE), int(self.closed),
             own.ctypes.data, points.ctypes.data, COARSE.points, *arrays, draws, numbers.ctypes.data, most, *results,
         )  # fmt: skip
         return [
@@ -127,12 +128,20 @@ class Target:
             return design
         fine = self.descend(design, 0, FINE, weight=weight)
         nodes, x, room = (each.ctypes.data for each in (design.nodes, design.x, _ROOM.array))
-        least = kernels()(
-            "place", nodes, design.joints, TURN, TURN, 1, x, room, room + 8 * TURN * design.joints
-        )
+        joints, whole = design.joints, int(self.turning)
+        least = kernels()("place", nodes, joints, TURN, TURN, whole, x, room, room + 8 * TURN * joints)
         if least < np.sin(self.least / 2) ** 2:
             return replace(fine, value=FAR)
         return replace(fine, misses=self.misses(design))
+
+    def _poses(self, fineness: Fineness) -> int:
+        """Positions at which the demands hold."""
+        return fineness.drawn + (fineness.rest if self.turning and not self.closed else 0)
+
+    def judged(self, design: Design, count: int) -> Floats:
+        """Crank angles over which the demands hold."""
+        first, span = (0.0, 2 * np.pi) if self.turning else design.x[-2:]
+        return np.linspace(first, first + span, count)
 
     def curve(self, design: Design, count: int = 4 * EVEN) -> Complexes:
         """The drawn curve at even crank angles, in units of the crank."""

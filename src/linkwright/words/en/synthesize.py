@@ -186,9 +186,12 @@ linkwright synthesize press.yaml --json""",
     "function.no_movable": "every {linkage} that meets the positions exactly has defects; the best one has: "
     "{why}",
     "function.free": "zero angles: input {input} deg, output {output}",
-    "free_curve.measure": "The crank turns fully; transmission angle of every dyad at least {angle} deg over the "
-    "whole turn, every joint within {size} rms radii of the curve's centroid. drawn_as_given: 1 where the curve is "
-    "drawn in the order of its points, 0 backwards; fastest_at_1_Hz: greatest speed at one turn per second, m/s.",
+    "free_curve.turning": "The crank turns fully; transmission angle of every dyad at least {angle} deg over the "
+    "whole turn, every joint within {size} rms radii of the curve's centroid.",
+    "free_curve.swinging": "The input may swing; while it draws, the transmission angle of every dyad is at least "
+    "{angle} deg and every joint within {size} rms radii of the curve's centroid.",
+    "free_curve.measure": "drawn_as_given: 1 where the curve is drawn in the order of its points, 0 backwards; "
+    "fastest_at_1_Hz: greatest speed at one turn per second, m/s.",
     "free_curve.no_curve": "a free curve needs its points or a file, and one of them only; give points: or file:",
     "free_curve.joints": "a search with at most {given} joints cannot be made; "
     "ask for 5 (four-bar, slider-crank) to {most}",
@@ -198,8 +201,10 @@ linkwright synthesize press.yaml --json""",
     "free_curve.line": '{path}, line {line}: "{text}" are not two numbers; give x and y, such as 1.5, 2.0',
     "free_curve.few": '"{path}" has fewer than two points; give x and y on each line',
     "free_curve.no_path": '"{path}" has no path that can be drawn; save the curve as a path, polyline or polygon',
-    "free_curve.none": "no linkage was found that turns fully with transmission angles of {angle} deg within {size} "
-    "rms radii; ask for less, or give more seconds (the nearest ones are shown)",
+    "free_curve.none_turning": "no linkage was found that turns fully with transmission angles of {angle} deg within "
+    "{size} rms radii; ask for less, or give more seconds (the nearest ones are shown)",
+    "free_curve.none_swinging": "no linkage was found that draws the curve with transmission angles of {angle} deg "
+    "within {size} rms radii; ask for less, or give more seconds (the nearest ones are shown)",
     "free_curve.error": "no linkage was found within the error {given}; the least is {least} (shown); allow more "
     "joints or more seconds",
     "task": 'there is no task "{task}"; known: {known}',

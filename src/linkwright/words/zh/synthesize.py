@@ -156,8 +156,11 @@ linkwright synthesize press.yaml --json""",
     "{error}",
     "function.no_movable": "精确满足各位置的 {linkage} 都有缺陷；最好的方案有：{why}",
     "function.free": "零位角：输入 {input} deg，输出 {output}",
-    "free_curve.measure": "曲柄整转；全周内每个杆组的传动角不小于 {angle} deg，各运动副距曲线形心"
-    "不超过 {size} 个均方根半径。按给定次序：1 表示按所给点的次序画出，0 表示反向；"
+    "free_curve.turning": "曲柄整转；全周内每个杆组的传动角不小于 {angle} deg，各运动副距曲线形心"
+    "不超过 {size} 个均方根半径。",
+    "free_curve.swinging": "输入杆可以摆动；画线时每个杆组的传动角不小于 {angle} deg，各运动副距曲线形心"
+    "不超过 {size} 个均方根半径。",
+    "free_curve.measure": "按给定次序：1 表示按所给点的次序画出，0 表示反向；"
     "每秒一转时的最大速度指曲柄每秒一转，m/s。",
     "free_curve.no_curve": "自由曲线需要点或文件，且只给其一；请给 points: 或 file:",
     "free_curve.joints": "不能以至多 {given} 个运动副搜索；请给 5（四杆、曲柄滑块）至 {most}",
@@ -167,8 +170,10 @@ linkwright synthesize press.yaml --json""",
     "free_curve.line": '{path} 第 {line} 行："{text}" 不是两个数；请给 x 与 y，如 1.5, 2.0',
     "free_curve.few": '"{path}" 不足两个点；请每行给 x 与 y',
     "free_curve.no_path": '"{path}" 中没有可画的路径；请把曲线存为 path、polyline 或 polygon',
-    "free_curve.none": "未求得能整转、传动角不小于 {angle} deg 且在 {size} 个均方根半径以内的机构；请降低要求，"
-    "或增加秒数（列出最接近的）",
+    "free_curve.none_turning": "未求得能整转、传动角不小于 {angle} deg 且在 {size} 个均方根半径以内的机构；"
+    "请降低要求，或增加秒数（列出最接近的）",
+    "free_curve.none_swinging": "未求得画线时传动角不小于 {angle} deg 且在 {size} 个均方根半径以内的机构；"
+    "请降低要求，或增加秒数（列出最接近的）",
     "free_curve.error": "未求得误差在 {given} 以内的机构；最小为 {least}（已列出）；请允许更多运动副或更多秒数",
     "task": '没有任务 "{task}"；已知：{known}',
     "task.missing": '任务 "{task}" 需要 "{demand}"：{form}',
