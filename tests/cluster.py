@@ -53,25 +53,25 @@ def contents(folder: Path) -> dict[str, bytes]:
     return {path.name: path.read_bytes() for path in sorted(folder.glob("part-*.parquet"))}
 
 
-def swept(folder: Path, samples: int, client: object = None) -> float:
+def swept(folder: Path, samples: int, client: object = None, part: int = 4096) -> float:
     """Seconds of a sweep."""
     begin = time.perf_counter()
     crusher = lw.load("gallery:jaw_crusher_sixbar")
-    lw.sweep_parts(crusher, VARY, folder, outputs=NUMBERS, sampling="sobol", samples=samples, part=4096,
+    lw.sweep_parts(crusher, VARY, folder, outputs=NUMBERS, sampling="sobol", samples=samples, part=part,
                    client=client, threads=1)  # fmt: skip
     return time.perf_counter() - begin
 
 
 def speed(base: Path, samples: int) -> None:
-    """Two workers against one."""
-    seconds = []
+    """Two workers against one, which share the cores with the scheduler: four times the designs in larger parts."""
+    seconds, samples, part = [], 4 * samples, 16384
     for workers in (1, 2):
         with (
             distributed.LocalCluster(n_workers=workers, **OPTIONS) as cluster,
             distributed.Client(cluster) as client,
         ):
-            swept(base / f"warm {workers}", 4096 * 2 * workers, client)
-            seconds.append(swept(base / f"{workers} workers", samples, client))
+            swept(base / f"warm {workers}", part * 2 * workers, client, part)
+            seconds.append(swept(base / f"{workers} workers", samples, client, part))
     one, two = seconds
     print(f"{samples} designs: one worker {one:.2f} s, two {two:.2f} s, ratio {one / two:.2f}", flush=True)
 
@@ -169,9 +169,13 @@ def main() -> int:
     parser.add_argument("--samples", type=int, default=200_000)
     parser.add_argument("--rounds", type=int, default=10)
     parser.add_argument("--searches", action="store_true", help="searches alone")
+    parser.add_argument("--speed", action="store_true", help="two workers against one alone")
     options = parser.parse_args()
     base = Path(tempfile.mkdtemp(prefix="linkwright-cluster-"))
     try:
+        if options.speed:
+            speed(base, options.samples)
+            return 0
         search_dies(base, options.rounds)
         if options.searches:
             return 0
