@@ -173,6 +173,20 @@ def test_a_wheel_that_leaves_its_rack_is_told(opened: Opened, tmp_path: Path) ->
     assert "the wheels of mesh do not fit the distance" in opened.status
 
 
+def test_a_wheel_at_the_limit_of_its_mate_says_so_again_and_goes_back(opened: Opened, tmp_path: Path) -> None:
+    """Involute teeth take centres a little apart, up to a quarter of their module."""
+    _, path = made(tmp_path, "internal_gear_pair")
+    opened.open(path)
+    place = "s => s.model.values['frame.Q.x']"
+    for _ in range(2):
+        opened.drag("Q", -60.0, 0.0)
+        assert "the wheels of mesh do not fit the distance" in opened.status
+        assert opened.run(place) == pytest.approx(-0.0405, abs=1e-8)
+    opened.drag("Q", 2.0, 0.0)
+    assert -0.0405 < opened.run(place) < -0.0395
+    assert "do not fit" not in opened.status
+
+
 def test_curves_and_paths_have_the_corners_that_they_need(opened: Opened, tmp_path: Path) -> None:
     """Every position lies within a seventh of a pixel of what is drawn, though most are no corners of it."""
     opened.tab.add_init_script(_RECORDED)

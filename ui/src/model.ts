@@ -132,7 +132,7 @@ export class Model {
     let [px, py] = this.solver.place(target, key, i);
     let moves = false;
     for (let k = 0; k < 12; k++) {
-      const [jx, jy] = this.slopes(target, key, i, free, steps);
+      const [jx, jy] = this.slopes(target, key, i, [px, py], free, steps);
       moves ||= jx.some((each, j) => Math.hypot(each, jy[j]) * sizes[j] > 1e-6);
       const step = leastChange(jx, jy, sizes, x - px, y - py);
       if (!step.every(Number.isFinite)) break;
@@ -157,7 +157,7 @@ export class Model {
     return Math.hypot(spread[0], spread[1]) || 1;
   }
 
-  private slopes(values: Values, key: string, i: number, free: string[], steps: number[]): [number[], number[]] {
+  private slopes(values: Values, key: string, i: number, [px, py]: [number, number], free: string[], steps: number[]): [number[], number[]] {
     const jx: number[] = [], jy: number[] = [];
     free.forEach((address, j) => {
       const h = steps[j], tried = { ...values };
@@ -165,10 +165,10 @@ export class Model {
       const [ax, ay] = this.solver.place(tried, key, i);
       tried[address] = values[address] - h;
       const [bx, by] = this.solver.place(tried, key, i);
-      // A dimension that the machine does not let go either way, as a centre of wheels that fit, moves nothing.
-      const free = Number.isFinite(ax + bx + ay + by);
-      jx.push(free ? (ax - bx) / (2 * h) : 0);
-      jy.push(free ? (ay - by) / (2 * h) : 0);
+      // At a limit one side counts; what the machine lets go neither way, as a centre of wheels that fit, moves nothing.
+      const above = Number.isFinite(ax + ay), below = Number.isFinite(bx + by), width = h * (Number(above) + Number(below));
+      jx.push(width ? ((above ? ax : px) - (below ? bx : px)) / width : 0);
+      jy.push(width ? ((above ? ay : py) - (below ? by : py)) / width : 0);
     });
     return [jx, jy];
   }
