@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from scipy.optimize import fsolve
 from tests.reference.test_branch_cases import STEPHENSON
 from tests.reference.test_branches import fault
 
@@ -231,6 +232,47 @@ def test_a_drawing_far_from_every_assembly_is_refused_with_its_inputs() -> None:
     text = STEPHENSON.replace("SPEED", "1").replace("length: 190 mm", "length: 900 mm")
     with pytest.raises(AssemblyError, match=r"Stephenson III six-bar .* driver = 2\.79386"):
         lw.solve_motion(lw.loads(text), steps=12)
+
+
+PLATFORM = """
+format: 1
+name: Platform on three cylinders
+frame: {points: {A: [0 m, 0 m], B: [2 m, 0 m], C: [1 m, 1.8 m]}}
+links:
+  base_a: {points: [A]}
+  base_b: {points: [B]}
+  base_c: {points: [C]}
+  rod_a: {points: [D]}
+  rod_b: {points: [E]}
+  rod_c: {points: [F]}
+  platform: {points: {D: [0 m, 0 m], E: [0.5 m, 0 m], F: [0.25 m, 0.45 m]}}
+joints:
+  leg_a: {kind: prismatic, guide: base_a, through: A, direction: WAY, block: rod_a, at: D, offset: 0.1 m}
+  leg_b: {kind: prismatic, guide: base_b, through: B, direction: WAY, block: rod_b, at: E, offset: 0.1 m}
+  leg_c: {kind: prismatic, guide: base_c, through: C, direction: WAY, block: rod_c, at: F, offset: 0.1 m}
+drawing: {D: [0.7 m, 0.5 m], E: [1.2 m, 0.6 m], F: [0.86 m, 0.97 m]}
+drivers:
+  a: {slide: leg_a, position: "SIGN*(0.86 m + 0.02 m/s*t)"}
+  b: {slide: leg_b, position: "SIGN*1.02 m"}
+  c: {slide: leg_c, position: "SIGN*0.84 m"}
+cycle: {duration: 1 s}
+"""
+
+
+@pytest.mark.parametrize(("way", "sign"), [("0 deg", "1"), ("120 deg", "-1")])
+def test_cylinders_are_drawn_by_their_two_pins(way: str, sign: str) -> None:
+    motion = lw.solve_motion(lw.loads(PLATFORM.replace("WAY", way).replace("SIGN", sign)), steps=4)
+    base, corners = np.array([[0, 0], [2, 0], [1, 1.8]]), np.array([[0, 0], [0.5, 0], [0.25, 0.45]])
+    for i, t in enumerate(motion.time):
+
+        def closed(pose: Floats, lengths: Floats) -> Floats:
+            c, s = np.cos(pose[2]), np.sin(pose[2])
+            return np.hypot(*(pose[:2] + corners @ np.array([[c, s], [-s, c]]) - base).T) - lengths
+
+        lengths = np.hypot([0.86 + 0.02 * t, 1.02, 0.84], 0.1)
+        x, y, angle = fsolve(closed, [0.7, 0.5, 0.2], args=(lengths,), xtol=1e-13)
+        np.testing.assert_allclose(motion.point("D").position[i], [x, y], atol=1e-9)
+        assert motion.link("platform").angle[i] == pytest.approx(angle, abs=1e-9)
 
 
 # a step without a certificate ------------------------------------------------------------------------------

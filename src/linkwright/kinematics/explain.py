@@ -13,6 +13,7 @@ from linkwright.kinematics.change_points import Passage, closes
 from linkwright.kinematics.closed_loops import iterated
 from linkwright.kinematics.cycle import Positions, cycle_turns, not_back
 from linkwright.kinematics.outcome import Outcome, PositionError
+from linkwright.kinematics.whole_turns import MOST
 from linkwright.units import number
 from linkwright.words.sentence import Sentence
 
@@ -57,7 +58,7 @@ def turn_notes(motion: Motion) -> tuple[Sentence, ...]:
     if not mechanism.higher or not positions.cycle or mechanism.cycle is not None:
         return ()
     if positions.period is None:
-        said = Sentence("cycle.never_back") if not_back(mechanism) else None
+        said = Sentence("cycle.never_back", most=MOST) if not_back(mechanism) else None
         return () if said is None else (said,)
     turns, driver = cycle_turns(mechanism, positions.period)
     return () if turns == 1 else (Sentence("cycle.turns", turns=turns, driver=driver),)

@@ -100,7 +100,16 @@ class Drawing:
                 angles[driver.link] = start + math.remainder(turned - start, 2 * math.pi)
 
     def _spread_along_guides(self, angles: dict[str, float | None]) -> None:
-        """A link without two drawn points takes its direction from a guide."""
+        """A link without two drawn points takes its direction from a guide, or from where its block is drawn."""
+        guides = self.mechanism.guides.values()
+        self._share_directions(angles)
+        for joint in guides:
+            if angles[joint.guide] is None and angles[joint.block] is None:
+                angles[joint.guide] = self._along_guide(joint)
+                self._share_directions(angles)
+
+    def _share_directions(self, angles: dict[str, float | None]) -> None:
+        """The directions of guides and blocks from each other's."""
         guides = self.mechanism.guides.values()
         for _ in guides:
             for joint in guides:
@@ -110,3 +119,20 @@ class Drawing:
                     angles[joint.block] = guide + turn
                 elif guide is None and block is not None:
                     angles[joint.guide] = block - turn
+
+    def _along_guide(self, joint: SlidingJoint) -> float | None:
+        """Direction of a guide's link where its point and that of the block are drawn, the block ahead.
+
+        The block is behind where the assembly's word or the start of its driver says so.
+        """
+        through, at = self._drawn(joint.guide, joint.through), self._drawn(joint.block, joint.at)
+        if through is None or at is None:
+            return None
+        dx, dy = at[0] - through[0], at[1] - through[1]
+        if math.hypot(dx, dy) <= abs(joint.offset):
+            return None
+        along = math.sqrt(dx * dx + dy * dy - joint.offset**2)
+        starts = (d.law.at(0.0) for d in self.mechanism.drivers.values() if d.joint == joint.name)
+        if self.mechanism.assembly.get(joint.name) == "backward" or next(starts, 0.0) < 0.0:
+            along = -along
+        return math.atan2(dy, dx) - math.atan2(joint.offset, along) - joint.direction

@@ -2,8 +2,8 @@
 
 WORDS = {
     "turns": "the cycle is {turns} turns of {driver!r}: only then are all wheels back",
-    "never_back": "the wheels or racks never come back to where they began, so one turn of the driver is taken "
-    "as an open cycle",
+    "never_back": "the wheels or racks do not come back to where they began within {most} turns, so one turn of the "
+    "driver is taken as an open cycle",
     "change": "change point of group ({links}) at {where}: the motion goes on smoothly",
     "meeting": "the outer pins of group ({links}) meet at {where}, where it could turn freely: the motion "
     "goes on smoothly",
