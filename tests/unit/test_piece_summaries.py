@@ -89,7 +89,7 @@ def test_against_samples(pieces: int, backend: str) -> None:
                 assert there == pytest.approx(value, abs=max(close, 1e-8) * size), (name, side)
                 assert peak[3] <= 1e-10 * size
         for name in ("wave", "root"):
-            mean, square, _ = (row[d] for row in found.powers[name])
+            mean, square = (row[d] for row in found.powers[name])
             assert square == pytest.approx((exact[name] ** 2).mean(), rel=1e-9)
             if name == "wave":
                 assert mean == pytest.approx(exact[name].mean(), abs=1e-9 * abs(a))

@@ -7,7 +7,7 @@ place. Lanes with arguments too large for the reduction, or too small, go to the
 from __future__ import annotations
 
 import struct
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 #: Prefix of the functions; the function's name in the C library follows.
 VECTOR = "linkwright_vector_"
@@ -112,83 +112,84 @@ class _Lanes:
             found = self.put(f"fadd contract {self.vector} {product}, {self.all(factor)}")
         return found
 
-    def function(self, arguments: Sequence[str], far: str, value: str) -> list[str]:
-        """The function's text; lanes where ``far`` holds are found by the C library."""
+    def function(self, arguments: Sequence[str], far: str, values: Mapping[str, str]) -> list[str]:
+        """The text of a function of all these values, by their names in the C library, which finds them for lanes
+        where ``far`` holds."""
         given = ", ".join(f"{self.vector} {each}" for each in arguments)
+        result = f"{{ {', '.join([self.vector] * len(values))} }}"
         code = [
-            f"define internal {self.vector} @{VECTOR}{self.name}({given}) nounwind {{",
+            f"define internal {result} @{VECTOR}{self.name}({given}) nounwind {{",
             "entry:",
             *self.lines,
-        ]
-        code += [
             f"%bits = bitcast {self.mask} {far} to i{self.width}",
             f"%any = icmp ne i{self.width} %bits, 0",
             "br i1 %any, label %slow, label %done",
             "slow:",
         ]
         for lane in range(self.width):
-            places = []
             for k, each in enumerate(arguments):
-                places.append(f"double %x{lane}.{k}")
                 code.append(f"%x{lane}.{k} = extractelement {self.vector} {each}, i32 {lane}")
-            code += [
-                f"%y{lane} = call double @linkwright_{self.name}({', '.join(places)})",
-                f"%l{lane} = insertelement {self.vector} {'poison' if not lane else f'%l{lane - 1}'}, "
-                f"double %y{lane}, i32 {lane}",
-            ]
-        last = f"%l{self.width - 1}"
-        return [
-            *code,
-            f"%slowly = select {self.mask} {far}, {self.vector} {last}, {self.vector} {value}",
-            "br label %done",
-            "done:",
-            f"%result = phi {self.vector} [ {value}, %entry ], [ %slowly, %slow ]",
-            f"ret {self.vector} %result",
-            "}",
-        ]
+            places = ", ".join(f"double %x{lane}.{k}" for k in range(len(arguments)))
+            for name in values:
+                code += [
+                    f"%{name}{lane} = call double @linkwright_{name}({places})",
+                    f"%{name}.l{lane} = insertelement {self.vector} {f'%{name}.l{lane - 1}' if lane else 'poison'}, "
+                    f"double %{name}{lane}, i32 {lane}",
+                ]
+        for name, value in values.items():
+            last = f"{self.vector} %{name}.l{self.width - 1}"
+            code.append(f"%{name}.slowly = select {self.mask} {far}, {last}, {self.vector} {value}")
+        code += ["br label %done", "done:"]
+        found = "poison"
+        for name, value in values.items():
+            code.append(f"%{name}.found = phi {self.vector} [ {value}, %entry ], [ %{name}.slowly, %slow ]")
+        for k, name in enumerate(values):
+            code.append(f"%all{k} = insertvalue {result} {found}, {self.vector} %{name}.found, {k}")
+            found = f"%all{k}"
+        return [*code, f"ret {result} {found}", "}"]
 
 
 _Writer = Callable[[_Lanes], list[str]]
 
 
-def _circular(turns: int) -> _Writer:
-    """Sine (turns 0) or cosine (turns 1): of what is left of a quarter turn, in two parts."""
+def _circle(w: _Lanes) -> list[str]:
+    """Sine and cosine of what is left of a quarter turn, in two parts."""
+    scaled = w.mul("%x", w.all(_QUARTERS))
+    shifted = w.add(scaled, w.all(_ROUND))
+    quarters = w.sub(shifted, w.all(_ROUND))
+    first = w.sub("%x", w.mul(quarters, w.all(_PARTS[0])))
+    second = w.mul(quarters, w.all(_PARTS[1]))
+    left = w.sub(first, second)
+    lost = w.sub(w.sub(first, left), second)
+    third = w.sub(w.mul(quarters, w.all(_PARTS[2])), lost)
+    r = w.sub(left, third)
+    rest = w.sub(w.sub(left, r), third)
+    z = w.mul(r, r)
+    cube = w.mul(z, r)
+    half = w.mul(z, w.all(0.5))
+    high = w.series(z, _SINE[1:])
+    inner = w.sub(w.mul(w.all(0.5), rest), w.mul(cube, high))
+    sine = w.sub(r, w.sub(w.sub(w.mul(z, inner), rest), w.mul(cube, w.all(_SINE[0]))))
+    square = w.mul(z, w.series(z, _COSINE))
+    near = w.sub(w.all(1.0), half)
+    gone = w.sub(w.sub(w.all(1.0), near), half)
+    cosine = w.add(near, w.add(gone, w.sub(w.mul(z, square), w.mul(r, rest))))
+    place = w.bits(shifted)
+    odd = w.put(f"and {w.integers} {place}, {w.whole(1)}")
+    across = w.put(f"icmp ne {w.integers} {odd}, zeroinitializer")
+    values = {
+        "sin": _turned(w, w.choose(across, cosine, sine), place),
+        "cos": _turned(w, w.choose(across, sine, cosine), w.put(f"add {w.integers} {place}, {w.whole(1)}")),
+    }
+    return w.function(["%x"], w.below(w.all(_LARGEST), w.size("%x")), values)
 
-    def text(w: _Lanes) -> list[str]:
-        scaled = w.mul("%x", w.all(_QUARTERS))
-        shifted = w.add(scaled, w.all(_ROUND))
-        quarters = w.sub(shifted, w.all(_ROUND))
-        first = w.sub("%x", w.mul(quarters, w.all(_PARTS[0])))
-        second = w.mul(quarters, w.all(_PARTS[1]))
-        left = w.sub(first, second)
-        lost = w.sub(w.sub(first, left), second)
-        third = w.sub(w.mul(quarters, w.all(_PARTS[2])), lost)
-        r = w.sub(left, third)
-        rest = w.sub(w.sub(left, r), third)
-        z = w.mul(r, r)
-        cube = w.mul(z, r)
-        half = w.mul(z, w.all(0.5))
-        high = w.series(z, _SINE[1:])
-        inner = w.sub(w.mul(w.all(0.5), rest), w.mul(cube, high))
-        sine = w.sub(r, w.sub(w.sub(w.mul(z, inner), rest), w.mul(cube, w.all(_SINE[0]))))
-        square = w.mul(z, w.series(z, _COSINE))
-        near = w.sub(w.all(1.0), half)
-        gone = w.sub(w.sub(w.all(1.0), near), half)
-        cosine = w.add(near, w.add(gone, w.sub(w.mul(z, square), w.mul(r, rest))))
-        place = w.bits(shifted)
-        if turns:
-            place = w.put(f"add {w.integers} {place}, {w.whole(1)}")
-        odd = w.put(f"and {w.integers} {place}, {w.whole(1)}")
-        across = w.put(f"icmp ne {w.integers} {odd}, zeroinitializer")
-        value = w.choose(across, cosine, sine)
-        two = w.put(f"and {w.integers} {place}, {w.whole(2)}")
-        sign = w.put(f"shl {w.integers} {two}, {w.whole(62)}")
-        turned = w.put(f"xor {w.integers} {w.bits(value)}, {sign}")
-        result = w.put(f"bitcast {w.integers} {turned} to {w.vector}")
-        far = w.below(w.all(_LARGEST), w.size("%x"))
-        return w.function(["%x"], far, result)
 
-    return text
+def _turned(w: _Lanes, value: str, place: str) -> str:
+    """A value with its sign changed in the second half of four quarters."""
+    two = w.put(f"and {w.integers} {place}, {w.whole(2)}")
+    sign = w.put(f"shl {w.integers} {two}, {w.whole(62)}")
+    turned = w.put(f"xor {w.integers} {w.bits(value)}, {sign}")
+    return w.put(f"bitcast {w.integers} {turned} to {w.vector}")
 
 
 def _arc(w: _Lanes, a: str, b: str) -> str:
@@ -219,7 +220,7 @@ def _signed(w: _Lanes, value: str, like: str) -> str:
 def _arc_tangent(w: _Lanes) -> list[str]:
     size = w.size("%x")
     far = w.put(f"fcmp ugt {w.vector} {size}, {w.all(_HUGE)}")
-    return w.function(["%x"], far, _signed(w, _arc(w, size, w.all(1.0)), "%x"))
+    return w.function(["%x"], far, {"atan": _signed(w, _arc(w, size, w.all(1.0)), "%x")})
 
 
 def _angle(w: _Lanes) -> list[str]:
@@ -230,14 +231,10 @@ def _angle(w: _Lanes) -> list[str]:
     arc = _arc(w, a, b)
     behind = w.sub(w.all(_PI), w.sub(arc, w.all(_PI_LACK)))
     left = w.put(f"icmp slt {w.integers} {w.bits('%x')}, zeroinitializer")
-    return w.function(["%y", "%x"], far, _signed(w, w.choose(left, behind, arc), "%y"))
+    return w.function(["%y", "%x"], far, {"atan2": _signed(w, w.choose(left, behind, arc), "%y")})
 
 
-_WRITERS: dict[str, _Writer] = {
-    "sin": _circular(0),
-    "cos": _circular(1),
-    "atan": _arc_tangent,
-    "atan2": _angle,
-}
-#: Functions of the C library that have a form for vectors.
-IN_LANES = frozenset(_WRITERS)
+_WRITERS: dict[str, _Writer] = {"circle": _circle, "atan": _arc_tangent, "atan2": _angle}
+#: The functions of the C library that each of them finds.
+FORMS = {"circle": ("sin", "cos"), "atan": ("atan",), "atan2": ("atan2",)}
+IN_LANES = {name: form for form, names in FORMS.items() for name in names}

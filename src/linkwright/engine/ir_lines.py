@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from linkwright.engine.functions import FUNCTIONS, Function
-from linkwright.engine.ir_functions import IN_LANES, VECTOR, number
+from linkwright.engine.ir_functions import FORMS, IN_LANES, VECTOR, number
 from linkwright.engine.ir_lookup import LOOKUP
 from linkwright.engine.lines import Line, Lines
 
@@ -34,7 +34,7 @@ class LineWriter:
         self.outputs = lines.outputs
         self.width = width
         self.wide = wide
-        self._in_lanes = frozenset[str]() if library or width < 2 else IN_LANES
+        self._in_lanes = {} if library or width < 2 else IN_LANES
         self.vector = f"<{width} x double>"
         self.mask = f"<{width} x i1>"
         self.names: dict[int, str] = {}
@@ -43,6 +43,7 @@ class LineWriter:
         self.body: list[str] = []
         self._splats: set[int] = set()
         self._as_number: set[int] = set()
+        self._found: dict[tuple[str, str], str] = {}
 
     def name(self, index: int) -> str:
         """The name of a line's value."""
@@ -130,8 +131,7 @@ class LineWriter:
         if not vector:
             return [f"{value} = call double {name}({', '.join(f'double {a}' for a in args)})"]
         if function.library in self._in_lanes:
-            given = ", ".join(f"{self.vector} {a}" for a in args)
-            return [f"{value} = call {self.vector} @{VECTOR}{function.library}({given})"]
+            return self._in_all_lanes(function.library, value, ", ".join(f"{self.vector} {a}" for a in args))
         lines, last = [], "poison"
         for lane in range(self.width):
             places = [f"{value}.x{lane}.{place}" for place in range(len(args))]
@@ -144,6 +144,16 @@ class LineWriter:
             lines.append(f"{into} = insertelement {self.vector} {last}, double {value}.y{lane}, i32 {lane}")
             last = into
         return lines
+
+    def _in_all_lanes(self, library: str, value: str, given: str) -> list[str]:
+        """One of the results of a form for vectors, which is called once for the same arguments."""
+        form = IN_LANES[library]
+        results, place = ", ".join([self.vector] * len(FORMS[form])), FORMS[form].index(library)
+        found, code = self._found.get((form, given)), []
+        if found is None:
+            found = self._found[form, given] = f"{value}.all"
+            code.append(f"{found} = call {{ {results} }} @{VECTOR}{form}({given})")
+        return [*code, f"{value} = extractvalue {{ {results} }} {found}, {place}"]
 
     def _look_up(self, line: Line, value: str, x: str, vector: bool) -> list[str]:
         call = f"call {self.vector} @{LOOKUP}{line.constant:.0f}(ptr %table{self.tables[line.place]}, {self.vector}"

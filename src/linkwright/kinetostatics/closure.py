@@ -40,17 +40,34 @@ def transmission(outputs: MotionOutputs, group: Group) -> Scalar:
     slot; PRP and RPP: between the two guides. Its sine is the determinant of the closure equations with unit
     columns, so zero is a dead point.
     """
-    (a, b), (c, d) = _columns(outputs, group)
-    return angle(absolute(a * d - b * c), absolute(a * c + b * d))
+    return angle(*_across_and_along(_columns(outputs, group)))
+
+
+def half_transmission(outputs: MotionOutputs, group: Group) -> Scalar:
+    """Tangent of half the transmission angle, 0 to 1, which grows with the angle and costs no arc tangent."""
+    columns = _columns(outputs, group)
+    across, along = _across_and_along(columns)
+    return across / (_sizes(outputs, group, columns) + along)
+
+
+def _across_and_along(columns: list[list[Scalar]]) -> tuple[Scalar, Scalar]:
+    """Sine and cosine of the acute angle between two columns, times their lengths."""
+    (a, b), (c, d) = columns
+    return absolute(a * d - b * c), absolute(a * c + b * d)
 
 
 def conditioning(outputs: MotionOutputs, group: Group) -> Scalar:
     """Determinant of the closure equations with unit columns, 0 (singular) to 1; a dyad's is sin μ."""
     columns = _columns(outputs, group)
+    return absolute(determinant(columns)) / _sizes(outputs, group, columns)
+
+
+def _sizes(outputs: MotionOutputs, group: Group, columns: list[list[Scalar]]) -> Scalar:
+    """Product of the lengths of all columns."""
     sizes: Scalar = 1.0
     for step, column in zip(group.unknowns, columns, strict=True):
         sizes = sizes * _size(outputs, group, step, column)
-    return absolute(determinant(columns)) / sizes
+    return sizes
 
 
 def _size(outputs: MotionOutputs, group: Group, step: TreeJoint, column: list[Scalar]) -> Scalar:

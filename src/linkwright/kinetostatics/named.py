@@ -18,7 +18,7 @@ from linkwright.errors import RequestError
 from linkwright.kinematics.names import canonical, find_point, no_output, output_meant
 from linkwright.kinematics.programs import MotionPrograms
 from linkwright.kinematics.solver import MotionSolver
-from linkwright.kinetostatics.closure import closable, conditioning, transmission
+from linkwright.kinetostatics.closure import closable, conditioning, half_transmission, transmission
 from linkwright.kinetostatics.outputs import ForceOutputs
 from linkwright.kinetostatics.trace import ForceTrace
 from linkwright.mechanism.mechanism import Mechanism
@@ -169,12 +169,11 @@ class Named:
 
     def transmission_angle(self, name: str, output: Output) -> Scalar:
         """Transmission angle of a dyad, named by its inner pin or by its links."""
-        group = self._group(name, output)
-        if len(group.unknowns) != 2 or group not in closable(self.motion.structure):
-            raise RequestError(
-                Sentence("study.no_dyad", name=name, links=tuple(group.links), group=group.signature)
-            )
-        return transmission(self.motion.outputs, group)
+        return transmission(self.motion.outputs, self._dyad(name, output))
+
+    def half_transmission(self, name: str) -> Scalar:
+        """Tangent of half a transmission angle, by the words for the angle."""
+        return half_transmission(self.motion.outputs, self._dyad(name, output_meant(self.mechanism, name)))
 
     def conditioning(self, name: str, output: Output) -> Scalar:
         """Determinant of a group's closure equations with unit columns: 0 at a singular position."""
@@ -227,6 +226,14 @@ class Named:
     def _first_rate(self, name: str) -> Scalar:
         given = next(iter(self.motion.motion.drivers.values()), None)
         return no_output(self.mechanism, name) if given is None else given.rate
+
+    def _dyad(self, name: str, output: Output) -> Group:
+        group = self._group(name, output)
+        if len(group.unknowns) != 2 or group not in closable(self.motion.structure):
+            raise RequestError(
+                Sentence("study.no_dyad", name=name, links=tuple(group.links), group=group.signature)
+            )
+        return group
 
     def _group(self, name: str, output: Output) -> Group:
         joint = output.owner

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import pairwise
-from math import pi
 from typing import TYPE_CHECKING
 
 from linkwright.metrics.summary import Summary
@@ -18,8 +17,6 @@ if TYPE_CHECKING:
 #: Kinds of these parts, by the limits with which their strokes begin.
 KINDS = {"max": "falling", "min": "rising"}
 WAYS = frozenset(KINDS.values())
-#: No transmission angle is larger.
-LARGEST = pi / 2
 
 
 def signal_of(part: Summary) -> str:

@@ -24,7 +24,6 @@ from linkwright.engine.reductions import Reduction
 from linkwright.engine.stage import Stage
 from linkwright.engine.trace import Scalar, Trace, floor, maximum, minimum, select, sign
 from linkwright.fields.signals import InputPhase, MovingPhase, SwingPhase, Table
-from linkwright.kinetostatics.named import Quantity
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.kinetostatics.site import limit_name
 from linkwright.kinetostatics.traced_loads import AlongInput
@@ -186,10 +185,9 @@ class GaussCycle:
         outputs = {f"cut {k}": share for k, share in enumerate(_apart(shares))}
         return Stage(Program.of(t, outputs), {name: Reduction(name, "first") for name in outputs}, steps=1)
 
-    def signals(self, quantities: Mapping[str, Quantity]) -> tuple[Trace, dict[str, Scalar]]:
-        """A trace over the Gauss points with the quantities, whether they are valid, and the share of the time."""
+    def signals(self, outputs: Mapping[str, Scalar]) -> tuple[Trace, dict[str, Scalar]]:
+        """A trace over the Gauss points with the outputs, whether they are valid, and the share of the time."""
         motion = self.traced.solver.motion
-        outputs = {name: each.value for name, each in quantities.items()}
         sure = motion.trace.logic("and", self.traced.counted_for_certain, friction_doubt(self.traced) < 0.5)
         source = Program.of(motion.trace, {**outputs, VALID: sure})
         t = Trace()

@@ -20,10 +20,9 @@ from linkwright.engine.reductions import Reduction
 from linkwright.engine.replay import across_designs
 from linkwright.engine.stage import Backend, Stage
 from linkwright.engine.threads import cores, spread_over
-from linkwright.engine.trace import Scalar, Trace, absolute, maximum, minimum, select, sqrt
+from linkwright.engine.trace import Scalar, Trace, absolute, atan, maximum, minimum, select, sqrt
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinetostatics.forces import solve_forces
-from linkwright.kinetostatics.named import Quantity
 from linkwright.kinetostatics.site import limit_name
 from linkwright.kinetostatics.traced_loads import AlongInput
 from linkwright.mechanism.mechanism import Mechanism
@@ -156,10 +155,10 @@ class MetricCycle:
             for name, sides in [_AT_LIMITS[plain[text].kind]]
         }
         found_apart = {*self.limited, *on_strokes}
-        self.quantities = traced.quantities(
-            _outputs(part for text, part in self.parts.items() if text not in found_apart)
-        )
-        self.quantities |= {text: self._on_stroke(text, part) for text, part in on_strokes.items()}
+        outputs = _outputs(part for text, part in self.parts.items() if text not in found_apart)
+        self.courses = {name: each.value for name, each in traced.quantities(outputs).items()}
+        self.courses |= {text: self._half_on_stroke(part) for text, part in on_strokes.items()}
+        self.halves = tuple(on_strokes)
         self.constant = self._constants()
         self.limited |= {text: (text,) for text in self.constant.output_names}
 
@@ -168,22 +167,21 @@ class MetricCycle:
         trace, found = self.traced.solver.motion.trace, dict[str, Scalar]()
         for text, part in self.parts.items():
             if part.kind == "mean" and text not in self.limited:
-                value = self.quantities[part.output].value
+                value = self.courses[part.output]
                 program = Program.of(trace, {text: value})
                 if not (program.positions or program.fields or program.states):
                     found[text] = value
         for text in found:
-            self.quantities.pop(self.parts[text].output, None)
+            self.courses.pop(self.parts[text].output, None)
         return Program.of(trace, found)
 
-    def _on_stroke(self, text: str, part: Summary) -> Quantity:
-        """A transmission angle while an output goes one way, else the largest one that there is."""
+    def _half_on_stroke(self, part: Summary) -> Scalar:
+        """Tangent of half a transmission angle while an output goes one way, else the largest one that there is."""
         output, signal = self.analysis.output(strokes.output_of(part)), strokes.signal_of(part)
         assert output is not None
         rate, _ = rates(self.traced, output)
         going = rate < 0.0 if part.kind == strokes.KINDS["max"] else rate > 0.0
-        angle = self.traced.named.quantity(signal)
-        return Quantity(text, angle.output, angle.dimension, select(going, angle.value, strokes.LARGEST))
+        return select(going, self.traced.named.half_transmission(signal), 1.0)
 
     # values -----------------------------------------------------------------------------------------
     def evaluate(
@@ -305,7 +303,7 @@ class MetricCycle:
     @cached_property
     def _signals(self) -> PieceSummaries:
         """All signals at the Gauss points, and what is asked of them."""
-        program = Program.of(*self.gauss.signals(self.quantities))
+        program = Program.of(*self.gauss.signals(self.courses))
         return PieceSummaries(program, self._summaries, self.gauss.pieces, SHARE, [VALID])
 
     @property
@@ -373,7 +371,7 @@ class MetricCycle:
 
     def _differentiable(self, asked: Sequence[Mapping[str, float]], by: tuple[str, ...]) -> CycleGradient:
         """The same summaries as sums over the Gauss points with known weights, whose places stay in their pieces."""
-        trace, found = self.gauss.signals(self.quantities)
+        trace, found = self.gauss.signals(self.courses)
         width = found[SHARE]
         sums: dict[str, Scalar] = {}
         for text, part in self.parts.items():
@@ -424,6 +422,7 @@ class MetricCycle:
     def _whole(self, t: Trace, part: Callable[[str], Scalar]) -> dict[str, Scalar]:
         """All parts: from the signals, from values at limits and those that no position changes, and from others."""
         found = {text: part(text) for text in self.parts if text not in self.limited}
+        found |= {text: 2.0 * atan(found[text]) for text in self.halves}
         for text, names in self.limited.items():
             found[text] = _of_sides(self.parts[text].kind, [t.parameter(name) for name in names])
         return found | {text: minimum(*(found[each] for each in of)) for text, of in self.least.items()}

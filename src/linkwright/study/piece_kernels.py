@@ -41,7 +41,7 @@ BACKWARD = FORWARD + POINTS
 #: Angle between two looks, which are cosines.
 GAP = 0.1308996938995747
 #: Numbers found by a job, and whole numbers that it is given.
-FOUND, GIVEN = 6, 6
+FOUND, GIVEN = 5, 6
 PARAMETERS = Block.PARAMETERS
 #: How much higher than its nodes, as share of the span of these, a smooth function may be in a piece: half of the gap
 #: between two nodes, squared, is 0.009 of it.
@@ -53,7 +53,8 @@ STEPS = 4
 
 
 def bounds(row: Reals, pieces: int, tables: Reals, seen: Reals, found: Reals, apart: int) -> None:
-    """The largest and the smallest value of every piece and the size of its last orders, (3, pieces), and of all."""
+    """How high the signal, and its negative, may be in every piece, (2, pieces); of all pieces the largest and the
+    smallest value, and the size of the last orders."""
     most, fewest, rough, spoilt = spread(-HUGE), spread(HUGE), spread(0.0), spread(0.0)
     b = 0
     while b < pieces:
@@ -69,9 +70,9 @@ def bounds(row: Reals, pieces: int, tables: Reals, seen: Reals, found: Reals, ap
             c1 = c1 + tables[3 * i + 1] * value
             c2 = c2 + tables[3 * i + 2] * value
         last = higher(higher(c0, -c0), higher(higher(c1, -c1), higher(c2, -c2)))
-        store(seen, at, top)
-        store(seen, pieces + at, bottom)
-        store(seen, 2 * pieces + at, last)
+        beyond = SLACK * (top - bottom) + REACH * last
+        store(seen, at, top + beyond)
+        store(seen, pieces + at, beyond - bottom)
         most = higher(most, top)
         fewest = lower(fewest, bottom)
         rough = higher(rough, last)
@@ -82,28 +83,21 @@ def bounds(row: Reals, pieces: int, tables: Reals, seen: Reals, found: Reals, ap
     found[2 * apart] = -least(-rough) + total(spoilt)
 
 
-def powers(row: Reals, share: Reals, pieces: int, tables: Reals, found: Reals, apart: int) -> None:
-    """Means of the signal and of its square, and the size of the last orders of the square in the piece met worst."""
-    mean, square, rough = spread(0.0), spread(0.0), spread(0.0)
+def powers(row: Reals, share: Reals, pieces: int, found: Reals, apart: int) -> None:
+    """Means of the signal and of its square."""
+    mean, square = spread(0.0), spread(0.0)
     b = 0
     while b < pieces:
         at = min(b, pieces - LANES)
         fresh = spread(1.0) if ramp(at) > b - 0.5 else spread(0.0)
-        c0, c1, c2 = spread(0.0), spread(0.0), spread(0.0)
         for i in range(POINTS):
             value = load(row, i * pieces + at)
-            both = value * value
             weight = load(share, i * pieces + at) * fresh
             mean = mean + weight * value
-            square = square + weight * both
-            c0 = c0 + tables[3 * i] * both
-            c1 = c1 + tables[3 * i + 1] * both
-            c2 = c2 + tables[3 * i + 2] * both
-        rough = higher(rough, higher(higher(c0, -c0), higher(higher(c1, -c1), higher(c2, -c2))))
+            square = square + weight * value * value
         b += LANES
     found[3 * apart] = total(mean)
     found[4 * apart] = total(square)
-    found[5 * apart] = -least(-rough)
 
 
 def integral(row: Reals, share: Reals, pieces: int, tables: Reals, mean: float, room: Reals) -> None:
@@ -141,12 +135,11 @@ def contenders(
     row: Reals, pieces: int, seen: Reals, sign: float, bar: float, owner: int, rows: Reals, capacity: int,
     ids: Wholes, first: int,
 ) -> int:  # fmt: skip
-    """Puts the values of all pieces that may hold the largest of sign · signal behind each other; how many there are
-    then."""
+    """Puts the values of all pieces that may hold the largest of sign · signal, as ``seen`` says, behind each other;
+    how many there are then."""
     at = first
     for p in range(pieces):
-        top = seen[p] if sign > 0.0 else -seen[pieces + p]
-        if top + SLACK * (seen[p] - seen[pieces + p]) + REACH * seen[2 * pieces + p] < bar:
+        if seen[p] < bar:
             continue
         for i in range(POINTS):
             rows[i * capacity + at] = sign * row[i * pieces + p]
@@ -164,7 +157,7 @@ def reduced(
     """Signals of one design after another by the compiled program, then its jobs; the number of contenders for
     extremes. Ends early where these may not find room; ``ids[2 · capacity]``: designs done.
 
-    ``stride``: bytes of a design's parameters; ``room``: (2 POINTS + 4) · pieces doubles.
+    ``stride``: bytes of a design's parameters; ``room``: (2 POINTS + 3) · pieces doubles.
     """
     seen = room + (2 * POINTS + 1) * pieces
     at = 0
@@ -182,13 +175,15 @@ def reduced(
                 row = signals + POINTS * pieces * job[0]
             bounds(row, pieces, tables, seen, result, apart)
             if job[1] > 0:
-                powers(row, share, pieces, tables, result, apart)
+                powers(row, share, pieces, result, apart)
             owner = job[5] * apart + d
             if job[3] > 0:
                 at = contenders(row, pieces, seen, 1.0, result[0], owner, rows, capacity, ids, at)
                 owner += apart
             if job[4] > 0:
-                at = contenders(row, pieces, seen, -1.0, -result[apart], owner, rows, capacity, ids, at)
+                at = contenders(
+                    row, pieces, seen + pieces, -1.0, -result[apart], owner, rows, capacity, ids, at
+                )
             if job[2] > 0:
                 integral(row, share, pieces, tables, result[3 * apart], room)
     return at
@@ -210,7 +205,8 @@ def series(of: Reals, x: Vector, tables: Reals) -> Vector:
     value, before = spread(0.0), spread(0.0)
     for j in range(POINTS):
         k = POINTS - 1 - j
-        following = load(of, LANES * k) + tables[FORWARD + k] * x * value + tables[BACKWARD + k] * before
+        known = load(of, LANES * k) + tables[BACKWARD + k] * before
+        following = known + tables[FORWARD + k] * x * value
         before = value
         value = following
     return value
@@ -281,10 +277,7 @@ def peaks(count: int, rows: Reals, capacity: int, tables: Reals, room: Reals, fo
 
 def gathered(count: int, ids: Wholes, looked: Reals, capacity: int, extremes: int, found: Reals) -> None:
     """Of the contenders for every extreme the highest: its piece, place and value, and the size of the last orders of
-    all that may be higher, (4, extremes)."""
-    for e in range(extremes):
-        found[2 * extremes + e] = -HUGE
-        found[3 * extremes + e] = 0.0
+    all that may be higher, (4, extremes), where minus infinity and zero stand before."""
     for r in range(count):
         owner = ids[2 * r]
         value = looked[capacity + r]

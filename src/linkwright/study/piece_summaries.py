@@ -60,12 +60,13 @@ class Reduced:
     """What is found of signals, (designs,) each.
 
     ``bounds``: the largest and the smallest value at the Gauss points, and the size of the last orders in the piece
-    that is met worst; ``powers``: means of signal and square, and that size of the square; ``peaks`` by output and
-    side: the piece, the place in it, the value (negative for smallest ones), and the size of the last orders.
+    that is met worst; ``powers``: means of signal and square, which Gauss points give for twice the orders that they
+    meet; ``peaks`` by output and side: the piece, the place in it, the value (negative for smallest ones), and the
+    size of the last orders.
     """
 
     bounds: Mapping[str, tuple[Floats, Floats, Floats]]
-    powers: Mapping[str, tuple[Floats, Floats, Floats]]
+    powers: Mapping[str, tuple[Floats, Floats]]
     peaks: Mapping[tuple[str, str], Peak]
 
 
@@ -120,7 +121,7 @@ class PieceSummaries:
                 size = np.sqrt(np.where(top > 0.0, top, 1.0))
                 bounds[name] = np.sqrt(top), np.sqrt(bottom), rough / size
                 if name in powers:
-                    powers[name] = np.full(len(top), np.nan), found.powers[name][0], rough
+                    powers[name] = np.full(len(top), np.nan), found.powers[name][0]
                 for side in ("max", "min"):
                     if (name, side) in peaks:
                         piece, place, value, last = found.peaks[name, side]
@@ -186,60 +187,58 @@ class PieceSummaries:
 
     def _compiled(self, code: CompiledProgram, table: Floats, run: Run) -> Reduced:
         jobs, names, owners = self._jobs
-        numbers = np.empty((len(jobs), piece_kernels.FOUND, len(table)))
-        peaks = np.empty((4, len(owners), len(table)))
-        done, room = 0, _Room(self, len(jobs), len(owners), min(CHUNK, len(table)))
-        while done < len(table):
-            count = self._chunk(code, table[done : done + CHUNK], run, room)
-            numbers[..., done : done + count] = room.numbers[..., :count]
-            peaks[..., done : done + count] = room.best[..., :count]
-            done += count
-        found = {name: numbers[k] for k, name in enumerate(names) if name}
+        room = _Room(self, len(jobs), len(owners), len(table))
+        room.fill(code, table, run, jobs)
+        found = {name: room.numbers[k, :, : len(table)] for k, name in enumerate(names) if name}
+        piece, place, value, rough = room.best[..., : len(table)]
         return Reduced(
             {name: tuple(found[name][:3]) for name in self.signals},
             {name: tuple(found[name][3:]) for name in self.powers},
             {
-                owner: (peaks[0, k].astype(np.intp), peaks[1, k], peaks[2, k], peaks[3, k])
+                owner: (piece[k].astype(np.intp), place[k], value[k], rough[k])
                 for k, owner in enumerate(owners)
             },
         )
 
-    def _chunk(self, code: CompiledProgram, table: Floats, run: Run, room: _Room) -> int:
-        """Some designs from the first on, as many as find room; how many."""
-        jobs, _, owners = self._jobs
-        kernels, tables = piece_kernels.kernels(), _tables()
-        extremes, capacity, ids, apart = len(owners), room.capacity, room.ids, room.apart
-        address, block = code.one_by_one(table, run.positions, room.signals, tables=run.tables)
-        share = room.signals[self.program.output_names.index(self.share)]
-        count = kernels(
-            "reduced", len(table), address, address_of(block), table.strides[0], address_of(room.signals),
-            address_of(share), self.pieces, address_of(jobs), len(jobs), extremes, address_of(tables),
-            address_of(room.work), address_of(room.numbers), apart, address_of(room.rows), capacity, address_of(ids),
-        )  # fmt: skip
-        if count:
-            kernels(
-                "peaks", count, address_of(room.rows), capacity, address_of(tables), address_of(room.vectors),
-                address_of(room.looked),
-            )  # fmt: skip
-            kernels(
-                "gathered", count, address_of(ids), address_of(room.looked), capacity, extremes * apart,
-                address_of(room.best),
-            )  # fmt: skip
-        return int(ids[2 * capacity])
-
 
 class _Room:
-    """Arrays that the kernels write, for a number of designs at a time; ``apart``: room for these, and some more so
-    that what is found of one design does not meet in the cache."""
+    """Arrays that the kernels write; what is found of one design lies ``apart`` from the next number of it, so that
+    these do not meet in the cache."""
 
     def __init__(self, of: PieceSummaries, jobs: int, extremes: int, designs: int) -> None:
-        self.capacity, self.apart = -(-extremes * max(of.pieces, _ROOM * designs) // 8) * 8 + 8, designs + 8
+        self.of, self.extremes, self.apart = of, extremes, designs + 8
+        self.capacity = -(-extremes * max(of.pieces, _ROOM * min(CHUNK, designs)) // 8) * 8 + 8
         self.signals = np.empty((len(of.program.outputs), POINTS * of.pieces))
-        self.work = np.empty((2 * POINTS + 4) * of.pieces)
-        self.numbers = np.zeros((jobs, piece_kernels.FOUND, self.apart))
-        self.rows, self.looked = np.empty((POINTS, self.capacity)), np.empty((3, self.capacity))
-        self.ids = np.empty(2 * self.capacity + 1, dtype=np.int64)
-        self.vectors, self.best = np.empty((4, POINTS, 8)), np.empty((4, extremes, self.apart))
+        self.numbers = np.empty((jobs, piece_kernels.FOUND, self.apart))
+        self.best = np.empty((4, extremes, self.apart))
+        self.best[2], self.best[3] = -np.inf, 0.0
+
+    def fill(self, code: CompiledProgram, table: Floats, run: Run, jobs: Whole) -> None:
+        """Signals of one design after another, and what is asked of them."""
+        kernels, tables, pieces, capacity = piece_kernels.kernels(), _tables(), self.of.pieces, self.capacity
+        work, ids = np.empty((2 * POINTS + 3) * pieces), np.empty(2 * capacity + 1, dtype=np.int64)
+        rows, looked, vectors = (
+            np.empty((POINTS, capacity)),
+            np.empty((3, capacity)),
+            np.empty((4 * POINTS, 8)),
+        )
+        share = self.signals[self.of.program.output_names.index(self.of.share)]
+        entry, block = code.one_by_one(table, run.positions, self.signals, tables=run.tables)
+        program = (entry, address_of(block), table.strides[0], address_of(self.signals), address_of(share))
+        given = (pieces, address_of(jobs), len(jobs), self.extremes, address_of(tables), address_of(work))
+        at_rows, at_ids, at_looked = address_of(rows), address_of(ids), address_of(looked)
+        polynomials = (at_rows, capacity, address_of(tables), address_of(vectors), at_looked)
+        numbers, best, total = address_of(self.numbers), address_of(self.best), self.extremes * self.apart
+        done = 0
+        while done < len(table):
+            count = kernels(
+                "reduced", min(CHUNK, len(table) - done), *program, *given, numbers + 8 * done, self.apart, at_rows,
+                capacity, at_ids,
+            )  # fmt: skip
+            if count:
+                kernels("peaks", count, *polynomials)
+                kernels("gathered", count, at_ids, at_looked, capacity, total, best + 8 * done)
+            done += int(ids[2 * capacity])
 
 
 @cache
@@ -280,10 +279,9 @@ def _joined(parts: Sequence[Mapping[Any, Any]]) -> dict[Any, Any]:
     }
 
 
-def _powers(signal: Floats, share: Floats) -> tuple[Floats, Floats, Floats]:
-    square = signal * signal
-    mean, both = (np.einsum("dip,dip->d", share, each) for each in (signal, square))
-    return mean, both, _roughest(square)
+def _powers(signal: Floats, share: Floats) -> tuple[Floats, Floats]:
+    weighted = share * signal
+    return weighted.sum(axis=(1, 2)), np.einsum("dip,dip->d", weighted, signal)
 
 
 def _peak(signal: Floats) -> Peak:

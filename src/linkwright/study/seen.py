@@ -40,12 +40,9 @@ class Seen:
             self.running &= met
             return value
         if part.kind in ("mean", "rms"):
-            mean, square, rougher = self.found.powers[part.output]
-            if part.kind == "mean":
-                self._met(self.found.bounds[part.output][2], self._size(part.output))
-                return mean
-            self._met(rougher, self._size(part.output) ** 2)
-            return np.sqrt(square)
+            mean, square = self.found.powers[part.output]
+            self._met(self.found.bounds[part.output][2], self._size(part.output))
+            return mean if part.kind == "mean" else np.sqrt(square)
         if part.kind == "excess":
             self._met(self.found.bounds[part.output][2], self._size(part.output))
             return self.steady.way * np.abs(

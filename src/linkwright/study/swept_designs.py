@@ -17,7 +17,6 @@ from linkwright.engine.reductions import Reduction
 from linkwright.engine.stage import Backend, Stage
 from linkwright.engine.trace import Scalar
 from linkwright.kinematics.cycle import over_cycle
-from linkwright.kinetostatics.named import Quantity
 from linkwright.kinetostatics.traced_loads import AlongInput
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.cycle_grid import PIECES
@@ -65,13 +64,11 @@ class SweptDesigns:
         self._rows = tuple(places)
         self._trace, self._signals = self._gauss.signals(places)
 
-    def _places(self) -> dict[str, Quantity]:
-        found = {}
+    def _places(self) -> dict[str, Scalar]:
+        found: dict[str, Scalar] = {}
         for key in self._keys:
             place = self.traced.solver.outputs.point(key)[0]
-            for axis, value in (("x", place.x), ("y", place.y)):
-                output = Output("position", key, axis)
-                found[output.row] = Quantity(output.name, output, output.dimension, value)
+            found |= {Output("position", key, axis).row: getattr(place, axis) for axis in "xy"}
         return found
 
     @cached_property
