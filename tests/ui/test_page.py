@@ -199,7 +199,8 @@ def test_curves_and_paths_have_the_corners_that_they_need(opened: Opened, tmp_pa
         " [...document.querySelectorAll('.lw-trace')].map(p => p.getAttribute('d'))]"
     )
     rows = opened.run(
-        "s => s.curves.value.map(id => ({x: [...s.model.axis.x].map(Math.abs), y: [...s.model.row(id)]}))"
+        "s => s.curves.value.map(id => s.model.row(id)).map(row =>"
+        " ({x: [...s.model.axis.x].map(Math.abs), y: [...row, row[0]]}))"
         ".concat([...s.shown.paths].map(key => ({x: [...s.model.main.row(`p:${key}.x`)],"
         " y: [...s.model.main.row(`p:${key}.y`)]})))"
     )

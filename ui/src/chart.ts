@@ -39,6 +39,7 @@ export class Chart {
   private high = 1;
   private x: ArrayLike<number> = [0, 1];
   private places = new Float64Array();
+  private turn = 0;
   private curves: Curve[] = [];
   private ticks: string[] = [];
   private at: [number, number] = [NaN, NaN];
@@ -58,18 +59,23 @@ export class Chart {
     if (this.canvas.ariaLabel !== text) this.canvas.ariaLabel = text;
   }
 
-  /** The last curve is the current one; values are in units of `factor`. Painted by `cursor`. */
-  set(x: ArrayLike<number>, curves: Curve[], factor: number, ends: [string, string]): void {
+  /**
+   * The last curve is the current one; values are in units of `factor`. Painted by `cursor`. With one place more than
+   * values curves go back to their first value, give or take `turn`s.
+   */
+  set(x: ArrayLike<number>, curves: Curve[], factor: number, ends: [string, string], turn: number): void {
     if (this.x !== x) {
-      this.x = x;
-      this.places = Float64Array.from(x, (each) => this.u(each));
+      [this.x, this.turn] = [x, turn];
+      const [a, b] = [x[0], x[x.length - 1]];
+      this.places = Float64Array.from(x, (each) => LEFT + ((each - a) / (b - a || 1)) * (W - LEFT - RIGHT));
       this.written = [];
     }
     let [low, high] = [Infinity, -Infinity];
     for (const { values } of curves)
-      for (let i = 0; i < values.length; i++) {
-        if (values[i] < low) low = values[i];
-        if (values[i] > high) high = values[i];
+      for (let i = 0; i < x.length; i++) {
+        const y = this.value(values, i);
+        if (y < low) low = y;
+        if (y > high) high = y;
       }
     if (!(high >= low)) [low, high] = [0, 1];
     if (high - low < 1e-9 * Math.max(Math.abs(high), Math.abs(low), 1e-9)) [low, high] = [low - 0.5 * Math.abs(low || 1), high + 0.5 * Math.abs(high || 1)];
@@ -82,7 +88,7 @@ export class Chart {
   }
 
   cursor(i: number, value: number): void {
-    this.at = [this.x[i], value];
+    this.at = [this.places[i], value];
     this.paint();
   }
 
@@ -118,7 +124,7 @@ export class Chart {
 
   /** The line at the position that is shown, and its dot. */
   private mark(stroke: (path: Path2D, style: string, width: number) => void, soft: string, accent: string): void {
-    const [x, y] = this.at, u = this.u(x), { pen } = this;
+    const [u, y] = this.at, { pen } = this;
     stroke(new Path2D(`M${u} ${TOP}V${H - BOTTOM}`), soft, 0.8);
     if (!Number.isFinite(y)) return;
     pen.fillStyle = accent;
@@ -146,9 +152,10 @@ export class Chart {
     return Math.min(this.x.length - 1, Math.max(0, Math.round(share * (this.x.length - 1))));
   }
 
-  private u(x: number): number {
-    const a = this.x[0], b = this.x[this.x.length - 1];
-    return LEFT + ((x - a) / (b - a || 1)) * (W - LEFT - RIGHT);
+  /** A curve's value at a place, the first one again at the end of a closed cycle. */
+  private value(values: ArrayLike<number>, i: number): number {
+    const { turn } = this, first = values[0];
+    return i < values.length ? values[i] : first + (turn && turn * Math.round((values[i - 1] - first) / turn));
   }
 
   private v(y: number): number {
@@ -157,24 +164,16 @@ export class Chart {
 
   /** Runs without gaps, each with as few corners as it takes. */
   private path(values: ArrayLike<number>): Path2D {
-    const path = new Path2D(), n = values.length;
+    const path = new Path2D(), n = this.x.length, heights = this.places.map((_, i) => this.v(this.value(values, i)));
     for (let begin = 0; begin < n; ) {
-      while (begin < n && !(values[begin] === values[begin])) begin++;
+      while (begin < n && !(heights[begin] === heights[begin])) begin++;
       let end = begin;
-      while (end < n && values[end] === values[end]) end++;
-      this.run(path, values, begin, end);
+      while (end < n && heights[end] === heights[end]) end++;
+      const places = this.places.subarray(begin, end), run = heights.subarray(begin, end);
+      for (const i of thinned(places, run, FLAT)) path[i ? "lineTo" : "moveTo"](places[i], run[i]);
       begin = end;
     }
     return path;
-  }
-
-  private run(path: Path2D, values: ArrayLike<number>, begin: number, end: number): void {
-    const places = this.places.subarray(begin, end), heights = new Float64Array(end - begin);
-    for (let i = begin; i < end; i++) heights[i - begin] = this.v(values[i]);
-    for (const i of thinned(places, heights, FLAT)) {
-      if (i) path.lineTo(places[i], heights[i]);
-      else path.moveTo(places[i], heights[i]);
-    }
   }
 }
 

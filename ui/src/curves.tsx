@@ -3,6 +3,7 @@ import { effect } from "@preact/signals";
 import { useLayoutEffect, useRef } from "preact/hooks";
 import { Chart, type Curve, Hodograph } from "./chart";
 import type { Page } from "./living";
+import { TURN } from "./numbers";
 import type { Session } from "./session";
 import { write } from "./strokes";
 import { quantity, unitFor } from "./words";
@@ -67,10 +68,10 @@ function largest({ model }: Session, id: string): number {
 function plot(chart: Chart, page: Page, session: Session, id: string, row: Float64Array): void {
   const { model } = session, { x, kind } = model.axis, signal = model.signals[id];
   const unit = unitFor(signal.kind, largest(session, id));
-  const ends = [0, model.n - 1].map((k) => quantity(x[k], kind, kind === "length" ? model.size : 1, 3)) as [string, string];
+  const ends = [0, x.length - 1].map((k) => quantity(x[k], kind, kind === "length" ? model.size : 1, 3)) as [string, string];
   const kept = session.variants.value.map((each, k) => ({ style: k + 1, values: each.design.rows[id] }));
   const old: Curve[] = model.differs ? [{ style: "original", values: model.original.rows[id] }] : [];
-  chart.set(x, [...old, ...kept, { style: "now", values: row }], unit.factor, ends);
+  chart.set(x, [...old, ...kept, { style: "now", values: row }], unit.factor, ends, signal.form === "angle" ? TURN : 0);
   chart.label(page.say("curve", { name: signal.name[page.language.value] }));
 }
 

@@ -1,6 +1,7 @@
 // What loads take per position once the motion is known: when they act, and angles of links that turn through.
 import type { AngleField, Phase } from "./data";
 import type { Call } from "./engine";
+import { TURN } from "./numbers";
 import { root } from "./search";
 
 /** Where an output reverses: input, time, its value there. */
@@ -27,7 +28,6 @@ export interface Course {
   at(input: number, value: (call: Call) => number): number;
 }
 
-const TURN = 2 * Math.PI;
 // As in the core: shares within which places belong to a phase, rates that are zero but for rounding.
 const NEAR = 1e-9, STILL = 1e-12;
 

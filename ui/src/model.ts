@@ -24,7 +24,7 @@ export class Model {
   private certified: { values: Values; uncertain: number | null } | null = null;
   original: Design;
   readonly signals: Record<string, Signal>;
-  /** What curves run over: the input where it goes one way, else the time. */
+  /** What curves run over: the input where it goes one way, else the time; with the end of a closed cycle. */
   readonly axis: { x: Float64Array; kind: "angle" | "length" | "time" };
   values: Values;
   locked = new Set<string>();
@@ -38,6 +38,8 @@ export class Model {
     this.axis = forward || time === null
       ? { x: inputs, kind: data.positions.inputs[0]?.turns === false ? "length" : "angle" }
       : { x: floats(time), kind: "time" };
+    const { x } = this.axis;
+    if (data.positions.closed) this.axis.x = Float64Array.of(...x, 2 * x[this.n - 1] - x[this.n - 2]);
     this.signals = Object.fromEntries(data.signals.map((signal) => [signal.id, signal]));
     this.values = { ...data.values };
     this.evaluate(this.values);

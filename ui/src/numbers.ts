@@ -4,7 +4,7 @@ import type { Call } from "./engine";
 import type { Model } from "./model";
 import { root } from "./search";
 
-const TURN = 2 * Math.PI;
+export const TURN = 2 * Math.PI;
 
 /** The value of a design number. */
 export function number(model: Model, figure: Figure): number {
