@@ -46,7 +46,7 @@ def _pictures(found: Result, say: Say, language: str) -> Iterator[Block]:
     from linkwright.plot.diagrams.base import RESULT_DIAGRAMS
 
     for kind in sorted(RESULT_DIAGRAMS, key=lambda each: not RESULT_DIAGRAMS[each].usual):
-        if not RESULT_DIAGRAMS[kind]().suits(found):
+        if not RESULT_DIAGRAMS[kind].suits(found):
             continue
         try:
             svg = picture(found.plot(kind, language=language, title=""))

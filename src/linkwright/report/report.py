@@ -29,7 +29,7 @@ from linkwright.report.document import (
 )
 from linkwright.report.markdown import own_text, printable
 from linkwright.report.numbers import typeset
-from linkwright.report.section import SECTIONS, CommonSection, Section
+from linkwright.report.section import SECTIONS, Section
 from linkwright.report.settings import Settings, settings
 from linkwright.whole_files import write_whole
 from linkwright.words import LANGUAGES, speaker
@@ -233,24 +233,24 @@ def _lines(own: Settings) -> tuple[str, ...]:
     return tuple(line for line in (own.course, own.author, own.date) if line)
 
 
-Part = Section | CommonSection | str
+Part = Section | str
 
 
 def _parts(cases: list[Case], chosen: list[str], document: Document) -> Iterator[tuple[list[Case], Part]]:
     """Machines and section in the order of the report; a text is the heading of a machine's part."""
     held: list[str] = []
     for name in [*chosen, ""]:
-        if name and issubclass(SECTIONS[name], Section):
+        if name and not SECTIONS[name].common:
             held.append(name)
             continue
         for case in cases if held else ():
             if len(cases) > 1:
                 yield [case], case.mechanism.name
             for own in held:
-                yield [case], SECTIONS[own]()
+                yield [case], SECTIONS[own]
         held = []
         if name:
-            yield cases, SECTIONS[name]()
+            yield cases, SECTIONS[name]
 
 
 def _add(document: Document, cases: list[Case], part: Part, *, asked: bool) -> None:
@@ -259,7 +259,7 @@ def _add(document: Document, cases: list[Case], part: Part, *, asked: bool) -> N
         document.blocks.append(Heading(literal(part), 1))
         return
     say, first = document.say, cases[0]
-    several = isinstance(part, Section) and any(
+    several = not part.common and any(
         isinstance(block, Heading) and block.text == literal(first.mechanism.name)
         for block in document.blocks
     )
@@ -269,8 +269,7 @@ def _add(document: Document, cases: list[Case], part: Part, *, asked: bool) -> N
     text = first.settings.text.get(part.name, "")
     prefix = f"{first.mechanism.name}: " if several else ""
     try:
-        made = part.blocks(first) if isinstance(part, Section) else part.blocks(cases)
-        for block in chain(_own(text, document) if text else (), made):
+        for block in chain(_own(text, document) if text else (), part.blocks(cases)):
             if isinstance(block, Paragraph) and block.kind == "missing":
                 document.missing.append(say("cli.about", name=prefix + title, cause=_unmarked(block.text)))
             found += [_placed(each, shift, prefix) for each in _parts_of(block, document)]

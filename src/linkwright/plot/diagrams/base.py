@@ -1,14 +1,16 @@
 """What all kinds of diagrams have in common, and their registry.
 
-A kind is one file with one class, registered under its name; its title is the word ``plot.kind.NAME``.
+A kind is one class, a diagram of a result one function, registered under its name; its title is the word
+``plot.kind.NAME``.
 """
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from dataclasses import field
 from functools import partial
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 from linkwright.core.dataclass import dataclass
 from linkwright.registry import Registry
@@ -20,6 +22,7 @@ if TYPE_CHECKING:
     from linkwright.plot.diagrams.source import Source
 
 
+T = TypeVar("T")
 #: What may be asked of some kinds of diagrams only.
 OPTIONS = ("of", "joint", "on", "axes", "at", "fluctuation", "static")
 
@@ -69,25 +72,45 @@ class Kind(ABC):
         """
 
 
-class ResultKind(ABC):
-    """A kind of diagram of one result that has no single motion behind it: a comparison, a study, a balancing."""
+@dataclass(frozen=True)
+class ResultDiagram:
+    """A diagram of one result that has no single motion behind it: a comparison, a study, a balancing.
 
-    name: ClassVar[str]
-    options: ClassVar[tuple[str, ...]] = ()
-    takes: ClassVar[type]
-    usual: ClassVar[bool] = True
+    ``takes``: the type of the results; ``options``: those of OPTIONS that it has a use for; ``usual``: whether it may
+    be drawn where no kind is named; ``draw(result, request)`` raises LinkwrightError for unknown names, and where
+    there is nothing to draw; ``when``: which results of the type have something to draw.
+    """
+
+    takes: type
+    options: tuple[str, ...]
+    usual: bool
+    draw: Callable[[Any, Request], Figure] = field(repr=False)
+    when: Callable[[Any], bool] = field(repr=False)
 
     def suits(self, result: object) -> bool:
-        """Whether this kind draws such a result."""
-        return isinstance(result, self.takes)
-
-    @abstractmethod
-    def draw(self, result: Any, request: Request) -> Figure:
-        """The figure; raises LinkwrightError for unknown names, and where there is nothing to draw."""
+        """Whether it draws such a result."""
+        return isinstance(result, self.takes) and self.when(result)
 
 
 DIAGRAMS: Registry[type[Kind]] = Registry("diagram", "linkwright.plot.diagrams")
-RESULT_DIAGRAMS: Registry[type[ResultKind]] = Registry("diagram", "linkwright.plot.result_diagrams")
+RESULT_DIAGRAMS: Registry[ResultDiagram] = Registry("diagram", "linkwright.plot.result_diagrams")
+
+
+def result_diagram(
+    name: str,
+    takes: type[T],
+    *,
+    options: tuple[str, ...] = (),
+    usual: bool = True,
+    when: Callable[[T], bool] = lambda result: True,
+) -> Callable[[Callable[[T, Request], Figure]], Callable[[T, Request], Figure]]:
+    """Decorator that registers a function as the diagram ``name`` of results; see :class:`ResultDiagram`."""
+
+    def registered(draw: Callable[[T, Request], Figure]) -> Callable[[T, Request], Figure]:
+        RESULT_DIAGRAMS.register(name)(ResultDiagram(takes, options, usual, draw, when))
+        return draw
+
+    return registered
 
 
 def _word(key: str, *, language: str, **values: object) -> str:

@@ -129,7 +129,7 @@ def plot(
     )
     with style(language):
         drawn = (
-            RESULT_DIAGRAMS[name]().draw(result, request) if own else DIAGRAMS[name]().draw(sources, request)
+            RESULT_DIAGRAMS[name].draw(result, request) if own else DIAGRAMS[name]().draw(sources, request)
         )
     return Diagram(name, drawn, language)
 
@@ -159,7 +159,7 @@ def _own_kind(result: object, kind: str | None) -> str | None:
     """The kind for a result that is no motion, forces or running; None for those."""
     if isinstance(result, Mechanism | Motion | Forces | SteadyRunning | dict | list | tuple):
         return None
-    own = [name for name in RESULT_DIAGRAMS if RESULT_DIAGRAMS[name]().suits(result)]
+    own = [name for name in RESULT_DIAGRAMS if RESULT_DIAGRAMS[name].suits(result)]
     if not own:
         return None
     if kind is None:

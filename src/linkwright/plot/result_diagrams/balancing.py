@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from linkwright.core.arrays import Floats
 from linkwright.kinetostatics.balancing import Balancing
 from linkwright.plot.diagrams.axes import Legend, equal, framed, label_input
-from linkwright.plot.diagrams.base import RESULT_DIAGRAMS, Request, ResultKind
+from linkwright.plot.diagrams.base import Request, result_diagram
 from linkwright.plot.diagrams.panels import DASHES, Curve, Panel, draw_panel
 from linkwright.plot.diagrams.picture import COLOURS, INK, new_figure
 from linkwright.plot.diagrams.source import Source
@@ -21,38 +21,33 @@ if TYPE_CHECKING:
 VANISHED = 1e-9
 
 
-@RESULT_DIAGRAMS.register("balancing")
-class BalancingDiagram(ResultKind):
+@result_diagram("balancing", Balancing)
+def draw_balancing(result: Balancing, request: Request) -> Figure:
     """Left the hodograph of the shaking force, right shaking moment and input torque over the input."""
-
-    name = "balancing"
-    takes = Balancing
-
-    def draw(self, result: Balancing, request: Request) -> Figure:
-        say = request.say
-        before, after = Source(result.before), Source(result.after)
-        names, legend = (say("without_weights"), say("with_weights")), Legend()
-        figure = new_figure(request.size or (9.6, 4.9))
-        places = figure.subplot_mosaic([["force", "moment"], ["force", "torque"]])
-        loops = [each.closed(each.forces.shaking_force) for each in (before, after)]
-        _hodograph(places["force"], loops, names, request, legend)
-        turning = next(iter(before.motion.positions.rotary.values()))
-        effort = ("input_torque", "T", "torque") if turning else ("input_force", "F", "force")
-        moments = [each.closed(each.forces.shaking_moment) for each in (before, after)]
-        torques = [each.closed(each.forces.input_torque) for each in (before, after)]
-        for place, (word, letter, dimension), values in (
-            ("moment", ("shaking_moment", "M", "torque"), moments),
-            ("torque", effort, torques),
-        ):
-            panel = Panel(f"{say(word)} {letter}", dimension, _curves(names, values))
-            draw_panel(places[place], panel, before.axis, request, legend)
-            label_input(places[place], before.axis, say)
-        places["moment"].set_xlabel("")
-        places["moment"].tick_params(labelbottom=False)
-        figure.align_ylabels([places["moment"], places["torque"]])
-        framed(figure, request.titled(before.label, request.say("kind.balancing")), request)
-        legend.put(figure)
-        return figure
+    say = request.say
+    before, after = Source(result.before), Source(result.after)
+    names, legend = (say("without_weights"), say("with_weights")), Legend()
+    figure = new_figure(request.size or (9.6, 4.9))
+    places = figure.subplot_mosaic([["force", "moment"], ["force", "torque"]])
+    loops = [each.closed(each.forces.shaking_force) for each in (before, after)]
+    _hodograph(places["force"], loops, names, request, legend)
+    turning = next(iter(before.motion.positions.rotary.values()))
+    effort = ("input_torque", "T", "torque") if turning else ("input_force", "F", "force")
+    moments = [each.closed(each.forces.shaking_moment) for each in (before, after)]
+    torques = [each.closed(each.forces.input_torque) for each in (before, after)]
+    for place, (word, letter, dimension), values in (
+        ("moment", ("shaking_moment", "M", "torque"), moments),
+        ("torque", effort, torques),
+    ):
+        panel = Panel(f"{say(word)} {letter}", dimension, _curves(names, values))
+        draw_panel(places[place], panel, before.axis, request, legend)
+        label_input(places[place], before.axis, say)
+    places["moment"].set_xlabel("")
+    places["moment"].tick_params(labelbottom=False)
+    figure.align_ylabels([places["moment"], places["torque"]])
+    framed(figure, request.titled(before.label, request.say("kind.balancing")), request)
+    legend.put(figure)
+    return figure
 
 
 def _curves(names: tuple[str, str], values: list[Floats]) -> tuple[Curve, ...]:

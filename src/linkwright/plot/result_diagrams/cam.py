@@ -10,7 +10,7 @@ import numpy as np
 from linkwright.cams.report import RATES
 from linkwright.cams.result import CamDesign
 from linkwright.errors import RequestError
-from linkwright.plot.diagrams.base import RESULT_DIAGRAMS, Request, ResultKind
+from linkwright.plot.diagrams.base import Request, result_diagram
 from linkwright.plot.diagrams.picture import FAINT, INK
 from linkwright.plot.result_diagrams.part_axes import Line, Pane, panes, plane
 from linkwright.words.sentence import Sentence
@@ -27,85 +27,68 @@ _PER_ANGLE = {
 }
 
 
-@RESULT_DIAGRAMS.register("cam_motion")
-class CamMotion(ResultKind):
+@result_diagram("cam_motion", CamDesign)
+def draw_cam_motion(result: CamDesign, request: Request) -> Figure:
     """s, v, a and j over the cam's angle: over time at its speed, over the angle without one."""
-
-    name = "cam_motion"
-    takes = CamDesign
-
-    def draw(self, result: CamDesign, request: Request) -> Figure:
-        speed = result.loading.speed
-        kinds = (RATES if speed else _PER_ANGLE)[result.cam.follower.lift_dimension]
-        given = []
-        for order, symbol in enumerate("svaj"):
-            values = result.motion[order] * (speed**order if speed else 1.0)
-            marks = tuple(sorted({int(values.argmax()), int(values.argmin())}))
-            given.append(Pane(symbol, kinds[order], (Line(result.angles, values, marks=marks),)))
-        title = request.titled(result.title, request.say("kind.cam_motion"))
-        return panes(title, (request.say("cam_angle"), "angle"), given, request)
+    speed = result.loading.speed
+    kinds = (RATES if speed else _PER_ANGLE)[result.cam.follower.lift_dimension]
+    given = []
+    for order, symbol in enumerate("svaj"):
+        values = result.motion[order] * (speed**order if speed else 1.0)
+        marks = tuple(sorted({int(values.argmax()), int(values.argmin())}))
+        given.append(Pane(symbol, kinds[order], (Line(result.angles, values, marks=marks),)))
+    title = request.titled(result.title, request.say("kind.cam_motion"))
+    return panes(title, (request.say("cam_angle"), "angle"), given, request)
 
 
-@RESULT_DIAGRAMS.register("cam_checks")
-class CamChecks(ResultKind):
+@result_diagram("cam_checks", CamDesign, usual=False)
+def draw_cam_checks(result: CamDesign, request: Request) -> Figure:
     """Pressure angle, radius of curvature, contact force, Hertz's pressure and torque over the cam's angle."""
-
-    name = "cam_checks"
-    takes = CamDesign
-    usual = False
-
-    def draw(self, result: CamDesign, request: Request) -> Figure:
-        phi, contact = result.angles, result.contact
-        given = [Pane("α", "angle", (Line(phi, contact.pressure_angle),))]
-        largest = 5.0 * result.size
-        with np.errstate(divide="ignore"):
-            radius = 1.0 / contact.bend
-        given.append(Pane("ρ", "length", (Line(phi, np.where(np.abs(radius) < largest, radius, np.nan)),)))
-        if result.loaded and result.cam.barrel_radius is None:
-            given.append(Pane("N", "force", (Line(phi, result.contact_force),)))
-            if result.pressure is not None:
-                given.append(Pane("p", "pressure", (Line(phi, result.pressure),)))
-            given.append(Pane("T", "torque", (Line(phi, result.torque),)))
-        title = request.titled(result.title, request.say("kind.cam_checks"))
-        return panes(title, (request.say("cam_angle"), "angle"), given, request)
+    phi, contact = result.angles, result.contact
+    given = [Pane("α", "angle", (Line(phi, contact.pressure_angle),))]
+    largest = 5.0 * result.size
+    with np.errstate(divide="ignore"):
+        radius = 1.0 / contact.bend
+    given.append(Pane("ρ", "length", (Line(phi, np.where(np.abs(radius) < largest, radius, np.nan)),)))
+    if result.loaded and result.cam.barrel_radius is None:
+        given.append(Pane("N", "force", (Line(phi, result.contact_force),)))
+        if result.pressure is not None:
+            given.append(Pane("p", "pressure", (Line(phi, result.pressure),)))
+        given.append(Pane("T", "torque", (Line(phi, result.torque),)))
+    title = request.titled(result.title, request.say("kind.cam_checks"))
+    return panes(title, (request.say("cam_angle"), "angle"), given, request)
 
 
-@RESULT_DIAGRAMS.register("cam_profile")
-class CamProfile(ResultKind):
+@result_diagram("cam_profile", CamDesign, usual=False)
+def draw_cam_profile(result: CamDesign, request: Request) -> Figure:
     """The profile at true shape; its colour is Hertz's pressure, else the contact force, else the pressure angle."""
+    from matplotlib.collections import LineCollection
 
-    name = "cam_profile"
-    takes = CamDesign
-    usual = False
-
-    def draw(self, result: CamDesign, request: Request) -> Figure:
-        from matplotlib.collections import LineCollection
-
-        title = request.titled(result.title, request.say("kind.cam_profile"))
-        figure, (axes,) = plane(title, request)
-        values, label = _coloured(result, request)
-        places = 1e3 * np.stack([result.contact.point.real, result.contact.point.imag], axis=1)
-        pieces = np.stack([places[:-1], places[1:]], axis=1)
-        shown = LineCollection(list(pieces), cmap="viridis", linewidths=4.0, capstyle="round")
-        shown.set_array(0.5 * (values[:-1] + values[1:]))
-        for k in range(1, len(result.cam.walls)):
-            other = 1e3 * result.profile(_POINTS, k)
-            if result.cam.conjugate is not None and not result.cam.follower.oscillating:
-                other = -other
-            axes.plot(*other.T, color=INK, linewidth=0.9)
-        if result.cam.follower.kind == "roller":
-            axes.plot(*(1e3 * result.pitch_curve(_POINTS)).T, color=FAINT, linewidth=0.8, linestyle="-.")
-        if result.cam.barrel_radius is None:
-            turn = np.linspace(0.0, 2 * math.pi, 361)
-            base = 1e3 * (result.cam.base_radius or 0.0)
-            axes.plot(base * np.cos(turn), base * np.sin(turn), color=FAINT, linewidth=0.8)
-            axes.plot(0.0, 0.0, "+", color=INK)
-        axes.add_collection(shown)
-        axes.autoscale_view()
-        axes.set_xlabel("x [mm]")
-        axes.set_ylabel("y [mm]")
-        figure.colorbar(shown, ax=axes, label=label, shrink=0.8)
-        return figure
+    title = request.titled(result.title, request.say("kind.cam_profile"))
+    figure, (axes,) = plane(title, request)
+    values, label = _coloured(result, request)
+    places = 1e3 * np.stack([result.contact.point.real, result.contact.point.imag], axis=1)
+    pieces = np.stack([places[:-1], places[1:]], axis=1)
+    shown = LineCollection(list(pieces), cmap="viridis", linewidths=4.0, capstyle="round")
+    shown.set_array(0.5 * (values[:-1] + values[1:]))
+    for k in range(1, len(result.cam.walls)):
+        other = 1e3 * result.profile(_POINTS, k)
+        if result.cam.conjugate is not None and not result.cam.follower.oscillating:
+            other = -other
+        axes.plot(*other.T, color=INK, linewidth=0.9)
+    if result.cam.follower.kind == "roller":
+        axes.plot(*(1e3 * result.pitch_curve(_POINTS)).T, color=FAINT, linewidth=0.8, linestyle="-.")
+    if result.cam.barrel_radius is None:
+        turn = np.linspace(0.0, 2 * math.pi, 361)
+        base = 1e3 * (result.cam.base_radius or 0.0)
+        axes.plot(base * np.cos(turn), base * np.sin(turn), color=FAINT, linewidth=0.8)
+        axes.plot(0.0, 0.0, "+", color=INK)
+    axes.add_collection(shown)
+    axes.autoscale_view()
+    axes.set_xlabel("x [mm]")
+    axes.set_ylabel("y [mm]")
+    figure.colorbar(shown, ax=axes, label=label, shrink=0.8)
+    return figure
 
 
 def _coloured(result: CamDesign, request: Request) -> tuple[np.ndarray, str]:
@@ -117,24 +100,18 @@ def _coloured(result: CamDesign, request: Request) -> tuple[np.ndarray, str]:
     return np.degrees(result.contact.pressure_angle), f"{request.say('cam_pressure_angle')} [°]"
 
 
-@RESULT_DIAGRAMS.register("cam_vibration")
-class CamVibration(ResultKind):
+@result_diagram("cam_vibration", CamDesign, usual=False)
+def draw_cam_vibration(result: CamDesign, request: Request) -> Figure:
     """What the follower does beside the cam's motion, over the speed."""
-
-    name = "cam_vibration"
-    takes = CamDesign
-    usual = False
-
-    def draw(self, result: CamDesign, request: Request) -> Figure:
-        if result.cam.elasticity is None:
-            raise RequestError(Sentence("cams.no_elasticity"))
-        top = 2.0 * (result.loading.speed or 0.25 * result.own_frequency)
-        speeds = np.linspace(top / _SPEEDS, top, _SPEEDS)
-        left = result.residual_vibration(speeds)
-        kind = result.cam.follower.lift_dimension
-        given = [
-            Pane("z", kind, (Line(speeds, result.steady_deviation(speeds)),)),
-            Pane("A", kind, tuple(Line(speeds, column) for column in left.T)),
-        ]
-        title = request.titled(result.title, request.say("kind.cam_vibration"))
-        return panes(title, (request.say("cam_speed"), "angular_velocity"), given, request)
+    if result.cam.elasticity is None:
+        raise RequestError(Sentence("cams.no_elasticity"))
+    top = 2.0 * (result.loading.speed or 0.25 * result.own_frequency)
+    speeds = np.linspace(top / _SPEEDS, top, _SPEEDS)
+    left = result.residual_vibration(speeds)
+    kind = result.cam.follower.lift_dimension
+    given = [
+        Pane("z", kind, (Line(speeds, result.steady_deviation(speeds)),)),
+        Pane("A", kind, tuple(Line(speeds, column) for column in left.T)),
+    ]
+    title = request.titled(result.title, request.say("kind.cam_vibration"))
+    return panes(title, (request.say("cam_speed"), "angular_velocity"), given, request)

@@ -9,7 +9,7 @@ import numpy as np
 
 from linkwright.errors import RequestError
 from linkwright.plot.diagrams.axes import Legend, equal, framed, label_input
-from linkwright.plot.diagrams.base import RESULT_DIAGRAMS, Request, ResultKind
+from linkwright.plot.diagrams.base import Request, result_diagram
 from linkwright.plot.diagrams.panels import DASHES, Curve, Panel, stacked
 from linkwright.plot.diagrams.picture import COLOURS, INK, new_figure
 from linkwright.plot.diagrams.source import InputAxis
@@ -38,59 +38,45 @@ _MOTION = {
 }
 
 
-@RESULT_DIAGRAMS.register("comparison")
-class ComparisonCurves(ResultKind):
+@result_diagram("comparison", Comparison, options=("of",))
+def draw_comparison(result: Comparison, request: Request) -> Figure:
     """Curves of all alternatives over the input that has passed since the cycle's begin, a colour for each.
 
     ``of``: travel, velocity, acceleration, pivot_reaction, input_torque; all that there are by default.
     """
-
-    name = "comparison"
-    options = ("of",)
-    takes = Comparison
-
-    def draw(self, result: Comparison, request: Request) -> Figure:
-        axis = _axis(result)
-        panels = [
-            panel for overlay in _chosen(result, request.of) for panel in _panels(result, overlay, request)
-        ]
-        figure, axes, legend = stacked(panels, axis, request)
-        label_input(axes[-1], axis, request.say)
-        passed = say("compare.curve.input", request.language)
-        axes[-1].set_xlabel(axis.unit.label(f"{passed} {'φ' if axis.dimension == 'angle' else 's'}"))
-        framed(figure, " – ".join(result.labels), request)
-        figure.align_ylabels(axes)
-        legend.put(figure)
-        return figure
+    axis = _axis(result)
+    panels = [panel for overlay in _chosen(result, request.of) for panel in _panels(result, overlay, request)]
+    figure, axes, legend = stacked(panels, axis, request)
+    label_input(axes[-1], axis, request.say)
+    passed = say("compare.curve.input", request.language)
+    axes[-1].set_xlabel(axis.unit.label(f"{passed} {'φ' if axis.dimension == 'angle' else 's'}"))
+    framed(figure, " – ".join(result.labels), request)
+    figure.align_ylabels(axes)
+    legend.put(figure)
+    return figure
 
 
-@RESULT_DIAGRAMS.register("pivot_hodograph")
-class PivotHodograph(ResultKind):
+@result_diagram("pivot_hodograph", Comparison, usual=False)
+def draw_pivot_hodograph(result: Comparison, request: Request) -> Figure:
     """Hodographs of the reaction at the output's pivot, all alternatives from one origin, in the frame's axes."""
-
-    name = "pivot_hodograph"
-    takes = Comparison
-    usual = False
-
-    def draw(self, result: Comparison, request: Request) -> Figure:
-        overlay = next((each for each in result.curves if each.name == HODOGRAPH), None)
-        if overlay is None:
-            raise RequestError(Sentence("picture.no_pivot_reactions"))
-        unit = unit_of("force", [values for line in overlay.lines.values() for values in line])
-        figure = new_figure(request.size or (6.4, 5.4))
-        axes, legend = figure.subplots(), Legend()
-        for number, (label, (x, y)) in enumerate(overlay.lines.items()):
-            (line,) = axes.plot(x * unit.factor, y * unit.factor, color=COLOURS[number % len(COLOURS)],
-                                linestyle=_dash(number))  # fmt: skip
-            legend.add(label, line)
-        axes.set_xlabel(unit.label("Fx"))
-        axes.set_ylabel(unit.label("Fy"))
-        equal(axes)
-        axes.plot([0], [0], "+", color=INK, markersize=9, zorder=4)
-        axes.margins(0.1)
-        framed(figure, request.say("kind.pivot_hodograph"), request)
-        legend.put(figure)
-        return figure
+    overlay = next((each for each in result.curves if each.name == HODOGRAPH), None)
+    if overlay is None:
+        raise RequestError(Sentence("picture.no_pivot_reactions"))
+    unit = unit_of("force", [values for line in overlay.lines.values() for values in line])
+    figure = new_figure(request.size or (6.4, 5.4))
+    axes, legend = figure.subplots(), Legend()
+    for number, (label, (x, y)) in enumerate(overlay.lines.items()):
+        (line,) = axes.plot(x * unit.factor, y * unit.factor, color=COLOURS[number % len(COLOURS)],
+                            linestyle=_dash(number))  # fmt: skip
+        legend.add(label, line)
+    axes.set_xlabel(unit.label("Fx"))
+    axes.set_ylabel(unit.label("Fy"))
+    equal(axes)
+    axes.plot([0], [0], "+", color=INK, markersize=9, zorder=4)
+    axes.margins(0.1)
+    framed(figure, request.say("kind.pivot_hodograph"), request)
+    legend.put(figure)
+    return figure
 
 
 def _chosen(result: Comparison, names: Sequence[str]) -> list[Overlay]:

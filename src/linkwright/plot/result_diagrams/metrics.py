@@ -10,7 +10,7 @@ from linkwright.errors import RequestError
 from linkwright.metrics.base import METRICS, MetricValue
 from linkwright.metrics.table import MetricsTable
 from linkwright.plot.diagrams.axes import Legend, framed
-from linkwright.plot.diagrams.base import RESULT_DIAGRAMS, Request, ResultKind
+from linkwright.plot.diagrams.base import Request, result_diagram
 from linkwright.plot.diagrams.picture import COLOURS, FAINT, new_figure
 from linkwright.plot.diagrams.units import Unit, unit_of
 from linkwright.words.sentence import Sentence
@@ -25,28 +25,22 @@ WRONG = "#f6d5d0"
 Group = tuple[str, tuple[MetricValue, ...]]
 
 
-@RESULT_DIAGRAMS.register("metrics")
-class MetricsDiagram(ResultKind):
+@result_diagram("metrics", MetricsTable, options=("of",))
+def draw_metrics(result: MetricsTable, request: Request) -> Figure:
     """A row of dots for every subject of a metric, an axis for every metric and unit, with its recommended limit.
 
     The side on which the limit is not kept is shaded. Without ``of``: the metrics that have a limit.
     """
-
-    name = "metrics"
-    options = ("of",)
-    takes = MetricsTable
-
-    def draw(self, result: MetricsTable, request: Request) -> Figure:
-        groups = _groups(result, request)
-        heights = [AXIS + ROW * len(rows) for _, rows in groups]
-        figure = new_figure(request.size or (7.2, 0.7 + sum(heights)))
-        places = figure.subplots(len(groups), 1, squeeze=False, gridspec_kw={"height_ratios": heights})[:, 0]
-        legend = Legend()
-        for axes, (name, rows) in zip(places, groups, strict=True):
-            _draw(axes, name, rows, request, legend)
-        framed(figure, request.titled(result.title, request.say("kind.metrics")), request)
-        legend.put(figure)
-        return figure
+    groups = _groups(result, request)
+    heights = [AXIS + ROW * len(rows) for _, rows in groups]
+    figure = new_figure(request.size or (7.2, 0.7 + sum(heights)))
+    places = figure.subplots(len(groups), 1, squeeze=False, gridspec_kw={"height_ratios": heights})[:, 0]
+    legend = Legend()
+    for axes, (name, rows) in zip(places, groups, strict=True):
+        _draw(axes, name, rows, request, legend)
+    framed(figure, request.titled(result.title, request.say("kind.metrics")), request)
+    legend.put(figure)
+    return figure
 
 
 def _groups(result: MetricsTable, request: Request) -> list[Group]:

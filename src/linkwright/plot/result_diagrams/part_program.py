@@ -11,7 +11,7 @@ from linkwright.core.arrays import Floats
 from linkwright.parts.programs.problem import Variable
 from linkwright.parts.programs.program import Optimum, unit_of
 from linkwright.plot.diagrams.axes import framed
-from linkwright.plot.diagrams.base import RESULT_DIAGRAMS, Request, ResultKind
+from linkwright.plot.diagrams.base import Request, result_diagram
 from linkwright.plot.diagrams.picture import COLOURS, FAINT, INK, SHADE, new_figure
 
 if TYPE_CHECKING:
@@ -21,22 +21,17 @@ if TYPE_CHECKING:
 GRID = 241
 
 
-@RESULT_DIAGRAMS.register("optimum")
-class OptimumDiagram(ResultKind):
+@result_diagram("optimum", Optimum)
+def draw_optimum(result: Optimum, request: Request) -> Figure:
     """Contours of the objective over two variables with the region that the constraints leave; else bars."""
-
-    name = "optimum"
-    takes = Optimum
-
-    def draw(self, result: Optimum, request: Request) -> Figure:
-        figure = new_figure(request.size or (6.6, 5.2))
-        axes = figure.subplots()
-        if len(result.x) == 2:
-            _region(axes, result)
-        else:
-            _bars(axes, result)
-        framed(figure, request.titled(result.title, request.say("kind.optimum")), request)
-        return figure
+    figure = new_figure(request.size or (6.6, 5.2))
+    axes = figure.subplots()
+    if len(result.x) == 2:
+        _region(axes, result)
+    else:
+        _bars(axes, result)
+    framed(figure, request.titled(result.title, request.say("kind.optimum")), request)
+    return figure
 
 
 def _span(variable: Variable, value: float) -> Floats:

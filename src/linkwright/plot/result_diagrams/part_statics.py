@@ -14,7 +14,7 @@ from linkwright.parts.statics.body import HELD, Reactions
 from linkwright.parts.statics.forces import Resultant, spatial
 from linkwright.parts.statics.structure import StructureForces
 from linkwright.parts.statics.wedge import WedgeForces
-from linkwright.plot.diagrams.base import RESULT_DIAGRAMS, Request, ResultKind
+from linkwright.plot.diagrams.base import Request, result_diagram
 from linkwright.plot.diagrams.picture import COLOURS, INK
 from linkwright.plot.result_diagrams.part_axes import Line, Pane, arrow, line_of, panes, plane, point
 
@@ -26,109 +26,80 @@ if TYPE_CHECKING:
 LONGEST = 0.4
 
 
-@RESULT_DIAGRAMS.register("resultant")
-class ResultantDiagram(ResultKind):
+@result_diagram("resultant", Resultant)
+def draw_resultant(result: Resultant, request: Request) -> Figure:
     """Forces head to tail with their resultant, in one plane or in two."""
-
-    name = "resultant"
-    takes = Resultant
-
-    def draw(self, result: Resultant, request: Request) -> Figure:
-        vectors = {name: each.vector for name, each in result.system.forces.items()}
-        spread = any(vector[2] for vector in vectors.values())
-        planes = [(0, 1), (0, 2)] if spread else [(0, 1)]
-        figure, axes = plane(
-            request.titled(result.title, request.say("kind.resultant")), request, len(planes)
-        )
-        for one, (a, b) in zip(axes, planes, strict=True):
-            place, whole = np.zeros(2), result.force[[a, b]]
-            for name, vector in vectors.items():
-                arrow(
-                    one,
-                    place,
-                    vector[[a, b]],
-                    COLOURS[0],
-                    name,
-                    middle=_outside(place, vector[[a, b]], whole),
-                )
-                place = place + vector[[a, b]]
-            arrow(one, np.zeros(2), whole, COLOURS[1], "R", middle=-_side(vectors, whole, a, b))
-            one.set_xlabel(f"F{'xyz'[a]} (N)")
-            one.set_ylabel(f"F{'xyz'[b]} (N)")
-        return figure
+    vectors = {name: each.vector for name, each in result.system.forces.items()}
+    spread = any(vector[2] for vector in vectors.values())
+    planes = [(0, 1), (0, 2)] if spread else [(0, 1)]
+    figure, axes = plane(request.titled(result.title, request.say("kind.resultant")), request, len(planes))
+    for one, (a, b) in zip(axes, planes, strict=True):
+        place, whole = np.zeros(2), result.force[[a, b]]
+        for name, vector in vectors.items():
+            arrow(
+                one,
+                place,
+                vector[[a, b]],
+                COLOURS[0],
+                name,
+                middle=_outside(place, vector[[a, b]], whole),
+            )
+            place = place + vector[[a, b]]
+        arrow(one, np.zeros(2), whole, COLOURS[1], "R", middle=-_side(vectors, whole, a, b))
+        one.set_xlabel(f"F{'xyz'[a]} (N)")
+        one.set_ylabel(f"F{'xyz'[b]} (N)")
+    return figure
 
 
-@RESULT_DIAGRAMS.register("body_reactions")
-class BodyDiagram(ResultKind):
+@result_diagram("body_reactions", Reactions)
+def draw_body_reactions(result: Reactions, request: Request) -> Figure:
     """A body's forces and reactions at their places, in the plane x, y."""
-
-    name = "body_reactions"
-    takes = Reactions
-
-    def draw(self, result: Reactions, request: Request) -> Figure:
-        body = result.body
-        figure, (axes,) = plane(request.titled(result.title, request.say("kind.body_reactions")), request)
-        arrows = [(f.place[:2], f.vector[:2], COLOURS[1], name) for name, f in body.forces.items()]
-        for name, support in body.supports.items():
-            point(axes, spatial(support.at)[:2], name)
-            arrows.append((spatial(support.at)[:2], _reaction(result, name), COLOURS[0], name))
-        _arrows(axes, arrows)
-        return figure
+    body = result.body
+    figure, (axes,) = plane(request.titled(result.title, request.say("kind.body_reactions")), request)
+    arrows = [(f.place[:2], f.vector[:2], COLOURS[1], name) for name, f in body.forces.items()]
+    for name, support in body.supports.items():
+        point(axes, spatial(support.at)[:2], name)
+        arrows.append((spatial(support.at)[:2], _reaction(result, name), COLOURS[0], name))
+    _arrows(axes, arrows)
+    return figure
 
 
-@RESULT_DIAGRAMS.register("structure_reactions")
-class StructureDiagram(ResultKind):
+@result_diagram("structure_reactions", StructureForces)
+def draw_structure_reactions(result: StructureForces, request: Request) -> Figure:
     """A structure's links with the forces that joints exert on them."""
-
-    name = "structure_reactions"
-    takes = StructureForces
-
-    def draw(self, result: StructureForces, request: Request) -> Figure:
-        motion = result.forces.motion
-        figure, (axes,) = plane(
-            request.titled(result.title, request.say("kind.structure_reactions")), request
-        )
-        for name, link in motion.mechanism.links.items():
-            places = np.array([motion.point(f"{name}.{p}").position[0] for p in link.points])
-            line_of(axes, places)
-            for p, place in zip(link.points, places, strict=True):
-                point(axes, place, p)
-        ground = [pair for pair in result.pairs() if "frame" in motion.mechanism.joints[pair[0]].joined]
-        arrows = []
-        for joint, on in ground:
-            at = getattr(motion.mechanism.joints[joint], "at", joint)
-            place = motion.point(f"{on}.{at}").position[0]
-            arrows.append((place, result.reaction(joint, on), COLOURS[0], joint))
-        _arrows(axes, arrows)
-        return figure
+    motion = result.forces.motion
+    figure, (axes,) = plane(request.titled(result.title, request.say("kind.structure_reactions")), request)
+    for name, link in motion.mechanism.links.items():
+        places = np.array([motion.point(f"{name}.{p}").position[0] for p in link.points])
+        line_of(axes, places)
+        for p, place in zip(link.points, places, strict=True):
+            point(axes, place, p)
+    ground = [pair for pair in result.pairs() if "frame" in motion.mechanism.joints[pair[0]].joined]
+    arrows = []
+    for joint, on in ground:
+        at = getattr(motion.mechanism.joints[joint], "at", joint)
+        place = motion.point(f"{on}.{at}").position[0]
+        arrows.append((place, result.reaction(joint, on), COLOURS[0], joint))
+    _arrows(axes, arrows)
+    return figure
 
 
-@RESULT_DIAGRAMS.register("belt_tension")
-class BeltDiagram(ResultKind):
+@result_diagram("belt_tension", BeltTensions)
+def draw_belt_tension(result: BeltTensions, request: Request) -> Figure:
     """Tension along the contact."""
-
-    name = "belt_tension"
-    takes = BeltTensions
-
-    def draw(self, result: BeltTensions, request: Request) -> Figure:
-        angle, tension = result.columns().values()
-        pane = Pane(request.say("tension"), "force", (Line(angle, tension, marks=(0, len(angle) - 1)),))
-        title = request.titled(result.title, request.say("kind.belt_tension"))
-        return panes(title, (request.say("wrap"), "angle"), [pane], request)
+    angle, tension = result.columns().values()
+    pane = Pane(request.say("tension"), "force", (Line(angle, tension, marks=(0, len(angle) - 1)),))
+    title = request.titled(result.title, request.say("kind.belt_tension"))
+    return panes(title, (request.say("wrap"), "angle"), [pane], request)
 
 
-@RESULT_DIAGRAMS.register("wedge_push")
-class WedgeDiagram(ResultKind):
+@result_diagram("wedge_push", WedgeForces)
+def draw_wedge_push(result: WedgeForces, request: Request) -> Figure:
     """Push over the wedge's angle."""
-
-    name = "wedge_push"
-    takes = WedgeForces
-
-    def draw(self, result: WedgeForces, request: Request) -> Figure:
-        angle, up, down = result.columns().values()
-        lines = (Line(angle, up, request.say("raising")), Line(angle, down, request.say("lowering")))
-        title = request.titled(result.title, request.say("kind.wedge_push"))
-        return panes(title, (request.say("wedge_angle"), "angle"), [Pane("P", "force", lines)], request)
+    angle, up, down = result.columns().values()
+    lines = (Line(angle, up, request.say("raising")), Line(angle, down, request.say("lowering")))
+    title = request.titled(result.title, request.say("kind.wedge_push"))
+    return panes(title, (request.say("wedge_angle"), "angle"), [Pane("P", "force", lines)], request)
 
 
 def _outside(place: Floats, vector: Floats, whole: Floats) -> float:

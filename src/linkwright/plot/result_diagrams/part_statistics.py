@@ -8,7 +8,7 @@ import numpy as np
 
 from linkwright.parts.statistics.samples import Statistics
 from linkwright.plot.diagrams.axes import framed
-from linkwright.plot.diagrams.base import RESULT_DIAGRAMS, Request, ResultKind
+from linkwright.plot.diagrams.base import Request, result_diagram
 from linkwright.plot.diagrams.picture import COLOURS, FAINT, new_figure
 
 if TYPE_CHECKING:
@@ -16,30 +16,25 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-@RESULT_DIAGRAMS.register("samples")
-class SamplesDiagram(ResultKind):
+@result_diagram("samples", Statistics)
+def draw_samples(result: Statistics, request: Request) -> Figure:
     """A histogram of every sample with its fits and limits, and every regression of one variable."""
-
-    name = "samples"
-    takes = Statistics
-
-    def draw(self, result: Statistics, request: Request) -> Figure:
-        lines = [n for n, fitting in result.problem.regressions.items() if len(fitting.on) == 1]
-        used = {
-            n
-            for name in lines
-            for n in (result.problem.regressions[name].y, *result.problem.regressions[name].on)
-        }
-        names = [name for name in result.problem.samples if name not in used]
-        count = max(len(names) + len(lines), 1)
-        figure = new_figure(request.size or (7.2, 1.0 + 2.6 * count))
-        axes = list(figure.subplots(count, 1, squeeze=False)[:, 0])
-        for one, name in zip(axes, names, strict=False):
-            _histogram(one, result, name)
-        for one, name in zip(axes[len(names) :], lines, strict=False):
-            _regression(one, result, name)
-        framed(figure, request.titled(result.title, request.say("kind.samples")), request)
-        return figure
+    lines = [n for n, fitting in result.problem.regressions.items() if len(fitting.on) == 1]
+    used = {
+        n
+        for name in lines
+        for n in (result.problem.regressions[name].y, *result.problem.regressions[name].on)
+    }
+    names = [name for name in result.problem.samples if name not in used]
+    count = max(len(names) + len(lines), 1)
+    figure = new_figure(request.size or (7.2, 1.0 + 2.6 * count))
+    axes = list(figure.subplots(count, 1, squeeze=False)[:, 0])
+    for one, name in zip(axes, names, strict=False):
+        _histogram(one, result, name)
+    for one, name in zip(axes[len(names) :], lines, strict=False):
+        _regression(one, result, name)
+    framed(figure, request.titled(result.title, request.say("kind.samples")), request)
+    return figure
 
 
 def _histogram(axes: Axes, result: Statistics, name: str) -> None:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from linkwright.plot.diagrams.axes import framed
-from linkwright.plot.diagrams.base import RESULT_DIAGRAMS, Request, ResultKind
+from linkwright.plot.diagrams.base import Request, result_diagram
 from linkwright.plot.diagrams.picture import COLOURS, FAINT, new_figure
 from linkwright.plot.result_diagrams.part_axes import unit_for
 from linkwright.tolerance.result import Spread
@@ -17,24 +17,19 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-@RESULT_DIAGRAMS.register("tolerance")
-class ToleranceDiagram(ResultKind):
+@result_diagram("tolerance", Spread)
+def draw_tolerance(result: Spread, request: Request) -> Figure:
     """Histograms of summaries with the linear normal distribution and limits; curves' deviation ±3σ and shift."""
-
-    name = "tolerance"
-    takes = Spread
-
-    def draw(self, result: Spread, request: Request) -> Figure:
-        texts = [t for t in result.study.of if result.swept is not None]
-        count = max(len(texts) + len(result.study.curves), 1)
-        figure = new_figure(request.size or (7.2, 1.0 + 2.4 * count))
-        axes = list(figure.subplots(count, 1, squeeze=False)[:, 0])
-        for one, text in zip(axes, texts, strict=False):
-            _histogram(one, result, text, request)
-        for one, output in zip(axes[len(texts) :], result.study.curves, strict=False):
-            _band(one, result, output)
-        framed(figure, request.titled(result.title, request.say("kind.tolerance")), request)
-        return figure
+    texts = [t for t in result.study.of if result.swept is not None]
+    count = max(len(texts) + len(result.study.curves), 1)
+    figure = new_figure(request.size or (7.2, 1.0 + 2.4 * count))
+    axes = list(figure.subplots(count, 1, squeeze=False)[:, 0])
+    for one, text in zip(axes, texts, strict=False):
+        _histogram(one, result, text, request)
+    for one, output in zip(axes[len(texts) :], result.study.curves, strict=False):
+        _band(one, result, output)
+    framed(figure, request.titled(result.title, request.say("kind.tolerance")), request)
+    return figure
 
 
 def _histogram(axes: Axes, result: Spread, text: str, request: Request) -> None:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from linkwright.parts.trajectories.conveyor import Transport
 from linkwright.parts.trajectories.particle import Flight
-from linkwright.plot.diagrams.base import RESULT_DIAGRAMS, Request, ResultKind
+from linkwright.plot.diagrams.base import Request, result_diagram
 from linkwright.plot.diagrams.picture import COLOURS
 from linkwright.plot.result_diagrams.part_axes import Line, Pane, panes, plane
 
@@ -14,37 +14,27 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-@RESULT_DIAGRAMS.register("flight")
-class FlightDiagram(ResultKind):
+@result_diagram("flight", Flight)
+def draw_flight(result: Flight, request: Request) -> Figure:
     """The path, to one scale."""
-
-    name = "flight"
-    takes = Flight
-
-    def draw(self, result: Flight, request: Request) -> Figure:
-        columns = result.columns()
-        figure, (axes,) = plane(request.titled(result.title, request.say("kind.flight")), request)
-        axes.plot(columns["x [m]"], columns["y [m]"], color=COLOURS[0])
-        axes.axhline(0.0, color="#555555", linewidth=0.9)
-        axes.set_xlabel("x (m)")
-        axes.set_ylabel("y (m)")
-        return figure
+    columns = result.columns()
+    figure, (axes,) = plane(request.titled(result.title, request.say("kind.flight")), request)
+    axes.plot(columns["x [m]"], columns["y [m]"], color=COLOURS[0])
+    axes.axhline(0.0, color="#555555", linewidth=0.9)
+    axes.set_xlabel("x (m)")
+    axes.set_ylabel("y (m)")
+    return figure
 
 
-@RESULT_DIAGRAMS.register("transport")
-class TransportDiagram(ResultKind):
+@result_diagram("transport", Transport)
+def draw_transport(result: Transport, request: Request) -> Figure:
     """Displacement and velocity of the load on the trough over a cycle, and its height where it is thrown."""
-
-    name = "transport"
-    takes = Transport
-
-    def draw(self, result: Transport, request: Request) -> Figure:
-        time, position, velocity, height = result.columns().values()
-        given = [
-            Pane("s", "length", (Line(time, position),)),
-            Pane("v", "velocity", (Line(time, velocity),), fill=True),
-        ]
-        if height.any():
-            given.append(Pane("n", "length", (Line(time, height),)))
-        title = request.titled(result.title, request.say("kind.transport"))
-        return panes(title, (request.say("time"), "time"), given, request)
+    time, position, velocity, height = result.columns().values()
+    given = [
+        Pane("s", "length", (Line(time, position),)),
+        Pane("v", "velocity", (Line(time, velocity),), fill=True),
+    ]
+    if height.any():
+        given.append(Pane("n", "length", (Line(time, height),)))
+    title = request.titled(result.title, request.say("kind.transport"))
+    return panes(title, (request.say("time"), "time"), given, request)

@@ -12,7 +12,7 @@ from linkwright.core.arrays import Floats
 from linkwright.errors import RequestError
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.plot.diagrams.axes import Legend, framed, label_input
-from linkwright.plot.diagrams.base import RESULT_DIAGRAMS, Request, ResultKind
+from linkwright.plot.diagrams.base import Request, result_diagram
 from linkwright.plot.diagrams.panels import DASHES, Curve, Panel, stacked
 from linkwright.plot.diagrams.picture import COLOURS, new_figure
 from linkwright.plot.diagrams.source import InputAxis
@@ -28,66 +28,48 @@ if TYPE_CHECKING:
 _STEPS = {"length": (1e-3, "1 mm"), "angle": (math.radians(1.0), "1°")}
 
 
-@RESULT_DIAGRAMS.register("sensitivity")
-class RelativeSensitivity(ResultKind):
+@result_diagram("sensitivity", Sensitivity, options=("of",), when=lambda result: bool(result.values))
+def draw_sensitivity(result: Sensitivity, request: Request) -> Figure:
     """Bars of (p/y)·dy/dp: the change of a summary in percent per percent of a dimension; a colour a summary.
 
     A summary that is zero has none, and a dimension that is zero has no percent: it stays at zero.
     """
-
-    name = "sensitivity"
-    options = ("of",)
-    takes = Sensitivity
-
-    def suits(self, result: object) -> bool:
-        return isinstance(result, Sensitivity) and bool(result.values)
-
-    def draw(self, result: Sensitivity, request: Request) -> Figure:
-        known = {summary.name: summary for summary in result.values}
-        names = chosen(request.of, known)
-        table = {name: result.relative(known[name].output, known[name].kind) for name in names}
-        if not any(np.isfinite(row).any() for row in table.values()):
-            raise RequestError(Sentence("picture.zero_summaries"))
-        figure = new_figure(request.size or (7.2, 1.3 + len(result.by) * (0.22 + 0.16 * len(names))))
-        axes, legend = figure.subplots(), Legend()
-        places, thick = np.arange(len(result.by)), 0.8 / len(names)
-        for number, (name, row) in enumerate(table.items()):
-            at = places + (number - 0.5 * (len(names) - 1)) * thick
-            bars = axes.barh(at, row, 0.92 * thick, color=COLOURS[number % len(COLOURS)])
-            legend.add(name, bars[0])
-        axes.axvline(0.0, color="#9aa0a6", linewidth=0.8)
-        axes.set_yticks(places, list(result.by))
-        axes.set_ylim(len(result.by) - 0.4, -0.6)
-        axes.margins(x=0.06)
-        axes.set_xlabel(request.say("relative_change"))
-        framed(figure, request.titled(result.mechanism.name, request.say("kind.sensitivity")), request)
-        legend.put(figure)
-        return figure
+    known = {summary.name: summary for summary in result.values}
+    names = chosen(request.of, known)
+    table = {name: result.relative(known[name].output, known[name].kind) for name in names}
+    if not any(np.isfinite(row).any() for row in table.values()):
+        raise RequestError(Sentence("picture.zero_summaries"))
+    figure = new_figure(request.size or (7.2, 1.3 + len(result.by) * (0.22 + 0.16 * len(names))))
+    axes, legend = figure.subplots(), Legend()
+    places, thick = np.arange(len(result.by)), 0.8 / len(names)
+    for number, (name, row) in enumerate(table.items()):
+        at = places + (number - 0.5 * (len(names) - 1)) * thick
+        bars = axes.barh(at, row, 0.92 * thick, color=COLOURS[number % len(COLOURS)])
+        legend.add(name, bars[0])
+    axes.axvline(0.0, color="#9aa0a6", linewidth=0.8)
+    axes.set_yticks(places, list(result.by))
+    axes.set_ylim(len(result.by) - 0.4, -0.6)
+    axes.margins(x=0.06)
+    axes.set_xlabel(request.say("relative_change"))
+    framed(figure, request.titled(result.mechanism.name, request.say("kind.sensitivity")), request)
+    legend.put(figure)
+    return figure
 
 
-@RESULT_DIAGRAMS.register("sensitivity_curves")
-class SensitivityCurves(ResultKind):
+@result_diagram("sensitivity_curves", Sensitivity, options=("of",), when=lambda result: bool(result.curves))
+def draw_sensitivity_curves(result: Sensitivity, request: Request) -> Figure:
     """Change of an output over the input when a dimension grows by a hundredth: 0.01·p·∂y/∂p; a panel an output.
 
     A dimension that is zero grows by 1 mm, 1° or its SI unit instead.
     """
-
-    name = "sensitivity_curves"
-    options = ("of",)
-    takes = Sensitivity
-
-    def suits(self, result: object) -> bool:
-        return isinstance(result, Sensitivity) and bool(result.curves)
-
-    def draw(self, result: Sensitivity, request: Request) -> Figure:
-        axis = _axis(result)
-        panels = [_panel(result, name, request) for name in chosen(request.of, result.curves)]
-        figure, axes, legend = stacked(panels, axis, request)
-        label_input(axes[-1], axis, request.say)
-        framed(figure, request.titled(result.mechanism.name, request.say("kind.sensitivity_curves")), request)
-        figure.align_ylabels(axes)
-        legend.put(figure)
-        return figure
+    axis = _axis(result)
+    panels = [_panel(result, name, request) for name in chosen(request.of, result.curves)]
+    figure, axes, legend = stacked(panels, axis, request)
+    label_input(axes[-1], axis, request.say)
+    framed(figure, request.titled(result.mechanism.name, request.say("kind.sensitivity_curves")), request)
+    figure.align_ylabels(axes)
+    legend.put(figure)
+    return figure
 
 
 def _axis(result: Sensitivity) -> InputAxis:

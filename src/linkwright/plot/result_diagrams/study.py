@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from linkwright.plot.diagrams.base import RESULT_DIAGRAMS, Request, ResultKind
+from linkwright.plot.diagrams.base import Request, result_diagram
 from linkwright.plot.result_diagrams.design_space import draw_designs
 from linkwright.plot.result_diagrams.design_table import DesignTable, chosen, measure, varied
 from linkwright.study.criteria import criterion
@@ -14,30 +14,24 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-@RESULT_DIAGRAMS.register("study")
-class StudyDiagram(ResultKind):
+@result_diagram("study", Study, options=("of",))
+def draw_study(result: Study, request: Request) -> Figure:
     """Every metric over what varies: a curve over one dimension, a map over a grid of two, points over others.
 
     Designs that cannot move are crossed, the best ones ringed. ``of``: the metrics, all by default.
     """
-
-    name = "study"
-    options = ("of",)
-    takes = Study
-
-    def draw(self, result: Study, request: Request) -> Figure:
-        over = tuple(
-            varied(result.mechanism, each.address, result.varied[each.address], each.unit)
-            for each in result.ranges
+    over = tuple(
+        varied(result.mechanism, each.address, result.varied[each.address], each.unit)
+        for each in result.ranges
+    )
+    measures = tuple(
+        measure(
+            criterion(name).label(request.language),
+            result.metrics[name],
+            result.dimensions[name],
+            result.best(name) if result.has_best(name) else None,
         )
-        measures = tuple(
-            measure(
-                criterion(name).label(request.language),
-                result.metrics[name],
-                result.dimensions[name],
-                result.best(name) if result.has_best(name) else None,
-            )
-            for name in chosen(request.of, result.metrics)
-        )
-        title = request.titled(result.mechanism.name, request.say("kind.study"))
-        return draw_designs(DesignTable(title, over, measures, result.ok), request)
+        for name in chosen(request.of, result.metrics)
+    )
+    title = request.titled(result.mechanism.name, request.say("kind.study"))
+    return draw_designs(DesignTable(title, over, measures, result.ok), request)

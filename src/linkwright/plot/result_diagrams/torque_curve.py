@@ -9,7 +9,7 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.machine.torque_curve import TorqueCurve
 from linkwright.plot.diagrams.axes import framed, label_input
-from linkwright.plot.diagrams.base import RESULT_DIAGRAMS, Request, ResultKind
+from linkwright.plot.diagrams.base import Request, result_diagram
 from linkwright.plot.diagrams.panels import Curve, Level, Panel, stacked
 from linkwright.plot.diagrams.source import InputAxis
 
@@ -21,24 +21,19 @@ STEPS = 720
 BEFORE = 1e-9
 
 
-@RESULT_DIAGRAMS.register("torque_curve")
-class TorqueCurveDiagram(ResultKind):
+@result_diagram("torque_curve", TorqueCurve)
+def draw_torque_curve(result: TorqueCurve, request: Request) -> Figure:
     """T(φ) over one period; jumps are drawn upright."""
-
-    name = "torque_curve"
-    takes = TorqueCurve
-
-    def draw(self, result: TorqueCurve, request: Request) -> Figure:
-        angle = _angles(result)
-        curve, mean = Curve("", result(angle)), result.mean
-        panel = Panel(f"{request.say('torque')} T", "torque", (curve,))
-        level = Level(request.say("mean", value=panel.unit.text(mean)), mean)
-        axis = InputAxis("", "angle", angle)
-        figure, axes, legend = stacked([Panel(panel.title, "torque", (curve,), (level,))], axis, request)
-        label_input(axes[-1], axis, request.say)
-        framed(figure, request.say("kind.torque_curve"), request)
-        legend.put(figure)
-        return figure
+    angle = _angles(result)
+    curve, mean = Curve("", result(angle)), result.mean
+    panel = Panel(f"{request.say('torque')} T", "torque", (curve,))
+    level = Level(request.say("mean", value=panel.unit.text(mean)), mean)
+    axis = InputAxis("", "angle", angle)
+    figure, axes, legend = stacked([Panel(panel.title, "torque", (curve,), (level,))], axis, request)
+    label_input(axes[-1], axis, request.say)
+    framed(figure, request.say("kind.torque_curve"), request)
+    legend.put(figure)
+    return figure
 
 
 def _angles(curve: TorqueCurve) -> Floats:

@@ -10,23 +10,19 @@ from linkwright.kinetostatics.table import force_results
 from linkwright.report.case import Case
 from linkwright.report.document import Block, Paragraph
 from linkwright.report.numbers import without_rounding
-from linkwright.report.section import SECTIONS, Section
+from linkwright.report.section import section
 from linkwright.report.sections.cycle_tables import varying
 
 
-@SECTIONS.register("appendix")
-class Appendix(Section):
+@section("appendix", 30.0)
+def blocks(case: Case) -> Iterator[Block]:
     """Every column of the result."""
-
-    name, rank = "appendix", 30.0
-
-    def blocks(self, case: Case) -> Iterator[Block]:
-        say = case.say
-        try:
-            columns = without_rounding(force_results(case.numbered_forces))
-        except LinkwrightError:
-            columns = without_rounding(motion_results(case.numbered.motion))
-        yield Paragraph(say("report.appendix_text"))
-        first = next(iter(case.mechanism.drivers), "")
-        names = [each for each in columns if each.column != first]
-        yield from varying(case, "report.appendix_table", columns, names)
+    say = case.say
+    try:
+        columns = without_rounding(force_results(case.numbered_forces))
+    except LinkwrightError:
+        columns = without_rounding(motion_results(case.numbered.motion))
+    yield Paragraph(say("report.appendix_text"))
+    first = next(iter(case.mechanism.drivers), "")
+    names = [each for each in columns if each.column != first]
+    yield from varying(case, "report.appendix_table", columns, names)

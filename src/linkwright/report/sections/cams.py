@@ -16,31 +16,27 @@ from linkwright.laws.program import MotionProgram
 from linkwright.report.calculation import numbers_and_way
 from linkwright.report.case import Case, Missing
 from linkwright.report.document import Block, Heading, Paragraph, Table, literal
-from linkwright.report.section import SECTIONS, Section
+from linkwright.report.section import section
 from linkwright.words import has
 from linkwright.words.sentence import Sentence
 
 
-@SECTIONS.register("cams")
-class Cams(Section):
+@section("cams", 8.6, optional=True)
+def blocks(case: Case) -> Iterator[Block]:
     """Every cam with its motion program, its profile, and the checks that a cam is designed by."""
-
-    name, rank, optional = "cams", 8.6, True
-
-    def blocks(self, case: Case) -> Iterator[Block]:
-        joints = [joint for joint in case.mechanism.joints.values() if isinstance(joint, CamJoint)]
-        if not joints:
-            raise Missing(Sentence("report.no_cams"))
-        for joint in joints:
-            cam = cam_of(case.mechanism, joint.name, speed=_speed(case, joint))
-            yield Heading(literal(joint.name), 2)
-            yield Paragraph(_about(case, joint))
-            if isinstance(cam.program, MotionProgram):
-                yield _program(case, cam.program, lift_unit="°" if joint.side else "mm")
-            for finding in cam.findings():
-                text = with_remedy(finding.message, finding.remedy)
-                yield Paragraph(literal(case.sentence(text)), "note")
-            yield from numbers_and_way(CamDesign(cam), case.say, case.language, 3)
+    joints = [joint for joint in case.mechanism.joints.values() if isinstance(joint, CamJoint)]
+    if not joints:
+        raise Missing(Sentence("report.no_cams"))
+    for joint in joints:
+        cam = cam_of(case.mechanism, joint.name, speed=_speed(case, joint))
+        yield Heading(literal(joint.name), 2)
+        yield Paragraph(_about(case, joint))
+        if isinstance(cam.program, MotionProgram):
+            yield _program(case, cam.program, lift_unit="°" if joint.side else "mm")
+        for finding in cam.findings():
+            text = with_remedy(finding.message, finding.remedy)
+            yield Paragraph(literal(case.sentence(text)), "note")
+        yield from numbers_and_way(CamDesign(cam), case.say, case.language, 3)
 
 
 def _about(case: Case, joint: CamJoint) -> str:

@@ -7,40 +7,36 @@ from collections.abc import Iterator, Sequence
 from linkwright.errors import LinkwrightError
 from linkwright.report.case import Case, Missing
 from linkwright.report.document import Block, Figure, Heading, Paragraph, Table, literal
-from linkwright.report.section import SECTIONS, CommonSection
+from linkwright.report.section import common_section
 from linkwright.study.evaluation import evaluation, ranking, table_rows
 from linkwright.words.sentence import Sentence
 
 
-@SECTIONS.register("comparison")
-class ComparisonSection(CommonSection):
+@common_section("comparison", 20.0, optional=True)
+def blocks(cases: Sequence[Case]) -> Iterator[Block]:
     """Design numbers side by side, best values marked; ranking with reasons; evaluation."""
+    from linkwright.study.compare import compare
 
-    name, rank, optional = "comparison", 20.0, True
-
-    def blocks(self, cases: Sequence[Case]) -> Iterator[Block]:
-        from linkwright.study.compare import compare
-
-        if len(cases) < 2:
-            raise Missing(Sentence("report.one_machine"))
-        first = cases[0]
-        say = first.say
-        found = compare([case.mechanism for case in cases], fluctuation=first.settings.fluctuation)
-        head, *rows = table_rows(found, say)
-        body = tuple(tuple(literal(cell.strip()) for cell in row) for row in rows)
-        yield Table(say("report.comparison_table"), tuple(map(literal, head)), body, "<" + ">" * len(found.labels),
-                    "comparison")  # fmt: skip
-        yield Paragraph(literal(say("compare.marked")))
-        yield Heading(say("report.ranking"), 2)
-        for line in ranking(found, say):
-            yield Paragraph(literal(line.strip()), "bullet" if line.startswith(" ") else "")
-        yield Heading(say("compare.evaluation"), 2)
-        for line in evaluation(found, first.language):
-            yield Paragraph(literal(line))
-        for kind in ("comparison", "pivot_hodograph"):
-            try:
-                picture = first.diagram(kind, found)
-            except LinkwrightError as error:
-                yield Paragraph(literal(first.told(error)), "missing")
-                continue
-            yield Figure(say(f"report.caption_{kind}"), ((picture, 0.95),), kind)
+    if len(cases) < 2:
+        raise Missing(Sentence("report.one_machine"))
+    first = cases[0]
+    say = first.say
+    found = compare([case.mechanism for case in cases], fluctuation=first.settings.fluctuation)
+    head, *rows = table_rows(found, say)
+    body = tuple(tuple(literal(cell.strip()) for cell in row) for row in rows)
+    yield Table(say("report.comparison_table"), tuple(map(literal, head)), body, "<" + ">" * len(found.labels),
+                "comparison")  # fmt: skip
+    yield Paragraph(literal(say("compare.marked")))
+    yield Heading(say("report.ranking"), 2)
+    for line in ranking(found, say):
+        yield Paragraph(literal(line.strip()), "bullet" if line.startswith(" ") else "")
+    yield Heading(say("compare.evaluation"), 2)
+    for line in evaluation(found, first.language):
+        yield Paragraph(literal(line))
+    for kind in ("comparison", "pivot_hodograph"):
+        try:
+            picture = first.diagram(kind, found)
+        except LinkwrightError as error:
+            yield Paragraph(literal(first.told(error)), "missing")
+            continue
+        yield Figure(say(f"report.caption_{kind}"), ((picture, 0.95),), kind)

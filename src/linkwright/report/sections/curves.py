@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from linkwright.errors import LinkwrightError
 from linkwright.report.case import Case, Missing
 from linkwright.report.document import Block, Figure, Paragraph, literal
-from linkwright.report.section import SECTIONS, Section
+from linkwright.report.section import section
 from linkwright.words.sentence import Sentence
 
 KINDS = ("sva", "angles", "paths")
@@ -15,17 +15,13 @@ KINDS = ("sva", "angles", "paths")
 SHARE, TALLEST = 0.78, 104.0
 
 
-@SECTIONS.register("curves")
-class Curves(Section):
+@section("curves", 7.0)
+def blocks(case: Case) -> Iterator[Block]:
     """Diagrams of the motion."""
-
-    name, rank = "curves", 7.0
-
-    def blocks(self, case: Case) -> Iterator[Block]:
-        if not case.mechanism.drivers:
-            raise Missing(Sentence("report.no_motion"))
-        yield Paragraph(case.say("report.curves_text"))
-        yield from pictures(case, KINDS)
+    if not case.mechanism.drivers:
+        raise Missing(Sentence("report.no_motion"))
+    yield Paragraph(case.say("report.curves_text"))
+    yield from pictures(case, KINDS)
 
 
 def pictures(case: Case, kinds: tuple[str, ...], share: float = SHARE) -> Iterator[Block]:

@@ -14,38 +14,34 @@ from linkwright.kinetostatics.table import force_results
 from linkwright.report.case import Case
 from linkwright.report.document import Block, Paragraph, Table, literal
 from linkwright.report.numbers import column, faded, residual, typeset, without_rounding
-from linkwright.report.section import SECTIONS, Section
+from linkwright.report.section import section
 
 
-@SECTIONS.register("tables")
-class CycleTables(Section):
+@section("tables", 6.0)
+def blocks(case: Case) -> Iterator[Block]:
     """Angles and rates of links, guides, points; joint forces and driver effort: at the numbered positions."""
-
-    name, rank = "tables", 6.0
-
-    def blocks(self, case: Case) -> Iterator[Block]:
-        say, numbered = case.say, case.numbered
-        count = str(len(numbered.rows))
-        if numbered.start is not None:
-            place = f"{case.input_text(numbered.start.input)}{case.input_unit}"
-            yield Paragraph(say("report.numbered_limit", count=count, input=place))
-        elif case.mechanism.drivers:
-            yield Paragraph(say("report.numbered_start", count=count))
-        yield Paragraph(literal(case.links_text))
-        columns = without_rounding(motion_results(numbered.motion))
-        for title, wanted in _motion_tables(case, columns):
-            yield table(case, say(title), columns, wanted)
-        try:
-            columns = without_rounding(force_results(case.numbered_forces))
-        except LinkwrightError as error:
-            yield Paragraph(literal(case.told(error)), "missing")
-            return
-        sizes = [each for each in _of(columns, "reaction", "couple") if not each.component]
-        efforts = _of(columns, "effort")
-        yield from varying(case, "report.reactions_table", columns, sizes)
-        if efforts:
-            shaking = _of(columns, "shaking_force", "shaking_moment")
-            yield from varying(case, "report.effort_table", columns, [*efforts, *shaking])
+    say, numbered = case.say, case.numbered
+    count = str(len(numbered.rows))
+    if numbered.start is not None:
+        place = f"{case.input_text(numbered.start.input)}{case.input_unit}"
+        yield Paragraph(say("report.numbered_limit", count=count, input=place))
+    elif case.mechanism.drivers:
+        yield Paragraph(say("report.numbered_start", count=count))
+    yield Paragraph(literal(case.links_text))
+    columns = without_rounding(motion_results(numbered.motion))
+    for title, wanted in _motion_tables(case, columns):
+        yield table(case, say(title), columns, wanted)
+    try:
+        columns = without_rounding(force_results(case.numbered_forces))
+    except LinkwrightError as error:
+        yield Paragraph(literal(case.told(error)), "missing")
+        return
+    sizes = [each for each in _of(columns, "reaction", "couple") if not each.component]
+    efforts = _of(columns, "effort")
+    yield from varying(case, "report.reactions_table", columns, sizes)
+    if efforts:
+        shaking = _of(columns, "shaking_force", "shaking_moment")
+        yield from varying(case, "report.effort_table", columns, [*efforts, *shaking])
 
 
 def _motion_tables(case: Case, columns: Mapping[Output, Floats]) -> Iterator[tuple[str, list[Output]]]:

@@ -6,21 +6,17 @@ from collections.abc import Iterator
 
 from linkwright.report.case import Case, Missing
 from linkwright.report.document import Block, Paragraph, Table, literal
-from linkwright.report.section import SECTIONS, Section
+from linkwright.report.section import section
 from linkwright.words.sentence import Sentence
 
 
-@SECTIONS.register("errata")
-class Errata(Section):
+@section("errata", 13.0, optional=True)
+def blocks(case: Case) -> Iterator[Block]:
     """What is printed in the source, what is right, and why."""
-
-    name, rank, optional = "errata", 13.0, True
-
-    def blocks(self, case: Case) -> Iterator[Block]:
-        say, found = case.say, case.settings.errata
-        if not found:
-            raise Missing(Sentence("report.no_errata"))
-        yield Paragraph(say("report.errata_text", source=literal(case.origin or "–")))
-        head = tuple(say(f"report.{key}") for key in ("where", "printed", "right", "why"))
-        rows = tuple(tuple(map(literal, (e.where, e.printed, e.right, e.why))) for e in found)
-        yield Table(say("report.errata_table"), head, rows, "<<<<", "errata")
+    say, found = case.say, case.settings.errata
+    if not found:
+        raise Missing(Sentence("report.no_errata"))
+    yield Paragraph(say("report.errata_text", source=literal(case.origin or "–")))
+    head = tuple(say(f"report.{key}") for key in ("where", "printed", "right", "why"))
+    rows = tuple(tuple(map(literal, (e.where, e.printed, e.right, e.why))) for e in found)
+    yield Table(say("report.errata_table"), head, rows, "<<<<", "errata")

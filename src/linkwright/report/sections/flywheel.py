@@ -8,41 +8,35 @@ from linkwright.machine.running import DIMENSIONS
 from linkwright.metrics.quantities import number, shown_unit
 from linkwright.report.case import Case
 from linkwright.report.document import Block, Formula, Paragraph, Table, literal
-from linkwright.report.section import SECTIONS, Section
+from linkwright.report.section import section
 from linkwright.report.sections.curves import pictures
 
 
-@SECTIONS.register("flywheel")
-class Flywheel(Section):
+@section("flywheel", 11.0)
+def blocks(case: Case) -> Iterator[Block]:
     """Mean torque, motor, energy fluctuation, flywheel by the formula and exactly."""
-
-    name, rank = "flywheel", 11.0
-
-    def blocks(self, case: Case) -> Iterator[Block]:
-        say, running = case.say, case.running
-        yield Paragraph(say("report.flywheel_text", fluctuation=f"{running.required:g}"))
-        speed, energy, mean = running.equivalent.speed, running.energy.value, running.equivalent.mean_inertia
-        numbers = (
-            rf"\frac{{{_plain(energy)}}}{{{running.required:g}\cdot {_plain(speed)}^2}} - {_plain(mean)}"
+    say, running = case.say, case.running
+    yield Paragraph(say("report.flywheel_text", fluctuation=f"{running.required:g}"))
+    speed, energy, mean = running.equivalent.speed, running.energy.value, running.equivalent.mean_inertia
+    numbers = rf"\frac{{{_plain(energy)}}}{{{running.required:g}\cdot {_plain(speed)}^2}} - {_plain(mean)}"
+    symbols = r"\frac{\Delta E}{\delta\,\omega_{\mathrm{m}}^2} - J_{\mathrm{e,m}}"
+    result = rf"{_plain(running.flywheel)}\,\mathrm{{kg·m²}}"
+    sides = ("J_F", symbols, numbers, result) if running.flywheel else ("J_F", symbols)
+    yield Formula(sides, "flywheel-formula")
+    if not running.flywheel:
+        yield Paragraph(say("report.flywheel_none", most=f"{running.required:g}"))
+    rows = tuple(
+        (
+            literal(say(f"metrics.running.{key}")),
+            number(value, DIMENSIONS[key]),
+            shown_unit(DIMENSIONS[key]),
         )
-        symbols = r"\frac{\Delta E}{\delta\,\omega_{\mathrm{m}}^2} - J_{\mathrm{e,m}}"
-        result = rf"{_plain(running.flywheel)}\,\mathrm{{kg·m²}}"
-        sides = ("J_F", symbols, numbers, result) if running.flywheel else ("J_F", symbols)
-        yield Formula(sides, "flywheel-formula")
-        if not running.flywheel:
-            yield Paragraph(say("report.flywheel_none", most=f"{running.required:g}"))
-        rows = tuple(
-            (
-                literal(say(f"metrics.running.{key}")),
-                number(value, DIMENSIONS[key]),
-                shown_unit(DIMENSIONS[key]),
-            )
-            for key, value in running.data().items()
-        )
-        head = (say("report.number"), say("report.value"), say("report.unit"))
-        yield Table(say("report.flywheel_table"), head, rows, "<><", "flywheel")
-        yield from _speed(case)
-        yield from pictures(case, ("energy",))
+        for key, value in running.data().items()
+    )
+    head = (say("report.number"), say("report.value"), say("report.unit"))
+    yield Table(say("report.flywheel_table"), head, rows, "<><", "flywheel")
+    yield from _speed(case)
+    yield from pictures(case, ("energy",))
 
 
 def _speed(case: Case) -> Iterator[Block]:

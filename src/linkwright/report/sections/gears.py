@@ -11,30 +11,26 @@ from linkwright.gears.pair import GearPair, gear_pair
 from linkwright.joints.marks import WheelSizes
 from linkwright.report.case import Case, Missing
 from linkwright.report.document import Block, Figure, Formula, Heading, Paragraph, Table, literal
-from linkwright.report.section import SECTIONS, Section
+from linkwright.report.section import section
 from linkwright.structure.trains import GearTrain, written
 from linkwright.words.sentence import Sentence
 from linkwright.worked.symbols import tex
 
 
-@SECTIONS.register("gears")
-class Gears(Section):
+@section("gears", 8.5, optional=True)
+def blocks(case: Case) -> Iterator[Block]:
     """Pairs of wheels and racks with their sizes, ratios of trains, teeth where module and numbers are given."""
-
-    name, rank, optional = "gears", 8.5, True
-
-    def blocks(self, case: Case) -> Iterator[Block]:
-        mechanism = case.mechanism
-        found = {joint.name: joint.wheel_sizes(mechanism) for joint in mechanism.joints.values()}
-        pairs = {name: sizes for name, sizes in found.items() if sizes is not None}
-        if not pairs:
-            raise Missing(Sentence("report.no_gears"))
-        yield Paragraph(case.say("report.gears_text"))
-        yield _sizes(case, pairs)
-        for train in case.structure.trains:
-            yield from _train(case, train)
-        for names in _alike(pairs):
-            yield from _teeth(case, names, pairs[names[0]])
+    mechanism = case.mechanism
+    found = {joint.name: joint.wheel_sizes(mechanism) for joint in mechanism.joints.values()}
+    pairs = {name: sizes for name, sizes in found.items() if sizes is not None}
+    if not pairs:
+        raise Missing(Sentence("report.no_gears"))
+    yield Paragraph(case.say("report.gears_text"))
+    yield _sizes(case, pairs)
+    for train in case.structure.trains:
+        yield from _train(case, train)
+    for names in _alike(pairs):
+        yield from _teeth(case, names, pairs[names[0]])
 
 
 def _sizes(case: Case, pairs: Mapping[str, WheelSizes]) -> Table:

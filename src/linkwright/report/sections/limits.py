@@ -9,7 +9,7 @@ from linkwright.metrics.quantities import number, shown, shown_unit
 from linkwright.report.case import Case, Missing
 from linkwright.report.document import Block, Formula, Paragraph, Table, literal
 from linkwright.report.numbers import faded
-from linkwright.report.section import SECTIONS, Section
+from linkwright.report.section import section
 from linkwright.words.sentence import Sentence, in_words
 
 #: Numbers that other sections print.
@@ -18,28 +18,24 @@ ELSEWHERE = ("peak_reaction", "rms_reaction", "flywheel")
 REPEATED = 6
 
 
-@SECTIONS.register("limits")
-class Limits(Section):
+@section("limits", 10.0)
+def blocks(case: Case) -> Iterator[Block]:
     """Design numbers of the motion and the forces, with the limits that are recommended."""
-
-    name, rank = "limits", 10.0
-
-    def blocks(self, case: Case) -> Iterator[Block]:
-        say = case.say
-        rows = [row for row in case.metrics if row.metric not in ELSEWHERE]
-        if not rows:
-            raise Missing(Sentence("report.no_numbers"))
-        yield Paragraph(say("report.limits_text"))
-        yield from _quick_return(case, rows)
-        for metric in dict.fromkeys(row.metric for row in rows):
-            case.used[metric] = None
-        head = tuple(
-            say(f"report.{key}") for key in ("number", "subject", "value", "unit", "at_input", "recommended")
-        )
-        body = tuple(_rows(case, rows))
-        yield Table(say("report.numbers_table"), head, body, "<<><>>", "numbers")
-        for sentence in case.metrics.warnings_in(case.language):
-            yield Paragraph(literal(sentence), "note")
+    say = case.say
+    rows = [row for row in case.metrics if row.metric not in ELSEWHERE]
+    if not rows:
+        raise Missing(Sentence("report.no_numbers"))
+    yield Paragraph(say("report.limits_text"))
+    yield from _quick_return(case, rows)
+    for metric in dict.fromkeys(row.metric for row in rows):
+        case.used[metric] = None
+    head = tuple(
+        say(f"report.{key}") for key in ("number", "subject", "value", "unit", "at_input", "recommended")
+    )
+    body = tuple(_rows(case, rows))
+    yield Table(say("report.numbers_table"), head, body, "<<><>>", "numbers")
+    for sentence in case.metrics.warnings_in(case.language):
+        yield Paragraph(literal(sentence), "note")
 
 
 def _rows(case: Case, rows: list[MetricValue]) -> Iterator[tuple[str, ...]]:

@@ -10,7 +10,7 @@ from linkwright.report.case import Case
 from linkwright.report.document import Block, Formula, Heading, Paragraph, literal, strong, symbols
 from linkwright.report.formula import formula, width
 from linkwright.report.loops import loops
-from linkwright.report.section import SECTIONS, Section
+from linkwright.report.section import section
 from linkwright.structure.group import Group
 from linkwright.worked.page import Equation, Note, Relation, Step
 
@@ -18,35 +18,31 @@ from linkwright.worked.page import Equation, Note, Relation, Step
 LINE = 36.0
 
 
-@SECTIONS.register("method")
-class Method(Section):
+@section("method", 4.0)
+def blocks(case: Case) -> Iterator[Block]:
     """Closure of every group as vectors, then the formulas of positions, rates and forces, without numbers."""
-
-    name, rank = "method", 4.0
-
-    def blocks(self, case: Case) -> Iterator[Block]:
-        say, steps = case.say, list[Step]()
-        case.require_position()
-        try:
-            solution = case.worked
-        except LinkwrightError as error:
-            yield Paragraph(say("report.only_loops", sentence=literal(case.told(error))), "missing")
-        else:
-            steps = list(solution.steps)
-            for line in solution.legend[:2]:
-                yield Paragraph(symbols(line))
-        for number, group in enumerate(case.structure.groups, 1):
-            links = literal(", ".join(group.links))
-            title = say("report.method_group", number=number, signature=group.signature, links=links)
-            own = (formulas(step) for step in steps if step.group == group.name)
-            found = [*_loops(case, group), *chain.from_iterable(own)]
-            if found:
-                yield Heading(title, 2)
-                yield from found
-        others = [step for step in steps if not step.group and step.number != "1"]
-        for step in others:
-            if step.equations:
-                yield from formulas(step)
+    say, steps = case.say, list[Step]()
+    case.require_position()
+    try:
+        solution = case.worked
+    except LinkwrightError as error:
+        yield Paragraph(say("report.only_loops", sentence=literal(case.told(error))), "missing")
+    else:
+        steps = list(solution.steps)
+        for line in solution.legend[:2]:
+            yield Paragraph(symbols(line))
+    for number, group in enumerate(case.structure.groups, 1):
+        links = literal(", ".join(group.links))
+        title = say("report.method_group", number=number, signature=group.signature, links=links)
+        own = (formulas(step) for step in steps if step.group == group.name)
+        found = [*_loops(case, group), *chain.from_iterable(own)]
+        if found:
+            yield Heading(title, 2)
+            yield from found
+    others = [step for step in steps if not step.group and step.number != "1"]
+    for step in others:
+        if step.equations:
+            yield from formulas(step)
 
 
 def _loops(case: Case, group: Group) -> Iterator[Block]:

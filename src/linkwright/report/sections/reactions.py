@@ -13,7 +13,7 @@ from linkwright.plot.force_names import reaction_pairs
 from linkwright.report.case import Case
 from linkwright.report.document import Block, Figure, Paragraph, Table, literal
 from linkwright.report.numbers import ROUNDING, faded
-from linkwright.report.section import SECTIONS, Section
+from linkwright.report.section import section
 from linkwright.report.sections.curves import SHARE
 from linkwright.report.sections.curves import TALLEST as SHORT
 from linkwright.words.sentence import in_words
@@ -23,30 +23,26 @@ from linkwright.words.sentence import in_words
 MOST, IN_ROWS, TALLEST = 12, 6, 225.0
 
 
-@SECTIONS.register("reactions")
-class Reactions(Section):
+@section("reactions", 8.0)
+def blocks(case: Case) -> Iterator[Block]:
     """Sizes of all joint forces, the largest of each, and their hodographs."""
-
-    name, rank = "reactions", 8.0
-
-    def blocks(self, case: Case) -> Iterator[Block]:
-        say, _ = case.say, case.forces
-        yield Paragraph(say("report.reactions_text"))
-        peaks = [row for row in case.metrics if row.metric == "peak_reaction"]
-        rows = tuple(
-            (literal(in_words(row.subject, case.language)), shown(row.value, row.dimension),
-             "" if row.at is None else shown(faded(row.at), row.at_dimension)) for row in peaks
-        )  # fmt: skip
-        if rows:
-            head = tuple(say(f"report.{key}") for key in ("joint", "largest_force", "at_input"))
-            yield Table(say("report.peaks"), head, rows, "<>>", "peaks")
-        if not case.mechanism.drivers:
-            return
-        parts = _parts(case, MOST)
-        yield from _figures(case, "reactions", parts, [SHARE] * len(parts), SHORT)
-        parts = parts if len(parts) == 1 else _parts(case, IN_ROWS)
-        panels = [sum(joint in part for joint, _ in loaded_joints(case)) for part in parts]
-        yield from _figures(case, "hodographs", parts, [min(1.0, 0.34 * min(3, n)) for n in panels], TALLEST)
+    say, _ = case.say, case.forces
+    yield Paragraph(say("report.reactions_text"))
+    peaks = [row for row in case.metrics if row.metric == "peak_reaction"]
+    rows = tuple(
+        (literal(in_words(row.subject, case.language)), shown(row.value, row.dimension),
+         "" if row.at is None else shown(faded(row.at), row.at_dimension)) for row in peaks
+    )  # fmt: skip
+    if rows:
+        head = tuple(say(f"report.{key}") for key in ("joint", "largest_force", "at_input"))
+        yield Table(say("report.peaks"), head, rows, "<>>", "peaks")
+    if not case.mechanism.drivers:
+        return
+    parts = _parts(case, MOST)
+    yield from _figures(case, "reactions", parts, [SHARE] * len(parts), SHORT)
+    parts = parts if len(parts) == 1 else _parts(case, IN_ROWS)
+    panels = [sum(joint in part for joint, _ in loaded_joints(case)) for part in parts]
+    yield from _figures(case, "hodographs", parts, [min(1.0, 0.34 * min(3, n)) for n in panels], TALLEST)
 
 
 def _parts(case: Case, most: int) -> list[list[str]]:

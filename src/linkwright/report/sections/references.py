@@ -11,29 +11,25 @@ from linkwright.groups.base import DYADS
 from linkwright.metrics.base import METRICS
 from linkwright.report.case import Case, Missing
 from linkwright.report.document import Block, Paragraph, Table, literal
-from linkwright.report.section import SECTIONS, CommonSection
+from linkwright.report.section import common_section
 from linkwright.structure.group import Group
 from linkwright.words.sentence import Sentence
 
 
-@SECTIONS.register("references")
-class References(CommonSection):
+@common_section("references", 31.0)
+def blocks(cases: Sequence[Case]) -> Iterator[Block]:
     """Sources of the machine, of the groups' formulas and of the design numbers, each once."""
-
-    name, rank = "references", 31.0
-
-    def blocks(self, cases: Sequence[Case]) -> Iterator[Block]:
-        found: dict[str, None] = {}
-        for case in cases:
-            if case.origin:
-                found[case.origin] = None
-            for group in _groups(case):
-                found.update(dict.fromkeys(_of_group(group.signature)))
-        if not found:
-            raise Missing(Sentence("report.no_references"))
-        for number, source in enumerate(found, 1):
-            yield Paragraph(literal(f"[{number}] {source}"))
-        yield from _definitions(cases)
+    found: dict[str, None] = {}
+    for case in cases:
+        if case.origin:
+            found[case.origin] = None
+        for group in _groups(case):
+            found.update(dict.fromkeys(_of_group(group.signature)))
+    if not found:
+        raise Missing(Sentence("report.no_references"))
+    for number, source in enumerate(found, 1):
+        yield Paragraph(literal(f"[{number}] {source}"))
+    yield from _definitions(cases)
 
 
 def _groups(case: Case) -> Sequence[Group]:

@@ -10,41 +10,35 @@ from linkwright.kinematics.rank import rank_sentence
 from linkwright.report.case import Case
 from linkwright.report.document import Block, Figure, Formula, Paragraph, Table, literal, symbols
 from linkwright.report.group_pictures import group_picture, to_one_scale
-from linkwright.report.section import SECTIONS, Section
+from linkwright.report.section import section
 from linkwright.structure.mobility import lower_pairs
 from linkwright.structure.text import numeral
 
 
-@SECTIONS.register("structure")
-class StructureAnalysis(Section):
+@section("structure", 3.0)
+def blocks(case: Case) -> Iterator[Block]:
     """Mobility, Assur groups in solving order, class of the mechanism."""
-
-    name, rank = "structure", 3.0
-
-    def blocks(self, case: Case) -> Iterator[Block]:
-        say, built = case.say, case.structure
-        first, *rest = [
-            line for line in built.text(case.language).split("\n\n")[0].splitlines() if line.strip()
-        ]
-        yield Paragraph(symbols(first) + say("report.stop"))
-        yield _mobility(case)
-        for line in rest[1:]:
-            yield Paragraph(literal(line))
-        sentence = rank_sentence(case.mechanism, case.language)
-        if sentence:
-            yield Paragraph(say("structure.rank", sentence=literal(sentence)))
-        yield _groups(case)
-        if len(built.groups) > 1:
-            yield _pictures(case)
-        chain = " + ".join(group.signature for group in built.groups)
-        yield Paragraph(
-            say(
-                "report.chain",
-                chain=literal(chain),
-                level=numeral(built.mechanism_class, say),
-                table="[[groups]]",
-            )
+    say, built = case.say, case.structure
+    first, *rest = [line for line in built.text(case.language).split("\n\n")[0].splitlines() if line.strip()]
+    yield Paragraph(symbols(first) + say("report.stop"))
+    yield _mobility(case)
+    for line in rest[1:]:
+        yield Paragraph(literal(line))
+    sentence = rank_sentence(case.mechanism, case.language)
+    if sentence:
+        yield Paragraph(say("structure.rank", sentence=literal(sentence)))
+    yield _groups(case)
+    if len(built.groups) > 1:
+        yield _pictures(case)
+    chain = " + ".join(group.signature for group in built.groups)
+    yield Paragraph(
+        say(
+            "report.chain",
+            chain=literal(chain),
+            level=numeral(built.mechanism_class, say),
+            table="[[groups]]",
         )
+    )
 
 
 def _pictures(case: Case) -> Block:

@@ -6,22 +6,18 @@ from collections.abc import Iterator
 
 from linkwright.report.case import Case, Missing
 from linkwright.report.document import Block, Paragraph, literal
-from linkwright.report.section import SECTIONS, Section
+from linkwright.report.section import section
 from linkwright.words.sentence import Sentence
 
 
-@SECTIONS.register("synthesis")
-class Synthesis(Section):
+@section("synthesis", 12.0, optional=True)
+def blocks(case: Case) -> Iterator[Block]:
     """The task and what was found for it."""
+    from linkwright.synthesis.tasks import synthesize
 
-    name, rank, optional = "synthesis", 12.0, True
-
-    def blocks(self, case: Case) -> Iterator[Block]:
-        from linkwright.synthesis.tasks import synthesize
-
-        if not case.mechanism.synthesis or not case.source:
-            raise Missing(Sentence("report.no_synthesis"))
-        found = synthesize(case.source)
-        for line in found.text(case.language).splitlines():
-            if line.strip():
-                yield Paragraph(literal(line.strip()))
+    if not case.mechanism.synthesis or not case.source:
+        raise Missing(Sentence("report.no_synthesis"))
+    found = synthesize(case.source)
+    for line in found.text(case.language).splitlines():
+        if line.strip():
+            yield Paragraph(literal(line.strip()))

@@ -12,7 +12,7 @@ import numpy as np
 from linkwright.files.write import to_data
 from linkwright.report.case import Case
 from linkwright.report.document import Block, Paragraph, Table, literal
-from linkwright.report.section import SECTIONS, Section
+from linkwright.report.section import section
 from linkwright.words import Say, has
 
 #: Entries of a list that is printed whole.
@@ -22,40 +22,34 @@ LAWS = ("speed", "table", "program", "position")
 _QUANTITY = re.compile(r"([+-]?\d+(?:\.\d+)?(?:e[+-]?\d+)?)((?: \S+)?)")
 
 
-@SECTIONS.register("task")
-class Task(Section):
+@section("task", 1.0)
+def blocks(case: Case) -> Iterator[Block]:
     """What the machine is for, and everything that is given about it."""
-
-    name, rank = "task", 1.0
-
-    def blocks(self, case: Case) -> Iterator[Block]:
-        say, mechanism = case.say, case.mechanism
-        if case.purpose:
-            yield Paragraph(literal(case.purpose))
-        if case.origin:
-            yield Paragraph(say("report.source", source=literal(case.origin)))
-        data = to_data(mechanism)
-        yield _points(case)
-        yield _links(case)
-        if mechanism.parameters:
-            rows = tuple(
-                (literal(name), literal(written(value))) for name, value in data["parameters"].items()
-            )
-            yield Table(say("report.parameters"), (say("report.name"), say("report.value")), rows, "<>")
-        drivers = {"driver": data["driver"]} if "driver" in data else data.get("drivers", {})
-        for title, part in (
-            ("joints", data.get("joints", {})),
-            ("drivers", drivers),
-            ("loads", data.get("loads", {})),
-        ):
-            if part:
-                head = tuple(say(f"report.{key}") for key in ("name", "kind", "as_given"))
-                body = tuple((literal(name), literal(kind_of(value, say)), literal(given(value)))
-                             for name, value in part.items())  # fmt: skip
-                yield Table(say(f"report.{title}"), head, body, "<<<")
-        if any(mechanism.gravity):
-            x, y = (f"{value:g}" for value in mechanism.gravity)
-            yield Paragraph(say("report.gravity", x=x, y=y))
+    say, mechanism = case.say, case.mechanism
+    if case.purpose:
+        yield Paragraph(literal(case.purpose))
+    if case.origin:
+        yield Paragraph(say("report.source", source=literal(case.origin)))
+    data = to_data(mechanism)
+    yield _points(case)
+    yield _links(case)
+    if mechanism.parameters:
+        rows = tuple((literal(name), literal(written(value))) for name, value in data["parameters"].items())
+        yield Table(say("report.parameters"), (say("report.name"), say("report.value")), rows, "<>")
+    drivers = {"driver": data["driver"]} if "driver" in data else data.get("drivers", {})
+    for title, part in (
+        ("joints", data.get("joints", {})),
+        ("drivers", drivers),
+        ("loads", data.get("loads", {})),
+    ):
+        if part:
+            head = tuple(say(f"report.{key}") for key in ("name", "kind", "as_given"))
+            body = tuple((literal(name), literal(kind_of(value, say)), literal(given(value)))
+                         for name, value in part.items())  # fmt: skip
+            yield Table(say(f"report.{title}"), head, body, "<<<")
+    if any(mechanism.gravity):
+        x, y = (f"{value:g}" for value in mechanism.gravity)
+        yield Paragraph(say("report.gravity", x=x, y=y))
 
 
 def _points(case: Case) -> Table:

@@ -9,51 +9,45 @@ import numpy as np
 from linkwright.report.case import Case, Missing
 from linkwright.report.document import Block, Formula, Paragraph, Table
 from linkwright.report.numbers import column, small, typeset
-from linkwright.report.section import SECTIONS, Section
+from linkwright.report.section import section
 from linkwright.report.sections.curves import pictures
 from linkwright.words.sentence import Sentence
 
 
-@SECTIONS.register("torque")
-class Torque(Section):
+@section("torque", 9.0)
+def blocks(case: Case) -> Iterator[Block]:
     """Effort from the joint forces beside effort from the powers of all forces."""
-
-    name, rank = "torque", 9.0
-
-    def blocks(self, case: Case) -> Iterator[Block]:
-        if not case.mechanism.drivers:
-            raise Missing(Sentence("report.no_motion"))
-        say, forces, numbered = case.say, case.forces, case.numbered
-        unit = "N·m" if case.rotary else "N"
-        letter = "M" if case.rotary else "F"
-        yield Paragraph(say("report.torque_text"))
-        if len(case.mechanism.drivers) == 1:
-            yield Formula(
-                (rf"{letter}_{{\mathrm{{d}}}}\,\dot{{q}} + \sum \left(\vec{{K}}\cdot \vec{{v}}_G + M_J\,\omega\right)"
-                 r" + \sum \vec{F}\cdot \vec{v}", "0"), "virtual-power",
-            )  # fmt: skip
-            at = case.numbered_forces
-            rows = list(numbered.rows)
-            joint, power = at.input_torque[rows], at.input_torque_from_power[rows]
-            inputs = case.inputs_of(numbered)
-            printed = (column(joint), column(power))
-            gaps = [small(float(gap), 2) for gap in joint - power]
-            body = tuple(
-                (str(k + 1), inputs[k], printed[0][k], printed[1][k], gaps[k]) for k in range(len(rows))
-            )
-            head = (
-                say("report.position_number"), f"$q$ / {case.input_unit}", f"{say('report.from_joints')} / {unit}",
-                f"{say('report.from_power')} / {unit}", f"{say('report.difference')} / {unit}",
-            )  # fmt: skip
-            yield Table(say("report.torque_table"), head, body, ">>>>>", "torque-both", 2)
-            known = forces.input_torque - forces.input_torque_from_power
-            largest = float(np.nanmax(np.abs(known)))
-            top = float(np.nanmax(np.abs(forces.input_torque)))
-            yield Paragraph(
-                say("report.torque_gap", gap=f"{_number(largest, 2)} {unit}", top=f"{_number(top, 6)} {unit}",
-                    table="[[torque-both]]")
-            )  # fmt: skip
-        yield from pictures(case, ("torque",))
+    if not case.mechanism.drivers:
+        raise Missing(Sentence("report.no_motion"))
+    say, forces, numbered = case.say, case.forces, case.numbered
+    unit = "N·m" if case.rotary else "N"
+    letter = "M" if case.rotary else "F"
+    yield Paragraph(say("report.torque_text"))
+    if len(case.mechanism.drivers) == 1:
+        yield Formula(
+            (rf"{letter}_{{\mathrm{{d}}}}\,\dot{{q}} + \sum \left(\vec{{K}}\cdot \vec{{v}}_G + M_J\,\omega\right)"
+             r" + \sum \vec{F}\cdot \vec{v}", "0"), "virtual-power",
+        )  # fmt: skip
+        at = case.numbered_forces
+        rows = list(numbered.rows)
+        joint, power = at.input_torque[rows], at.input_torque_from_power[rows]
+        inputs = case.inputs_of(numbered)
+        printed = (column(joint), column(power))
+        gaps = [small(float(gap), 2) for gap in joint - power]
+        body = tuple((str(k + 1), inputs[k], printed[0][k], printed[1][k], gaps[k]) for k in range(len(rows)))
+        head = (
+            say("report.position_number"), f"$q$ / {case.input_unit}", f"{say('report.from_joints')} / {unit}",
+            f"{say('report.from_power')} / {unit}", f"{say('report.difference')} / {unit}",
+        )  # fmt: skip
+        yield Table(say("report.torque_table"), head, body, ">>>>>", "torque-both", 2)
+        known = forces.input_torque - forces.input_torque_from_power
+        largest = float(np.nanmax(np.abs(known)))
+        top = float(np.nanmax(np.abs(forces.input_torque)))
+        yield Paragraph(
+            say("report.torque_gap", gap=f"{_number(largest, 2)} {unit}", top=f"{_number(top, 6)} {unit}",
+                table="[[torque-both]]")
+        )  # fmt: skip
+    yield from pictures(case, ("torque",))
 
 
 def _number(value: float, digits: int) -> str:

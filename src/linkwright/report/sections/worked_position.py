@@ -10,7 +10,7 @@ from linkwright.plot.diagrams.force_polygon import link_forces
 from linkwright.plot.svg.render import natural_size
 from linkwright.report.case import Case
 from linkwright.report.document import Block, Figure, Formula, Heading, Paragraph, literal, symbols
-from linkwright.report.section import SECTIONS, Section
+from linkwright.report.section import section
 from linkwright.report.sections.method import side_by_side
 from linkwright.worked.page import Equation, Note, Relation, Step
 from linkwright.worked.solution import Worked
@@ -21,23 +21,19 @@ POINT, TEXT, TALLEST = 25.4 / 72.0, 170.0, 225.0
 ON_PAGE, SMALL = 5, 0.6
 
 
-@SECTIONS.register("worked")
-class WorkedPosition(Section):
+@section("worked", 5.0)
+def blocks(case: Case) -> Iterator[Block]:
     """Every equation of the position with the numbers put in; polygons of velocities, accelerations and forces."""
-
-    name, rank = "worked", 5.0
-
-    def blocks(self, case: Case) -> Iterator[Block]:
-        say = case.say
-        case.require_position()
-        if case.worked_text:
-            yield Paragraph(say("report.worked_at", input=literal(case.worked_text)))
-        try:
-            yield from _solution(case.worked)
-        except LinkwrightError as error:
-            yield Paragraph(say("report.only_polygons", sentence=literal(case.told(error))), "missing")
-        yield Heading(say("report.polygons"), 2)
-        yield from _polygons(case)
+    say = case.say
+    case.require_position()
+    if case.worked_text:
+        yield Paragraph(say("report.worked_at", input=literal(case.worked_text)))
+    try:
+        yield from _solution(case.worked)
+    except LinkwrightError as error:
+        yield Paragraph(say("report.only_polygons", sentence=literal(case.told(error))), "missing")
+    yield Heading(say("report.polygons"), 2)
+    yield from _polygons(case)
 
 
 def _solution(solution: Worked) -> Iterator[Block]:
