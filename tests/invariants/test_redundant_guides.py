@@ -1,8 +1,12 @@
 """A loop of guides prevents a rotation twice: the forces still balance, and what statics cannot tell is said."""
 
+import re
+
 import numpy as np
+import pytest
 
 import linkwright as lw
+from linkwright.files.model_file import read_text
 
 
 def test_the_indeterminate_couple_is_named() -> None:
@@ -15,3 +19,41 @@ def test_the_indeterminate_couple_is_named() -> None:
 
 def test_a_determinate_mechanism_has_no_such_note() -> None:
     assert lw.solve_forces(lw.load("gallery:scotch_yoke")).notes == ()
+
+
+WEDGE = """
+format: 1
+frame: {points: {O: [0 mm, 0 mm], C: [200 mm, 40 mm]}}
+links:
+  lower: {points: {A: [0 mm, 0 mm], W: [200 mm, 40 mm]}}
+  upper: {points: [B]}
+joints:
+  column: {kind: prismatic, guide: frame, through: C, direction: 90 deg, block: upper, at: B, COLUMN}
+  floor: {kind: prismatic, guide: frame, through: O, direction: 20 deg, block: lower, at: A, block_angle: 30 deg}
+  incline: {kind: prismatic, guide: lower, through: W, direction: 165 deg, block: upper, at: B, block_angle: INCLINE}
+drawing: {B: [200 mm, 40 mm]}
+driver: {slide: floor, position: "1 mm/s*t"}
+cycle: {duration: 1 s}
+"""
+
+
+@pytest.mark.parametrize(
+    ("column", "incline", "key", "said"),
+    [
+        # floor turns lower by -10°, column turns upper by 50°: the incline at 165° - 10° - 50° in the axes of upper
+        ("block_angle: 40 deg", "105 deg", "", ""),
+        ("block_angle: 40 deg", "-75 deg", "", ""),  # the same line
+        ("block_angle: 40 deg", "104.95 deg", "", ""),  # as a file rounds it
+        (
+            "block_angle: 40 deg",
+            "100 deg",
+            "joints.incline.block_angle",
+            "5° off .* write block_angle: 105 deg",
+        ),
+        ("friction: 0.1", "105 deg", "joints.incline.block_angle", "40° off .* write block_angle: 65 deg"),
+    ],
+)
+def test_guides_that_do_not_fit_together_are_found(column: str, incline: str, key: str, said: str) -> None:
+    _, found = read_text(WEDGE.replace("COLUMN", column).replace("INCLINE", incline), "w.yaml")
+    assert [each.key for each in found] == ([key] if key else [])
+    assert all(re.search(said, str(each)) and each.severity == "error" for each in found)

@@ -17,6 +17,8 @@ from linkwright.words.sentence import Sentence
 
 #: Points of a link of which all pairs are measured.
 MOST_PAIRED = 32
+#: Angles of guides, as a file rounds them, that agree within this (rad).
+SAME_ANGLE = 1e-3
 
 
 def check_whole(reader: Reader, root: MappingNode, mechanism: Mechanism) -> None:
@@ -27,6 +29,7 @@ def check_whole(reader: Reader, root: MappingNode, mechanism: Mechanism) -> None
     _lonely_links(reader, root, mechanism)
     _islands(reader, root, mechanism)
     _near_points(reader, root, mechanism)
+    _guides_at_odds(reader, root, mechanism)
     _unlikely_inertias(reader, root, mechanism)
     _missing_inertias(reader, root, mechanism)
     _phases_of_no_motion(reader, root, mechanism)
@@ -110,6 +113,37 @@ def _near_points(reader: Reader, root: MappingNode, mechanism: Mechanism) -> Non
                     point=point,
                     alike=alike[0],
                 )
+
+
+def _guides_at_odds(reader: Reader, root: MappingNode, mechanism: Mechanism) -> None:
+    """Guides that hold a link at another angle than other guides do, so that it cannot be put together."""
+    held: dict[str, tuple[str, float]] = {}
+    for name, joint in sorted(mechanism.joints.items(), key=lambda each: not each[1].ties):
+        if not joint.ties:
+            return
+        a, b = joint.ties
+        (root_a, angle_a), (root_b, angle_b) = (held.get(link, (link, 0.0)) for link in (a, b))
+        turn = joint.turn_of(b, mechanism)
+        if root_a != root_b:
+            for link, (top, angle) in {**held, root_b: (root_b, 0.0)}.items():
+                if top == root_b:
+                    held[link] = (root_a, angle + angle_a + turn - angle_b)
+            continue
+        off = math.remainder(turn - (angle_b - angle_a), math.pi)
+        if joint.coordinate == "slide" and abs(off) > SAME_ANGLE:
+            key = f"joints.{name}.block_angle"
+            node = below(root, "joints", name, "block_angle") or below(root, "joints", name)
+            fitting = math.remainder(mechanism.guides[name].block_angle + off, math.tau)
+            reader.finding(
+                node,
+                key,
+                "guides_at_odds",
+                "at-odds",
+                name=name,
+                link=b,
+                off=number(math.degrees(abs(off)), 6),
+                fitting=number(math.degrees(fitting), 9),
+            )
 
 
 def _unlikely_inertias(reader: Reader, root: MappingNode, mechanism: Mechanism) -> None:

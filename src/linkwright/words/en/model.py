@@ -214,6 +214,9 @@ WORDS = {
     "phase_of_guide": "name the guide's displacement: {word}: {guide}",
     "phase_of_point": "name a point's coordinate, such as C.x, or a guide",
     "lone_spelling": '"{point}" is on this link only, and there is a point "{alike}"',
+    "guides_at_odds": 'the guide "{name}" holds "{link}" at an angle that is {off}° off the one at which other '
+    "guides hold it, so that they do not fit together",
+    "guides_at_odds_do": "write block_angle: {fitting} deg",
     "lone_spelling_do": "write both alike if one point is meant",
     "gyration": "with {mass} kg the radius of gyration is {radius} m",
     "gyration_large": "{said}, more than twice the link's size of {size} m",

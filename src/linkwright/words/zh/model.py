@@ -212,6 +212,8 @@ WORDS = {
     "phase_of_guide": "请写导路的位移：{word}: {guide}",
     "phase_of_point": "请写点的坐标（如 C.x）或导路的名称",
     "lone_spelling": "“{point}”只在此构件上，而另有点“{alike}”",
+    "guides_at_odds": "移动副“{name}”规定的构件“{link}”的方向与其他移动副所规定的相差 {off}°，不能装配",
+    "guides_at_odds_do": "写 block_angle: {fitting} deg",
     "lone_spelling_do": "如果是同一个点，请写成一样",
     "gyration": "质量 {mass} kg 对应的回转半径为 {radius} m",
     "gyration_large": "{said}，超过构件尺寸 {size} m 的两倍",
