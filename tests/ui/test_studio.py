@@ -833,6 +833,7 @@ def test_saving_asks_before_it_overwrites_and_a_drag_that_the_file_refuses_goes_
         tab.goto(studio.url)
         agreed = "() => desk.session.value?.data.text === desk.text.value"
         tab.wait_for_function(agreed)
+        tab.locator("summary", has_text="Show").click()
         tab.locator('.handle[data-key="O2"]').focus()
         tab.keyboard.press("Shift+ArrowRight")
         tab.locator(".said", has_text="the external pair needs 0.18 m").wait_for()
@@ -860,6 +861,8 @@ def test_saving_asks_before_it_overwrites_and_a_drag_that_the_file_refuses_goes_
         tab.locator('[data-point="B"]').click(force=True)
         tab.locator(".said", has_text="B stands where its lengths put it").wait_for()
         area.fill(GEARED + "# mine")
+        tab.wait_for_function(agreed)
+        tab.locator("details[open] > summary", has_text="Show").wait_for()
         name, banner = tab.get_by_label("File name"), tab.locator(".banner")
         name.fill("b.yaml")
         tab.get_by_role("button", name="Save", exact=True).click()

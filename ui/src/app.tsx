@@ -138,12 +138,12 @@ function Slider({ page, session, dimension }: { page: Page; session: Session; di
   );
 }
 
-/** A section whose content is there only while it is open. */
-function Fold({ title, open, children }: { title: string; open: boolean; children: () => ComponentChildren }) {
-  const [shown, show] = useState(open);
+/** A section whose content is there only while it is open, as the page remembers. */
+function Fold({ page, name, open, children }: { page: Page; name: string; open: boolean; children: () => ComponentChildren }) {
+  const [shown, show] = useState(page.folds[name] ?? open);
   return (
-    <details open={shown} onToggle={(event) => show(event.currentTarget.open)}>
-      <summary>{title}</summary>
+    <details open={shown} onToggle={(event) => show((page.folds[name] = event.currentTarget.open))}>
+      <summary>{page.say(name)}</summary>
       {shown && children()}
     </details>
   );
@@ -159,8 +159,8 @@ function Dimensions({ page, session }: { page: Page; session: Session }) {
   ];
   return (
     <>
-      {parts.filter(([, list]) => list.length).map(([title, list, open]) => (
-        <Fold title={page.say(title)} open={open} key={title}>
+      {parts.filter(([, list]) => list.length).map(([name, list, open]) => (
+        <Fold page={page} name={name} open={open} key={name}>
           {() => list.map((each) => <Slider key={each.address} page={page} session={session} dimension={each} />)}
         </Fold>
       ))}
@@ -174,44 +174,47 @@ function Shows({ page, session }: { page: Page; session: Session }) {
   const usable = SHOWN.filter((name) => (name !== "forces" || data.signals.some(({ id }) => isForce(id))) && (name !== "centres" || data.masses.length));
   const moving = data.points.filter(({ fixed }) => !fixed);
   return (
-    <details>
-      <summary>{page.say("show")}</summary>
-      <div class="checks">
-        {usable.map((name) => (
-          <label key={name}>
-            <input type="checkbox" checked={shown[name]} onChange={(event) => { shown[name] = event.currentTarget.checked; session.touched(); }} />
-            {page.say(name)}
-          </label>
-        ))}
-      </div>
-      <fieldset class="checks">
-        <legend>{page.say("paths")}</legend>
-        {moving.map(({ key }) => (
-          <label key={key}>
-            <input
-              type="checkbox" checked={shown.paths.has(key)}
-              onChange={(event) => {
-                if (event.currentTarget.checked) shown.paths.add(key);
-                else shown.paths.delete(key);
-                session.sweep(session.swept.value);
-                session.touched();
-              }}
-            />
-            {key}
-          </label>
-        ))}
-      </fieldset>
-      {data.positions.count > 1 && <Tolerance page={page} session={session} />}
-      {data.positions.count > 1 && (
-        <label class="choice">
-          {page.say("hodographs")}
-          <select value={session.hodograph.value} onChange={(event) => (session.hodograph.value = event.currentTarget.value)}>
-            <option value="">{page.say("none")}</option>
-            {moving.map(({ key }) => <option value={key} key={key}>{key}</option>)}
-          </select>
-        </label>
+    <Fold page={page} name="show" open={false}>
+      {() => (
+        <>
+          <div class="checks">
+            {usable.map((name) => (
+              <label key={name}>
+                <input type="checkbox" checked={shown[name]} onChange={(event) => { shown[name] = event.currentTarget.checked; session.touched(); }} />
+                {page.say(name)}
+              </label>
+            ))}
+          </div>
+          <fieldset class="checks">
+            <legend>{page.say("paths")}</legend>
+            {moving.map(({ key }) => (
+              <label key={key}>
+                <input
+                  type="checkbox" checked={shown.paths.has(key)}
+                  onChange={(event) => {
+                    if (event.currentTarget.checked) shown.paths.add(key);
+                    else shown.paths.delete(key);
+                    session.sweep(session.swept.value);
+                    session.touched();
+                  }}
+                />
+                {key}
+              </label>
+            ))}
+          </fieldset>
+          {data.positions.count > 1 && <Tolerance page={page} session={session} />}
+          {data.positions.count > 1 && (
+            <label class="choice">
+              {page.say("hodographs")}
+              <select value={session.hodograph.value} onChange={(event) => (session.hodograph.value = event.currentTarget.value)}>
+                <option value="">{page.say("none")}</option>
+                {moving.map(({ key }) => <option value={key} key={key}>{key}</option>)}
+              </select>
+            </label>
+          )}
+        </>
       )}
-    </details>
+    </Fold>
   );
 }
 

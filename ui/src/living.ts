@@ -15,6 +15,8 @@ export class Page {
   readonly playing = signal(false);
   readonly pace = signal(1);
   readonly note = signal("");
+  /** Sections that have been opened or closed by hand. */
+  readonly folds: Record<string, boolean> = {};
   /** Steps back and forth beyond those of the machines, where texts are changed as well. */
   history: History<string> | null = null;
   private last = 0;

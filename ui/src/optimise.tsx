@@ -53,10 +53,10 @@ function about(dimension: Dimension, value: number, size: number): string {
 }
 
 export function Optimise({ desk, session }: { desk: Desk; session: Session }) {
-  const asked = desk.solved.value.optimize ?? {}, key = JSON.stringify(asked);
-  const [open, setOpen] = useState(key !== "{}");
+  const asked = desk.solved.value.optimize ?? {}, key = JSON.stringify(asked), { folds } = desk.page;
+  const [open, setOpen] = useState(folds.optimise ?? key !== "{}");
   return (
-    <details class="card optimise" open={open} onToggle={(event) => setOpen(event.currentTarget.open)}>
+    <details class="card optimise" open={open} onToggle={(event) => setOpen((folds.optimise = event.currentTarget.open))}>
       <summary>{desk.say("optimize")}</summary>
       {open && <Form key={key} desk={desk} session={session} asked={asked} />}
       {open && <Designs desk={desk} session={session} />}

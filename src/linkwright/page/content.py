@@ -204,7 +204,9 @@ def document(data: Plain, kernels: str, title: str, language: str) -> str:
     ]
     content = {"style": style, "scripts": scripts, "data": {**data, "models": models}}
     text = json.dumps(content, ensure_ascii=False, separators=(",", ":")).encode()
-    packed = zlib.compress(b"".join([len(text).to_bytes(4, "little"), text, *modules]), 9)
+    # Scripts, numbers and modules differ: with little memory they come in blocks with codes of their own.
+    packer = zlib.compressobj(9, memLevel=6)
+    packed = packer.compress(b"".join([len(text).to_bytes(4, "little"), text, *modules])) + packer.flush()
     # Four bytes in five characters; none of them opens a tag.
     written = base64.b85encode(packed).replace(b"<", b",").decode()
     unpack = _built("unpack.js")
