@@ -21,6 +21,7 @@ from typing import Any
 import linkwright as lw
 from linkwright import gallery
 from linkwright.cli.source import gallery_title
+from linkwright.core.plotted import Plotted
 from linkwright.errors import LinkwrightError
 from linkwright.validation.validate import validate
 
@@ -385,7 +386,8 @@ def plain(line: str) -> str:
 def members(value: type) -> Iterator[str]:
     """Methods and properties that are documented, one line each."""
     rows = []
-    for name, member in vars(value).items():
+    shared = vars(Plotted) if issubclass(value, Plotted) else {}
+    for name, member in {**vars(value), **shared}.items():
         if name.startswith("_") or not inspect.getdoc(member) or isinstance(member, type):
             continue
         if not (callable(member) or isinstance(member, property) or hasattr(member, "func")):

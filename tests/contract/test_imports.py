@@ -44,24 +44,13 @@ FRONT = STAGE["report"]
 NOTEBOOK = "linkwright.plot.drawing.draw"
 PLOT = "linkwright.plot.plot"
 LEADS_ON = {  # what methods import when they are called: structure(), plot(), and the drawing that notebooks show
+    "core/plotted.py": {PLOT},
     "mechanism/mechanism.py": {"linkwright.structure", NOTEBOOK},
-    "kinematics/motion.py": {NOTEBOOK, PLOT},
-    "kinetostatics/forces.py": {NOTEBOOK, PLOT},
-    "kinetostatics/balancing.py": {PLOT},
-    "machine/running.py": {PLOT},
-    "machine/torque_curve.py": {PLOT},
-    "metrics/coupler_curve.py": {PLOT},
-    "metrics/table.py": {PLOT},
+    "kinematics/motion.py": {NOTEBOOK},
+    "kinetostatics/forces.py": {NOTEBOOK},
     "cams/result.py": {"linkwright.plot.cams", "linkwright.export.dxf.cams"},
     "gears/pair.py": {"linkwright.plot.gears", "linkwright.export.dxf.gears"},
     "gears/rack.py": {"linkwright.plot.gears", "linkwright.export.dxf.gears"},
-    "parts/base.py": {PLOT},
-    "study/compare.py": {PLOT},
-    "study/designs.py": {PLOT},
-    "study/sensitivity.py": {PLOT},
-    "study/study.py": {PLOT},
-    "optimisation/optimum.py": {PLOT},
-    "synthesis/result.py": {PLOT},
 }
 FRONT_END_PACKAGES = {
     "matplotlib", "resvg_py", "PIL", "av", "ezdxf", "xlsxwriter", "pyarrow", "typst",

@@ -13,6 +13,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.frozen import FrozenDict, locked
 from linkwright.core.once import cached_property
 from linkwright.core.outputs import KINDS, SLIDE, Output, row_name
+from linkwright.core.plotted import Plotted
 from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import Positions
 from linkwright.kinematics.design import Design
@@ -28,7 +29,6 @@ if TYPE_CHECKING:
     import pandas
 
     from linkwright.kinematics.continuation import Followed
-    from linkwright.plot import Diagram
 
 
 Evaluate = Callable[[tuple[str, ...]], Floats]
@@ -161,7 +161,7 @@ class LinkMotion:
 
 
 @dataclass(eq=False)
-class Motion:
+class Motion(Plotted):
     """Positions, velocities and accelerations of a mechanism at n positions.
 
     ``point("C")``, ``link("jaw")``, ``joint("guide")`` give the arrays; ``outcomes`` one sentence per position.
@@ -352,12 +352,6 @@ class Motion:
         from linkwright.plot.drawing.draw import picture_of
 
         return picture_of(self)
-
-    def plot(self, kind: str | None = None, **options: Any) -> Diagram:
-        """A diagram, by default the motion of the output; kinds and options: ``linkwright.plot.plot``."""
-        from linkwright.plot import plot
-
-        return plot(self, kind, **options)
 
     def __repr__(self) -> str:
         failed = self.steps - int(self.ok.sum())

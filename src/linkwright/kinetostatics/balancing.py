@@ -5,20 +5,17 @@ from __future__ import annotations
 import cmath
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.frozen import Frozen
+from linkwright.core.plotted import Plotted
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.joints.base import Joint
 from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.mechanism.mechanism import Link, Mechanism
 from linkwright.words.sentence import Sentence
-
-if TYPE_CHECKING:
-    from linkwright.plot import Diagram
 
 Radius = Mapping[str, float] | float
 
@@ -33,7 +30,7 @@ class Counterweight:
 
 
 @dataclass(frozen=True)
-class Balancing(Frozen):
+class Balancing(Plotted, Frozen):
     """A mechanism with counterweights, and the forces without and with them."""
 
     mechanism: Mechanism
@@ -48,12 +45,6 @@ class Balancing(Frozen):
             "shaking moment [N·m]": (_peak(self.before.shaking_moment), _peak(self.after.shaking_moment)),
             "input torque [N·m]": (_peak(self.before.input_torque), _peak(self.after.input_torque)),
         }
-
-    def plot(self, kind: str | None = None, **options: Any) -> Diagram:
-        """Shaking force and moment, input torque, without and with weights; options: ``linkwright.plot.plot``."""
-        from linkwright.plot import plot
-
-        return plot(self, kind, **options)
 
     def text(self) -> str:
         """Counterweights and their effect."""

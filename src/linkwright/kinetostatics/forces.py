@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.frozen import locked
 from linkwright.core.once import cached_property
 from linkwright.core.outputs import kind_of, row_name, row_names
+from linkwright.core.plotted import Plotted
 from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinematics.motion import Motion, Rows
@@ -26,7 +27,6 @@ from linkwright.words.sentence import Sentence
 if TYPE_CHECKING:
     import pandas
 
-    from linkwright.plot import Diagram
 
 #: Share of the largest joint force below which another one is rounding.
 ROUNDING = 1e-12
@@ -49,7 +49,7 @@ class LoadForce:
 
 
 @dataclass(eq=False)
-class Forces:
+class Forces(Plotted):
     """Joint reactions and driver efforts at every position of a motion.
 
     Arrays have the position first; NaN where the motion was not solved. The driver effort is found from the
@@ -193,12 +193,6 @@ class Forces:
         from linkwright.kinematics.table import dataframe, input_column
 
         return dataframe(self.columns(), index=input_column(self.motion))
-
-    def plot(self, kind: str | None = None, **options: Any) -> Diagram:
-        """A diagram, by default the driver's torque; kinds and options: ``linkwright.plot.plot``."""
-        from linkwright.plot import plot
-
-        return plot(self, kind, **options)
 
     def _reaction(self, joint: str, link: str) -> Floats:
         links = self.motion.design.base.joints[joint].joined

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import field
-from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.plotted import Plotted
 from linkwright.errors import LinkwrightError
 from linkwright.kinetostatics.forces import Forces
 from linkwright.machine.energy import EnergyFluctuation
@@ -20,9 +20,6 @@ from linkwright.metrics.quantities import shown
 from linkwright.metrics.true_speed import steady_cycle
 from linkwright.words import say
 from linkwright.words.sentence import Sentence
-
-if TYPE_CHECKING:
-    from linkwright.plot import Diagram
 
 DIMENSIONS = {
     "speed": "angular_velocity",
@@ -45,7 +42,7 @@ NOTHING = 1e-9
 
 
 @dataclass(frozen=True)
-class SteadyRunning:
+class SteadyRunning(Plotted):
     """A machine over one cycle of steady running with a flywheel.
 
     ``required`` δ; ``flywheel`` J, kg·m² on the crank, by J = ΔE/(δ ω²) - mean J_e (the machine's own inertia is
@@ -79,12 +76,6 @@ class SteadyRunning:
     def own(self) -> float:
         """Speed fluctuation by the formula without any flywheel."""
         return speed_fluctuation(self.energy.value, self.equivalent.speed, self.equivalent.mean_inertia)
-
-    def plot(self, kind: str | None = None, **options: Any) -> Diagram:
-        """A diagram, by default the speed over the cycle; kinds and options: ``linkwright.plot.plot``."""
-        from linkwright.plot import plot
-
-        return plot(self, kind, **options)
 
     def text(self, language: str = "en") -> str:
         """The numbers with labels and units, one per line."""

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import field
 from functools import cached_property, partial
-from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -14,17 +13,15 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import Expression, parse
 from linkwright.core.piecewise import Integral, Piecewise
+from linkwright.core.plotted import Plotted
 from linkwright.errors import LinkwrightError
 from linkwright.words.sentence import Sentence
-
-if TYPE_CHECKING:
-    from linkwright.plot import Diagram
 
 TURN = 2 * np.pi
 
 
 @dataclass(frozen=True)
-class TorqueCurve:
+class TorqueCurve(Plotted):
     """Torque T(θ), N·m, periodic in θ with ``period`` rad; ``knots``: angles at which it may kink or jump.
 
     ``function`` takes angles (n,) within one period from ``start`` and gives torques (n,); ``known``: the same as
@@ -121,12 +118,6 @@ class TorqueCurve:
             )
         knots = sorted({k for curve in (self, other) for k in _repeated(curve, self.start, long)})
         return TorqueCurve(partial(_difference, self, other), long, self.start, tuple(knots))
-
-    def plot(self, kind: str | None = None, **options: Any) -> Diagram:
-        """The torque over the angle, with its mean; options: ``linkwright.plot.plot``."""
-        from linkwright.plot import plot
-
-        return plot(self, kind, **options)
 
     def extremes(self) -> tuple[tuple[float, float], tuple[float, float]]:
         """(angle, torque) of the smallest and of the largest torque."""

@@ -6,13 +6,13 @@ from collections.abc import Iterator
 from dataclasses import field
 from functools import partial
 from operator import mul
-from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.plane import cross, crossings
+from linkwright.core.plotted import Plotted
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import Forces
@@ -21,9 +21,6 @@ from linkwright.metrics.base import METRICS, Metric, MetricValue, Number, Remark
 from linkwright.metrics.outputs import coupler_points
 from linkwright.metrics.quantities import shown
 from linkwright.words.sentence import Sentence
-
-if TYPE_CHECKING:
-    from linkwright.plot import Diagram
 
 #: A path stops in a cusp where its speed falls below this share of its mean speed.
 STANDING = 1e-6
@@ -38,7 +35,7 @@ Spot = tuple[float, float]
 
 
 @dataclass(frozen=True)
-class CouplerCurve:
+class CouplerCurve(Plotted):
     """Closed path of a point: ``length`` m, ``area`` m² (counter-clockwise positive, loops with their sign),
     ``double_points`` and ``cusps`` as (x, y) in m with the inputs there; ``path`` (n, 2) m, its positions once. A
     path that is run several times over a cycle, as by a planet over the turns of its train, counts once."""
@@ -49,12 +46,6 @@ class CouplerCurve:
     double_points: tuple[tuple[Spot, Spot], ...]
     cusps: tuple[tuple[Spot, float], ...]
     path: Floats = field(repr=False, compare=False)
-
-    def plot(self, kind: str | None = None, **options: Any) -> Diagram:
-        """The path with its double points and cusps; options: ``linkwright.plot.plot``."""
-        from linkwright.plot import plot
-
-        return plot(self, kind, **options)
 
 
 def coupler_curve(result: Motion | Forces | Analysis, point: str) -> CouplerCurve:
@@ -196,7 +187,6 @@ class CurveMetric(Metric):
 class CouplerCurveLength(CurveMetric):
     """Length of the closed path of every coupler point, m."""
 
-    name = "coupler_curve_length"
     dimension = "length"
 
     def numbers(self, analysis: Analysis) -> Iterator[Number]:
@@ -208,7 +198,6 @@ class CouplerCurveLength(CurveMetric):
 class CouplerCurveArea(CurveMetric):
     """Area within the closed path of every coupler point, m²; loops count with the sense in which they are run."""
 
-    name = "coupler_curve_area"
     dimension = "area"
 
     def numbers(self, analysis: Analysis) -> Iterator[Number]:
@@ -220,7 +209,6 @@ class CouplerCurveArea(CurveMetric):
 class DoublePoint(CurveMetric):
     """Number of places where the path of a coupler point crosses itself, with their coordinates."""
 
-    name = "double_point"
     dimension = "count"
 
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:
@@ -234,7 +222,6 @@ class DoublePoint(CurveMetric):
 class Cusp(CurveMetric):
     """Number of cusps of the path of a coupler point: places where it stands still and turns back."""
 
-    name = "cusp"
     dimension = "count"
 
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:

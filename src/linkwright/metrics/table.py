@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 from linkwright.core.html import html_table
+from linkwright.core.plotted import Plotted
 from linkwright.errors import RequestError
 from linkwright.metrics.base import METRICS, MetricValue
 from linkwright.metrics.quantities import number, shown, shown_unit
@@ -17,10 +18,8 @@ from linkwright.words.width import aligned
 if TYPE_CHECKING:
     import pandas
 
-    from linkwright.plot import Diagram
 
-
-class MetricsTable(Sequence[MetricValue]):
+class MetricsTable(Plotted, Sequence[MetricValue]):
     """Values of design numbers, in rows.
 
     ``table["stroke"]``: all values of one number; ``table["stroke", "guide"]``: the one of a subject;
@@ -119,12 +118,6 @@ class MetricsTable(Sequence[MetricValue]):
         except ImportError:
             raise RequestError(Sentence("metrics.needs_pandas")) from None
         return pandas.DataFrame(self.data())
-
-    def plot(self, kind: str | None = None, **options: Any) -> Diagram:
-        """Values against recommended limits, or ``of`` the metrics named; options: ``linkwright.plot.plot``."""
-        from linkwright.plot import plot
-
-        return plot(self, kind, **options)
 
     def _repr_html_(self) -> str:
         """The table as notebooks show it."""

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from copy import copy
 from dataclasses import field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -14,14 +14,12 @@ from linkwright import units
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.frozen import Frozen
+from linkwright.core.plotted import Plotted
 from linkwright.errors import LinkwrightError
 from linkwright.files.document import Document
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.optimisation.problem import Problem
 from linkwright.words.sentence import Sentence
-
-if TYPE_CHECKING:
-    from linkwright.plot import Diagram
 
 
 @dataclass(frozen=True)
@@ -39,7 +37,7 @@ class Choice:
 
 
 @dataclass(eq=False)
-class Optimum(Frozen):
+class Optimum(Plotted, Frozen):
     """The designs that an optimisation found: one, or the front of several objectives in order of the first.
 
     Args:
@@ -138,12 +136,6 @@ class Optimum(Frozen):
             "state": None if self.state is None else str(self.state),
             "without_effect": list(self.without_effect),
         }  # fmt: skip
-
-    def plot(self, **options: Any) -> Diagram:
-        """The front with the start, or how the least value fell; options: ``linkwright.plot.plot``."""
-        from linkwright.plot import plot
-
-        return plot(self, "optimisation", **options)
 
     def __repr__(self) -> str:
         goals = ", ".join(each.text for each in self.problem.goals)

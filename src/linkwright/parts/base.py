@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.core.plotted import Plotted
 from linkwright.errors import Finding, ModelError
 from linkwright.parts.display import number, si_unit, unit
 from linkwright.words import Say, speaker
@@ -23,7 +24,6 @@ if TYPE_CHECKING:
     from typing import Self
 
     from linkwright.fields.base import Field
-    from linkwright.plot import Diagram
     from linkwright.worked.page import Step
 
 
@@ -111,7 +111,7 @@ class Block:
     remarks: Sequence[str] = ()
 
 
-class Result(ABC):
+class Result(Plotted, ABC):
     """What was found: its numbers in blocks, the way to them in steps."""
 
     area: ClassVar[str]
@@ -162,12 +162,6 @@ class Result(ABC):
         from linkwright.worked.text import page
 
         return page((self.title,), self.steps(speaker(language)))
-
-    def plot(self, kind: str | None = None, **options: Any) -> Diagram:
-        """Its diagram; options: ``linkwright.plot.plot``."""
-        from linkwright.plot import plot
-
-        return plot(self, kind, **options)
 
     def __repr__(self) -> str:
         return self.text()

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from linkwright.core.dataclass import dataclass
 from linkwright.core.frozen import Frozen
 from linkwright.core.html import html_table
+from linkwright.core.plotted import Plotted
 from linkwright.errors import RequestError, with_remedy
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.quantities import si_unit
@@ -23,7 +24,6 @@ from linkwright.words.sentence import Sentence
 if TYPE_CHECKING:
     import pandas
 
-    from linkwright.plot import Diagram
 
 #: Values of a criterion that differ by less than this share are equal.
 SAME = 1e-9
@@ -81,7 +81,7 @@ class Rank:
 
 
 @dataclass(eq=False)
-class Comparison(Frozen):
+class Comparison(Plotted, Frozen):
     """Alternatives side by side.
 
     ``rows``: criteria with values; ``ranking``: best first; ``curves``: data to overlay. ``text(language)`` is the
@@ -203,12 +203,6 @@ class Comparison(Frozen):
         frame = dataframe(columns)
         frame.index = [f"{row.criterion.name} [{si_unit(row.dimension)}]" for row in self.rows]
         return frame
-
-    def plot(self, kind: str | None = None, **options: Any) -> Diagram:
-        """The curves over each other, or the ``pivot_hodograph``; options: ``linkwright.plot.plot``."""
-        from linkwright.plot import plot
-
-        return plot(self, kind, **options)
 
     def _repr_html_(self) -> str:
         """The table as notebooks show it; * marks the best."""

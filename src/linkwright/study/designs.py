@@ -13,6 +13,7 @@ from linkwright.core.arrays import Flags, Floats, Whole
 from linkwright.core.dataclass import dataclass
 from linkwright.core.frozen import Frozen
 from linkwright.core.html import columns_html
+from linkwright.core.plotted import Plotted
 from linkwright.engine.sweep import Backend, Progress
 from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import over_cycle
@@ -29,14 +30,13 @@ from linkwright.words.sentence import Sentence
 if TYPE_CHECKING:
     import pandas
 
-    from linkwright.plot import Diagram
 
 #: Designs of a piece that goes to a cluster; fewer stay on this machine.
 SHARED = 4096
 
 
 @dataclass(eq=False)
-class Sweep(Frozen):
+class Sweep(Plotted, Frozen):
     """Summaries of many designs; arrays are (designs,), SI.
 
     ``varied``: values of the varied dimensions; ``assembled``: number of ``positions`` at which each design can be
@@ -107,12 +107,6 @@ class Sweep(Frozen):
         from linkwright.kinematics.table import dataframe
 
         return dataframe({name: np.asarray(values) for name, values in self.columns().items()})
-
-    def plot(self, kind: str | None = None, **options: Any) -> Diagram:
-        """Summaries over what varies, ``of`` some or all of them; options: ``linkwright.plot.plot``."""
-        from linkwright.plot import plot
-
-        return plot(self, kind, **options)
 
     def _repr_html_(self) -> str:
         """The first designs as notebooks show them, SI."""

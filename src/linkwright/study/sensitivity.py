@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import field
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.frozen import Frozen, locked
 from linkwright.core.html import html_table
+from linkwright.core.plotted import Plotted
 from linkwright.engine.sweep import Backend
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.cycle import over_cycle
@@ -30,7 +31,6 @@ from linkwright.words.sentence import Sentence
 if TYPE_CHECKING:
     import pandas
 
-    from linkwright.plot import Diagram
 
 Way = Literal["auto", "forward", "reverse"]
 
@@ -39,7 +39,7 @@ REVERSE_PAYS = 6
 
 
 @dataclass(eq=False)
-class Sensitivity(Frozen):
+class Sensitivity(Plotted, Frozen):
     """Values and exact derivatives at the mechanism as it is; SI units of the output per SI unit of the dimension.
 
     ``by``: the dimensions. An output asked by name alone has curves (n,): :meth:`curve`, :meth:`slope`; one asked
@@ -97,12 +97,6 @@ class Sensitivity(Frozen):
         frame = dataframe(table)
         frame.index = [summary.name for summary in self.gradients]
         return frame
-
-    def plot(self, kind: str | None = None, **options: Any) -> Diagram:
-        """Bars of relative sensitivities, or ``sensitivity_curves``; options: ``linkwright.plot.plot``."""
-        from linkwright.plot import plot
-
-        return plot(self, kind, **options)
 
     def text(self) -> str:
         """Every summary with its derivative by each dimension, and what has curves."""

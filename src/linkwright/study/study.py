@@ -14,6 +14,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.frozen import Frozen
 from linkwright.core.html import columns_html
 from linkwright.core.outputs import Output
+from linkwright.core.plotted import Plotted
 from linkwright.errors import LinkwrightError, RequestError, with_remedy
 from linkwright.machine import flywheel_inertia
 from linkwright.mechanism.mechanism import Mechanism
@@ -37,7 +38,6 @@ if TYPE_CHECKING:
     import pandas
 
     from linkwright.engine.sweep import Progress
-    from linkwright.plot import Diagram
 
 Sampling = Literal["grid", "sobol"]
 _Piece = tuple[dict[str, Floats], dict[str, str], dict[str, None], dict[int, str]]
@@ -49,7 +49,7 @@ USUAL = ("travel", "transmission_angle", "peak_input_torque", "rms_input_torque"
 
 
 @dataclass(eq=False)
-class Study(Frozen):
+class Study(Plotted, Frozen):
     """Metrics of many designs; arrays (designs,), SI, NaN where a design cannot move or a metric does not apply.
 
     ``ranges``: what varies; ``varied``: its values by address; ``metrics``: values by name; ``dimensions``: names of
@@ -159,12 +159,6 @@ class Study(Frozen):
         from linkwright.kinematics.table import dataframe
 
         return dataframe(self.columns())
-
-    def plot(self, kind: str | None = None, **options: Any) -> Diagram:
-        """Metrics over what varies, ``of`` some or all of them; options: ``linkwright.plot.plot``."""
-        from linkwright.plot import plot
-
-        return plot(self, kind, **options)
 
     def _repr_html_(self) -> str:
         """The first designs as notebooks show them, SI."""

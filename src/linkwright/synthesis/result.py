@@ -5,20 +5,18 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.core.arrays import Complexes, Flags, Floats, Whole
 from linkwright.core.dataclass import dataclass
+from linkwright.core.plotted import Plotted
 from linkwright.errors import LinkwrightError
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.synthesis.linkage import Linkage
 from linkwright.words.sentence import Sentence
-
-if TYPE_CHECKING:
-    from linkwright.plot import Diagram
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,7 +80,7 @@ class Candidate:
 
 
 @dataclass(frozen=True, eq=False)
-class Synthesis:
+class Synthesis(Plotted):
     """The candidates of a task, best first: without defects before others, then by error, then transmission angle.
 
     Args:
@@ -149,12 +147,6 @@ class Synthesis:
 
         each = self.candidates[index]
         return each.linkage.text(name or f"{self.task} {index + 1}", purpose=purpose(self, each, language))
-
-    def plot(self, **options: Any) -> Diagram:
-        """Target, candidates and their curves in one picture; options: ``linkwright.plot.plot``."""
-        from linkwright.plot import plot
-
-        return plot(self, "synthesis", **options)
 
 
 class SynthesisError(LinkwrightError):

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, TypeAlias, cast
+from typing import TypeAlias, cast
 
+from linkwright.core.plotted import Plotted
 from linkwright.errors import QuantityError, RequestError
 from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import Forces
@@ -19,38 +20,11 @@ from linkwright.words import LANGUAGES
 from linkwright.words.characters import printable
 from linkwright.words.sentence import Sentence
 
-if TYPE_CHECKING:
-    from linkwright.kinetostatics.balancing import Balancing
-    from linkwright.machine.torque_curve import TorqueCurve
-    from linkwright.metrics.coupler_curve import CouplerCurve
-    from linkwright.metrics.table import MetricsTable
-    from linkwright.optimisation.optimum import Optimum
-    from linkwright.parts.base import Result as PartResult
-    from linkwright.study.compare import Comparison
-    from linkwright.study.designs import Sweep
-    from linkwright.study.sensitivity import Sensitivity
-    from linkwright.study.study import Study
-    from linkwright.synthesis.result import Synthesis
-
-    Single: TypeAlias = (
-        Comparison
-        | Study
-        | Sweep
-        | Sensitivity
-        | MetricsTable
-        | TorqueCurve
-        | Balancing
-        | CouplerCurve
-        | PartResult
-        | Synthesis
-        | Optimum
-    )
-
 _Solved: TypeAlias = Result | Sequence[Result] | Mapping[str, Result]
 
 
 def plot(
-    result: _Solved | Single,
+    result: _Solved | Plotted,
     kind: str | None = None,
     *,
     of: str | Sequence[str] = (),
@@ -74,7 +48,8 @@ def plot(
         kind: ``sva`` (of a motion the default), ``angles``, ``paths``, ``torque`` (of forces the default), ``power``,
             ``energy``, ``speed`` (of steady running the default), ``reactions``, ``hodograph``, ``hodographs``,
             ``shaking``, ``velocity_polygon``, ``acceleration_polygon``, ``force_polygon``. Of a comparison
-            ``comparison`` (the default) or ``pivot_hodograph``; other results have one kind each.
+            ``comparison`` (the default) or ``pivot_hodograph``, of a sensitivity ``sensitivity`` or
+            ``sensitivity_curves``; most other results have one kind each.
         of: outputs, links, points or joints that it is about: ``"jaw"``, ``"guide"``, ``"C"``, ``"jaw.D.x"``;
             metrics or curves of a study, a comparison or a table.
         joint, on: the joint of reactions and hodographs, and the link on which its force acts.
