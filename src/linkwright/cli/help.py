@@ -70,9 +70,7 @@ def version(session: Session) -> None:
             found[package] = None
     python = ".".join(map(str, sys.version_info[:3]))
     if session.json:
-        from linkwright.cli.data import json_text
-
-        session.show(json_text({"linkwright": __version__, "python": python, **found}))
+        session.show_data({"linkwright": __version__, "python": python, **found})
         return
     say = session.say
     numpy = found["numpy"] or say("cli.not_installed")

@@ -108,23 +108,18 @@ def kinds_of(command: str) -> tuple[str, ...]:
 
 def show(result: Result, options: argparse.Namespace, session: Session, *, kind: str | None = None) -> None:
     """Prints the result; writes its curves and its diagram (``kind``: another than its usual one) where asked."""
-    from linkwright.cli.data import json_text
-    from linkwright.cli.files import write_whole
-    from linkwright.cli.tables import csv_of
+    from linkwright.cli.tables import csv_of, write_diagram, write_table
 
-    if options.output is not None:
-        path = Path(options.output)
-        table = path.suffix.lower() == ".csv"
-        if table and not result.columns():
-            raise UsageError(session.say("part.no_curves", path=path))
-        text = csv_of(result.columns()) if table else json_text(result.data()) + "\n"
-        write_whole(path, text, force=options.force)
-    if options.plot is not None:
-        path = Path(options.plot)
-        content = result.plot(kind, language=session.language).content(path.suffix.lower())
-        write_whole(path, content, force=options.force)
+    def table() -> str:
+        columns = result.columns()
+        if not columns:
+            raise UsageError(session.say("part.no_curves", path=Path(options.output)))
+        return csv_of(columns)
+
+    write_table(options.output, table, result.data, force=options.force)
+    write_diagram(options.plot, result, session, force=options.force, kind=kind)
     if session.json:
-        session.show(json_text({"ok": True, **result.data()}))
+        session.show_data({"ok": True, **result.data()})
         return
     text = (
         result.worked(session.language) if options.worked else result.text(session.language, options.digits)

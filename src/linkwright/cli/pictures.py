@@ -90,8 +90,6 @@ def cycle(mechanism: Mechanism, steps: int, session: Session) -> Motion:
 def told(path: Path, options: argparse.Namespace, session: Session) -> None:
     """Says what was written; as data with ``--json``."""
     if options.json:
-        from linkwright.cli.data import json_text
-
-        session.show(json_text({"ok": True, "written": str(path)}))
+        session.show_data({"ok": True, "written": str(path)})
     else:
         session.show(session.say("cli.written", path=path))

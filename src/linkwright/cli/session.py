@@ -36,6 +36,12 @@ class Session:
         with _writing():
             print(terminal_text(text), file=sys.stdout)
 
+    def show_data(self, value: object) -> None:
+        """Prints plain data and arrays as JSON."""
+        from linkwright.cli.data import json_text
+
+        self.show(json_text(value))
+
     def flush(self) -> None:
         """Sees to it that everything shown is written."""
         with _writing():

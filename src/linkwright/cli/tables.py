@@ -13,22 +13,25 @@ from linkwright.words import Say
 from linkwright.words.characters import cell_text
 
 if TYPE_CHECKING:
-    from linkwright.optimisation.optimum import Optimum
+    from linkwright.core.plotted import Plotted
     from linkwright.study.compare import Comparison
-    from linkwright.study.study import Study
-
 
 PICTURES = (".svg", ".pdf", ".png")
 
 
 def write_diagram(
-    name: str | None, found: Comparison | Study | Optimum, session: Session, *, force: bool
+    name: str | None,
+    found: Plotted,
+    session: Session,
+    *,
+    force: bool,
+    kind: str | None = None,
 ) -> None:
-    """Draws the usual diagram of a result and writes it, as the file's ending says."""
+    """Draws a diagram of a result, the usual one unless a ``kind`` is named; the file's ending is its format."""
     if name is None:
         return
     path = Path(name)
-    content = found.plot(language=session.language).content(path.suffix.lower())
+    content = found.plot(kind=kind, language=session.language).content(path.suffix.lower())
     write_whole(path, content, force=force)
 
 
@@ -42,9 +45,7 @@ def refuse_output(name: str | None, endings: Sequence[str], say: Say, *, force: 
     refuse_existing(path, force=force)
 
 
-def write_table(
-    name: str | None, table: Callable[[], str], data: Callable[[], Any], session: Session, *, force: bool
-) -> None:
+def write_table(name: str | None, table: Callable[[], str], data: Callable[[], Any], *, force: bool) -> None:
     """Writes the table or the data, as the file's ending says."""
     if name is None:
         return

@@ -51,9 +51,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     if options.output is not None:
         write_whole(Path(options.output), _model_text(found), force=options.force)
     if session.json:
-        from linkwright.cli.data import json_text
-
-        session.show(json_text(_data(found)))
+        session.show_data(_data(found))
         return 0
     session.show("\n".join(_report(found, session)))
     if options.output is not None:

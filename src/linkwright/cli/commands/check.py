@@ -236,7 +236,7 @@ def _show(name: str, found: list[Finding], fact: dict[str, object], session: Ses
 
 
 def _show_data(results: list[tuple[str, list[Finding], dict[str, object]]], session: Session) -> None:
-    from linkwright.cli.data import finding_data, json_text
+    from linkwright.cli.data import finding_data
 
     files = [
         {
@@ -247,4 +247,4 @@ def _show_data(results: list[tuple[str, list[Finding], dict[str, object]]], sess
         }
         for name, found, fact in results
     ]
-    session.show(json_text({"ok": all(entry["ok"] for entry in files), "files": files}))
+    session.show_data({"ok": all(entry["ok"] for entry in files), "files": files})

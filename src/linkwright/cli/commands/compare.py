@@ -92,7 +92,6 @@ def _fluctuation(text: str, say: Say) -> float:
 
 
 def _show(found: Comparison, options: argparse.Namespace, session: Session) -> None:
-    from linkwright.cli.data import json_text
     from linkwright.cli.tables import csv_of, curve_columns, curve_data, write_diagram, write_table
 
     table: dict[str, Sequence[str] | Sequence[float]] = {
@@ -101,14 +100,12 @@ def _show(found: Comparison, options: argparse.Namespace, session: Session) -> N
         ]
     }
     table |= {label: found.column(i) for i, label in enumerate(found.labels)}
-    write_table(options.output, lambda: csv_of(table), found.data, session, force=options.force)
+    write_table(options.output, lambda: csv_of(table), found.data, force=options.force)
     curves = options.curves
-    write_table(
-        curves, lambda: csv_of(curve_columns(found)), lambda: curve_data(found), session, force=options.force
-    )
+    write_table(curves, lambda: csv_of(curve_columns(found)), lambda: curve_data(found), force=options.force)
     write_diagram(options.plot, found, session, force=options.force)
     if session.json:
-        session.show(json_text(found.data()))
+        session.show_data(found.data())
         return
     session.show("\n".join(session.table(found.text(session.language).splitlines())))
     for path in (options.output, options.curves, options.plot):

@@ -52,7 +52,6 @@ def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
 
 def run(options: argparse.Namespace, session: Session) -> int:
     """Solves a model and writes the file."""
-    from linkwright.cli.data import json_text
     from linkwright.cli.files import refuse_existing
     from linkwright.cli.source import read_model
     from linkwright.export import export
@@ -73,7 +72,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
         **form,
     )
     if session.json:
-        session.show(json_text({"ok": True, "path": str(path), "format": chosen}))
+        session.show_data({"ok": True, "path": str(path), "format": chosen})
     else:
         session.show(session.say("cli.written", path=path))
     return 0

@@ -43,9 +43,7 @@ def _list(options: argparse.Namespace, session: Session) -> int:
     tasks = [_heading(name) for name in gallery.tasks() if options.name is None or options.name in name]
     entries = [*models, *parts, *tasks]
     if session.json:
-        from linkwright.cli.data import json_text
-
-        session.show(json_text(entries))
+        session.show_data(entries)
         return 0
     from linkwright.words.titles import gallery_title
 
@@ -65,9 +63,7 @@ def _list(options: argparse.Namespace, session: Session) -> int:
 def _show(options: argparse.Namespace, session: Session) -> int:
     name, text = _text(options, session.say)
     if session.json:
-        from linkwright.cli.data import json_text
-
-        session.show(json_text({**_heading(name), "text": text}))
+        session.show_data({**_heading(name), "text": text})
     else:
         session.show(text.rstrip("\n"))
     return 0
@@ -78,9 +74,7 @@ def _copy(options: argparse.Namespace, session: Session) -> int:
     path = Path(options.folder) / f"{name}.yaml"
     write_whole(path, text, force=options.force)
     if session.json:
-        from linkwright.cli.data import json_text
-
-        session.show(json_text({"written": str(path)}))
+        session.show_data({"written": str(path)})
     else:
         session.show(session.say("cli.written", path=path))
     return 0

@@ -22,7 +22,6 @@ def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
 
 def run(options: argparse.Namespace, session: Session) -> int:
     """Grades, prints a row per sheet, writes them where asked."""
-    from linkwright.cli.data import json_text
     from linkwright.cli.files import write_whole
     from linkwright.cli.tables import refuse_output
     from linkwright.course.grade import grade, text
@@ -40,7 +39,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
             {"student": g.student, "variant": g.variant, "right": list(g.right), "mistakes": list(g.mistakes),
              "where": g.where} for g in grades
         ]  # fmt: skip
-        session.show(json_text({"ok": True, "sheets": sheets}))
+        session.show_data({"ok": True, "sheets": sheets})
         return 0
     session.show("\n".join(session.table(aligned(rows, "<>><<"))))
     if options.output is not None:

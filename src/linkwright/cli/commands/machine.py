@@ -100,7 +100,7 @@ def _mechanism(options: argparse.Namespace, asked: Wanted, session: Session) -> 
         margin=asked.margin,
     )
     columns = _cycle(running) if options.output is not None else {}
-    write_table(options.output, lambda: csv_of(columns), lambda: columns, session, force=options.force)
+    write_table(options.output, lambda: csv_of(columns), lambda: columns, force=options.force)
     warnings = closeness(forces.motion, session.language)
     if running.exact_flywheel == 0:
         warnings.insert(0, session.say("machine.none_needed"))
@@ -145,9 +145,7 @@ def _show(title: str, blocks: list[list[Row]], remarks: list[str], session: Sess
 
     say = session.say
     if session.json:
-        from linkwright.cli.data import json_text
-
-        session.show(json_text(_data(title, blocks, remarks)))
+        session.show_data(_data(title, blocks, remarks))
         return
     kept = [block for block in blocks if block]
     lines = aligned([row.cells(say) for block in kept for row in block], "<><>")

@@ -49,11 +49,9 @@ def run(options: argparse.Namespace, session: Session) -> int:
     data = _data(table, trouble, session.language)
     rows = data["metrics"]
     columns = {name: [_cell(row[name]) for row in rows] for name in COLUMNS}
-    write_table(options.output, lambda: csv_of(columns), lambda: data, session, force=options.force)
+    write_table(options.output, lambda: csv_of(columns), lambda: data, force=options.force)
     if session.json:
-        from linkwright.cli.data import json_text
-
-        session.show(json_text(data))
+        session.show_data(data)
     else:
         session.show("\n".join(_report(table, session)))
         if options.output is not None:

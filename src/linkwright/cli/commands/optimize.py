@@ -107,19 +107,17 @@ def _stopped(stopped: KeyboardInterrupt, state: str | None, say: Say) -> str:
 
 def _unmet(error: OptimizeError, session: Session) -> int:
     """Says which demand fails, and shows the nearest design."""
-    from linkwright.cli.data import json_text
 
     sentence = error.say(session.language)
     session.tell_error(sentence)
     if session.json:
-        session.show(json_text({"ok": False, "error": sentence, "nearest": error.nearest.data()}))
+        session.show_data({"ok": False, "error": sentence, "nearest": error.nearest.data()})
     else:
         session.show(error.nearest.text(session.language))
     return 1
 
 
 def _show(found: Optimum, options: argparse.Namespace, session: Session) -> None:
-    from linkwright.cli.data import json_text
     from linkwright.cli.files import write_whole
     from linkwright.cli.tables import write_diagram
 
@@ -134,7 +132,7 @@ def _show(found: Optimum, options: argparse.Namespace, session: Session) -> None
         written.append(str(path) if len(targets) == 1 else f"{path} … {targets[-1]}")
     write_diagram(options.plot, found, session, force=options.force)
     if session.json:
-        session.show(json_text({"ok": True, **found.data()}))
+        session.show_data({"ok": True, **found.data()})
         return
     session.show(found.text(session.language))
     for path in [*written, *([options.plot] if options.plot else [])]:

@@ -79,13 +79,11 @@ def _require_kind(options: argparse.Namespace) -> None:
 
 def _path(options: argparse.Namespace, say: Say) -> Path:
     """Where the diagram goes; refused before any work is done."""
-    from linkwright.cli.files import refuse_existing
+    from linkwright.cli.tables import refuse_output
 
     source = options.files[0].removeprefix("gallery:")
     path = Path(options.output or f"{Path(source).stem}-{options.kind}.svg")
-    if path.suffix.lower() not in ENDINGS:
-        raise UsageError(say("cli.bad_suffix", path=path, endings=say("finding.comma").join(ENDINGS)))
-    refuse_existing(path, force=options.force)
+    refuse_output(str(path), ENDINGS, say, force=options.force)
     return path
 
 
@@ -146,13 +144,12 @@ def _place(text: str | None, motions: dict[str, Motion], session: Session) -> fl
 
 
 def _write(diagram: Diagram, path: Path, dpi: float, options: argparse.Namespace, session: Session) -> None:
-    from linkwright.cli.data import json_text
     from linkwright.cli.files import write_whole
 
     content = diagram.content(path.suffix.lower(), dpi=dpi)
     write_whole(path, content, force=options.force)
     if session.json:
-        session.show(json_text({"ok": True, "kind": options.kind, "file": str(path)}))
+        session.show_data({"ok": True, "kind": options.kind, "file": str(path)})
     else:
         session.show(session.say("cli.written", path=path))
 

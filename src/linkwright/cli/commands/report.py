@@ -34,7 +34,6 @@ def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
 
 def run(options: argparse.Namespace, session: Session) -> int:
     """Writes the report; sections that have nothing to show are named on the console."""
-    from linkwright.cli.data import json_text
     from linkwright.cli.files import write_whole
     from linkwright.cli.progress import progress
     from linkwright.cli.source import read_model
@@ -57,7 +56,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
         content = found.content(path.suffix.lower())
     write_whole(path, content, force=options.force)
     if session.json:
-        session.show(json_text({"ok": not found.broken, "file": str(path), "missing": list(found.missing)}))
+        session.show_data({"ok": not found.broken, "file": str(path), "missing": list(found.missing)})
         return int(found.broken)
     if found.missing:
         session.tell(session.say("report.missing_title"))

@@ -51,10 +51,9 @@ def run(options: argparse.Namespace, session: Session) -> int:
     if options.output is not None:
         _write(solved, options, session)
     if session.json:
-        from linkwright.cli.data import json_text
         from linkwright.cli.solve_data import data
 
-        session.show(json_text(data(solved, options, session.say)))
+        session.show_data(data(solved, options, session.say))
     elif options.output is None:
         from linkwright.cli.solve_text import report
 
@@ -66,14 +65,13 @@ def run(options: argparse.Namespace, session: Session) -> int:
 
 def _show_worked(solved: Solved, options: argparse.Namespace, session: Session) -> None:
     """The worked solution of the positions that were named, or of the first one."""
-    from linkwright.cli.data import json_text
     from linkwright.worked.solution import worked
 
     rows = solved.rows if options.at or options.times else solved.rows[:1]
     source = solved.motion if solved.forces is None else solved.forces
     pages = [worked(source, int(row), language=session.language) for row in rows]
     if session.json:
-        session.show(json_text({"worked": [page.data() for page in pages]}))
+        session.show_data({"worked": [page.data() for page in pages]})
     else:
         session.show("\n\n\n".join(page.text() for page in pages))
 
@@ -83,30 +81,19 @@ def _refuse_contradictions(options: argparse.Namespace, say: Say) -> None:
         raise UsageError(say("cli.not_together", name="--worked", other="--output"))
     if options.static and options.forces is False:
         raise UsageError(say("cli.not_together", name="--static", other="--no-forces"))
-    if options.output is None:
-        return
-    from pathlib import Path
+    if options.output is not None:
+        from linkwright.cli.tables import refuse_output
 
-    from linkwright.cli.files import refuse_existing
-
-    path = Path(options.output)
-    if path.suffix.lower() not in ENDINGS:
-        raise UsageError(say("cli.bad_suffix", path=path, endings=say("finding.comma").join(ENDINGS)))
-    refuse_existing(path, force=options.force)
+        refuse_output(options.output, ENDINGS, say, force=options.force)
 
 
 def _write(solved: Solved, options: argparse.Namespace, session: Session) -> None:
     from pathlib import Path
 
-    from linkwright.cli.data import json_text
-    from linkwright.cli.files import write_whole
     from linkwright.cli.solve_data import csv_text, data
+    from linkwright.cli.tables import write_table
 
-    path = Path(options.output)
-    if path.suffix.lower() == ".csv":
-        text = csv_text(solved, options, session.say)
-    else:
-        text = json_text(data(solved, options, session.say)) + "\n"
-    write_whole(path, text, force=options.force)
+    asked = solved, options, session.say
+    write_table(options.output, lambda: csv_text(*asked), lambda: data(*asked), force=options.force)
     if not session.json:
-        session.show(session.say("cli.written", path=path))
+        session.show(session.say("cli.written", path=Path(options.output)))

@@ -31,12 +31,10 @@ def run(options: argparse.Namespace, session: Session) -> int:
     rank = rank_sentence(mechanism, "en" if session.json else session.language)
     program = _program(mechanism, options.forces) if options.program or options.forces else None
     if session.json:
-        from linkwright.cli.data import json_text
-
         data: dict[str, object] = {"name": mechanism.name, **built.data(), "rank": rank}
         if program is not None:
             data["program"] = {"operations": program.counts(), "lines": program.text().splitlines()}
-        session.show(json_text(data))
+        session.show_data(data)
         return 0
     session.show(session.strong(mechanism.name))
     session.show()

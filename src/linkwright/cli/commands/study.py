@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkwright.cli.errors import UsageError
@@ -79,17 +78,12 @@ def ranges_of(texts: list[str], say: Say) -> dict[str, str]:
 
 
 def _show(found: Study, options: argparse.Namespace, session: Session) -> None:
-    from linkwright.cli.data import json_text
-    from linkwright.cli.files import write_whole
-    from linkwright.cli.tables import write_diagram
+    from linkwright.cli.tables import write_diagram, write_table
 
-    if options.output is not None:
-        path = Path(options.output)
-        text = found.csv() if path.suffix.lower() == ".csv" else json_text(found.data()) + "\n"
-        write_whole(path, text, force=options.force)
+    write_table(options.output, found.csv, found.data, force=options.force)
     write_diagram(options.plot, found, session, force=options.force)
     if session.json:
-        session.show(json_text(found.data()))
+        session.show_data(found.data())
         return
     session.show("\n".join(session.table(found.text(session.language, max(2, options.rows)).splitlines())))
     for written in (options.output, options.plot):

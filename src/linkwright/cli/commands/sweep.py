@@ -54,7 +54,6 @@ def run(options: argparse.Namespace, session: Session) -> int:
 
 
 def _show(found: SweepParts, options: argparse.Namespace, session: Session) -> None:
-    from linkwright.cli.data import json_text
     from linkwright.words.width import aligned
 
     ranges = found.ranges()
@@ -66,7 +65,7 @@ def _show(found: SweepParts, options: argparse.Namespace, session: Session) -> N
         }
         data = {"folder": str(found.folder), "designs": found.designs, "parts": found.parts, "skipped": found.skipped,
                 "columns": columns, "best": {name: column.tolist() for name, column in best.items()}}  # fmt: skip
-        session.show(json_text(data))
+        session.show_data(data)
         return
     say = session.say
     session.show(

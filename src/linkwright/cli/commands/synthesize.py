@@ -69,21 +69,19 @@ def _solve(options: argparse.Namespace, session: Session) -> Synthesis:
 
 def _unmet(error: SynthesisError, options: argparse.Namespace, mass: float | None, session: Session) -> int:
     """Says which demand fails, and shows the nearest solution."""
-    from linkwright.cli.data import json_text
-
     sentence = error.say(session.language)
     session.tell_error(sentence)
     if session.json:
         nearest = None if error.nearest is None else error.nearest.data()
-        session.show(json_text({"ok": False, "error": sentence, "nearest": nearest}))
+        session.show_data({"ok": False, "error": sentence, "nearest": nearest})
     elif error.nearest is not None:
         _show(error.nearest, options, mass, session)
     return 1
 
 
 def _show(found: Synthesis, options: argparse.Namespace, mass: float | None, session: Session) -> None:
-    from linkwright.cli.data import json_text
     from linkwright.cli.files import write_whole
+    from linkwright.cli.tables import write_diagram
 
     efforts = [each.loads(mass, speed=options.speed) for each in found] if mass is not None else []
     written = []
@@ -93,15 +91,13 @@ def _show(found: Synthesis, options: argparse.Namespace, mass: float | None, ses
             write_whole(path, found.model_text(index, language=session.language), force=options.force)
             written.append(path)
     if options.plot is not None:
-        path = Path(options.plot)
-        content = found.plot(language=session.language).content(path.suffix.lower())
-        write_whole(path, content, force=options.force)
-        written.append(path)
+        write_diagram(options.plot, found, session, force=options.force)
+        written.append(Path(options.plot))
     if session.json:
         data = found.data()
         for each, effort in zip(data["candidates"], efforts, strict=False):
             each |= effort
-        session.show(json_text({"ok": True, **data}))
+        session.show_data({"ok": True, **data})
         return
     session.show(found.text(session.language))
     if efforts:

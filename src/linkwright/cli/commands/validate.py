@@ -17,7 +17,6 @@ def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
 
 def run(options: argparse.Namespace, session: Session) -> int:
     """Compares and prints; 1 where a number differs."""
-    from linkwright.cli.data import json_text
     from linkwright.cli.progress import progress
     from linkwright.validation.published import published
     from linkwright.validation.validate import validate
@@ -29,7 +28,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     with progress(session.say("validate.working")) as told:
         found = validate(cases, None if told is None else lambda done: told(done, len(cases)))
     if session.json:
-        session.show(json_text({"ok": found.ok, "numbers": found.data()}))
+        session.show_data({"ok": found.ok, "numbers": found.data()})
     else:
         session.show(found.text(session.language, every=options.every))
     return int(not found.ok)

@@ -29,7 +29,6 @@ def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
 
 def run(options: argparse.Namespace, session: Session) -> int:
     """Finds the variants and writes their files."""
-    from linkwright.cli.data import json_text
     from linkwright.cli.progress import progress
     from linkwright.cli.source import read_model
     from linkwright.course.questions import FORMS
@@ -47,7 +46,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
         found = variants(mechanism, options.count, seed=options.seed, told=told)
         files = found.save(folder, options.to, session.language)
     if session.json:
-        session.show(json_text({"ok": True, "files": [str(path) for path in files], "key": found.key()}))
+        session.show_data({"ok": True, "files": [str(path) for path in files], "key": found.key()})
     else:
         questions = len(found.task.questions)
         session.show(say("variants.written", count=options.count, questions=questions, path=folder))
