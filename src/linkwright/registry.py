@@ -26,11 +26,15 @@ class Registry(Mapping[str, T], Generic[T]):
     name, the module of that name is looked into first; the others wait until it is not there, or all are asked for.
     """
 
-    def __init__(self, noun: str, package: str, *, entry_points: str | None = None) -> None:
-        """``entry_points``: the group under which installed packages name modules with further elements."""
+    def __init__(
+        self, noun: str, package: str, *, entry_points: str | None = None, attribute: str | None = None
+    ) -> None:
+        """``entry_points``: the group under which installed packages name modules with further elements;
+        ``attribute``: where a class finds the name under which it is filed, unless it has its own there."""
         self.noun = noun
         self._package = package
         self._entry_points = entry_points
+        self._attribute = attribute
         self._elements: dict[str, T] = {}
         self._lock = threading.RLock()
         self._discovered = self._discovering = False
@@ -42,6 +46,8 @@ class Registry(Mapping[str, T], Generic[T]):
             if name in self._elements and _home(self._elements[name]) != _home(element):
                 raise LinkwrightError(Sentence("names.twice", noun=Sentence(f"nouns.{self.noun}"), name=name))
             self._elements[name] = element
+            if self._attribute is not None and self._attribute not in vars(element):
+                setattr(element, self._attribute, name)
             return element
 
         return file_under

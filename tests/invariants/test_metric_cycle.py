@@ -131,7 +131,6 @@ def test_a_metric_of_another_package_goes_the_same_way() -> None:
     class PinWork(Metric):
         """A number made of two summaries."""
 
-        name = "pin_work"
         dimension = "energy"
         source = "a test"
         better = "lower"

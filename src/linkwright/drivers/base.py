@@ -112,4 +112,6 @@ class Driver:
         return replace(self, law=law)
 
 
-LAWS: Registry[type[Law]] = Registry("driver_law", "linkwright.drivers", entry_points="linkwright.drivers")
+LAWS: Registry[type[Law]] = Registry(
+    "driver_law", "linkwright.drivers", entry_points="linkwright.drivers", attribute="key"
+)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
 from linkwright.core.dataclass import dataclass
 from linkwright.drivers.base import LAWS, Law
@@ -24,7 +24,6 @@ class ConstantSpeed(Law):
     Repeats after one turn; on a prismatic joint it has no natural duration.
     """
 
-    key: ClassVar[str] = "speed"
     speed: float
     start: float = 0.0
     rotary: bool = True

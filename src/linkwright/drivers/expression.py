@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import field
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import Expression
@@ -22,7 +22,6 @@ class ExpressionLaw(Law):
     """q = expression(t), ``t`` in s, differentiated exactly; ``parameters`` are the values of its other
     names."""
 
-    key: ClassVar[str] = "position"
     expression: Expression
     parameters: Mapping[str, float] = field(default_factory=dict)
     rotary: bool = True

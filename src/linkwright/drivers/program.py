@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cached_property
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
 from linkwright.core.dataclass import dataclass
 from linkwright.drivers.base import LAWS, Law
@@ -27,7 +27,6 @@ class ProgramLaw(Law):
     raise.
     """
 
-    key: ClassVar[str] = "program"
     program: MotionProgram
     rotary: bool = True
 

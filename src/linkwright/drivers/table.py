@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cached_property
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
 from linkwright.core.dataclass import dataclass
 from linkwright.drivers.base import LAWS, Law
@@ -28,7 +28,6 @@ class TableLaw(Law):
     second derivative 0. Outside the table's times only ``periodic`` is defined; the others raise.
     """
 
-    key: ClassVar[str] = "table"
     times: tuple[float, ...]
     positions: tuple[float, ...]
     interpolation: str = "cubic"

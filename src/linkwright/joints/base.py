@@ -431,7 +431,9 @@ class LackingError(LinkwrightError):
     """A joint kind does not supply what is asked of it."""
 
 
-JOINTS: Registry[type[Joint]] = Registry("joint_kind", "linkwright.joints", entry_points="linkwright.joints")
+JOINTS: Registry[type[Joint]] = Registry(
+    "joint_kind", "linkwright.joints", entry_points="linkwright.joints", attribute="kind"
+)
 
 
 #: The kind that links imply which share a point's name.

@@ -34,7 +34,6 @@ class BeltPair(WheelPair):
     Machine Design, ch. 14).
     """
 
-    kind: ClassVar[str] = "belt"
     letter: ClassVar[str] = "B"
     couples: ClassVar[bool] = True
     run: str = "open"

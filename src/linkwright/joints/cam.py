@@ -52,7 +52,6 @@ class CamJoint(HigherPair):
     flat face: over the distance of the axes); contact force and pressure angle follow from it.
     """
 
-    kind: ClassVar[str] = "cam"
     letter: ClassVar[str] = "C"
     couples: ClassVar[bool] = True
     uneven: ClassVar[bool] = True

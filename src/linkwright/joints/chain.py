@@ -28,7 +28,6 @@ class ChainPair(BeltPair):
     carries nothing.
     """
 
-    kind: ClassVar[str] = "chain"
     toothed: ClassVar[bool] = True
     pitch: float | None = None
 

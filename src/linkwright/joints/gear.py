@@ -37,7 +37,6 @@ class GearPair(RollingPair):
     Design of Machinery, ch. 9 and 11).
     """
 
-    kind: ClassVar[str] = "gear"
     letter: ClassVar[str] = "G"
     toothed: ClassVar[bool] = True
     module: float | None = None

@@ -33,7 +33,6 @@ if TYPE_CHECKING:
 class PrismaticJoint(SlidingJoint):
     """A straight guide with its block; :class:`SlidingJoint` says what its fields mean."""
 
-    kind: ClassVar[str] = "prismatic"
     letter: ClassVar[str] = "P"
 
     def dimensions(self) -> Mapping[str, float]:

@@ -53,7 +53,6 @@ class RackPair(HigherPair):
     with |F_t| tan α, ``pressure_angle`` α.
     """
 
-    kind: ClassVar[str] = "rack"
     letter: ClassVar[str] = "K"
     couples: ClassVar[bool] = True
     pinion: str

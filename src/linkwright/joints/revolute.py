@@ -29,7 +29,6 @@ FRICTION = Quantity("dimensionless", minimum=0, doc="coefficient of Coulomb fric
 class RevoluteJoint(TurningJoint):
     """A pin: the kind that points of one name imply."""
 
-    kind: ClassVar[str] = "revolute"
     letter: ClassVar[str] = "R"
 
     def dimensions(self) -> Mapping[str, float]:

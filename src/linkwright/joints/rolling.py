@@ -35,7 +35,6 @@ class RollingPair(WheelPair):
     together is a matter of the carrier and of its loads (Norton, Design of Machinery, ch. 9).
     """
 
-    kind: ClassVar[str] = "rolling"
     letter: ClassVar[str] = "O"
     mesh: str = "external"
 

@@ -29,7 +29,6 @@ if TYPE_CHECKING:
 class WeldJoint(RigidJoint):
     """Two links made one; :class:`RigidJoint` says what its fields mean."""
 
-    kind: ClassVar[str] = "weld"
     letter: ClassVar[str] = "W"
 
     def dimensions(self) -> Mapping[str, float]:

@@ -130,5 +130,5 @@ class MeetingLaw(MotionLaw):
 
 
 MOTION_LAWS: Registry[type[MotionLaw]] = Registry(
-    "motion_law", "linkwright.laws", entry_points="linkwright.laws"
+    "motion_law", "linkwright.laws", entry_points="linkwright.laws", attribute="key"
 )

@@ -13,7 +13,6 @@ from linkwright.laws.base import MOTION_LAWS, MotionLaw
 class ConstantVelocity(MotionLaw):
     """s = u: for passages between motions of the same velocity; beside a dwell the velocity jumps."""
 
-    key: ClassVar[str] = "constant_velocity"
     source: ClassVar[str] = "VDI 2143-1; Norton, Cam Design and Manufacturing Handbook, ch. 2"
 
     def curves(self, u: Any) -> tuple[Any, Any, Any, Any]:

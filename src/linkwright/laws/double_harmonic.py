@@ -16,7 +16,6 @@ from linkwright.laws.base import MOTION_LAWS, MotionLaw
 class DoubleHarmonic(MotionLaw):
     """s = (1 - cos πu)/2 - (1 - cos 2πu)/8: from rest to a turn, for a rise that a fall follows at once."""
 
-    key: ClassVar[str] = "double_harmonic"
     source: ClassVar[str] = "Rothbart, Cam Design Handbook, ch. 3"
     formula = r"\frac{1-\cos\left(\pi\,u\right)}{2}-\frac{1-\cos\left(2\,\pi\,u\right)}{8}"
 

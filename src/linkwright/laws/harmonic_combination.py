@@ -36,7 +36,6 @@ class HarmonicCombination(MeetingLaw):
     -π² double harmonic: the harmonic combinations of VDI 2143 for all sixteen pairs of ends.
     """
 
-    key: ClassVar[str] = "harmonic_combination"
     source: ClassVar[str] = "VDI 2143-1"
 
     @cached_property

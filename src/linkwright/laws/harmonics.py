@@ -36,7 +36,6 @@ def two_sines(first: str, third: str) -> str:
 class Cycloidal(MotionLaw):
     """s = u - sin(2πu)/(2π): sine acceleration, from rest to rest; in VDI 2143 the inclined sine of Bestehorn."""
 
-    key: ClassVar[str] = "cycloidal"
     source: ClassVar[str] = "Rothbart, Cam Design Handbook, ch. 2; VDI 2143-1"
     formula = r"u-\frac{\sin\left(2\,\pi\,u\right)}{2\,\pi}"
 
@@ -49,7 +48,6 @@ class Cycloidal(MotionLaw):
 class InclinedSine(MotionLaw):
     """s = u - (1 - v) sin(2πu)/(2π): the inclined sine of Bestehorn between equal velocities v, 0 unless given."""
 
-    key: ClassVar[str] = "inclined_sine"
     fields: ClassVar[Mapping[str, Field]] = {
         "velocity": Quantity("dimensionless", doc="velocity at both ends, 0")
     }
@@ -70,7 +68,6 @@ class InclinedSine(MotionLaw):
 class Gutman(MotionLaw):
     """s = u - (15/16) sin(2πu)/(2π) - (1/16) sin(6πu)/(6π): first and third order."""
 
-    key: ClassVar[str] = "gutman"
     formula = two_sines(r"\frac{15}{16}", r"\frac{1}{16}")
     source: ClassVar[str] = (
         "A. S. Gutman, To avoid vibration try this new cam profile, Product Engineering, 1961"
@@ -85,7 +82,6 @@ class Gutman(MotionLaw):
 class Freudenstein(MotionLaw):
     """s = u - (27/28) sin(2πu)/(2π) - (1/28) sin(6πu)/(6π): of the first and third order, the least acceleration."""
 
-    key: ClassVar[str] = "freudenstein"
     formula = two_sines(r"\frac{27}{28}", r"\frac{1}{28}")
     source: ClassVar[str] = "F. Freudenstein, On the dynamics of high-speed cam profiles, IJMS 1, 1960"
 
@@ -98,7 +94,6 @@ class Freudenstein(MotionLaw):
 class Freudenstein135(MotionLaw):
     """s = u - (1125/1192)(sin(2πu) + sin(6πu)/54 + sin(10πu)/1250)/(2π): orders 1, 3 and 5."""
 
-    key: ClassVar[str] = "freudenstein_135"
     source: ClassVar[str] = "F. Freudenstein, On the dynamics of high-speed cam profiles, IJMS 1, 1960"
 
     def curves(self, u: Any) -> tuple[Any, Any, Any, Any]:
@@ -114,7 +109,6 @@ class TripleHarmonic(MotionLaw):
     Unless given, A₁ = 9π/4 and A₂ = 0: the jerk is then zero at both ends and in the middle.
     """
 
-    key: ClassVar[str] = "triple_harmonic"
     fields: ClassVar[Mapping[str, Field]] = {
         "first": Quantity("dimensionless", doc="amplitude A₁ of the acceleration, 9π/4 unless given"),
         "second": Quantity("dimensionless", doc="amplitude A₂, 0 unless given; A₃ follows"),

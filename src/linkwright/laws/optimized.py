@@ -33,7 +33,6 @@ class OptimizedSpline(MotionLaw):
     solved by HiGHS. Without limits of one's own the jerk is at most 200, for ``residual`` the acceleration at most 8.
     """
 
-    key: ClassVar[str] = "optimized_spline"
     fields: ClassVar[Mapping[str, Field]] = {
         "minimize": Word(tuple(AIMS), required=True, doc="what is made least"),
         "velocity": Quantity("dimensionless", above=0.0, doc=_LIMIT.format("velocity")),

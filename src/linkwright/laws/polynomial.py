@@ -74,7 +74,6 @@ class Polynomial(MotionLaw):
 class Polynomial23(Polynomial):
     """s = 3u² - 2u³: the acceleration jumps beside dwells."""
 
-    key: ClassVar[str] = "polynomial_23"
     coefficients = (0.0, 0.0, 3.0, -2.0)
 
 
@@ -83,7 +82,6 @@ class Polynomial23(Polynomial):
 class Polynomial345(Polynomial):
     """s = 10u³ - 15u⁴ + 6u⁵."""
 
-    key: ClassVar[str] = "polynomial_345"
     coefficients = (0.0, 0.0, 0.0, 10.0, -15.0, 6.0)
 
 
@@ -92,7 +90,6 @@ class Polynomial345(Polynomial):
 class Polynomial4567(Polynomial):
     """s = 35u⁴ - 84u⁵ + 70u⁶ - 20u⁷: the jerk has no jumps."""
 
-    key: ClassVar[str] = "polynomial_4567"
     coefficients = (0.0, 0.0, 0.0, 0.0, 35.0, -84.0, 70.0, -20.0)
 
 
@@ -100,8 +97,6 @@ class Polynomial4567(Polynomial):
 @dataclass(frozen=True)
 class Polynomial5(MeetingLaw, Polynomial):
     """The polynomial of order 5 with any velocity and acceleration at both ends (all pairs of VDI 2143)."""
-
-    key: ClassVar[str] = "polynomial_5"
 
     @cached_property
     def coefficients(self) -> Coefficients:
@@ -113,8 +108,6 @@ class Polynomial5(MeetingLaw, Polynomial):
 @dataclass(frozen=True)
 class Polynomial7(MeetingLaw, Polynomial):
     """The polynomial of order 7 with any velocity and acceleration at both ends, and no jerk there."""
-
-    key: ClassVar[str] = "polynomial_7"
 
     @cached_property
     def coefficients(self) -> Coefficients:
@@ -130,7 +123,6 @@ class PolynomialOf(Polynomial):
     Without any it is s = u.
     """
 
-    key: ClassVar[str] = "polynomial"
     fields: ClassVar[Mapping[str, Field]] = {
         "start": Quantities("dimensionless", doc="v, a, j, … at u = 0, as many as are wanted"),
         "end": Quantities("dimensionless", doc="v, a, j, … at u = 1"),
@@ -156,7 +148,6 @@ class Polydyne(Polynomial):
     damping: at the speed it is made for nothing is left vibrating (Stoddart 1953).
     """
 
-    key: ClassVar[str] = "polydyne"
     fields: ClassVar[Mapping[str, Field]] = {
         "ratio": Quantity(
             "dimensionless", above=0.0, required=True, doc="time of the rise over natural period"

@@ -16,7 +16,6 @@ from linkwright.laws.base import MOTION_LAWS, MotionLaw
 class SimpleHarmonic(MotionLaw):
     """s = (1 - cos πu)/2: turns at both ends; beside a dwell the acceleration jumps."""
 
-    key: ClassVar[str] = "simple_harmonic"
     source: ClassVar[str] = "Rothbart, Cam Design Handbook, ch. 2"
     formula = r"\frac{1-\cos\left(\pi\,u\right)}{2}"
 

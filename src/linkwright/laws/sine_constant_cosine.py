@@ -92,7 +92,6 @@ class SineConstantCosine(Family):
     (0, 0, 1) simple harmonic, (0, 1, 0) constant acceleration.
     """
 
-    key: ClassVar[str] = "sine_constant_cosine"
     fields: ClassVar[Mapping[str, Field]] = {
         "sine": Quantity(_SHARE, minimum=0.0, required=True, doc="share in which the acceleration builds up"),
         "constant": Quantity(_SHARE, minimum=0.0, required=True, doc="share of constant acceleration"),
@@ -118,7 +117,6 @@ class SineConstantCosine(Family):
 class ConstantAcceleration(Family):
     """Two parabolas, s = 2u² up to the middle: the least acceleration; it jumps."""
 
-    key: ClassVar[str] = "constant_acceleration"
     shares = (0.0, 1.0, 0.0, 0.0)
 
 
@@ -127,7 +125,6 @@ class ConstantAcceleration(Family):
 class ModifiedSine(Family):
     """The modified sine of Neklutin: little velocity and torque."""
 
-    key: ClassVar[str] = "modified_sine"
     shares = (0.25, 0.0, 0.75, 0.0)
 
 
@@ -136,7 +133,6 @@ class ModifiedSine(Family):
 class ModifiedTrapezoidal(Family):
     """The modified trapezoid of Neklutin: little acceleration."""
 
-    key: ClassVar[str] = "modified_trapezoidal"
     shares = (0.25, 0.5, 0.25, 0.0)
 
 
@@ -150,7 +146,6 @@ def _between(p: float) -> tuple[float, float, float, float]:
 class ModifiedSineCV20(Family):
     """A modified sine with one fifth of constant velocity in the middle."""
 
-    key: ClassVar[str] = "modified_sine_cv20"
     shares = _between(1 / 5)
 
 
@@ -159,7 +154,6 @@ class ModifiedSineCV20(Family):
 class ModifiedSineCV33(Family):
     """A modified sine with one third of constant velocity in the middle."""
 
-    key: ClassVar[str] = "modified_sine_cv33"
     shares = _between(1 / 3)
 
 
@@ -168,7 +162,6 @@ class ModifiedSineCV33(Family):
 class ModifiedSineCV50(Family):
     """A modified sine with one half of constant velocity in the middle."""
 
-    key: ClassVar[str] = "modified_sine_cv50"
     shares = _between(1 / 2)
 
 
@@ -177,5 +170,4 @@ class ModifiedSineCV50(Family):
 class ModifiedSineCV66(Family):
     """A modified sine with two thirds of constant velocity in the middle."""
 
-    key: ClassVar[str] = "modified_sine_cv66"
     shares = _between(2 / 3)

@@ -44,7 +44,6 @@ class SplineThrough(MotionLaw):
     Continuous up to the fourth derivative (de Boor, A Practical Guide to Splines).
     """
 
-    key: ClassVar[str] = "spline"
     fields: ClassVar[Mapping[str, Field]] = {"places": _PLACES, "values": _VALUES}
     source: ClassVar[str] = "de Boor, A Practical Guide to Splines; Norton, ch. 5"
     places: tuple[float, ...]
@@ -80,7 +79,6 @@ class SmoothedTable(MotionLaw):
     A spline of order 5 with the least ∫ j² du for the weight that just keeps the tolerance (Reinsch 1967).
     """
 
-    key: ClassVar[str] = "smoothed_table"
     fields: ClassVar[Mapping[str, Field]] = {
         "places": _PLACES,
         "values": _VALUES,

@@ -189,7 +189,9 @@ class Load:
         return found
 
 
-LOADS: Registry[type[Load]] = Registry("load_kind", "linkwright.loads", entry_points="linkwright.loads")
+LOADS: Registry[type[Load]] = Registry(
+    "load_kind", "linkwright.loads", entry_points="linkwright.loads", attribute="kind"
+)
 
 
 def read_load(reader: Reader, node: Node, place: Place, name: str) -> Load | None:

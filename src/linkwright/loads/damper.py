@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any
 
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.trace import select
@@ -31,7 +31,6 @@ class Damper(Load):
     Source: Norton, Design of Machinery, chapter 10 (dynamics fundamentals).
     """
 
-    kind: ClassVar[str] = "damper"
     between: tuple[LinkPoint, LinkPoint] = base.points(doc="its two ends, [link.point, link.point]")
     damping: float = base.quantity("damping", minimum=0, doc="force per speed of elongation")
 

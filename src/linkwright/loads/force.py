@@ -40,7 +40,6 @@ class Force(Load):
     Source: Norton, Design of Machinery, chapter 11 (dynamic force analysis).
     """
 
-    kind: ClassVar[str] = "force"
     exactly_one: ClassVar[tuple[tuple[str, ...], ...]] = (
         ("direction", "in_link", "normal_to", "along", "opposes", "components"),
         ("magnitude", "ramp", "table", "components"),

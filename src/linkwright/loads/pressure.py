@@ -37,7 +37,6 @@ class Pressure(Load):
     Source: Norton, Design of Machinery, chapter 13 (engine dynamics, gas force).
     """
 
-    kind: ClassVar[str] = "pressure"
     exactly_one: ClassVar[tuple[tuple[str, ...], ...]] = (("area", "bore"), ("magnitude", "ramp", "table"))
     joint: str = base.joint("slide", doc="the prismatic joint whose block is the piston")
     area: float | None = base.quantity("area", above=0, default=None, doc="area of the piston")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any
 
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.trace import select, sqrt
@@ -32,7 +32,6 @@ class Spring(Load):
     Energy k·(L - L0)²/2 + F0·(L - L0). Source: Norton, Design of Machinery, chapter 10 (dynamics fundamentals).
     """
 
-    kind: ClassVar[str] = "spring"
     between: tuple[LinkPoint, LinkPoint] = base.points(doc="its two ends, [link.point, link.point]")
     stiffness: float = base.quantity("stiffness", minimum=0, doc="force per elongation")
     free_length: float = base.quantity(

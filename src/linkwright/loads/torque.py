@@ -32,7 +32,6 @@ class Torque(Load):
     Source: Norton, Design of Machinery, chapter 11 (dynamic force analysis).
     """
 
-    kind: ClassVar[str] = "torque"
     exactly_one: ClassVar[tuple[tuple[str, ...], ...]] = (("magnitude", "ramp", "table"),)
     on: str = base.link(moving=True, doc="the link on which the torque acts")
     against: str = base.link(default="frame", doc="the link that takes the opposite torque (default: frame)")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
 from linkwright.core.dataclass import dataclass
 from linkwright.loads import base
@@ -24,7 +24,6 @@ class TorsionDamper(Load):
     back. Source: Norton, Design of Machinery, chapter 10 (dynamics fundamentals).
     """
 
-    kind: ClassVar[str] = "torsion_damper"
     links: tuple[str, str] = base.links(doc="[a, b]: the two links between which it acts")
     damping: float = base.quantity("torsional_damping", minimum=0, doc="torque per angular velocity")
 

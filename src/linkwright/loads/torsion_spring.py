@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.trace import Scalar
@@ -30,7 +30,6 @@ class TorsionSpring(Load):
     Energy k·(φ - φ0)²/2 + M0·(φ - φ0). Source: Norton, Design of Machinery, chapter 10 (dynamics fundamentals).
     """
 
-    kind: ClassVar[str] = "torsion_spring"
     links: tuple[str, str] = base.links(doc="[a, b]: the two links between which it acts")
     stiffness: float = base.quantity("torsional_stiffness", minimum=0, doc="torque per angle")
     free_angle: float = base.quantity(

@@ -14,7 +14,6 @@ from linkwright.metrics.outputs import free_points
 class PeakAcceleration(Metric):
     """Largest size of the acceleration of every output and free point: m/s², or rad/s² of a swinging link."""
 
-    name = "peak_acceleration"
     rank: ClassVar[float] = 1.5
     dimension = "acceleration"
     source = "kinematics: exact second derivatives"
@@ -39,7 +38,6 @@ class PeakJerk(PeakAcceleration):
     For drivers of constant speed; other laws have no third derivative here.
     """
 
-    name = "peak_jerk"
     rank = 9.0
     dimension = "jerk"
     source = "kinematics: exact derivative of the acceleration program"

@@ -251,4 +251,6 @@ def _unbounded(value: float, at: float, analysis: Analysis) -> tuple[Remark, ...
     return (Remark("unbounded", {"at": shown(at, analysis.input_dimension)}, warning=True),)
 
 
-METRICS: Registry[type[Metric]] = Registry("metric", "linkwright.metrics", entry_points="linkwright.metrics")
+METRICS: Registry[type[Metric]] = Registry(
+    "metric", "linkwright.metrics", entry_points="linkwright.metrics", attribute="name"
+)

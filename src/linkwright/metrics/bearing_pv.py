@@ -22,7 +22,6 @@ class BearingPv(Metric):
     μ times it.
     """
 
-    name = "bearing_pv"
     rank = 4
     dimension = "power"
     source = "Shigley, Mechanical Engineering Design, sec. 12-15: p = F/(2 r b), v = r ω"

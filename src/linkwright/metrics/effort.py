@@ -35,7 +35,6 @@ class EffortMetric(Metric):
 class PeakInputTorque(EffortMetric):
     """Largest size of the effort of every driver: N·m where it turns, N where it slides."""
 
-    name = "peak_input_torque"
     summary = "peak"
 
 
@@ -43,7 +42,6 @@ class PeakInputTorque(EffortMetric):
 class RmsInputTorque(EffortMetric):
     """Root mean square over time of the effort of every driver: what heats a motor."""
 
-    name = "rms_input_torque"
     summary = "rms"
 
 
@@ -60,15 +58,12 @@ class PowerMetric(EffortMetric):
 class PeakPower(PowerMetric):
     """Largest power that the drivers supply together at any moment."""
 
-    name = "peak_power"
     summary = "max"
 
 
 @METRICS.register("mean_power")
 class MeanPower(PowerMetric):
     """Mean over time of the power of all drivers: work per cycle over the time of the cycle."""
-
-    name = "mean_power"
 
     def numbers(self, analysis: Analysis) -> Iterator[Number]:
         yield Number(analysis.motion.mechanism.name, ("power mean", "power peak"), _work)

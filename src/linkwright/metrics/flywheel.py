@@ -24,7 +24,6 @@ NOTHING = 1e-9
 class EnergyFluctuation(Metric):
     """Largest excess ΔE of the energy that a constant torque supplies over the energy that the machine takes, J."""
 
-    name = "energy_fluctuation"
     rank = 3
     dimension = "energy"
     source = "Shigley, Theory of Machines; Norton, Design of Machinery, sec. 11.11: ∫ (mean - T) dφ"
@@ -54,7 +53,6 @@ class EnergyFluctuation(Metric):
 class Flywheel(EnergyFluctuation):
     """Inertia ΔE/(δ ω²) less the machine's own mean one that keeps the speed even to δ = 0.02, kg·m² on the crank."""
 
-    name = "flywheel"
     dimension = "inertia"
 
     def __init__(self, fluctuation: float = 0.02) -> None:
@@ -109,7 +107,6 @@ class TrueSpeed(EnergyFluctuation):
 class ExactFlywheel(TrueSpeed):
     """Inertia beyond the machine's own with which the true speed fluctuates by just δ = 0.02, kg·m² on the crank."""
 
-    name = "exact_flywheel"
     dimension = "inertia"
     part = "running {fluctuation} size"
 
@@ -118,7 +115,6 @@ class ExactFlywheel(TrueSpeed):
 class ReachedFluctuation(TrueSpeed):
     """δ = (ω_max - ω_min)/ω_mean of the true speed with the flywheel that the formula gives for δ = 0.02."""
 
-    name = "reached_fluctuation"
     dimension = "dimensionless"
     better = None
     part = "running {fluctuation} fluctuation"
@@ -128,7 +124,6 @@ class ReachedFluctuation(TrueSpeed):
 class SpeedFluctuation(TrueSpeed):
     """δ = (ω_max - ω_min)/ω_mean of the true speed with the inertia that the machine has, a flywheel the crank's."""
 
-    name = "speed_fluctuation"
     dimension = "dimensionless"
     part = "running fluctuation"
 
@@ -141,7 +136,6 @@ class SpeedFluctuation(TrueSpeed):
 class SlowestSpeed(SpeedFluctuation):
     """Smallest true speed of the driver with the inertia that the machine has, rad/s."""
 
-    name = "slowest_speed"
     dimension = "angular_velocity"
     better = "higher"
     part = "running slowest"
@@ -151,7 +145,6 @@ class SlowestSpeed(SpeedFluctuation):
 class FastestSpeed(SpeedFluctuation):
     """Largest true speed of the driver with the inertia that the machine has, rad/s."""
 
-    name = "fastest_speed"
     dimension = "angular_velocity"
     part = "running fastest"
 

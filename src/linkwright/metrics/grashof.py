@@ -107,7 +107,6 @@ def _loops(analysis: Analysis) -> tuple[FourBar, ...]:
 class Grashof(Metric):
     """p + q - (s + l) of every four-bar loop with the frame, with its type and the conditions that it rests on."""
 
-    name = "grashof"
     dimension = "length"
     source = "Grashof 1883; Norton, Design of Machinery, sec. 2.12: s + l ≤ p + q"
     own_values = True

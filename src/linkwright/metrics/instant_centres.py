@@ -59,7 +59,6 @@ def _at_origin(motion: Motion, link: str) -> tuple[Floats, Floats]:
 class InstantCentre(Metric):
     """Distance of every instant centre P_ij from the frame's origin at the first position, m; its place beside it."""
 
-    name = "instant_centre"
     on_request = True
     dimension = "length"
     source = "Norton, Design of Machinery, sec. 6.3; Kennedy's theorem"

@@ -15,7 +15,6 @@ from linkwright.metrics.base import METRICS, Metric, MetricValue, Number
 class LimitPosition(Metric):
     """Every position in which an output reverses: its angle or displacement there, and the input."""
 
-    name = "limit_position"
     dimension = "angle"
     source = "IFToMM terminology: the output's velocity is zero"
     own_values = True

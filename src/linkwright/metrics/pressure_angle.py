@@ -21,7 +21,6 @@ def _complement(angle: Scalar) -> Scalar:
 class PressureAngle(Metric):
     """Largest angle between the force on the driven point of a dyad and that point's velocity: α = π/2 - μ."""
 
-    name = "pressure_angle"
     rank = 2
     dimension = "angle"
     source = "Volmer, Getriebetechnik: α = 90° - μ, not above about 50°"

@@ -19,7 +19,6 @@ from linkwright.metrics.base import METRICS, Metric, Number
 class QuickReturnRatio(Metric):
     """K = time of the slow stroke / time of the fast one = (π + θ)/(π - θ) ≥ 1 at uniform crank speed."""
 
-    name = "quick_return_ratio"
     rank = 1
     dimension = "dimensionless"
     source = "IFToMM terminology, time ratio; Norton, Design of Machinery, ch. 3"
@@ -41,7 +40,6 @@ class QuickReturnRatio(Metric):
 class CrankAngleBetweenLimits(QuickReturnRatio):
     """Acute angle θ between the crank's directions in the limit positions: π (K - 1)/(K + 1)."""
 
-    name = "crank_angle_between_limits"
     dimension = "angle"
     angle = True
 

@@ -90,7 +90,6 @@ def _drives(analysis: Analysis, time: float) -> bool:
 class RangeOfMotion(Metric):
     """Extent of every stretch of the input, within the cycle, in which the mechanism can be assembled."""
 
-    name = "range_of_motion"
     dimension = "angle"
     source = "assembly of the Assur groups; ends by halving"
 
@@ -114,7 +113,6 @@ class DeadPoint(Metric):
     output turns back while the driver goes on.
     """
 
-    name = "dead_point"
     dimension = "angle"
     source = "IFToMM terminology: transmission angle zero"
     own_values = True

@@ -36,7 +36,6 @@ def size(joint: str, link: str) -> Callable[[Forces], Floats]:
 class PeakReaction(Metric):
     """Largest size of every joint's reaction, N."""
 
-    name = "peak_reaction"
     rank = 4
     dimension = "force"
     source = "kinetostatics: reactions by Assur group"
@@ -56,5 +55,4 @@ class PeakReaction(Metric):
 class RmsReaction(PeakReaction):
     """Root mean square over time of the size of every joint's reaction, N."""
 
-    name = "rms_reaction"
     summary = "rms"

@@ -30,7 +30,6 @@ class Shaking(Metric):
 class PeakShakingForce(Shaking):
     """Largest resultant of the inertia forces on the frame, N."""
 
-    name = "peak_shaking_force"
     dimension = "force"
     summary = "shaking_force max"
 
@@ -39,6 +38,5 @@ class PeakShakingForce(Shaking):
 class PeakShakingMoment(Shaking):
     """Largest moment of the inertia forces about the frame's origin, N·m."""
 
-    name = "peak_shaking_moment"
     dimension = "torque"
     summary = "shaking_moment peak"

@@ -22,7 +22,6 @@ class Singularity(Metric):
     A larger group has its limit lowered to the power of half its equations.
     """
 
-    name = "singularity"
     dimension = "dimensionless"
     source = "determinant of the closure Jacobian; Gosselin and Angeles, IEEE Trans. Robotics 6(3), 1990"
     better: ClassVar[Better | None] = "higher"

@@ -14,7 +14,6 @@ from linkwright.metrics.outputs import turns_fully
 class Stroke(Metric):
     """Travel of every block on the frame between its outermost positions, m."""
 
-    name = "stroke"
     rank = 1
     dimension = "length"
     source = "IFToMM terminology: travel between limit positions"
@@ -40,6 +39,5 @@ class Stroke(Metric):
 class SwingAngle(Stroke):
     """Angle between the outermost positions of every link that swings about the frame, rad."""
 
-    name = "swing_angle"
     dimension = "angle"
     kind = "angle"

@@ -59,8 +59,6 @@ class HullArea(Metric):
 class SweptArea(HullArea):
     """Area of the convex hull of the curves of all points of frame and links, m²: a bound of what they sweep."""
 
-    name = "swept_area"
-
     def swept(self, mechanism: Mechanism) -> dict[str, tuple[str, ...]]:
         return {mechanism.name: points(mechanism)}
 
@@ -69,7 +67,6 @@ class SweptArea(HullArea):
 class SweptAreaOfLink(HullArea):
     """Area of the convex hull of the curves of every link's points, m²: a bound of what it sweeps."""
 
-    name = "swept_area_of_link"
     on_request = True
 
     def swept(self, mechanism: Mechanism) -> dict[str, tuple[str, ...]]:

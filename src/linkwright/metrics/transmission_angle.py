@@ -32,7 +32,6 @@ def low(value: float) -> tuple[Remark, ...]:
 class TransmissionAngle(Metric):
     """Smallest transmission angle of every dyad, 0 to π/2; defined in ``kinetostatics/closure.py``."""
 
-    name = "transmission_angle"
     rank = 2
     dimension = "angle"
     source = SOURCE
@@ -53,8 +52,6 @@ class TransmissionAngle(Metric):
 @METRICS.register("transmission_angle_of_stroke")
 class TransmissionAngleOfStroke(TransmissionAngle):
     """Smallest transmission angle of a dyad on the strokes of its output from its largest value on, and back."""
-
-    name = "transmission_angle_of_stroke"
 
     def suits(self, analysis: Analysis) -> bool:
         return super().suits(analysis) and analysis.whole and bool(_driven_dyads(analysis))

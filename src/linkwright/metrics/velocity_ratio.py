@@ -32,7 +32,6 @@ def _place(high: Extreme, low: Extreme) -> float:
 class VelocityRatio(Metric):
     """The output's rate over the input's where it is largest in size; negative where they turn against each other."""
 
-    name = "velocity_ratio"
     rank = 3.5
     dimension = "dimensionless"
     source = "Norton, Design of Machinery, sec. 6.4"
@@ -58,7 +57,6 @@ class VelocityRatio(Metric):
 class MechanicalAdvantage(VelocityRatio):
     """Smallest output force (torque) per input torque (force) without losses: 1/|velocity ratio|."""
 
-    name = "mechanical_advantage"
     source = "Norton, Design of Machinery, sec. 6.4: power in equals power out"
     better: ClassVar[Better | None] = "higher"
     formula = staticmethod(_advantage)

@@ -18,7 +18,6 @@ from linkwright.words.sentence import Sentence
 class Angles(OverInput):
     """Angle, angular velocity and angular acceleration of several links, each link a curve."""
 
-    name = "angles"
     options = ("of",)
 
     def output(self, source: Source, request: Request) -> Output | str | None:

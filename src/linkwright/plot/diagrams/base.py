@@ -92,7 +92,7 @@ class ResultDiagram:
         return isinstance(result, self.takes) and self.when(result)
 
 
-DIAGRAMS: Registry[type[Kind]] = Registry("diagram", "linkwright.plot.diagrams")
+DIAGRAMS: Registry[type[Kind]] = Registry("diagram", "linkwright.plot.diagrams", attribute="name")
 RESULT_DIAGRAMS: Registry[ResultDiagram] = Registry("diagram", "linkwright.plot.result_diagrams")
 
 

@@ -19,7 +19,6 @@ class Energy(OverInput):
     ΔE = max E - min E is what a flywheel has to take up. Angles are those turned from the cycle's begin.
     """
 
-    name = "energy"
     options = ("static",)
 
     def axis(self, source: Source) -> InputAxis:

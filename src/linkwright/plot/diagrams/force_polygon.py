@@ -129,7 +129,6 @@ class ForcePolygon(Kind):
     out unless they are named by ``of``.
     """
 
-    name = "force_polygon"
     options = ("of", "at", "static")
 
     def draw(self, sources: Sequence[Source], request: Request) -> Figure:

@@ -30,7 +30,6 @@ class Hodograph(Kind):
     With ``axes`` one of the two alone. Both scales of an axis pair are equal; inputs are marked along the curve.
     """
 
-    name = "hodograph"
     options = ("joint", "on", "axes", "static")
 
     def draw(self, sources: Sequence[Source], request: Request) -> Figure:

@@ -24,7 +24,6 @@ ROW, WIDE, HIGH = 3, 3.3, 3.1
 class Hodographs(Kind):
     """A hodograph of every joint force, or of the joints that ``of`` names, in the axes of the frame."""
 
-    name = "hodographs"
     options = ("of", "static")
 
     def draw(self, sources: Sequence[Source], request: Request) -> Figure:

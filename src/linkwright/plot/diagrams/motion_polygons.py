@@ -109,7 +109,6 @@ class MotionPolygons(Kind):
 class VelocityPolygon(MotionPolygons):
     """Velocities of all points from one pole p, and relative velocities between them."""
 
-    name = "velocity_polygon"
     options = ("at",)
     unit, letter = "m/s", "v"
 
@@ -121,7 +120,6 @@ class VelocityPolygon(MotionPolygons):
 class AccelerationPolygon(MotionPolygons):
     """Accelerations of all points from one pole p′; normal, tangential, Coriolis and sliding parts dashed."""
 
-    name = "acceleration_polygon"
     options = ("at",)
     unit, letter, prime = "m/s²", "a", "′"
 

@@ -29,7 +29,6 @@ if TYPE_CHECKING:
 class Paths(Kind):
     """Curves that points describe, both axes to one scale; the free points of links unless others are named."""
 
-    name = "paths"
     options = ("of",)
 
     def draw(self, sources: Sequence[Source], request: Request) -> Figure:

@@ -16,7 +16,6 @@ from linkwright.plot.diagrams.source import Source
 class Power(OverInput):
     """Power that all drivers supply together, from the powers of all forces."""
 
-    name = "power"
     options = ("static",)
 
     def output(self, source: Source, request: Request) -> Output | str | None:

@@ -27,7 +27,6 @@ class Reactions(OverInput):
     Of one joint: size, and components in the frame's or a link's axes.
     """
 
-    name = "reactions"
     options = ("of", "joint", "on", "axes", "static")
 
     def output(self, source: Source, request: Request) -> Output | str | None:

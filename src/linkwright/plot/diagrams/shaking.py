@@ -17,7 +17,6 @@ from linkwright.plot.diagrams.source import Source
 class Shaking(OverInput):
     """What the inertia of the moving links does to the frame: force with its components, moment about the origin."""
 
-    name = "shaking"
     options = ("static",)
 
     def panels(self, source: Source, request: Request) -> list[Panel]:

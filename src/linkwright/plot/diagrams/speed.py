@@ -19,7 +19,6 @@ from linkwright.plot.diagrams.units import significant
 class Speed(OverInput):
     """ω(φ) of steady running under a constant motor torque: with the flywheel for a required δ, and without any."""
 
-    name = "speed"
     options = ("fluctuation", "static")
 
     def axis(self, source: Source) -> InputAxis:

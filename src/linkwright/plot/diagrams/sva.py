@@ -29,7 +29,6 @@ STRAIGHT = (
 class Sva(OverInput):
     """Three panels: angle or displacement, velocity, acceleration of an output; x and y of a point."""
 
-    name = "sva"
     options = ("of",)
 
     def output(self, source: Source, request: Request) -> Output | str | None:

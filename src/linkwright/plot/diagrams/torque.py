@@ -19,7 +19,6 @@ from linkwright.words.sentence import Sentence
 class Torque(OverInput):
     """Driver effort from the joint forces: torque of a turning driver, force of a sliding one; one panel a driver."""
 
-    name = "torque"
     options = ("static",)
 
     def output(self, source: Source, request: Request) -> Output | str | None:

@@ -15,6 +15,5 @@ WORDS = {
     "all_there_is": "there is: {names}",
     "nothing_there": "there is none",
     "it_has": "it has {names}",
-    "it_has_none": "it has none",
     "no_such_point": 'there is no point of link {link}: "{name}"; {hint}',
 }

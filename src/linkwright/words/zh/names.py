@@ -15,6 +15,5 @@ WORDS = {
     "all_there_is": "已有：{names}",
     "nothing_there": "一个也没有",
     "it_has": "它有 {names}",
-    "it_has_none": "它一个也没有",
     "no_such_point": "构件 {link} 上没有点“{name}”；{hint}",
 }
