@@ -34,6 +34,8 @@ _NEXT_TO_NOTHING = 1e-300
 LOOKS = 49
 PLACES = -np.cos(np.pi * np.arange(LOOKS) / (LOOKS - 1))
 TO_PLACES = TO_LEGENDRE @ np.polynomial.legendre.legvander(PLACES, POINTS - 1).T
+#: A Newton step of this size towards an extreme is the last one, as what is left is its square; a halving's size.
+LAST, HALVED = 3e-7, 1e-9
 #: A piece is met where the last orders have less than this share of the function's size.
 SMOOTH = 1e-11
 #: Halving ends where it changes the integral by less than this share, or after so many times.
@@ -119,9 +121,9 @@ class Piecewise:
         return _at(self.values[piece], share)
 
     def _place(self, x: Floats) -> tuple[Indices, Floats]:
-        piece = np.clip(np.searchsorted(self.edges, x, "right") - 1, 0, len(self.values) - 1)
+        piece = np.searchsorted(self.edges[1:-1], x, "right")
         low, high = self.edges[piece], self.edges[piece + 1]
-        return piece, np.clip((2.0 * x - low - high) / (high - low), -1.0, 1.0)
+        return piece, np.minimum(np.maximum((2.0 * x - low - high) / (high - low), -1.0), 1.0)
 
     def part(self, low: float, high: float) -> Piecewise:
         """The same function between two places inside the outer edges."""
@@ -211,8 +213,8 @@ class Integral:
 
 def tails(values: Floats) -> Floats:
     """Size of the last orders (...,) of polynomials through values (..., POINTS): zero but for rounding if smooth."""
-    last = np.abs(values @ TO_LAST)
-    return np.asarray(np.maximum(np.maximum(last[..., 0], last[..., 1]), last[..., 2]))
+    last = np.abs(TO_LAST.T @ values.reshape(-1, POINTS).T)
+    return np.asarray(last.max(axis=0).reshape(values.shape[:-1]))
 
 
 Peak = tuple[Indices, Floats, Floats, Floats]
@@ -228,12 +230,13 @@ def largest(values: Floats, tops: Floats) -> Peak:
     rows = np.arange(len(values))[:, None]
     order = np.argsort(-tops, axis=1)[:, :3]
     near = values[rows, :, order]
-    seen = np.asarray(near @ TO_PLACES)
+    seen = (near.reshape(-1, POINTS) @ TO_PLACES).reshape(*near.shape[:2], LOOKS)
     looks, tops = seen.argmax(axis=2), seen.max(axis=2)
     two = np.argsort(-tops, axis=1)[:, :2]
     series, look, top = near[rows, two], looks[rows, two], tops[rows, two]
     low, high = PLACES[np.maximum(look - 1, 0)], PLACES[np.minimum(look + 1, LOOKS - 1)]
-    place = _summits(series @ TO_SLOPE, low, high, PLACES[look])
+    slopes = (series.reshape(-1, POINTS) @ TO_SLOPE).reshape(series.shape)
+    place = _summits(slopes, low, high, PLACES[look])
     found = _at(series, place)
     place, found = np.where(found > top, place, PLACES[look]), np.maximum(found, top)
     best = rows[:, 0], found.argmax(axis=1)
@@ -277,15 +280,17 @@ def _shares(x: Floats) -> Floats:
 def _summits(slopes: Floats, low: Floats, high: Floats, start: Floats) -> Floats:
     """Where polynomials (..., POINTS) pass from above to below zero between places of the reference piece, by
     safeguarded Newton steps from ``start``; the end of the stretch to which they point where they do not."""
-    both, x = np.stack([slopes, slopes @ TO_SLOPE]), start
+    both, x = np.empty((2, *slopes.shape)), start
+    both[0], both[1] = slopes, (slopes.reshape(-1, POINTS) @ TO_SLOPE).reshape(slopes.shape)
     for _ in range(60):
         value, slope = _at(both, x)
         rising = value > 0.0
         low, high = np.where(rising, x, low), np.where(rising, high, x)
         with np.errstate(all="ignore"):
             newton = x - value / slope
-        before, x = x, np.where((newton >= low) & (newton <= high), newton, 0.5 * (low + high))
-        if np.abs(x - before).max(initial=0.0) <= 1e-9:
+        inside = (newton >= low) & (newton <= high)
+        before, x = x, np.where(inside, newton, 0.5 * (low + high))
+        if not (np.abs(x - before) > np.where(inside, LAST, HALVED)).any():
             break
     return x
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import field, fields, replace
+from dataclasses import field, fields
 from typing import TYPE_CHECKING, Any, Literal
 
 from linkwright.core.dataclass import dataclass
@@ -131,14 +131,12 @@ class Link:
             point: (float(x), float(y))
             for point, (x, y) in local_points(self, value, math.cos, math.sin).items()
         }
-        changed: dict[str, Any] = {"points": moved, "lengths": lengths}
-        if self.geometry == "bent":
-            changed["angle"] = value(f"{name}.angle")
-        if name != "frame":
-            changed |= {"mass": value(f"{name}.mass"), "inertia": value(f"{name}.inertia")}
-        if name != "frame" and self.mass_centre is not None:
-            changed["mass_centre"] = value(f"{name}.mass_centre.x"), value(f"{name}.mass_centre.y")
-        return replace(self, **changed)
+        angle = value(f"{name}.angle") if self.geometry == "bent" else self.angle
+        if name == "frame":
+            return Link(name, self.geometry, moved, lengths, angle)
+        centre = self.mass_centre and (value(f"{name}.mass_centre.x"), value(f"{name}.mass_centre.y"))
+        mass, inertia = value(f"{name}.mass"), value(f"{name}.inertia")
+        return Link(name, self.geometry, moved, lengths, angle, mass, inertia, centre)
 
 
 @dataclass(frozen=True)

@@ -71,29 +71,28 @@ class SweptHull:
         """Corners without those between others of the same curve that are no farther than its next nodes: those amid
         arcs, which may have the nodes of several passages."""
         curve, place = corners // POINTS // self._pieces, self._nodes[corners]
-        beside = [self._nodes[np.clip(corners + k, 0, len(self._nodes) - 1)] - place for k in (-1, 1)]
-        near = 2.0 * np.maximum(*((each * each).sum(axis=1) for each in beside))
-        arc = ~_KEPT[corners % POINTS]
-        for shift in (-1, 1):
-            way = np.roll(place, shift, axis=0) - place
-            arc &= (np.roll(curve, shift) == curve) & ((way * way).sum(axis=1) <= near)
+        beside = (self._nodes.take(corners + k, axis=0, mode="clip") - place for k in (-1, 1))
+        near = 2.0 * np.maximum(*map(_squares, beside))
+        arc, number = ~_KEPT[corners % POINTS], np.arange(len(corners))
+        for other in (number - 1, number + 1 - len(corners)):
+            arc &= (curve[other] == curve) & (_squares(place[other] - place) <= near)
         return np.asarray(corners[~arc])
 
     def _touched(self, corners: Indices) -> list[Contacts]:
         """Where the curve at the beginning, and that at the end of every side touches a line along it, and where
         curves come farthest to the left, the right, down and up."""
-        begin, end = corners, np.roll(corners, -1)
+        begin, end = corners, np.concatenate([corners[1:], corners[:1]])
         first, last = NODES[begin % POINTS], NODES[end % POINTS]
         arc = begin // POINTS == end // POINTS
         arc &= np.abs(last - first) <= 2.0 * NEAR
         first[arc] = last[arc] = 0.5 * (first + last)[arc]
         free = np.flatnonzero(~arc)
         along = self._nodes[end[free]] - self._nodes[begin[free]]
-        near = np.append(SAME * np.hypot(*along.T), np.full(4, np.inf))
+        near = np.concatenate([SAME * SAME * _squares(along), [np.inf] * 4])
         found = self._nodes[self._corners]
         low, high = found.argmin(axis=0), found.argmax(axis=0)
         outer = self._corners[[low[0], high[0], low[1], high[1]]]
-        begins, ends = np.append(begin[free], outer), np.append(end[free], outer)
+        begins, ends = np.concatenate([begin[free], outer]), np.concatenate([end[free], outer])
         begun, ended = self._touching(begins, ends, np.concatenate([along, _ALONG]), near)
         first[free], last[free] = begun[:-4], ended[:-4]
         number, place = np.concatenate([begin, end, outer]), np.concatenate([first, last, begun[-4:]])
@@ -103,7 +102,7 @@ class SweptHull:
 
     def _touching(self, begin: Indices, end: Indices, along: Floats, near: Floats) -> tuple[Floats, Floats]:
         """Places near some nodes where lines touch the curves, by Newton's steps: ``along`` what is given, or along
-        the side between both places of contact where that is longer than ``near``."""
+        the side between both places of contact where its square is larger than ``near``."""
         number, half = np.concatenate([begin, end]), len(begin)
         place, piece = NODES[number % POINTS], number // POINTS % self._pieces
         low, high = np.maximum(place - NEAR, -1.0 - BEYOND), np.minimum(place + NEAR, 1.0 + BEYOND)
@@ -112,18 +111,18 @@ class SweptHull:
         values = self._pieces_of(number)
         rates = values @ TO_SLOPE
         every = np.concatenate([values, rates, rates @ TO_SLOPE], axis=1)
-        point, rate, bend = np.split(_at(every, weights_at(place)), 3, axis=1)
-        for _ in range(STEPS):
-            both = np.concatenate([along, along])
-            with np.errstate(all="ignore"):
-                turn, speed = cross(both, bend), cross(both, rate)
-                step = np.where(turn > 0.0, -speed / turn, 0.0)
-            before, place = place, np.clip(place + step, low, high)
-            if np.abs(place - before).max(initial=0.0) <= CLOSE:
-                break
-            point, rate, bend = np.split(_at(every, weights_at(place)), 3, axis=1)
-            between = point[half:] - point[:half]
-            along = np.where((np.hypot(*between.T) > near)[:, None], between, along)
+        found = _at(every, weights_at(place))
+        with np.errstate(over="ignore"):
+            for _ in range(STEPS):
+                both = np.concatenate([along, along])
+                turn, speed = cross(both, found[:, 4:]), cross(both, found[:, 2:4])
+                step = np.divide(-speed, turn, out=np.zeros(len(turn)), where=turn > 0.0)
+                before, place = place, np.minimum(np.maximum(place + step, low), high)
+                if np.abs(place - before).max(initial=0.0) <= CLOSE:
+                    break
+                found = _at(every, weights_at(place))
+                between = found[half:, :2] - found[:half, :2]
+                along = np.where((_squares(between) > near)[:, None], between, along)
         return place[:half], place[half:]
 
     def _pieces_of(self, number: Indices) -> Floats:
@@ -134,7 +133,7 @@ class SweptHull:
     @property
     def _arcs(self) -> tuple[Indices, Floats, Floats]:
         """Nodes' numbers, places (k,) and widths of the parts of arcs behind the sides, in halves of pieces."""
-        start, end = self._last.place, np.roll(self._first.place, -1)
+        start, end = self._last.place, np.concatenate([self._first.place[1:], self._first.place[:1]])
         half = 0.5 * (end - start)
         place = 0.5 * (start + end)[:, None] + half[:, None] * _INNER
         return np.repeat(self._last.number, len(_INNER)), place.ravel(), (half[:, None] * _SHARES).ravel()
@@ -173,6 +172,11 @@ def _add(found: Floats, number: Indices, weights: Floats, factor: Floats) -> Non
 def _at(values: Floats, weights: Floats) -> Floats:
     """Polynomials (k, j, POINTS) with weights (k, POINTS) of their values, (k, j)."""
     return np.asarray(np.einsum("kjp,kp->kj", values, weights))
+
+
+def _squares(vectors: Floats) -> Floats:
+    """Squares (k,) of the lengths of vectors (k, 2)."""
+    return np.asarray(np.einsum("kj,kj->k", vectors, vectors))
 
 
 def _turned(vectors: Floats) -> Floats:
