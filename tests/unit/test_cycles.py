@@ -43,9 +43,11 @@ def machine(
         (SPEED, "", (0.0, pi, True)),
         ("speed: -1 rad/s", "", (0.0, 2 * pi, True)),
         ("speed: 0.5 rad/s", "", (0.0, 4 * pi, True)),
-        ("speed: 3 rad/s", "", (0.0, pi, False)),
+        ("speed: 3 rad/s", "", (0.0, 2 * pi, True)),
         ("speed: 4 rad/s, start: 7 rad", "", (0.0, pi, True)),
-        ("speed: 0.75 rad/s", "", (0.0, 8 * pi / 3, False)),
+        ("speed: 0.75 rad/s", "", (0.0, 8 * pi, True)),
+        ("speed: 2.17 rad/s", "", (0.0, pi, False)),
+        ("speed: 2.8284271247461903 rad/s", "", (0.0, pi, False)),
         (SPEED, TABLE.format(end=2, last=0), (0.0, pi, False)),
         (SPEED, TABLE.format(end=2, last=0).replace("0 s, 1 s", f"0 s, {pi} s").replace("2 s", f"{2 * pi} s"),
          (0.0, 2 * pi, True)),
@@ -54,7 +56,7 @@ def machine(
         (SPEED, "speed: 0.1 m/s", (0.0, pi, False)),
     ],
 )  # fmt: skip
-def test_a_cycle_lasts_as_long_as_the_slowest_driver_and_closes_if_all_are_back(
+def test_a_cycle_lasts_until_all_drivers_are_back_or_as_long_as_the_slowest(
     second: str, third: str, span: tuple[float, float, bool]
 ) -> None:
     begin, duration, closed = time_span(machine(second=second, third=third))
@@ -91,6 +93,26 @@ def test_a_cycle_that_the_file_gives(first: str, cycle: Cycle, span: tuple[float
             assert found.period == (pytest.approx(abs(span[1])) if closed else None)
             if cycle.end is not None:
                 assert found.coordinates["first"][0][-1] == pytest.approx(cycle.end, abs=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("second", "words"),
+    [
+        ("speed: 4 rad/s", []),
+        ("speed: 3 rad/s", ["2 turns of 'first': only then are all drivers back"]),
+        ("speed: 2.17 rad/s", ["200 turns of 'first'", "cycle: {duration: 628.318531 s}"]),
+        ("speed: 2.8284271247461903 rad/s", ["not back together within 1000 turns"]),
+    ],
+)
+def test_a_cycle_of_other_than_one_turn_is_said(second: str, words: list[str]) -> None:
+    notes = "".join(map(str, lw.solve_motion(machine(second=second), steps=4).notes))
+    assert all(word in notes for word in words) and bool(notes) == bool(words)
+
+
+def test_turns_of_a_fast_driver_leave_the_slow_one_on_its_way() -> None:
+    for turns, closed in ((1.0, False), (2.0, True)):
+        fast = machine("speed: 4 rad/s", SPEED, cycle=Cycle(turns=turns))
+        assert time_span(fast) == (0.0, pytest.approx(turns * pi / 2), closed)
 
 
 def test_a_cycle_that_cannot_be_laid_out_is_refused() -> None:

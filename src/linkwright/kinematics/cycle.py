@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable, Mapping, Sequence
+import math
+from collections.abc import Hashable, Mapping
 from dataclasses import replace
 from itertools import chain
 from math import cos, sin
@@ -14,10 +15,10 @@ from linkwright.core.arrays import Floats, Indices
 from linkwright.core.dataclass import dataclass
 from linkwright.core.inputs import driven
 from linkwright.core.once import cached_property
-from linkwright.drivers.base import Driver
+from linkwright.drivers.base import Driver, Law
 from linkwright.engine.recent import Recent
 from linkwright.errors import LinkwrightError
-from linkwright.kinematics.whole_turns import whole_turns
+from linkwright.kinematics.whole_turns import MOST, whole_turns
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import no_such
 from linkwright.units import LARGEST, SI_UNITS
@@ -28,6 +29,9 @@ _RATES = {
     True: ("angle", "angular_velocity", "angular_acceleration"),
     False: ("length", "velocity", "acceleration"),
 }
+
+#: A cycle in which drivers of several speeds come back is taken by itself up to so many turns of the slowest one.
+FEW = 12
 
 
 class CycleError(LinkwrightError):
@@ -192,24 +196,19 @@ def time_span(mechanism: Mechanism) -> tuple[float, float, bool]:
     cycle = mechanism.cycle
     first = next(iter(mechanism.drivers.values()))
     known = _naturals(mechanism)
-    repeats = _repeats(mechanism.drivers.values(), known)
+    if cycle is None and not known:
+        raise CycleError(Sentence("motion.no_natural_end", name=mechanism.name, driver=first.name))
     if cycle is None:
-        if not known:
-            raise CycleError(Sentence("motion.no_natural_end", name=mechanism.name, driver=first.name))
-        turns = whole_turns(mechanism, max(known)) if repeats else None
-        return 0.0, max(known) * (turns or 1), turns is not None
-    turns = whole_turns(mechanism, max(known)) if repeats else None
+        whole = _whole(mechanism) if together(mechanism) <= FEW else None
+        return 0.0, whole or max(known), whole is not None
     if cycle.duration is not None:
-        return 0.0, cycle.duration, turns is not None and _multiple(cycle.duration, max(known) * turns)
+        return 0.0, cycle.duration, _closes(mechanism, cycle.duration)
     speed = first.law.constant_speed
     if not speed:
         raise CycleError(Sentence("motion.cycle_by_coordinate", name=first.name))
     if cycle.turns is not None:
-        return (
-            0.0,
-            cycle.turns * 2 * np.pi / abs(speed),
-            turns is not None and _multiple(cycle.turns, turns),
-        )
+        duration = cycle.turns * 2 * np.pi / abs(speed)
+        return 0.0, duration, _closes(mechanism, duration)
     begin = first.law.at(0.0) if cycle.start is None else cycle.start
     assert cycle.end is not None
     return float(first.law.time_at(begin)), (cycle.end - begin) / speed, False
@@ -222,9 +221,40 @@ def cycle_turns(mechanism: Mechanism, period: float) -> tuple[int, str]:
 
 
 def not_back(mechanism: Mechanism) -> bool:
-    """Whether the drivers come back, but never all wheels and racks with them."""
-    known = _naturals(mechanism)
-    return bool(known) and _repeats(mechanism.drivers.values(), known)
+    """Whether the drivers come back together, but never all wheels and racks with them."""
+    return math.isfinite(together(mechanism)) and _whole(mechanism) is None
+
+
+def together(mechanism: Mechanism) -> float:
+    """After how many of the longest natural duration all drivers are back; ∞: not within 1000; NaN: never, as one of
+    them has no such duration, ends, or does not come back."""
+    laws, known = [driver.law for driver in mechanism.drivers.values()], _naturals(mechanism)
+    if not known or len(known) < len(laws):
+        return math.nan
+    longest, count = max(known), 1
+    for duration in (each for each in known if not _multiple(longest, each)):
+        from fractions import Fraction
+
+        count = math.lcm(count, Fraction(longest / duration).limit_denominator(MOST).denominator)
+    whole = count * longest
+    if count > MOST or not all(_multiple(whole, duration) for duration in known):
+        return math.inf if all(law.span()[1] == math.inf for law in laws) else math.nan
+    return count if all(_back(law, whole) for law in laws) else math.nan
+
+
+def _whole(mechanism: Mechanism) -> float | None:
+    """Time in s after which drivers, wheels and racks are all back; None: never, or not within 1000 turns."""
+    count = together(mechanism)
+    if not math.isfinite(count):
+        return None
+    span = count * max(_naturals(mechanism))
+    turns = whole_turns(mechanism, span)
+    return None if turns is None else turns * span
+
+
+def _closes(mechanism: Mechanism, duration: float) -> bool:
+    whole = _whole(mechanism)
+    return whole is not None and _multiple(duration, whole)
 
 
 def _naturals(mechanism: Mechanism) -> list[float]:
@@ -232,22 +262,16 @@ def _naturals(mechanism: Mechanism) -> list[float]:
     return [duration for duration in natural if duration is not None]
 
 
-def _repeats(drivers: Iterable[Driver], known: Sequence[float]) -> bool:
-    """Whether all drivers are back after the longest natural duration."""
-    laws = [driver.law for driver in drivers]
-    if len(known) < len(laws):
+def _back(law: Law, duration: float) -> bool:
+    """Whether a law is where it began after a time."""
+    first, last = law.span()
+    if first > 0.0 or last < duration:
         return False
-    longest = max(known)
-    if any(law.span()[0] > 0.0 or law.span()[1] < longest for law in laws):
-        return False
-    for law, duration in zip(laws, known, strict=True):
-        ends = law.coordinate(np.array([0.0, longest]))
-        wrap = 2 * np.pi if law.rotary and law.span()[1] == np.inf else np.inf
-        gap = abs(ends[0][1] - ends[0][0])
-        gap = min(gap % wrap, wrap - gap % wrap) if np.isfinite(wrap) else gap
-        if gap > 1e-9 * (1 + abs(ends[0][0])) or not _multiple(longest, duration):
-            return False
-    return True
+    ends = law.coordinate(np.array([0.0, duration]))
+    wrap = 2 * np.pi if law.rotary and last == np.inf else np.inf
+    gap = abs(ends[0][1] - ends[0][0])
+    gap = min(gap % wrap, wrap - gap % wrap) if np.isfinite(wrap) else gap
+    return bool(gap <= 1e-9 * (1 + abs(ends[0][0])))
 
 
 def _multiple(whole: float, part: float) -> bool:

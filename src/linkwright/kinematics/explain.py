@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
@@ -11,7 +12,7 @@ from linkwright.core.arrays import Indices
 from linkwright.core.outputs import row_name
 from linkwright.kinematics.change_points import Passage, closes
 from linkwright.kinematics.closed_loops import iterated
-from linkwright.kinematics.cycle import Positions, cycle_turns, not_back
+from linkwright.kinematics.cycle import FEW, Positions, cycle_turns, not_back, together
 from linkwright.kinematics.outcome import Outcome, PositionError
 from linkwright.kinematics.whole_turns import MOST
 from linkwright.units import number
@@ -19,6 +20,7 @@ from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.kinematics.motion import Motion
+    from linkwright.mechanism.mechanism import Mechanism
     from linkwright.structure.group import Group
 
 
@@ -55,13 +57,29 @@ def _solved(motion: Motion) -> list[Outcome]:
 def turn_notes(motion: Motion) -> tuple[Sentence, ...]:
     """How many turns of the drivers the cycle of a mechanism with wheels takes, if not one, or that it never ends."""
     positions, mechanism = motion.positions, motion.mechanism
-    if not mechanism.higher or not positions.cycle or mechanism.cycle is not None:
+    if not positions.cycle or mechanism.cycle is not None:
         return ()
+    count = together(mechanism)
     if positions.period is None:
-        said = Sentence("cycle.never_back", most=MOST) if not_back(mechanism) else None
-        return () if said is None else (said,)
+        if count > FEW:
+            return (_apart(mechanism, count),)
+        return (Sentence("cycle.never_back", most=MOST),) if mechanism.higher and not_back(mechanism) else ()
     turns, driver = cycle_turns(mechanism, positions.period)
-    return () if turns == 1 else (Sentence("cycle.turns", turns=turns, driver=driver),)
+    if turns == 1:
+        return ()
+    return (
+        Sentence("cycle.turns" if turns > count else "cycle.turns_of_drivers", turns=turns, driver=driver),
+    )
+
+
+def _apart(mechanism: Mechanism, count: float) -> Sentence:
+    """That drivers of several speeds are back together only after many turns, or not even then."""
+    natural, driver = max((d.law.natural_duration() or 0.0, name) for name, d in mechanism.drivers.items())
+    if math.isinf(count):
+        return Sentence("cycle.drivers_never_back", most=MOST, driver=driver)
+    return Sentence(
+        "cycle.drivers_apart", turns=int(count), driver=driver, duration=number(count * natural, 9)
+    )
 
 
 def branch_notes(motion: Motion) -> tuple[Sentence, ...]:

@@ -2,6 +2,11 @@
 
 WORDS = {
     "turns": "the cycle is {turns} turns of {driver!r}: only then are all wheels back",
+    "turns_of_drivers": "the cycle is {turns} turns of {driver!r}: only then are all drivers back",
+    "drivers_apart": "all drivers are back only after {turns} turns of {driver!r}, so one of these is taken as an "
+    "open cycle; cycle: {{duration: {duration} s}} takes them all",
+    "drivers_never_back": "the drivers are not back together within {most} turns of {driver!r}, so one of these is "
+    "taken as an open cycle",
     "never_back": "the wheels or racks do not come back to where they began within {most} turns, so one turn of the "
     "driver is taken as an open cycle",
     "change": "change point of group ({links}) at {where}: the motion goes on smoothly",

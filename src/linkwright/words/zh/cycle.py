@@ -2,6 +2,10 @@
 
 WORDS = {
     "turns": "循环为驱动“{driver}”转 {turns} 圈：此后各轮才回到起始位置",
+    "turns_of_drivers": "循环为驱动“{driver}”转 {turns} 圈：此后各驱动才都回到起始位置",
+    "drivers_apart": "各驱动在“{driver}”转 {turns} 圈后才都回到起始位置，因此取其一圈为不封闭的循环；"
+    "cycle: {{duration: {duration} s}} 取全部",
+    "drivers_never_back": "各驱动在“{driver}”的 {most} 圈内不能同时回到起始位置，因此取其一圈为不封闭的循环",
     "never_back": "各轮或齿条在 {most} 圈内回不到起始位置，因此取原动件一圈为不封闭的循环",
     "change": "杆组（{links}）在 {where} 处为变点：运动平稳地通过",
     "meeting": "杆组（{links}）的两外副在 {where} 处重合，杆组在此可自由转动：运动平稳地通过",
