@@ -110,7 +110,7 @@ def sampled(program: Program, x: np.ndarray) -> np.ndarray:
     return numpy_program(program).run_designs(np.empty((1, 0)), {"x": x}, {}, length=len(x))[0]
 
 
-@pytest.mark.parametrize("pieces", [8, 9, 12, 29, 41])
+@pytest.mark.parametrize("pieces", [5, 8, 9, 12, 29, 41])
 def test_compiled_is_as_by_arrays(pieces: int) -> None:
     """Pieces are taken eight at a time: numbers of them that are multiples of eight, and others."""
     pytest.importorskip("llvmlite")

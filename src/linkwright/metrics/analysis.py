@@ -277,8 +277,8 @@ class Analysis:
     def _summaries(self, grid: CycleGrid, names: tuple[str, ...]) -> Columns:
         """The summaries of some outputs."""
         solved = grid.motion if self.forces is None else grid.forces
-        rows = np.stack(solved.rows.fetch(names, lambda missing: self._read(missing, solved)))
-        pieces, count = rows.reshape(len(names), -1, POINTS), len(names)
+        rows = solved.rows.fetch(names, lambda missing: self._read(missing, solved))
+        pieces, count = np.concatenate(rows).reshape(len(names), -1, POINTS), len(names)
         both = np.empty((2, count, POINTS, pieces.shape[1]))
         both[0] = pieces.swapaxes(1, 2)
         np.negative(both[0], out=both[1])

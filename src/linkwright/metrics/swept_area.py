@@ -137,5 +137,6 @@ def _spans(analysis: Analysis, motion: Motion, values: Floats) -> Indices:
 
 def _places(motion: Motion, keys: tuple[str, ...]) -> Floats:
     """The places of points, (points, 2, pieces, POINTS) m."""
-    motion.evaluate_together(chain.from_iterable(row_names("position", key) for key in keys))
-    return np.stack([motion.vector("position", key).T.reshape(2, -1, POINTS) for key in keys])
+    names = tuple(chain.from_iterable(row_names("position", key) for key in keys))
+    rows = motion.rows.fetch(names, motion.evaluate)
+    return np.concatenate(rows).reshape(len(keys), 2, -1, POINTS)

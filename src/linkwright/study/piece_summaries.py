@@ -25,6 +25,7 @@ from linkwright.core.piecewise import (
     weights_up_to,
 )
 from linkwright.engine.call_block import address_of
+from linkwright.engine.kernel_writer import LANES
 from linkwright.engine.llvm_backend import CompiledProgram
 from linkwright.engine.numpy_backend import numpy_program
 from linkwright.engine.program import Program
@@ -95,7 +96,8 @@ class PieceSummaries:
 
     def reduced(self, table: Floats, run: Run) -> Reduced:
         """Of the designs with these parameters."""
-        code = code_for(self.program, None, run, len(table))
+        enough = self.pieces >= LANES  # the kernels take whole vectors of pieces
+        code = code_for(self.program, None, run, len(table)) if enough else None
         found = self._by_arrays(table, run) if code is None else self._compiled(code, table, run)
         return self._rooted(self._of_all(found))
 
