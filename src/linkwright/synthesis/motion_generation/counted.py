@@ -25,51 +25,27 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.core.arrays import Complexes, Flags, Floats
-from linkwright.core.dataclass import dataclass
-from linkwright.synthesis.nine_points.classes import MIX, PROBES, conjugate
+from linkwright.core.arrays import Complexes
+from linkwright.synthesis.nine_points.classes import MIX, PROBES, conjugate, repeated, turned
 from linkwright.synthesis.nine_points.start import displacements
+from linkwright.synthesis.nine_points.tracker import TOLERANCE, Places, carried, polished
 
 FILE = "mixed_starts.npz"
 #: Four-bars through M poses and 10 - 2 M points.
 KNOWN = {4: 30, 3: 201, 2: 1112}
-TOLERANCE, SMALLEST, LARGEST, MOST_STEPS = 1e-3, 1e-12, 0.2, 1500
 SAME, REAL, TURNS = 1e-7, 1e-6, 6
-
-
-@dataclass(frozen=True, eq=False)
-class Places:
-    """Displacements d, partners e (n,) of the places after the first, the poses first, and g (M - 1,) of those."""
-
-    d: Complexes
-    e: Complexes
-    g: Complexes
-
-    def toward(self, other: Places, t: Floats) -> tuple[Complexes, Complexes, Complexes]:
-        """d, e (n, K) and g (M - 1, K) at the parts t (K,) of the way."""
-        pairs = ((self.d, other.d), (self.e, other.e), (self.g, other.g))
-        d, e, g = (a[:, None] + t * (b - a)[:, None] for a, b in pairs)
-        return d, e, g
-
-    def turned(self, way: complex) -> Places:
-        """The places turned about the first."""
-        return Places(self.d * way, self.e / way, self.g)
 
 
 def all_four_bars(places: Places) -> Complexes:
     """The solutions (K, 8 + N) of real places, one of both orders of the dyads."""
     poses = len(places.g) + 1
     first, start = start_set(poses)
-    ends, arrived = carried(start, first, places)
-    found = _distinct(ends[arrived])
+    found = _distinct(_arrived(start, first, places))
     for turn in range(TURNS + 1):
         if len(found) >= KNOWN[poses]:
             break
         way = np.exp(1j * turn)
-        ends, arrived = carried(start, first, places.turned(way), 0.1 * TOLERANCE)
-        more = ends[arrived]
-        more[:, :8:2] /= way
-        more[:, 1:8:2] *= way
+        more = turned(_arrived(start, first, places.turned(way), 0.1 * TOLERANCE), 1 / way)
         found = _distinct(np.concatenate([found, more, conjugate(more)]))
     return found
 
@@ -86,9 +62,7 @@ def start_set(poses: int) -> tuple[Places, Complexes]:
     with np.load(BytesIO((resources.files(__package__) / FILE).read_bytes()), allow_pickle=False) as data:
         places = Places(data[f"d{poses}"], data[f"e{poses}"], data[f"g{poses}"])
         u = data[f"u{poses}"].astype(complex)
-    for _ in range(4):
-        u = u + linear_step(u.T, *places.toward(places, np.zeros(len(u))), None).T
-    return places, u
+    return places, polished(u, np.ones(len(u), bool), places)
 
 
 def build(path: Path, seed: int = 1, idle: int = 8) -> None:
@@ -113,97 +87,14 @@ def around(places: Places, u: Complexes, rng: np.random.Generator) -> Complexes:
     """Solutions carried around a random triangle, less the lost ones."""
     corners = [places, _general(places, rng), _general(places, rng), places]
     for first, second in pairwise(corners):
-        ends, arrived = carried(u, first, second)
-        u = ends[arrived]
+        u = _arrived(u, first, second)
     return u
 
 
-def carried(
-    u: Complexes, first: Places, last: Places, tolerance: float = TOLERANCE
-) -> tuple[Complexes, Flags]:
-    """Solutions (K, 8 + N) of the places ``first`` carried straight to ``last``, and which arrived.
-
-    Runge and Kutta's fourth order, two Newton corrections, the step from the first one.
-    """
-    change = (last.d - first.d)[:, None], (last.e - first.e)[:, None], (last.g - first.g)[:, None]
-    ends, arrived = u.copy(), np.zeros(len(u), bool)
-    who, t, h, z = np.arange(len(u)), np.zeros(len(u)), np.full(len(u), 0.02), u.T.copy()
-
-    def rate(at: Complexes, part: Floats) -> Complexes:
-        return linear_step(at, *first.toward(last, part), change)
-
-    with np.errstate(all="ignore"):
-        for _ in range(MOST_STEPS):
-            h = np.minimum(h, 1 - t)
-            k1 = rate(z, t)
-            k2 = rate(z + h / 2 * k1, t + h / 2)
-            k3 = rate(z + h / 2 * k2, t + h / 2)
-            k4 = rate(z + h * k3, t + h)
-            moved = z + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
-            sizes = []
-            for _ in range(2):
-                step = linear_step(moved, *first.toward(last, t + h), None)
-                sizes.append(_size(step, moved))
-                moved = moved + step
-            good = (sizes[0] < 8 * tolerance) & (sizes[1] < np.clip(0.1 * sizes[0], 1e-7, 1e-5))
-            z, t = np.where(good, moved, z), np.where(good, t + h, t)
-            growth = 0.85 * (tolerance / (np.minimum(sizes[0], 1e3) + 1e-12)) ** 0.2
-            h = np.minimum(LARGEST, h * np.where(good, np.clip(growth, 0.4, 2), np.clip(growth, 0.2, 0.6)))
-            done = t >= 1 - 1e-14
-            ends[who[done]], arrived[who[done]] = z[:, done].T, True
-            stay = ~done & (h > SMALLEST)
-            z, t, h, who = z[:, stay], t[stay], h[stay], who[stay]
-            if not len(who):
-                break
-        for _ in range(2):
-            step = linear_step(ends.T, *last.toward(last, np.zeros(len(ends))), None)
-            ends = np.where((_size(step, ends.T) < 1e-6)[:, None], ends + step.T, ends)
-    return ends, arrived
-
-
-def linear_step(
-    u: Complexes, d: Complexes, e: Complexes, given: Complexes,
-    change: tuple[Complexes, Complexes, Complexes] | None,
-) -> Complexes:  # fmt: skip
-    """du/dt (8 + N, K) for places that move by ``change``, or the Newton correction where that is None."""
-    poses, count = len(given), u.shape[1]
-    g = np.concatenate([given, u[8:]])
-    near = 1.0 / (1.0 + g)
-    f = -g * near
-    gradients, slopes, rights = [], [], []
-    for o in (0, 4):
-        x, xc, w, wc = u[o], u[o + 1], u[o + 2], u[o + 3]
-        m, n = d + x * g, e + xc * f
-        mw, nw = m - w, n - wc
-        gradients.append(np.stack([g * nw, f * mw, -n, -m], 2))
-        slope = x * nw - xc * mw * near * near
-        slopes.append(slope)
-        if change is None:
-            rights.append(n * w - m * nw)
-        else:
-            right = -(change[0] * nw + change[1] * mw)
-            right[:poses] -= slope[:poses] * change[2]
-            rights.append(right)
-    first, second = (slope[poses:] for slope in slopes)
-    size = np.sqrt(np.abs(first) ** 2 + np.abs(second) ** 2) + 1e-150
-    p, r = second / size, -first / size
-    system, right = np.zeros((count, 8, 8), complex), np.empty((count, 8), complex)
-    for k, o in ((0, 0), (1, 4)):
-        rows = slice(k * poses, (k + 1) * poses)
-        system[:, rows, o : o + 4] = gradients[k][:poses].transpose(1, 0, 2)
-        right[:, rows] = rights[k][:poses].T
-        system[:, 2 * poses :, o : o + 4] = ((p, r)[k][:, :, None] * gradients[k][poses:]).transpose(1, 0, 2)
-    right[:, 2 * poses :] = (p * rights[0][poses:] + r * rights[1][poses:]).T
-    bad = ~np.isfinite(system.sum((1, 2)) + right.sum(1))
-    system[bad], right[bad] = np.eye(8), np.nan
-    lengths = np.linalg.solve(system, right[:, :, None])[:, :, 0].T
-    rest = [
-        rights[k][poses:] - np.einsum("jkc,ck->jk", gradients[k][poses:], lengths[4 * k : 4 * k + 4])
-        for k in (0, 1)
-    ]
-    by_first = np.abs(first) > np.abs(second)
-    turns = np.where(by_first, rest[0], rest[1]) / np.where(by_first, first, second)
-    return np.concatenate([lengths, turns])
+def _arrived(u: Complexes, first: Places, last: Places, tolerance: float = TOLERANCE) -> Complexes:
+    """Solutions of the places ``first`` carried to ``last``, less the lost ones."""
+    ends = carried(u, first, last, tolerance)
+    return ends.solutions[ends.arrived]
 
 
 def keys(u: Complexes) -> Complexes:
@@ -218,23 +109,7 @@ def keys(u: Complexes) -> Complexes:
 
 def _distinct(u: Complexes) -> Complexes:
     """The first of every solution."""
-    found = keys(u)
-    order = np.argsort(found.real, kind="stable")
-    repeated = np.zeros(len(u), bool)
-    for step in range(1, len(u)):
-        one, two = order[:-step], order[step:]
-        near = found.real[two] - found.real[one] < SAME
-        if not near.any():
-            break
-        repeated[np.maximum(one, two)[near & (np.abs(found[two] - found[one]) < SAME)]] = True
-    return u[~repeated]
-
-
-def _size(step: Complexes, u: Complexes) -> Floats:
-    lengths = (np.abs(step[:8]) / (np.abs(u[:8]) + 0.01)).max(0)
-    turns = (np.abs(step[8:]) / np.minimum(np.abs(u[8:]) + 0.01, np.abs(1 + u[8:]))).max(0)
-    size = np.maximum(lengths, turns)
-    return np.asarray(np.where(np.isfinite(size), size, np.inf))
+    return u[~repeated(keys(u), SAME)]
 
 
 def _made_up(poses: int, rng: np.random.Generator) -> tuple[Places, Complexes]:

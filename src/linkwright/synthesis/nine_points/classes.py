@@ -73,17 +73,21 @@ def class_keys(u: Complexes) -> Complexes:
 
 def new_classes(u: Complexes, known: Complexes) -> Whole:
     """Rows of u whose class is neither among the ``known`` keys nor earlier in u."""
-    keys = np.concatenate([known, class_keys(u)])
+    return np.flatnonzero(~repeated(np.concatenate([known, class_keys(u)]), SAME)[len(known) :])
+
+
+def repeated(keys: Complexes, same: float) -> Flags:
+    """Which keys differ by less than ``same`` from one before them."""
     order = np.argsort(keys.real, kind="stable")
-    repeated = np.zeros(len(keys), bool)
+    found = np.zeros(len(keys), bool)
     for step in range(1, len(keys)):
         first, second = order[:-step], order[step:]
-        near = keys.real[second] - keys.real[first] < SAME
+        near = keys.real[second] - keys.real[first] < same
         if not near.any():
             break
-        same = near & (np.abs(keys[second] - keys[first]) < SAME)
-        repeated[np.maximum(first, second)[same]] = True
-    return np.flatnonzero(~repeated[len(known) :])
+        near &= np.abs(keys[second] - keys[first]) < same
+        found[np.maximum(first, second)[near]] = True
+    return found
 
 
 def filled(found: Complexes, candidates: Complexes) -> Complexes:

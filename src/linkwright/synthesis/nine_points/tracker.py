@@ -9,14 +9,17 @@ first point a dyad has its moving pin at x and its fixed pivot at x + w, with pa
 
 16 equations for u = (x, X, w, W, y, Y, v, V, g₁ … g₈). With w and g instead of pivots and rotations nothing cancels
 near translations. In a linear solve the two equations of a point lose dg_j by one combination; an 8 × 8 system is
-left.
+left. At a pose g_j is given, and both of its equations stay in that system: M poses beside the first and 8 - 2 M
+points make one as well.
 
-Along (d, e) = q₀ + t (q₁ - q₀) a path takes a step by Runge and Kutta's fourth order and two Newton corrections; the
-first correction's size sets the next step.
+Along the straight way from the first places to the last a path takes a step by Runge and Kutta's fourth order and two
+Newton corrections; the first correction's size sets the next step.
 Source: Wampler, Morgan and Sommese 1992, J. Mech. Des. 114; Allgower and Georg 1990, Numerical Continuation Methods.
 """
 
 from __future__ import annotations
+
+from collections.abc import Callable
 
 import numpy as np
 
@@ -33,33 +36,52 @@ ROUNDING = 1e-7
 
 @dataclass(frozen=True, eq=False)
 class Ends:
-    """Where paths ended: solutions (N, 16), and which of them arrived (N,)."""
+    """Where paths ended: solutions (N, 8 + points), and which of them arrived (N,)."""
 
     solutions: Complexes
     arrived: Flags
+
+
+@dataclass(frozen=True, eq=False)
+class Places:
+    """Displacements d, partners e (n,) of the places after the first, the poses first, and g (M,) of those."""
+
+    d: Complexes
+    e: Complexes
+    g: Complexes
+
+    def toward(self, other: Places, t: Floats) -> tuple[Complexes, Complexes, Complexes]:
+        """d, e (n, K) and g (M, K) at the parts t (K,) of the way."""
+        pairs = ((self.d, other.d), (self.e, other.e), (self.g, other.g))
+        d, e, g = (a[:, None] + t * (b - a)[:, None] for a, b in pairs)
+        return d, e, g
+
+    def turned(self, way: complex) -> Places:
+        """The places turned about the first."""
+        return Places(self.d * way, self.e / way, self.g)
 
 
 def track(
     start: Complexes, q0: Complexes, q1: Complexes, *,
     tolerance: float = TOLERANCE, most: int = MOST_STEPS, rounding: float = ROUNDING,
 ) -> Ends:  # fmt: skip
-    """Solutions (N, 16) of the points q0 (2, 8) carried to the points q1.
+    """Solutions (N, 16) of the points q0 (2, 8) carried to the points q1, in compiled code where there is a compiler.
 
     A second correction below ``rounding`` is taken for the rounding of ill-conditioned solutions.
     """
     done, arrived = start.copy(), np.zeros(len(start), bool)
+    places = [Places(q[0], q[1], np.empty(0, complex)) for q in (q0, q1)]
+    way = _carried_compiled if available() else carried
 
     def carry(first: int, last: int) -> None:
-        paths = _Paths(start[first:last], q0, q1, tolerance, most, rounding)
-        ends = paths.run_compiled() if available() else paths.run()
+        ends = way(start[first:last], places[0], places[1], tolerance, most, rounding)
         done[first:last], arrived[first:last] = ends.solutions, ends.arrived
 
     spread_over(len(start), CHUNK, cores(), carry)
-    found = Ends(done, arrived)
     with np.errstate(all="ignore"):
-        right = found.arrived & np.isfinite(found.solutions).all(1)
-        right &= residual(np.where(right[:, None], found.solutions, 1.0), q1) < 1e-9
-    return Ends(found.solutions, right)
+        right = arrived & np.isfinite(done).all(1)
+        right &= residual(np.where(right[:, None], done, 1.0), q1) < 1e-9
+    return Ends(done, right)
 
 
 def residual(u: Complexes, q: Complexes) -> Floats:
@@ -75,96 +97,109 @@ def residual(u: Complexes, q: Complexes) -> Floats:
     return worst
 
 
-class _Paths:
-    """One chunk of paths; arrays have the paths last."""
+def carried(
+    start: Complexes, first: Places, last: Places,
+    tolerance: float = TOLERANCE, most: int = MOST_STEPS, rounding: float = ROUNDING,
+) -> Ends:  # fmt: skip
+    """Solutions (N, 8 + points) of the places ``first`` carried straight to ``last``, until every path has arrived or
+    is given up."""
+    done, arrived = start.T.copy(), np.zeros(len(start), bool)
+    change = (last.d - first.d)[:, None], (last.e - first.e)[:, None], (last.g - first.g)[:, None]
 
-    def __init__(
-        self, start: Complexes, q0: Complexes, q1: Complexes, tolerance: float, most: int, rounding: float
-    ) -> None:
-        self.q0, self.dq, self.q1 = q0[:, :, None], (q1 - q0)[:, :, None], q1[:, :, None]
-        self.tolerance, self.most, self.rounding = tolerance, most, rounding
-        self.done = start.T.copy()
-        self.arrived = np.zeros(len(start), bool)
+    def tangent(u: Complexes, t: Floats) -> Complexes:
+        return linear_step(u, first.toward(last, t), change)
 
-    def run_compiled(self) -> Ends:
-        """The same steps in compiled code."""
-        from linkwright.engine.kernel_writer import LANES
-        from linkwright.synthesis.nine_points.kernels import ROOM, kernels
+    with np.errstate(all="ignore"):
+        u, who = done.copy(), np.arange(len(start))
+        t, h = np.zeros(len(who)), np.full(len(who), 0.02)
+        for _ in range(most):
+            final = t + h >= 1.0 - 1e-14
+            h = np.where(final, 1.0 - t, h)
+            moved = _predicted(u, t, h, tangent)
+            good, size, moved = _corrected(moved, first.toward(last, t + h), tolerance, rounding)
+            u = np.where(good, moved, u)
+            t = np.where(good, np.where(final, 1.0, t + h), t)
+            growth = 0.85 * (tolerance / (size + 1e-30)) ** 0.2
+            near = (size > tolerance) & (size < 1e3)
+            shrink = np.where(near, np.clip(growth, 0.2, 0.6), 0.5)
+            h = np.where(good, np.minimum(LARGEST_STEP, h * np.clip(growth, 0.4, 2.0)), h * shrink)
+            ended = t >= 1.0
+            stay = ~ended & (h > SMALLEST_STEP)
+            if not stay.all():
+                done[:, who[ended]], arrived[who[ended]] = u[:, ended], True
+                u, t, h, who = u[:, stay], t[stay], h[stay], who[stay]
+            if not len(who):
+                break
+    return Ends(polished(done.T, arrived, last), arrived)
 
-        rows, arrived, room = self.done.T.copy(), np.zeros(len(self.arrived)), np.zeros(ROOM)
-        along = [_in_lanes(each, LANES) for each in (self.q0, self.dq)]
-        limits = np.array([self.tolerance, SMALLEST_STEP, LARGEST_STEP, self.most, self.rounding])
-        places = [each.ctypes.data for each in (rows, *along, arrived, limits)]
-        kernels()("carry", len(rows), *places, room.ctypes.data)
-        self.done, self.arrived = rows.T.copy(), arrived > 0.5
-        with np.errstate(all="ignore"):
-            self._polish()
-        return Ends(self.done.T.copy(), self.arrived)
 
-    def run(self) -> Ends:
-        """Steps until every path has arrived or is given up."""
-        with np.errstate(all="ignore"):
-            u, who = self.done.copy(), np.arange(self.done.shape[1])
-            t, h = np.zeros(len(who)), np.full(len(who), 0.02)
-            for _ in range(self.most):
-                last = t + h >= 1.0 - 1e-14
-                h = np.where(last, 1.0 - t, h)
-                good, first, moved = self._step(u, t, h)
-                u = np.where(good, moved, u)
-                t = np.where(good, np.where(last, 1.0, t + h), t)
-                growth = 0.85 * (self.tolerance / (first + 1e-30)) ** 0.2
-                near = (first > self.tolerance) & (first < 1e3)
-                shrink = np.where(near, np.clip(growth, 0.2, 0.6), 0.5)
-                h = np.where(good, np.minimum(LARGEST_STEP, h * np.clip(growth, 0.4, 2.0)), h * shrink)
-                ended = t >= 1.0
-                stay = ~ended & (h > SMALLEST_STEP)
-                if not stay.all():
-                    self.done[:, who[ended]], self.arrived[who[ended]] = u[:, ended], True
-                    u, t, h, who = u[:, stay], t[stay], h[stay], who[stay]
-                if not len(who):
-                    break
-            self._polish()
-        return Ends(self.done.T.copy(), self.arrived)
+def _predicted(
+    u: Complexes, t: Floats, h: Floats, tangent: Callable[[Complexes, Floats], Complexes]
+) -> Complexes:
+    """A step of Runge and Kutta's fourth order."""
+    k1 = tangent(u, t)
+    k2 = tangent(u + (0.5 * h) * k1, t + 0.5 * h)
+    k3 = tangent(u + (0.5 * h) * k2, t + 0.5 * h)
+    k4 = tangent(u + h * k3, t + h)
+    return u + (h / 6.0) * (k1 + 2.0 * (k2 + k3) + k4)
 
-    def _step(self, u: Complexes, t: Floats, h: Floats) -> tuple[Flags, Floats, Complexes]:
-        """Whether a step holds, the size of its first correction, and where it leads."""
-        k1 = self._tangent(u, t)
-        k2 = self._tangent(u + (0.5 * h) * k1, t + 0.5 * h)
-        k3 = self._tangent(u + (0.5 * h) * k2, t + 0.5 * h)
-        k4 = self._tangent(u + h * k3, t + h)
-        v = u + (h / 6.0) * (k1 + 2.0 * (k2 + k3) + k4)
-        q = self.q0 + (t + h) * self.dq
-        du = linear_step(v, q, None)
-        first = relative_size(du, v)
-        v = v + du
-        du = linear_step(v, q, None)
-        second = relative_size(du, v)
-        floor = np.maximum(self.rounding, 0.1 * first)
-        good = (first < 8.0 * self.tolerance) & (second < 1e-5) & (second < floor)
-        return good, np.where(np.isfinite(first), first, 1e9), v + du
 
-    def _tangent(self, u: Complexes, t: Floats) -> Complexes:
-        return linear_step(u, self.q0 + t * self.dq, self.dq)
+def _corrected(
+    u: Complexes, places: tuple[Complexes, Complexes, Complexes], tolerance: float, rounding: float
+) -> tuple[Flags, Floats, Complexes]:
+    """Whether a step holds, the size of its first correction, and where two of them lead."""
+    du = linear_step(u, places, None)
+    first = relative_size(du, u)
+    u = u + du
+    du = linear_step(u, places, None)
+    second = relative_size(du, u)
+    good = (first < 8.0 * tolerance) & (second < 1e-5) & (second < np.maximum(rounding, 0.1 * first))
+    return good, np.where(np.isfinite(first), first, 1e9), u + du
 
-    def _polish(self) -> None:
-        good = np.flatnonzero(self.arrived)
+
+def _carried_compiled(
+    start: Complexes, first: Places, last: Places, tolerance: float, most: int, rounding: float
+) -> Ends:
+    """The same steps for points alone in compiled code."""
+    from linkwright.engine.kernel_writer import LANES
+    from linkwright.synthesis.nine_points.kernels import ROOM, kernels
+
+    rows, arrived, room = start.copy(), np.zeros(len(start)), np.zeros(ROOM)
+    along = [_in_lanes(np.concatenate(each), LANES)
+             for each in ((first.d, first.e), (last.d - first.d, last.e - first.e))]  # fmt: skip
+    limits = np.array([tolerance, SMALLEST_STEP, LARGEST_STEP, most, rounding])
+    places = [each.ctypes.data for each in (rows, *along, arrived, limits)]
+    kernels()("carry", len(rows), *places, room.ctypes.data)
+    return Ends(polished(rows, arrived > 0.5, last), arrived > 0.5)
+
+
+def polished(u: Complexes, which: Flags, places: Places) -> Complexes:
+    """Solutions (N, 8 + points), of ``which`` the rounding is mended by corrections as long as they are small."""
+    u = u.copy()
+    still = places.toward(places, np.zeros(int(which.sum())))
+    with np.errstate(all="ignore"):
         for _ in range(3):
-            u = self.done[:, good]
-            du = linear_step(u, self.q1 + 0 * u[:1], None)
-            better = relative_size(du, u) < 1e-6
-            self.done[:, good] = np.where(better, u + du, u)
+            du = linear_step(u[which].T, still, None)
+            small = relative_size(du, u[which].T) < 1e-6
+            u[which] += np.where(small, du, 0.0).T
+    return u
 
 
-def _in_lanes(q: Complexes, lanes: int) -> Floats:
-    """Points (2, 8, 1) as entries of compiled code, equal in all lanes."""
-    flat = q.reshape(-1, 1)
-    return np.ascontiguousarray(np.repeat(np.concatenate([flat.real, flat.imag], 1), lanes, 1))
+def _in_lanes(flat: Complexes, lanes: int) -> Floats:
+    """Numbers (n,) as entries of compiled code, equal in all lanes."""
+    return np.ascontiguousarray(np.repeat(np.stack([flat.real, flat.imag], 1), lanes, 1))
 
 
-def linear_step(u: Complexes, q: Complexes, dq: Complexes | None) -> Complexes:
-    """du/dt (16, N) for points moving by ``dq`` (2, 8, 1), or the Newton correction where dq is None."""
-    d, e = q
-    g = u[8:]
+def linear_step(
+    u: Complexes,
+    places: tuple[Complexes, Complexes, Complexes],
+    change: tuple[Complexes, Complexes, Complexes] | None,
+) -> Complexes:
+    """du/dt (8 + points, K) where d, e and the poses' g move by ``change``, or the Newton correction where that is
+    None."""
+    d, e, given = places
+    poses, count = len(given), u.shape[1]
+    g = np.concatenate([given, u[8:]])
     inverse = 1.0 / (1.0 + g)
     f = -g * inverse
     gradients, slopes, rights = [], [], []
@@ -173,19 +208,26 @@ def linear_step(u: Complexes, q: Complexes, dq: Complexes | None) -> Complexes:
         m, n = d + x * g, e + xc * f
         mw, nw = m - w, n - wc
         gradients.append(np.stack([g * nw, f * mw, -n, -m], 1))
-        slopes.append(x * nw - xc * mw * inverse * inverse)
-        rights.append(n * w - m * nw if dq is None else -(dq[0] * nw + dq[1] * mw))
+        slope = x * nw - xc * mw * inverse * inverse
+        slopes.append(slope[poses:])
+        right = n * w - m * nw if change is None else -(change[0] * nw + change[1] * mw)
+        if change is not None:
+            right[:poses] -= slope[:poses] * change[2]
+        rights.append(right)
     first, second = slopes
     size = np.sqrt(_square(first) + _square(second)) + 1e-150
     p, r = second / size, -first / size
-    count = u.shape[1]
-    system = np.empty((count, 8, 8), complex)
-    system[:, :, :4] = (p[:, None] * gradients[0]).transpose(2, 0, 1)
-    system[:, :, 4:] = (r[:, None] * gradients[1]).transpose(2, 0, 1)
-    out = np.empty((16, count), complex)
-    out[:8] = _solved(system, (p * rights[0] + r * rights[1]).T)
+    system, right = np.zeros((count, 8, 8), complex), np.empty((count, 8), complex)
+    for k, share in enumerate((p, r)):
+        rows, columns = slice(k * poses, (k + 1) * poses), slice(4 * k, 4 * k + 4)
+        system[:, rows, columns] = gradients[k][:poses].transpose(2, 0, 1)
+        system[:, 2 * poses :, columns] = (share[:, None] * gradients[k][poses:]).transpose(2, 0, 1)
+        right[:, rows] = rights[k][:poses].T
+    right[:, 2 * poses :] = (p * rights[0][poses:] + r * rights[1][poses:]).T
+    out = np.empty((len(u), count), complex)
+    out[:8] = _solved(system, right)
     by_first = _square(first) > _square(second)
-    rest = [rights[k] - (gradients[k] * out[4 * k : 4 * k + 4]).sum(1) for k in (0, 1)]
+    rest = [rights[k][poses:] - (gradients[k][poses:] * out[4 * k : 4 * k + 4]).sum(1) for k in (0, 1)]
     out[8:] = np.where(by_first, rest[0], rest[1]) / np.where(by_first, first, second)
     return out
 
