@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Literal
 
 from linkwright.core.dataclass import dataclass
-from linkwright.words import say
+from linkwright.words import LANGUAGES, say
 from linkwright.words.sentence import Sentence, in_language
 
 Severity = Literal["error", "warning", "note"]
@@ -92,3 +92,9 @@ class QuantityError(LinkwrightError):
     def __init__(self, message: str, remedy: str = "", *, column: int = 0, code: str = "quantity") -> None:
         self.message, self.remedy, self.column, self.code = message, remedy, column, code
         super().__init__(with_remedy(message, remedy))
+
+
+def require_language(language: str) -> None:
+    """Raises RequestError for a language without words."""
+    if language not in LANGUAGES:
+        raise RequestError(Sentence("names.no_language", language=language, languages=tuple(LANGUAGES)))

@@ -6,7 +6,7 @@ import inspect
 from pathlib import Path
 from typing import Any
 
-from linkwright.errors import RequestError
+from linkwright.errors import RequestError, require_language
 from linkwright.export.base import FORMATS, Format
 from linkwright.export.results import STEPS, Results
 from linkwright.kinematics.motion import Motion
@@ -14,7 +14,6 @@ from linkwright.kinetostatics.forces import Forces
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
 from linkwright.whole_files import refuse_target, write_whole
-from linkwright.words import LANGUAGES
 from linkwright.words.sentence import Sentence
 
 
@@ -51,8 +50,7 @@ def export(
     target = Path(path)
     chosen = chosen_format(target, format)
     refuse_target(target, force=force, remedy="force=True")
-    if language not in LANGUAGES:
-        raise RequestError(Sentence("export.no_language", language=language, languages=tuple(LANGUAGES)))
+    require_language(language)
     check_options(chosen, FORMATS[chosen], options)
     return write_whole(target, FORMATS[chosen].content(Results.of(result, steps, language), **options))
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.errors import RequestError
+from linkwright.errors import RequestError, require_language
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
@@ -30,7 +30,7 @@ from linkwright.plot.drawing.video import gif, mp4
 from linkwright.plot.svg.element import Element, circle, group
 from linkwright.plot.svg.render import png
 from linkwright.whole_files import write_whole
-from linkwright.words import LANGUAGES, say
+from linkwright.words import say
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
@@ -79,8 +79,7 @@ def animate(
     Raises:
         LinkwrightError: an unknown name, no position reached, a time or number of frames that makes no sense.
     """
-    if language not in LANGUAGES:
-        raise RequestError(Sentence("export.no_language", language=language, languages=tuple(LANGUAGES)))
+    require_language(language)
     if not 2 <= frames <= 2000:
         raise RequestError(Sentence("picture.bad_frames", frames=frames))
     if seconds is not None and not 0.05 <= seconds <= 3600:

@@ -10,25 +10,22 @@ import numpy as np
 
 from linkwright.cams.curves import RollerCurve
 from linkwright.core.arrays import Floats
-from linkwright.errors import RequestError
-from linkwright.plot.drawing.picture import Box, Drawing, bounds, document
+from linkwright.errors import require_language
+from linkwright.plot.drawing.picture import Drawing, bounds, captioned
 from linkwright.plot.svg.element import Element, circle, path
-from linkwright.plot.svg.text import text_element, width
 from linkwright.plot.symbols.base import points
-from linkwright.words import LANGUAGES, say
-from linkwright.words.sentence import Sentence
+from linkwright.words import say
 
 if TYPE_CHECKING:
     from linkwright.cams.result import CamDesign
 
-DIAGONAL, SIZE = 620.0, 13.0
+DIAGONAL = 620.0
 _ARM = 6.0
 
 
 def draw_cam(design: CamDesign, angle: float = 0.0, language: str = "en") -> Drawing:
     """Profiles, pitch curve as a chain line, base circle thin, follower and frame at an angle (rad) of the cam."""
-    if language not in LANGUAGES:
-        raise RequestError(Sentence("export.no_language", language=language, languages=tuple(LANGUAGES)))
+    require_language(language)
     cam = design.cam
     barrel = cam.barrel_radius is not None
     walls = [
@@ -58,14 +55,8 @@ def draw_cam(design: CamDesign, angle: float = 0.0, language: str = "en") -> Dra
     if cam.conjugate is not None:
         content += _second(design, angle, paper, scale)
     box = bounds([paper(cloud)])
-    lines = _lines(design, angle, language)
-    content += [
-        text_element(box[0], box[3] + 24.0 + 20.0 * n, line, "lw-legend", SIZE)
-        for n, line in enumerate(lines)
-    ]
-    wide = max(width(line, SIZE) for line in lines)
-    whole: Box = (box[0], box[1], max(box[2], box[0] + wide), box[3] + 14.0 + 20.0 * len(lines))
-    return Drawing(document(content, whole, say("cams.drawing", language, name=design.title), None))
+    title = say("cams.drawing", language, name=design.title)
+    return Drawing(captioned(content, box, [_line(design, angle, language)], title))
 
 
 def _turned(places: Floats, angle: float) -> Floats:
@@ -156,10 +147,10 @@ def _second(
     return parts
 
 
-def _lines(design: CamDesign, angle: float, language: str) -> list[str]:
+def _line(design: CamDesign, angle: float, language: str) -> str:
     cam = design.cam
     degrees = f"{math.degrees(angle):.6g}"
     if cam.barrel_radius is not None:
-        return [say("cams.drawn_barrel", language, radius=f"{1e3 * cam.barrel_radius:.6g}", angle=degrees)]
+        return say("cams.drawn_barrel", language, radius=f"{1e3 * cam.barrel_radius:.6g}", angle=degrees)
     radius = f"{1e3 * (cam.base_radius or 0.0):.6g}"
-    return [say("cams.drawn", language, radius=radius, angle=degrees)]
+    return say("cams.drawn", language, radius=radius, angle=degrees)

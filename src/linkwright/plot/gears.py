@@ -8,12 +8,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.errors import RequestError
-from linkwright.plot.drawing.picture import Box, Drawing, bounds, document
+from linkwright.errors import require_language
+from linkwright.plot.drawing.picture import Box, Drawing, bounds, captioned
 from linkwright.plot.svg.element import Element, circle, element, path, path_data
-from linkwright.plot.svg.text import text_element, width
 from linkwright.plot.symbols.base import points, ring, vec
-from linkwright.words import LANGUAGES, say
+from linkwright.words import say
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
@@ -21,14 +20,14 @@ if TYPE_CHECKING:
     from linkwright.gears.pair import GearPair
     from linkwright.gears.rack import Rack
 
-DIAGONAL, SIZE = 760.0, 13.0
+DIAGONAL = 760.0
 #: Thickness of a ring outside its roots, modules.
 RIM = 2.5
 
 
 def draw_pair(pair: GearPair, pinion_angle: float = 0.0, language: str = "en") -> Drawing:
     """Outlines of both gears; rolling circles as chain lines, base circles thin, the path of contact thick."""
-    _require(language)
+    require_language(language)
     outlines = pair.outlines(pinion_angle)
     centres = (np.zeros(2), np.array([pair.centre_sign, 0.0]))
     extent = [_extent(gear, at) for gear, at in zip((pair.pinion, pair.wheel), centres, strict=True)]
@@ -46,12 +45,12 @@ def draw_pair(pair: GearPair, pinion_angle: float = 0.0, language: str = "en") -
     content.append(path(paper(contact_line(pair)), "lw-input-line"))
     box = bounds([paper(each) for each in extent])
     title = say("gears.title", language, first=pair.pinion.teeth, second=pair.wheel.teeth)
-    return Drawing(_sheet(content, box, _lines(pair, language), title), tuple(map(str, pair.findings)))
+    return Drawing(captioned(content, box, _lines(pair, language), title), tuple(map(str, pair.findings)))
 
 
 def draw_rack(rack: Rack, language: str = "en") -> Drawing:
     """The outline of a rack and its datum line, on which pinions without profile shift roll."""
-    _require(language)
+    require_language(language)
     outline = rack.outline()
     scale = DIAGONAL / float(np.hypot(*np.ptp(outline, axis=0)))
     paper = outline * (scale, -scale)
@@ -67,23 +66,7 @@ def draw_rack(rack: Rack, language: str = "en") -> Drawing:
     )
     content = [path(paper, "lw-gear", closed=True), path(datum, "lw-pitch")]
     wider: Box = (box[0] - 12.0, box[1], box[2] + 12.0, box[3])
-    return Drawing(_sheet(content, wider, [line], say("gears.rack_title", language, teeth=rack.teeth)))
-
-
-def _require(language: str) -> None:
-    if language not in LANGUAGES:
-        raise RequestError(Sentence("export.no_language", language=language, languages=tuple(LANGUAGES)))
-
-
-def _sheet(content: list[Element], box: Box, lines: list[str], title: str) -> str:
-    """The picture with lines of text below it."""
-    texts = [
-        text_element(box[0], box[3] + 24.0 + 20.0 * number, line, "lw-legend", SIZE)
-        for number, line in enumerate(lines)
-    ]
-    wide = max(width(line, SIZE) for line in lines)
-    whole: Box = (box[0], box[1], max(box[2], box[0] + wide), box[3] + 14.0 + 20.0 * len(lines))
-    return document([*content, *texts], whole, title, None)
+    return Drawing(captioned(content, wider, [line], say("gears.rack_title", language, teeth=rack.teeth)))
 
 
 def contact_line(pair: GearPair) -> Floats:

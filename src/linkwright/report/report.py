@@ -9,7 +9,7 @@ from pathlib import Path
 
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.sweep import Progress
-from linkwright.errors import LinkwrightError, QuantityError, RequestError
+from linkwright.errors import LinkwrightError, QuantityError, RequestError, require_language
 from linkwright.files.model_file import load
 from linkwright.files.source import GALLERY
 from linkwright.mechanism.mechanism import Mechanism
@@ -32,7 +32,7 @@ from linkwright.report.numbers import typeset
 from linkwright.report.section import SECTIONS, Section
 from linkwright.report.settings import Settings, settings
 from linkwright.whole_files import write_whole
-from linkwright.words import LANGUAGES, speaker
+from linkwright.words import speaker
 from linkwright.words.sentence import Sentence, in_language
 from linkwright.words.titles import gallery_title
 
@@ -126,8 +126,7 @@ def report(
     Raises:
         LinkwrightError: an unknown section or language, a model that cannot be read, settings that make no sense.
     """
-    if language not in LANGUAGES:
-        raise RequestError(Sentence("worked.no_language", language=language, languages=tuple(LANGUAGES)))
+    require_language(language)
     given, problems = _told_apart(machines)
     cases = _cases(given, sources, language, position, positions)
     own = cases[0].settings if cases else settings({})

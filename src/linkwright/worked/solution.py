@@ -6,13 +6,13 @@ import numpy as np
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
-from linkwright.errors import LinkwrightError, RequestError
+from linkwright.errors import LinkwrightError, RequestError, require_language
 from linkwright.kinematics.groups import dyad_shape, in_one_step
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.structure.group import Group
-from linkwright.words import LANGUAGES, speaker
+from linkwright.words import speaker
 from linkwright.words.sentence import Sentence
 from linkwright.worked.higher_pairs import closures
 from linkwright.worked.page import Equation, Step
@@ -77,8 +77,7 @@ def worked(
     Raises:
         LinkwrightError: a position that does not exist or was not reached, an unknown language.
     """
-    if language not in LANGUAGES:
-        raise RequestError(Sentence("worked.no_language", language=language, languages=tuple(LANGUAGES)))
+    require_language(language)
     if at is not None:
         source, position = _solved_at(source, at), 0
     motion = source.motion if isinstance(source, Forces) else source

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import io
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from linkwright.errors import RequestError
-from linkwright.export.base import package
+from linkwright.export.dxf.sheet import content_of, new_document
 from linkwright.whole_files import refuse_target, write_whole
 from linkwright.words.sentence import Sentence
 
@@ -35,11 +34,7 @@ def save_profile(design: CamDesign, path: Path, points: int, *, force: bool) -> 
 
 def _drawing(design: CamDesign, points: int) -> bytes:
     """Closed polylines whose corners lie on the exact curves, mm; of a barrel cam open and unrolled."""
-    ezdxf = package("ezdxf", "dxf_drawings")
-    document = ezdxf.new("R2010", setup=["linetypes"])
-    document.units = 4
-    for name, colour in LAYERS.items():
-        document.layers.add(name, color=colour)
+    document = new_document(LAYERS)
     space, cam = document.modelspace(), design.cam
     closed = cam.barrel_radius is None
 
@@ -57,9 +52,7 @@ def _drawing(design: CamDesign, points: int) -> bytes:
     if closed and cam.base_radius is not None:
         space.add_circle((0.0, 0.0), _MM * cam.base_radius, dxfattribs={"layer": "base"})
         space.add_point((0.0, 0.0), dxfattribs={"layer": "base"})
-    stream = io.StringIO()
-    document.write(stream)
-    return bytes(document.encode(stream.getvalue()))
+    return content_of(document)
 
 
 def _table(design: CamDesign, points: int) -> str:

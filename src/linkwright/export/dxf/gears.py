@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import io
 import math
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from linkwright.export.base import package
+from linkwright.export.dxf.sheet import content_of, new_document
 from linkwright.plot.gears import contact_line
 from linkwright.whole_files import refuse_target, write_whole
 
@@ -26,7 +25,7 @@ def save_pair(pair: GearPair, path: Path, pinion_angle: float, points: int, *, f
     Raises LinkwrightError for a file that exists (without ``force``), a missing folder or package.
     """
     refuse_target(path, force=force, remedy="force=True")
-    document = _sheet()
+    document = new_document(LAYERS)
     space = document.modelspace()
     for outline in pair.outlines(pinion_angle, points):
         space.add_lwpolyline((_MM * outline).tolist(), close=True, dxfattribs={"layer": "outline"})
@@ -37,7 +36,7 @@ def save_pair(pair: GearPair, path: Path, pinion_angle: float, points: int, *, f
         space.add_circle((_MM * x, 0.0), 0.5 * _MM * gear.base_diameter, dxfattribs={"layer": "base"})
     start, end = (_MM * contact_line(pair)).tolist()
     space.add_line(start, end, dxfattribs={"layer": "contact"})
-    return _written(document, path)
+    return write_whole(path, content_of(document))
 
 
 def save_rack(rack: Rack, path: Path, points: int, *, force: bool) -> Path:
@@ -46,24 +45,10 @@ def save_rack(rack: Rack, path: Path, points: int, *, force: bool) -> Path:
     Raises LinkwrightError for a file that exists (without ``force``), a missing folder or package.
     """
     refuse_target(path, force=force, remedy="force=True")
-    document = _sheet()
+    document = new_document(LAYERS)
     space = document.modelspace()
     outline = _MM * rack.outline(points)
     space.add_lwpolyline(outline.tolist(), close=True, dxfattribs={"layer": "outline"})
     left, right = outline[:, 0].min(), outline[:, 0].max()
     space.add_line((left, 0.0), (right, 0.0), dxfattribs={"layer": "rolling", "linetype": "DASHDOT"})
-    return _written(document, path)
-
-
-def _sheet() -> Any:
-    document = package("ezdxf", "dxf_drawings").new("R2010", setup=["linetypes"])
-    document.units = 4
-    for name, colour in LAYERS.items():
-        document.layers.add(name, color=colour)
-    return document
-
-
-def _written(document: Any, path: Path) -> Path:
-    stream = io.StringIO()
-    document.write(stream)
-    return write_whole(path, bytes(document.encode(stream.getvalue())))
+    return write_whole(path, content_of(document))

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import io
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.errors import RequestError
+from linkwright.export.base import package
 from linkwright.export.dxf.strokes import Stroke, strokes, unbroken
 from linkwright.export.results import Results
 from linkwright.mechanism.mechanism import Link
@@ -189,10 +191,25 @@ def check_unit(unit: str) -> tuple[float, int]:
     return known[unit]
 
 
-def prepare(document: Any, height: float, text: str, decimals: int) -> None:
-    """Layers, and the styles of text and dimensions."""
-    for name, colour in LAYERS.items():
+def new_document(layers: Mapping[str, int], unit: int = 4) -> Any:
+    """An empty document with layers of these colours (numbers of the AutoCAD colour index); ``unit``: DXF's number,
+    millimetres unless given. Raises LinkwrightError where ezdxf is missing."""
+    document = package("ezdxf", "dxf_drawings").new("R2010", setup=["linetypes"])
+    document.units = unit
+    for name, colour in layers.items():
         document.layers.add(name, color=colour)
+    return document
+
+
+def content_of(document: Any) -> bytes:
+    """The file of a document."""
+    stream = io.StringIO()
+    document.write(stream)
+    return bytes(document.encode(stream.getvalue()))
+
+
+def prepare(document: Any, height: float, text: str, decimals: int) -> None:
+    """The styles of text and dimensions."""
     document.styles.add(STYLE, font="arial.ttf" if text.isascii() else "simsun.ttc")
     style = document.dimstyles.new(STYLE)
     for key, value in {"dimtxt": height, "dimasz": 0.8 * height, "dimexo": 0.4 * height, "dimexe": 0.5 * height,

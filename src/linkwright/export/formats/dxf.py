@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
-import io
 from collections.abc import Sequence
 
 from linkwright.errors import LinkwrightError, RequestError
-from linkwright.export.base import FORMATS, Format, package
-from linkwright.export.dxf.sheet import Sheet, check_unit, decimals_for, prepare
+from linkwright.export.base import FORMATS, Format
+from linkwright.export.dxf.sheet import (
+    LAYERS,
+    Sheet,
+    check_unit,
+    content_of,
+    decimals_for,
+    new_document,
+    prepare,
+)
 from linkwright.export.results import Results
 from linkwright.words.sentence import Sentence
 
@@ -29,13 +36,11 @@ def content(
     that move; ``curve``: ``polyline`` or ``spline`` through the solved positions; ``dimensions`` of the lengths in
     the model.
     """
-    ezdxf = package("ezdxf", "dxf_drawings")
     factor, code = check_unit(unit)
     if curve not in ("polyline", "spline"):
         raise RequestError(Sentence("export.bad_curve", curve=curve))
     index = _index(results, position)
-    document = ezdxf.new("R2010", setup=["linetypes"])
-    document.units = code
+    document = new_document(LAYERS, code)
     sheet = Sheet(document, results, index, factor)
     words = " ".join([results.mechanism.name, *results.mechanism.links, *results.motion.point_names()])
     prepare(document, sheet.height, words, decimals_for(factor))
@@ -45,9 +50,7 @@ def content(
         sheet.dimensions()
     if labels:
         sheet.labels()
-    stream = io.StringIO()
-    document.write(stream)
-    return bytes(document.encode(stream.getvalue()))
+    return content_of(document)
 
 
 def _index(results: Results, position: int | None) -> int:

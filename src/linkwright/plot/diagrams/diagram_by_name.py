@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import TypeAlias, cast
 
 from linkwright.core.plotted import Plotted
-from linkwright.errors import QuantityError, RequestError
+from linkwright.errors import QuantityError, RequestError, require_language
 from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import Forces
 from linkwright.machine.running import SteadyRunning
@@ -16,7 +16,6 @@ from linkwright.plot.diagrams.picture import Diagram, style
 from linkwright.plot.diagrams.source import Result, Source
 from linkwright.registry import listed
 from linkwright.units import parse
-from linkwright.words import LANGUAGES
 from linkwright.words.characters import printable
 from linkwright.words.sentence import Sentence
 
@@ -69,8 +68,7 @@ def plot(
         LinkwrightError: an unknown kind or name, an option that the kind has no use for, a diagram that makes no
             sense for the mechanism, no matplotlib, or no font for Chinese.
     """
-    if language not in LANGUAGES:
-        raise RequestError(Sentence("export.no_language", language=language, languages=tuple(LANGUAGES)))
+    require_language(language)
     own = _own_kind(result, kind)
     sources = [] if own else _sources(cast(_Solved, result), static=static)
     name = own or kind or _usual(cast(_Solved, result))

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.errors import LinkwrightError, RequestError
+from linkwright.errors import LinkwrightError, RequestError, require_language
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
@@ -31,7 +31,7 @@ from linkwright.plot.drawing.vectors import (
 from linkwright.plot.drawing.view import DIAGONAL
 from linkwright.plot.svg.element import Element, group
 from linkwright.plot.symbols.base import points
-from linkwright.words import LANGUAGES, say
+from linkwright.words import say
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
@@ -92,8 +92,7 @@ def draw(
     Raises:
         LinkwrightError: an unknown name, a position that does not exist or was not reached.
     """
-    if language not in LANGUAGES:
-        raise RequestError(Sentence("export.no_language", language=language, languages=tuple(LANGUAGES)))
+    require_language(language)
     motion = source if isinstance(source, Motion) else solve_motion(source, steps=STEPS, failures="mark")
     shown = _shown(motion, position, at, time)
     ghosts, style = _overlay(motion, overlay)

@@ -13,9 +13,11 @@ from linkwright.errors import RequestError
 from linkwright.plot.drawing.style import CSS
 from linkwright.plot.svg.element import Element, element, number
 from linkwright.plot.svg.render import png, save_picture
+from linkwright.plot.svg.text import text_element
+from linkwright.plot.svg.text import width as text_width
 from linkwright.words.sentence import Sentence
 
-MARGIN = 12.0
+MARGIN, SIZE = 12.0, 13.0
 #: Smallest and largest longer side of a drawing, pixels.
 SIZES = (8, 32_000)
 
@@ -95,3 +97,14 @@ def document(content: Sequence[Element], box: Box, title: str, size: float | Non
         *content,
     )
     return str(root)
+
+
+def captioned(content: Sequence[Element], box: Box, lines: Sequence[str], title: str) -> str:
+    """A whole SVG document with lines of text below its box."""
+    texts = [
+        text_element(box[0], box[3] + 24.0 + 20.0 * number, line, "lw-legend", SIZE)
+        for number, line in enumerate(lines)
+    ]
+    wide = max(text_width(line, SIZE) for line in lines)
+    whole: Box = (box[0], box[1], max(box[2], box[0] + wide), box[3] + 14.0 + 20.0 * len(lines))
+    return document([*content, *texts], whole, title, None)

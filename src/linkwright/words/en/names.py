@@ -16,4 +16,5 @@ WORDS = {
     "nothing_there": "there is none",
     "it_has": "it has {names}",
     "no_such_point": 'there is no point of link {link}: "{name}"; {hint}',
+    "no_language": 'there are no words in the language "{language}"; use one of {languages}',
 }

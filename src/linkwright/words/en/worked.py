@@ -108,7 +108,6 @@ WORDS = {
     "power_balance": "With the powers of the drivers the sum is zero:",
     "linear_solution": "Solution of the {count} linear equations (by elimination):",
     "linear_check": "Put into the left sides, row by row:",
-    "no_language": "there is no language {language!r}; choose one of {languages}",
     "no_input": "{name!r} has no driver, so there is no input to set; leave `at` out",
     "no_position": "there is no position {position}; the motion has {steps}, from 0 to {last}",
     "not_reached": "position {position} was not reached: {sentence}",

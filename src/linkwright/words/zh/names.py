@@ -16,4 +16,5 @@ WORDS = {
     "nothing_there": "一个也没有",
     "it_has": "它有 {names}",
     "no_such_point": "构件 {link} 上没有点“{name}”；{hint}",
+    "no_language": "没有语言“{language}”的文字；请用 {languages} 之一",
 }

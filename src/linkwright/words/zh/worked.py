@@ -95,7 +95,6 @@ WORDS = {
     "power_balance": "计入各驱动的功率，总和为零：",
     "linear_solution": "{count} 个线性方程的解（消元法）：",
     "linear_check": "代入左端，逐行：",
-    "no_language": "没有语言“{language}”；请选 {languages} 之一",
     "no_input": "“{name}”没有驱动，因此没有可设的输入；请去掉 `at`",
     "no_position": "没有位置 {position}；运动有 {steps} 个位置，从 0 到 {last}",
     "not_reached": "位置 {position} 到不了：{sentence}",
