@@ -72,7 +72,7 @@ def test_data_is_plain(conveyor: lw.Forces) -> None:
 def test_a_position_that_does_not_exist_is_refused(conveyor: lw.Forces) -> None:
     with pytest.raises(lw.LinkwrightError, match="no position 7; the motion has 2"):
         lw.worked(conveyor, 7)
-    with pytest.raises(lw.LinkwrightError, match="choose one of en, zh"):
+    with pytest.raises(lw.LinkwrightError, match="use one of en, zh"):
         lw.worked(conveyor, language="de")
 
 
