@@ -14,6 +14,8 @@ from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError, require_language
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
+from linkwright.kinematics.table import motion_results
+from linkwright.kinetostatics.table import force_results
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.plot.drawing.draw import Names, all_arrows, solved
 from linkwright.plot.drawing.frames import frame_indices, key_indices, usual_seconds
@@ -270,10 +272,11 @@ class Animation:
 
     @cached_property
     def _panel(self) -> Panel | None:
-        columns = dict(self.scene.machine.motion.columns())
-        if self.forces is not None:
-            columns |= self.forces.columns()
-        return panel(columns, self.curves, self._drawn_box) if self.curves else None
+        if not self.curves:
+            return None
+        motion, forces = self.scene.machine.motion, self.forces
+        results = motion_results(motion) if forces is None else force_results(forces)
+        return panel(results, self.curves, self._drawn_box)
 
     @cached_property
     def _legend(self) -> Legend:

@@ -9,6 +9,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.engine.trace import Scalar, absolute, minimum, select
 from linkwright.errors import RequestError
+from linkwright.kinematics.names import find_point
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import METRICS, Analysis
 from linkwright.metrics.analysis import Extreme
@@ -112,7 +113,7 @@ def pivot(mechanism: Mechanism, output: Output) -> tuple[str, str]:
     if output.kind == "displacement":
         joint = mechanism.joints[output.owner]
         return output.owner, next(link for link in joint.joined if link != "frame")
-    owner = output.owner.split(".")[0]
+    owner = output.owner if output.kind == "angle" else find_point(mechanism, output.owner)[0]
     at_frame = [n for n, j in mechanism.joints.items() if {"frame", owner} <= set(j.joined)]
     return next(iter(at_frame), _first_joint(mechanism, owner)), owner
 

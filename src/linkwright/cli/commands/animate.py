@@ -58,8 +58,10 @@ def run(options: argparse.Namespace, session: Session) -> int:
     from linkwright.cli.progress import progress
     from linkwright.cli.source import read_model
     from linkwright.cli.tables import refuse_output
+    from linkwright.kinematics.table import motion_results
+    from linkwright.kinetostatics.table import force_results
     from linkwright.plot.animation import animate
-    from linkwright.plot.drawing.panel import title_of
+    from linkwright.plot.drawing.panel import named
 
     refuse_output(options.output, ENDINGS, session.say, force=options.force)
     seconds = _seconds(options.seconds, session.say)
@@ -68,8 +70,8 @@ def run(options: argparse.Namespace, session: Session) -> int:
     refuse_unknown_vectors(motion, options)
     refuse_unknown(motion.point, "--traces", names(options.traces))
     forces = _forces(motion, options)
-    columns = (forces or motion).columns()
-    refuse_unknown(lambda name: title_of(columns, name), "--curves", names(options.curves))
+    results = motion_results(motion) if forces is None else force_results(forces)
+    refuse_unknown(lambda name: named(results, name), "--curves", names(options.curves))
     animation = animate(
         motion,
         traces=names(options.traces),

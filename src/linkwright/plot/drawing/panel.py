@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 
 import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.core.outputs import Output
 from linkwright.errors import RequestError
 from linkwright.plot.drawing.picture import Box
 from linkwright.plot.svg.element import Element, element, path
@@ -41,18 +42,16 @@ class Panel:
         )
 
 
-def panel(columns: Mapping[str, Floats], wanted: Sequence[str], box: Box) -> Panel | None:
+def panel(results: Mapping[Output, Floats], wanted: Sequence[str], box: Box) -> Panel:
     """Rows of curves under the box; ``wanted``: names of columns, with or without the unit."""
-    if not wanted:
-        return None
     left, span = box[0], max(box[2] - box[0], 260.0)
     y = box[3] + GAP
     elements: list[Element] = []
     right = left + span
     for name in wanted:
-        title = title_of(columns, name)
-        elements += _row(title, columns[title], left, span, y)
-        right = max(right, left + width(title, SIZE))
+        output = named(results, name)
+        elements += _row(output.heading, results[output], left, span, y)
+        right = max(right, left + width(output.heading, SIZE))
         y += HEIGHT + GAP
     extent = points([(left, box[3] + GAP - 1.4 * SIZE), (right, y - GAP + SIZE)])
     return Panel(tuple(elements), extent, left, span, box[3] + GAP, y - GAP)
@@ -73,10 +72,10 @@ def _row(title: str, values: Floats, left: float, span: float, top: float) -> li
     return elements
 
 
-def title_of(columns: Mapping[str, Floats], name: str) -> str:
-    """The column of a name with or without its unit; raises LinkwrightError for an unknown one."""
-    for title in columns:
-        if name in (title, title.split(" [", 1)[0]):
-            return title
-    bare = [title.split(" [", 1)[0] for title in columns]
-    raise RequestError(Sentence("picture.no_result", name=name, hint=offered(name, bare)))
+def named(results: Collection[Output], name: str) -> Output:
+    """The result whose column has a name, with or without its unit; raises LinkwrightError for an unknown one."""
+    for each in results:
+        if name in (each.column, each.heading):
+            return each
+    hint = offered(name, [each.column for each in results])
+    raise RequestError(Sentence("picture.no_result", name=name, hint=hint))
