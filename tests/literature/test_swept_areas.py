@@ -139,7 +139,7 @@ def test_one_swept_area_for_studies_sweeps_and_comparisons() -> None:
 def test_machines_without_a_gradient_of_their_swept_area_say_so() -> None:
     for machine, address in (
         (lw.loads(FOUR_BAR.format(crank=2.5)), "crank.length"),
-        (lw.load("gallery:triad"), "crank.A.x"),
+        (lw.load("gallery:stephenson_sixbar_triad"), "crank.length"),
     ):
         with pytest.raises(
             lw.LinkwrightError, match=r"swept_area of .* has a gradient where one driver turns"

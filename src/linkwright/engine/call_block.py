@@ -131,9 +131,13 @@ class Inputs:
         block[Block.DESIGNS], block[Block.PARAMETERS] = designs, parameters
         block[Block.OUT], block[Block.STARTS] = out, starts
         if first and self.fields:
-            place = Block.INPUTS + len(self.positions)
-            block[place : place + len(self.fields)] += 8 * first * self.stride
+            self.fields_of(block)[:] += 8 * first * self.stride
         return block
+
+    def fields_of(self, block: Whole) -> Whole:
+        """The addresses of the fields in a call block."""
+        place = Block.INPUTS + len(self.positions)
+        return block[place : place + len(self.fields)]
 
 
 def _taken(kind: str, names: tuple[str, ...], arrays: Arrays) -> list[Floats]:

@@ -174,18 +174,26 @@ class CompiledProgram:
         return run
 
     def one_by_one(
-        self, parameters: Floats, positions: Arrays, out: Floats, *, tables: Tables | None = None
-    ) -> tuple[int, Whole]:
-        """For kernels that call it: the address of the code, and the call block of the first design.
+        self,
+        parameters: Floats,
+        positions: Arrays,
+        out: Floats,
+        *,
+        fields: Arrays = _NONE,
+        tables: Tables | None = None,
+    ) -> tuple[int, Whole, Whole]:
+        """For kernels that call it: the address of the code, the call block of the first design, and the addresses of
+        the fields in it.
 
-        Kernels move the address of the parameters on, by the bytes of a design. ``parameters`` (designs, parameters)
-        and ``out`` (outputs, n) are read and written where they lie, and must live as long as the block is used.
+        Kernels move the addresses of the parameters and the fields on, by the bytes of a design. ``parameters``
+        (designs, parameters), ``fields`` (designs, n) and ``out`` (outputs, n) are read and written where they lie,
+        and must live as long as the block is used.
         """
-        inputs = self._inputs(positions, _NONE, None, tables)
+        inputs = self._inputs(positions, fields, None, tables)
         if self.program.next_states or inputs.stride != inputs.length:
             raise ValueError(f"only programs of {self.width} or more positions, without states")
         block = inputs.block(address_of(parameters), address_of(out))
-        return ctypes.cast(self._function, ctypes.c_void_p).value or 0, block
+        return ctypes.cast(self._function, ctypes.c_void_p).value or 0, block, inputs.fields_of(block)
 
     def store(
         self,

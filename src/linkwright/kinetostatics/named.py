@@ -15,6 +15,7 @@ from linkwright.core.outputs import Output
 from linkwright.engine.trace import Scalar, Value, absolute, atan, minimum, slope, sqrt
 from linkwright.engine.vector import Vec
 from linkwright.errors import RequestError
+from linkwright.joints.pose import Rotor
 from linkwright.kinematics.names import canonical, find_point, no_output, output_meant
 from linkwright.kinematics.programs import MotionPrograms
 from linkwright.kinematics.solver import MotionSolver
@@ -135,7 +136,23 @@ class Named:
                 seeds[trace.position(turn)] = given.rate
                 seeds[trace.position(cosine)] = -given.turn.y * given.rate
                 seeds[trace.position(sine)] = given.turn.x * given.rate
-        return slope(value, seeds)
+        return slope(value, {**seeds, **self._iterated_rates()})
+
+    def _iterated_rates(self) -> dict[Value, Scalar]:
+        """Coordinates of groups without closed form with their exact rates.
+
+        A derivative through Newton's step to them would itself have no exact derivative: that needs two steps.
+        """
+        found: dict[Scalar, Scalar] = {}
+        for placed in self.motion.motion.placed.values():
+            for joint, coordinate in placed.coordinates.items():
+                rate = placed.rates[joint]
+                if isinstance(coordinate, Rotor):
+                    now = coordinate.now
+                    found |= {now.x: -now.y * rate, now.y: now.x * rate}
+                elif coordinate is not None:
+                    found[coordinate] = rate
+        return {value: rate for value, rate in found.items() if isinstance(value, Value)}
 
     def _angle(self, name: str, output: Output) -> Quantity:
         """Tangent of half the angle from the middle direction: it grows with the angle over a whole turn."""

@@ -113,11 +113,15 @@ class CycleGrid:
         return np.asarray(ends[ends[:, 1] > ends[:, 0]])
 
     def _edges(self, switches: Floats) -> Floats:
-        """Those of the first pieces."""
+        """Those of the first pieces. Switches that coincide are one: between them a load of a phase that ends would
+        act beside one of a phase that has not begun."""
         edges = edges_between(self.start, self.end, PIECES, _NONE)
         for low, high in self.around:
             edges = edges[(edges <= low) | (edges >= high)]
-        inner = switches[(switches > self.start) & (switches < self.end)]
+        near = 2.0 * NEAR * (self.end - self.start)
+        inner = switches[(switches > self.start + near) & (switches < self.end - near)]
+        inner = inner[np.diff(inner, prepend=self.start) > near]
+        edges = edges[(np.abs(edges[:, None] - inner) > near).all(axis=1)]
         return increasing(np.concatenate([edges, self.around.ravel(), inner]))
 
     def _passing(self, edges: Floats) -> Flags:

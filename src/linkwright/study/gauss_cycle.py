@@ -46,11 +46,20 @@ SHARE = "share of the cycle"
 
 def side_by_side(traced: Traced, varied: Iterable[str]) -> bool:
     """Whether designs can go through the Gauss points of one cycle: of whole turns of one driver of constant speed,
-    passed with closed forms and without change points, all rotations counted."""
-    placed = traced.solver.motion.placed.values()
-    if any(each.next_states for each in placed) or not whole_turns(traced, varied):
+    passed without change points, all rotations counted."""
+    if not whole_turns(traced, varied):
         return False
     return bool(traced.nominal.ok.all()) and not traced.nominal.modes and traced.countable
+
+
+def iterated(traced: Traced) -> tuple[str, ...]:
+    """The chain coordinates of groups without closed form, by the names of the states that carry them."""
+    return tuple(name for placed in traced.solver.motion.placed.values() for name in placed.next_states)
+
+
+def at_point(state: str) -> str:
+    """The field that is a chain coordinate at the Gauss points."""
+    return f"at:{state}"
 
 
 @dataclass(frozen=True)
@@ -186,11 +195,19 @@ class GaussCycle:
         return Stage(Program.of(t, outputs), {name: Reduction(name, "first") for name in outputs}, steps=1)
 
     def signals(self, outputs: Mapping[str, Scalar]) -> tuple[Trace, dict[str, Scalar]]:
-        """A trace over the Gauss points with the outputs, whether they are valid, and the share of the time."""
+        """A trace over the Gauss points with the outputs, whether they are valid, and the share of the time; the
+        chain coordinates of groups without closed form are fields."""
         motion = self.traced.solver.motion
         sure = motion.trace.logic("and", self.traced.counted_for_certain, friction_doubt(self.traced) < 0.5)
         source = Program.of(motion.trace, {**outputs, VALID: sure})
         t = Trace()
+        point, width = self.point(t)
+        carried = {name: t.field_input(at_point(name)) for name in iterated(self.traced)}
+        found = self.traced.at_input(source, t, point["input"], {**point, **carried})
+        return t, {**found, SHARE: width}
+
+    def point(self, t: Trace) -> tuple[dict[str, Scalar], Scalar]:
+        """Input, rad, and time, s, of the Gauss points, and their shares of the time."""
         (driver,) = self.traced.mechanism.drivers
         place: Scalar = t.position("place after")
         width: Scalar = t.position("width after")
@@ -201,10 +218,8 @@ class GaussCycle:
                 width = width + t.position(f"width {k}") * cut
         share = place - floor(place)
         way = sign(t.parameter(f"{driver}.speed")) * self.way * share
-        angle = t.parameter(FIRST) + way
         time = t.parameter("first time") + way / t.parameter(f"{driver}.speed")
-        found = self.traced.at_input(source, t, angle, {"input": angle, "time": time})
-        return t, {**found, SHARE: width}
+        return {"input": t.parameter(FIRST) + way, "time": time}, width
 
 
 def _apart(shares: list[Scalar]) -> list[Scalar]:

@@ -18,6 +18,7 @@ from linkwright.engine.stage import Backend, Stage
 from linkwright.engine.trace import Scalar, select
 from linkwright.kinematics.cycle import Positions, over_cycle
 from linkwright.kinematics.step_rule import StepRule
+from linkwright.kinetostatics.friction import Swinging
 from linkwright.kinetostatics.traced_loads import AlongInput
 from linkwright.mechanism.geometry import mechanism_size
 from linkwright.mechanism.mechanism import Mechanism
@@ -121,12 +122,15 @@ def _found(traced: Traced, asked: tuple[str, ...], fields: tuple[str, ...]) -> F
 _followings: Recent[Mechanism, Following | None] = Recent(8)
 
 
-def limits_beside(traced: Traced, outputs: Iterable[Output], valued: Iterable[Output]) -> list[Stage]:
+def limits_beside(
+    traced: Traced, outputs: Iterable[Swinging], valued: Iterable[Output], shown: Iterable[Output] = ()
+) -> list[Stage]:
     """The stages that find limit positions, by Newton's steps from the positions next to them, where what is carried
-    from position to position is given as fields."""
+    from position to position is given as fields; ``shown``: see ``limit_stages``."""
     mechanism, free = traced.mechanism, traced.solver.manner.free
     near = Traced(mechanism, free, traced.positions, iterations=ITERATIONS, turning=traced.turning)
-    return limit_stages(near, outputs, valued=valued, way=Way({}, near.solver.motion.valid, {}))
+    way = Way({}, near.solver.motion.valid, {})
+    return limit_stages(near, outputs, valued=valued, shown=shown, way=way)
 
 
 class _Way:

@@ -28,7 +28,9 @@ from linkwright.kinetostatics.traced_loads import AlongInput
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import Analysis, strokes, true_speed
 from linkwright.metrics.summary import Summary, one
-from linkwright.study.gauss_cycle import PIECES, SHARE, GaussCycle, reversing, side_by_side
+from linkwright.study.followed_points import FollowedPoints, followed_points
+from linkwright.study.gauss_cycle import PIECES, SHARE, GaussCycle, iterated, reversing, side_by_side
+from linkwright.study.iterated_groups import limits_beside
 from linkwright.study.limit_stages import constants, extreme_name, limit_stages, rates
 from linkwright.study.loaded_cycle import along_input, with_loads
 from linkwright.study.piece_summaries import SIDES, PieceSummaries
@@ -63,9 +65,9 @@ def metric_cycle(
     changed, as cycle values; those that apply to it and are formulas of summaries. Terms are taken as they are.
 
     ``steps``: of the motion by which it is judged what applies; ``asked``: see ``terms.term``. None where the
-    designs cannot go side by side: the cycle is no whole number of turns of one driver of constant speed, groups
-    have no closed form, the way passes change points, loads do not follow the input, or polynomials do not meet the
-    machine itself. What is found for a machine is kept.
+    designs cannot go side by side: the cycle is no whole number of turns of one driver of constant speed, the way
+    passes change points, loads do not follow the input, or act in parts of strokes of groups without closed form, or
+    polynomials do not meet the machine itself. What is found for a machine is kept.
     """
     given, addresses = tuple(names), tuple(varied)
     key = (addresses, given, steps, asked)
@@ -97,6 +99,8 @@ def _metric_cycle(
     coarsest = None
     for pieces in PIECES:
         gauss = GaussCycle.of(traced, loads, pieces)
+        if iterated(traced) and gauss.part_stages():
+            return None
         found = MetricCycle(traced, gauss, terms, analysis, loads)
         sure, running = found.met(nominal)
         if running.all():
@@ -191,7 +195,7 @@ class MetricCycle:
         designs = len(next(iter(columns.values())))
         values = {each.name: np.empty(designs) for each in self.terms}
         certain = np.zeros(designs, dtype=np.bool_)
-        block = RUNNING if self.running else BLOCK
+        block = WEIGHED if self.followed else RUNNING if self.running else BLOCK
         # what is compiled for one of several blocks serves all, however few designs are in the last
         own: Backend = "llvm" if backend == "auto" and designs > block and available() else backend
 
@@ -240,16 +244,31 @@ class MetricCycle:
 
     def _read(self, columns: Mapping[str, Floats], backend: Backend) -> tuple[Seen, Floats]:
         """What is seen of the signals with these pieces, and the rows."""
-        seen = self._seen(self._table(self._forwards, columns), backend)
+        seen = self._seen(columns, backend)
         parts = {text: seen.summary(part) for text, part in self.parts.items() if text not in self.limited}
         parts |= {name: seen.values[name] for names in self.limited.values() for name in names}
         return seen, numpy_program(self._formulas).run((), parts, length=len(seen.passed))
 
-    def _seen(self, table: Floats, backend: Backend) -> Seen:
+    @cached_property
+    def followed(self) -> FollowedPoints | None:
+        """What finds groups without closed form at the Gauss points."""
+        return followed_points(self.traced, self.gauss)
+
+    def _seen(self, columns: Mapping[str, Floats], backend: Backend) -> Seen:
+        states = {} if self.followed is None else self.followed.at_positions(columns, backend)
         ((_, known, run),) = self._forwards.blocks(
-            table, self._positions, tables=self.loads.tables, threads=1, backend=backend
+            self._table(self._forwards, columns),
+            self._positions,
+            states,
+            tables=self.loads.tables,
+            threads=1,
+            backend=backend,
         )
-        found = self._signals.reduced(known.table(self._signals.program.parameters), run)
+        kept: Flags | bool = True
+        if self.followed is not None:
+            points, kept = self.followed.at_points(known, run, states)
+            known.fields |= points
+        found = self._signals.reduced(known.table(self._signals.program.parameters), known.fields, run)
         results = {name: np.asarray(column, dtype=float) for name, column in known.values.items()}
         with np.errstate(invalid="ignore"):
             passed = found.bounds[VALID][1] == 1.0
@@ -260,13 +279,16 @@ class MetricCycle:
         (driver,) = self.traced.mechanism.drivers
         speed = self.gauss.constants[f"{driver}.speed"]
         steady = SteadyDesigns(self._signals.program, known, run, self.gauss.pieces, speed, self.gauss.way)
-        return Seen(results, found, steady, self.gauss.pieces, passed)
+        seen = Seen(results, found, steady, self.gauss.pieces, passed, known.fields)
+        seen.certain &= kept
+        return seen
 
-    def _seen_again(self, table: Floats, backend: Backend) -> Seen:
+    def _seen_again(self, columns: Mapping[str, Floats], backend: Backend) -> Seen:
         """The same, kept for the last designs: several gradients are often wanted of them."""
+        table = self._table(self._forwards, columns)
         key, last = (table.tobytes(), backend), self._last.get("seen")
         if last is None or last[0] != key:
-            last = self._last["seen"] = key, self._seen(table, backend)
+            last = self._last["seen"] = key, self._seen(columns, backend)
         return last[1]
 
     @cached_property
@@ -287,7 +309,8 @@ class MetricCycle:
     @cached_property
     def _before(self) -> list[Stage]:
         cutting = self.gauss.cutting()
-        limits = limit_stages(self.traced, self.outputs, valued=self.loads.valued, shown=self.shown)
+        find = limit_stages if self.followed is None else limits_beside
+        limits = find(self.traced, self.outputs, valued=self.loads.valued, shown=self.shown)
         parts = self.gauss.part_stages()
         if names := self.constant.output_names:
             parts.append(Stage(self.constant, {text: Reduction(text, "first") for text in names}, steps=1))
@@ -297,7 +320,10 @@ class MetricCycle:
     def _forwards(self) -> CycleProgram:
         """What is found before the signals."""
         before = CycleProgram(tuple(self._before))
-        more = (name for name in self._signals.program.parameters if name not in before.results)
+        taken = [*self._signals.program.parameters]
+        if self.followed is not None:
+            taken += self.followed.parameters
+        more = (name for name in taken if name not in before.results)
         return CycleProgram(before.stages, tuple(dict.fromkeys([*before.dimensions, *more])))
 
     @cached_property
@@ -339,8 +365,8 @@ class MetricCycle:
 
         def work(first: int, end: int) -> None:
             part = {address: column[first:end] for address, column in columns.items()}
-            seen = self._seen_again(self._table(self._forwards, part), backend)
-            fields: dict[str, Floats] = {}
+            seen = self._seen_again(part, backend)
+            fields = dict(seen.fields)
             for text, summary in self.parts.items():
                 fields |= {} if text in self.limited else seen.weights(summary)
             table = self._table(backwards.cycle, part)

@@ -150,14 +150,15 @@ def contenders(
 
 
 def reduced(
-    designs: int, code: int, block: Wholes, stride: int, signals: Reals, share: Reals, pieces: int, jobs: Wholes,
-    count: int, extremes: int, tables: Reals, room: Reals, found: Reals, apart: int, rows: Reals, capacity: int,
-    ids: Wholes,
+    designs: int, code: int, block: Wholes, stride: int, fields: Wholes, given: int, signals: Reals, share: Reals,
+    pieces: int, jobs: Wholes, count: int, extremes: int, tables: Reals, room: Reals, found: Reals, apart: int,
+    rows: Reals, capacity: int, ids: Wholes,
 ) -> int:  # fmt: skip
     """Signals of one design after another by the compiled program, then its jobs; the number of contenders for
     extremes. Ends early where these may not find room; ``ids[2 · capacity]``: designs done.
 
-    ``stride``: bytes of a design's parameters; ``room``: (2 POINTS + 3) · pieces doubles.
+    ``stride``: bytes of a design's parameters; ``fields``: the addresses of so many ``given`` fields in the block;
+    ``room``: (2 POINTS + 3) · pieces doubles.
     """
     seen = room + (2 * POINTS + 1) * pieces
     at = 0
@@ -167,6 +168,8 @@ def reduced(
         ids[2 * capacity] = d + 1
         invoke(code, block)
         block[PARAMETERS] = block[PARAMETERS] + stride
+        for f in range(given):
+            fields[f] = fields[f] + 8 * POINTS * pieces
         for j in range(count):
             job = jobs + GIVEN * j
             result = found + (FOUND * j * apart + d)

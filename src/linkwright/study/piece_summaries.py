@@ -94,11 +94,14 @@ class PieceSummaries:
         )
         self.signals = tuple(dict.fromkeys(self.same[name] for name in [*(e.output for e in asked), *alone]))
 
-    def reduced(self, table: Floats, run: Run) -> Reduced:
-        """Of the designs with these parameters."""
+    def reduced(self, table: Floats, fields: Mapping[str, Floats], run: Run) -> Reduced:
+        """Of the designs with these parameters, and fields (designs, n)."""
         enough = self.pieces >= LANES  # the kernels take whole vectors of pieces
         code = code_for(self.program, None, run, len(table)) if enough else None
-        found = self._by_arrays(table, run) if code is None else self._compiled(code, table, run)
+        given = {name: fields[name] for name in self.program.fields}
+        found = (
+            self._by_arrays(table, given, run) if code is None else self._compiled(code, table, given, run)
+        )
         return self._rooted(self._of_all(found))
 
     def _of_all(self, found: Reduced) -> Reduced:
@@ -132,17 +135,18 @@ class PieceSummaries:
         return Reduced(bounds, powers, peaks)
 
     # by arrays --------------------------------------------------------------------------------------
-    def _by_arrays(self, table: Floats, run: Run) -> Reduced:
-        blocks = [self._block(table[k : k + BLOCK], run) for k in range(0, max(1, len(table)), BLOCK)]
+    def _by_arrays(self, table: Floats, fields: Mapping[str, Floats], run: Run) -> Reduced:
+        parts = [slice(k, k + BLOCK) for k in range(0, max(1, len(table)), BLOCK)]
+        blocks = [self._block(table[each], _of(fields, each), run) for each in parts]
         return Reduced(
             _joined([each.bounds for each in blocks]),
             _joined([each.powers for each in blocks]),
             _joined([each.peaks for each in blocks]),
         )
 
-    def _block(self, table: Floats, run: Run) -> Reduced:
+    def _block(self, table: Floats, fields: Mapping[str, Floats], run: Run) -> Reduced:
         found = numpy_program(self.program).run_designs(
-            table, run.positions, {}, length=run.length, tables=run.tables
+            table, run.positions, fields, length=run.length, tables=run.tables
         )
         names = self.program.output_names
         rows = {name: found[:, k].reshape(-1, POINTS, self.pieces) for k, name in enumerate(names)}
@@ -187,10 +191,12 @@ class PieceSummaries:
         names = [self.program.output_names[job[0]] if job[0] >= 0 else "" for job in jobs]
         return np.array(jobs, dtype=np.int64), tuple(names), tuple(owners)
 
-    def _compiled(self, code: CompiledProgram, table: Floats, run: Run) -> Reduced:
+    def _compiled(
+        self, code: CompiledProgram, table: Floats, fields: Mapping[str, Floats], run: Run
+    ) -> Reduced:
         jobs, names, owners = self._jobs
         room = _Room(self, len(jobs), len(owners), len(table))
-        room.fill(code, table, run, jobs)
+        room.fill(code, table, fields, run, jobs)
         found = {name: room.numbers[k, :, : len(table)] for k, name in enumerate(names) if name}
         piece, place, value, rough = room.best[..., : len(table)]
         return Reduced(
@@ -215,7 +221,9 @@ class _Room:
         self.best = np.empty((4, extremes, self.apart))
         self.best[2], self.best[3] = -np.inf, 0.0
 
-    def fill(self, code: CompiledProgram, table: Floats, run: Run, jobs: Whole) -> None:
+    def fill(
+        self, code: CompiledProgram, table: Floats, fields: Mapping[str, Floats], run: Run, jobs: Whole
+    ) -> None:
         """Signals of one design after another, and what is asked of them."""
         kernels, tables, pieces, capacity = piece_kernels.kernels(), _tables(), self.of.pieces, self.capacity
         work, ids = np.empty((2 * POINTS + 3) * pieces), np.empty(2 * capacity + 1, dtype=np.int64)
@@ -225,8 +233,11 @@ class _Room:
             np.empty((4 * POINTS, 8)),
         )
         share = self.signals[self.of.program.output_names.index(self.of.share)]
-        entry, block = code.one_by_one(table, run.positions, self.signals, tables=run.tables)
-        program = (entry, address_of(block), table.strides[0], address_of(self.signals), address_of(share))
+        entry, block, carried = code.one_by_one(
+            table, run.positions, self.signals, fields=fields, tables=run.tables
+        )
+        design = table.strides[0], address_of(carried), len(carried)
+        program = (entry, address_of(block), *design, address_of(self.signals), address_of(share))
         given = (pieces, address_of(jobs), len(jobs), self.extremes, address_of(tables), address_of(work))
         at_rows, at_ids, at_looked = address_of(rows), address_of(ids), address_of(looked)
         polynomials = (at_rows, capacity, address_of(tables), address_of(vectors), at_looked)
@@ -272,6 +283,11 @@ def _squared(program: Program, plain: Collection[str]) -> tuple[Program, tuple[s
     roots = [name for name, i in program.outputs if name not in plain and program.nodes[i].op == "sqrt"]
     outputs = tuple((name, program.nodes[i].args[0] if name in roots else i) for name, i in program.outputs)
     return Program(program.entries, outputs).only(list(program.output_names)), tuple(roots)
+
+
+def _of(fields: Mapping[str, Floats], designs: slice) -> dict[str, Floats]:
+    """The fields of some designs."""
+    return {name: rows[designs] for name, rows in fields.items()}
 
 
 def _joined(parts: Sequence[Mapping[Any, Any]]) -> dict[Any, Any]:

@@ -18,13 +18,20 @@ class Seen:
     """What is found of the signals of some designs, and what is made of it.
 
     ``passed``: which designs pass the cycle; ``certain``: of which of them all that was asked is met by polynomials,
-    but for the true speed; ``running``: of which that is met.
+    but for the true speed; ``running``: of which that is met; ``fields`` (designs, n): what is carried in groups
+    without closed form.
     """
 
     def __init__(
-        self, values: Mapping[str, Floats], found: Reduced, steady: SteadyDesigns, pieces: int, passed: Flags
+        self,
+        values: Mapping[str, Floats],
+        found: Reduced,
+        steady: SteadyDesigns,
+        pieces: int,
+        passed: Flags,
+        fields: Mapping[str, Floats],
     ) -> None:
-        self.values, self.found, self.steady, self.pieces = values, found, steady, pieces
+        self.values, self.found, self.steady, self.pieces, self.fields = values, found, steady, pieces, fields
         self.passed, self.certain = passed, passed.copy()
         self.running = np.ones(len(passed), dtype=np.bool_)
 

@@ -45,7 +45,7 @@ class SteadyDesigns:
     def _signals(self) -> tuple[Floats, Floats, Floats]:
         """Torque in the sense of running, N·m, inertia, kg·m², and share of the cycle."""
         table = self._given.table(self._stage.kept.parameters)
-        stored = self._stage.fields(table, {}, None, self._run)
+        stored = self._stage.fields(table, self._given.fields, None, self._run)
         effort, inertia, share = (stored[name].reshape(len(table), POINTS, self.pieces) for name in SIGNALS)
         return self.sense * effort, inertia, share
 

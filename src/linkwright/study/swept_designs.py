@@ -22,6 +22,7 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.cycle_grid import PIECES
 from linkwright.metrics.swept_area import points
 from linkwright.metrics.swept_hull import Curves, SweptHull
+from linkwright.study.followed_points import followed_points
 from linkwright.study.gauss_cycle import GaussCycle, side_by_side
 from linkwright.study.metric_cycle import Found
 from linkwright.study.terms import Term, chosen_subjects, metric_of
@@ -42,7 +43,7 @@ def swept(name: str, mechanism: Mechanism) -> dict[str, tuple[str, ...]]:
 def swept_designs(mechanism: Mechanism, varied: Iterable[str], names: Iterable[str]) -> SweptDesigns | None:
     """The areas of hulls among some design numbers, ``swept_area``, ``swept_area_of_link jaw``; None where none is,
     or the designs cannot go side by side: the cycle is no whole number of turns of one driver of constant speed,
-    groups have no closed form, or the way passes change points."""
+    or the way passes change points."""
     asked, addresses = [name for name in names if swept(name, mechanism)], tuple(varied)
     if not asked:
         return None
@@ -60,6 +61,7 @@ class SweptDesigns:
         groups = [swept(each.name, traced.mechanism).values() for each in self.terms]
         self._chosen = [[[number[key] for key in own] for own in subjects] for subjects in groups]
         self._gauss = GaussCycle.of(traced, AlongInput(frozenset()), PIECES)
+        self._followed = followed_points(traced, self._gauss)
         places = self._places()
         self._rows = tuple(places)
         self._trace, self._signals = self._gauss.signals(places)
@@ -101,7 +103,7 @@ class SweptDesigns:
         self, columns: Mapping[str, Floats], *, threads: int | None = None, backend: Backend = "auto"
     ) -> Found:
         """The areas of the designs with the given columns, (designs,) each."""
-        values, _ = self._found(columns, np.empty((0, len(self.terms))), threads, backend)
+        values, _, _ = self._found(columns, np.empty((0, len(self.terms))), threads, backend)
         rows = dict(zip((each.name for each in self.terms), values, strict=True))
         return Found(rows, np.asarray(np.isfinite(values).all(axis=0)))
 
@@ -117,29 +119,32 @@ class SweptDesigns:
         """Weighted sums of areas (sums, designs) and their gradients (sums, designs, by); NaN of designs that do not
         pass."""
         factors = np.array([[weights.get(each.name, 0.0) for each in self.terms] for weights in sums])
-        values, fields = self._found(columns, factors, threads, backend)
+        values, fields, carried = self._found(columns, factors, threads, backend)
         table, names = self._table(self._backwards.cycle, columns), [f"by {name}" for name in self._rows]
         slopes = np.full((*fields.shape[:2], len(by)), np.nan)
         places = [self._backwards.wrt.index(name) for name in by]
         for slope, field in zip(slopes, fields, strict=True):
             given = dict(zip(names, field.swapaxes(0, 1), strict=True))
             _, found = self._backwards.evaluate(
-                table, self._gauss.positions, given, threads=threads, backend=backend
+                table, self._gauss.positions, given | carried, threads=threads, backend=backend
             )
             slope[:] = found[:, places]
         return factors @ values, slopes
 
     def _found(
         self, columns: Mapping[str, Floats], factors: Floats, threads: int | None, backend: Backend
-    ) -> tuple[Floats, Floats]:
-        """Areas (terms, designs), and derivatives (sums, designs, rows, n) of their sums by factors (sums, terms)."""
+    ) -> tuple[Floats, Floats, dict[str, Floats]]:
+        """Areas (terms, designs), derivatives (sums, designs, rows, n) of their sums by factors (sums, terms), and
+        the coordinates of groups without closed form (designs, n) by name."""
         table = self._table(self._curves_of, columns)
         values = np.full((len(self.terms), len(table)), np.nan)
         fields = np.zeros((len(factors), len(table), len(self._rows), self._gauss.count))
+        carried: list[dict[str, Floats]] = []
         for first in range(0, len(table), BLOCK):
             part = table[first : first + BLOCK]
+            carried.append(self._carried(columns, slice(first, first + BLOCK), backend))
             ((_, known, _),) = self._curves_of.blocks(
-                part, self._gauss.positions, threads=threads, backend=backend
+                part, self._gauss.positions, carried[-1], threads=threads, backend=backend
             )
             rows = np.stack([known.fields[name] for name in self._rows], axis=1)
             for k in np.flatnonzero(np.isfinite(known.values[_PASSED])).tolist():
@@ -150,7 +155,22 @@ class SweptDesigns:
                     if factors[:, number].any():
                         weights = hull.weights().swapaxes(2, 3).reshape(len(self._rows), -1)
                         fields[:, first + k] += factors[:, number, None, None] * weights
-        return values, fields
+        return (
+            values,
+            fields,
+            {n: np.concatenate([part[n] for part in carried]) for n in next(iter(carried), {})},
+        )
+
+    def _carried(self, columns: Mapping[str, Floats], designs: slice, backend: Backend) -> dict[str, Floats]:
+        """The coordinates of groups without closed form of some designs."""
+        if self._followed is None:
+            return {}
+        part = {address: column[designs] for address, column in columns.items()}
+        return self._followed.of(part, self._known, backend)
+
+    @property
+    def _known(self) -> dict[str, float]:
+        return {**self.traced.solver.nominal.parameters, **self._gauss.constants}
 
     def _curves(self, rows: Floats) -> Curves:
         """The curves of a design's points, (rows, n)."""
@@ -162,5 +182,4 @@ class SweptDesigns:
         return Curves(values, never, never, np.stack([np.zeros_like(last), last], axis=1))
 
     def _table(self, cycle: CycleProgram, columns: Mapping[str, Floats]) -> Floats:
-        known = {**self.traced.solver.nominal.parameters, **self._gauss.constants}
-        return design_table(cycle.dimensions, known, columns)
+        return design_table(cycle.dimensions, self._known, columns)

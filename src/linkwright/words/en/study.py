@@ -128,7 +128,7 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
     "objective_metric": "{names} of {name!r} is no number over the cycle that has a gradient, or does not apply to "
     "it; choose another one",
     "objective_swept": "{names} of {name!r} has a gradient where one driver turns at constant speed through whole "
-    "turns, all groups have a closed form and no change point is passed; for its value use sweep",
+    "turns and no change point is passed; for its value use sweep",
     "objective_idle": "{names} has no influence on what is asked; leave it out",
     "place_without_slope": "{name!r} is a place, which has no derivative here; ask for its extreme",
     "fixed_by_wheels": "{address} cannot change alone: {why}; give the pair by its teeth, or by its ratio, alone, or "

@@ -109,7 +109,7 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
     "而其整圈数逐位置累计，不能成批求梯度；输出的梯度请用 sensitivity，设计指标请用 study",
     "sweep_metric": "“{name}”没有 {names} 这个指标；请另选指标",
     "objective_metric": "“{name}”的 {names} 不是可求梯度的循环指标，或不适用于该机构；请另选指标",
-    "objective_swept": "“{name}”的 {names} 只在单一驱动件匀速转过整圈、各杆组有封闭解且不经过变点时有梯度；"
+    "objective_swept": "“{name}”的 {names} 只在单一驱动件匀速转过整圈且不经过变点时有梯度；"
     "只求数值请用 sweep",
     "objective_idle": "{names} 对所求的量没有影响；请去掉",
     "place_without_slope": "“{name}”是位置，此处没有导数；请改求其极值",
