@@ -74,7 +74,7 @@ def _reasons(comparison: Comparison, rank: Rank, say: Say) -> list[str]:
     """What an alternative is best in, and what costs it most against the best."""
     language = say("compare.language")
     best = [row.criterion.label(language) for row in comparison.judged if rank.index in row.best]
-    found = [say("compare.best_in", names=say("compare.comma").join(best))] if best else []
+    found = [say("compare.best_in", names=say("finding.comma").join(best))] if best else []
     costly = sorted(
         (row for row in comparison.judged if row.score(rank.index) < 1.0 - 1e-9),
         key=lambda row: -row.weight * (1.0 - row.score(rank.index)),
@@ -120,7 +120,7 @@ def _motion(comparison: Comparison, say: Say) -> str:
                 second=_measured(each, "output_acceleration"),
             )
         )
-    return say("compare.motion", parts=say("compare.semicolon").join(parts))
+    return say("compare.motion", parts=say("finding.semicolon").join(parts))
 
 
 def _measured(each: Alternative, name: str) -> str:
@@ -149,7 +149,7 @@ def _pivot(comparison: Comparison, say: Say) -> str:
                 at=told(most.input, each.analysis.input_dimension),
             )
         )
-    return say("compare.pivot", parts=say("compare.semicolon").join(parts))
+    return say("compare.pivot", parts=say("finding.semicolon").join(parts))
 
 
 def _torque(comparison: Comparison, say: Say) -> str:
@@ -169,7 +169,7 @@ def _torque(comparison: Comparison, say: Say) -> str:
                 gap=shown(gap, dimension, 2),
             )
         )
-    return say("compare.torque", parts=say("compare.semicolon").join(parts))
+    return say("compare.torque", parts=say("finding.semicolon").join(parts))
 
 
 def _flywheel(comparison: Comparison, say: Say) -> list[str]:
@@ -180,7 +180,7 @@ def _flywheel(comparison: Comparison, say: Say) -> list[str]:
         key = "compare.flywheel_of" if numbers["inertia"] else "compare.flywheel_none"
         parts.append(say(key, label=each.label, **numbers))
     fluctuation = f"{comparison.fluctuation:g}"
-    return [say("compare.flywheels", fluctuation=fluctuation, parts=say("compare.semicolon").join(parts))]
+    return [say("compare.flywheels", fluctuation=fluctuation, parts=say("finding.semicolon").join(parts))]
 
 
 def _verdict(comparison: Comparison, say: Say) -> list[str]:
@@ -189,7 +189,7 @@ def _verdict(comparison: Comparison, say: Say) -> list[str]:
         return []
     first, *others = comparison.ranking
     language = say("compare.language")
-    comma = say("compare.comma")
+    comma = say("finding.comma")
     names = [row.criterion.label(language) for row in comparison.judged if first.index in row.best]
     lines = [
         say(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from abc import ABC, abstractmethod
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
@@ -34,8 +35,36 @@ NOTHING = 1e-9
 _PREFIXES = (("M", 1e6), ("k", 1e3), ("", 1.0), ("m", 1e-3), ("µ", 1e-6))
 
 
+class Family(ABC):
+    """What vectors and torques of one kind share; ``floor``: what is smaller is a rounding error."""
+
+    kind: str
+    values: Mapping[str, Floats]
+    floor: float
+
+    @property
+    def style(self) -> str:
+        """Class of its lines, heads and names."""
+        return f"lw-{self.kind}"
+
+    def largest(self, indices: Sequence[int]) -> float:
+        """The largest size at some positions."""
+        at = list(indices)
+        rows = [np.abs(v[at]) if v.ndim == 1 else np.hypot(*v[at].T) for v in self.values.values()]
+        return max((float(row[np.isfinite(row)].max(initial=0.0)) for row in rows), default=0.0)
+
+    @abstractmethod
+    def size(self, name: str, index: int) -> float:
+        """The size at one position, SI."""
+
+    def seen(self, name: str, run: Sequence[int]) -> bool:
+        """Whether one of them is more than zero at some positions."""
+        least = max(NOTHING * self.largest(run), self.floor)
+        return any(self.size(name, index) > least for index in run)
+
+
 @dataclass(frozen=True)
-class Vectors:
+class Vectors(Family):
     """Vectors of one kind at all positions: feet (n, 2) m, values (n, 2) and symbols by name.
 
     ``toward``: the arrow's point, not its foot, is at the place (a load that presses on a link); ``floor``: what is
@@ -49,15 +78,6 @@ class Vectors:
     symbols: Mapping[str, Symbol]
     toward: bool = False
     floor: float = 0.0
-
-    @property
-    def style(self) -> str:
-        """Class of its lines, heads and names."""
-        return f"lw-{self.kind}"
-
-    def largest(self, indices: Sequence[int]) -> float:
-        """Size of the largest vector at some positions."""
-        return _largest(self.values, indices)
 
     def size(self, name: str, index: int) -> float:
         """Size of a vector at one position, SI."""
@@ -74,11 +94,6 @@ class Vectors:
     def clear(self) -> float:
         """How far names keep from the arrow's point."""
         return 5.0
-
-    def seen(self, name: str, run: Sequence[int]) -> bool:
-        """Whether a vector is more than zero at some positions."""
-        least = max(NOTHING * self.largest(run), self.floor)
-        return any(self.size(name, index) > least for index in run)
 
     def track(self, name: str, view: View, scale: float) -> Floats:
         """Where the free end of an arrow is on the paper, (n, 2)."""
@@ -105,7 +120,7 @@ class Vectors:
 
 
 @dataclass(frozen=True)
-class Torques:
+class Torques(Family):
     """Torques and couples at all positions as arcs of one size: places (n, 2) m, values (n,) N·m by name.
 
     ``floor``: what is smaller is a rounding error.
@@ -119,15 +134,6 @@ class Torques:
     unit: str = "N·m"
     floor: float = 0.0
 
-    @property
-    def style(self) -> str:
-        """Class of its lines, heads and names."""
-        return f"lw-{self.kind}"
-
-    def largest(self, indices: Sequence[int]) -> float:
-        """The largest torque at some positions."""
-        return _largest(self.values, indices)
-
     def size(self, name: str, index: int) -> float:
         """A torque at one position without its sense, N·m."""
         return abs(float(self.values[name][index]))
@@ -136,11 +142,6 @@ class Torques:
     def clear(self) -> float:
         """How far names keep from the middle of the arc."""
         return self.radius + 5.0
-
-    def seen(self, name: str, run: Sequence[int]) -> bool:
-        """Whether a torque is more than rounding at some positions."""
-        least = max(NOTHING * self.largest(run), self.floor)
-        return any(self.size(name, index) > least for index in run)
 
     def track(self, name: str, view: View, scale: float) -> Floats:
         """Where the middle of an arc is on the paper, (n, 2)."""
@@ -400,9 +401,3 @@ def same_motion(motion: Motion, forces: Forces) -> None:
     """Refuse forces that belong to another motion."""
     if forces.motion is not motion:
         raise RequestError(Sentence("picture.other_motion"))
-
-
-def _largest(values: Mapping[str, Floats], indices: Sequence[int]) -> float:
-    at = list(indices)
-    rows = [np.abs(v[at]) if v.ndim == 1 else np.hypot(*v[at].T) for v in values.values()]
-    return max((float(row[np.isfinite(row)].max(initial=0.0)) for row in rows), default=0.0)

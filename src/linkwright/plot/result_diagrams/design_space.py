@@ -12,7 +12,7 @@ from linkwright.plot.diagrams.axes import Legend, framed
 from linkwright.plot.diagrams.base import Request
 from linkwright.plot.diagrams.picture import COLOURS, new_figure
 from linkwright.plot.diagrams.units import significant
-from linkwright.plot.result_diagrams.design_table import DesignTable, Measure, Varied
+from linkwright.plot.result_diagrams.design_table import Column, DesignTable
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
@@ -92,7 +92,7 @@ def _failed(axes: Axes, x: Floats, legend: Legend, request: Request) -> None:
     legend.add(request.say("fails"), line)
 
 
-def _best(axes: Axes, x: float, measure: Measure, legend: Legend, request: Request) -> None:
+def _best(axes: Axes, x: float, measure: Column, legend: Legend, request: Request) -> None:
     assert measure.best is not None
     y = float(measure.values[measure.best])
     (line,) = axes.plot([x], [y], "o", color=COLOURS[1], markersize=8, fillstyle="none", zorder=5)
@@ -129,7 +129,7 @@ def _over_two(table: DesignTable, request: Request, legend: Legend) -> Figure:
     return figure
 
 
-def _map(axes: Axes, x: Floats, y: Floats, values: Floats, measure: Measure) -> None:
+def _map(axes: Axes, x: Floats, y: Floats, values: Floats, measure: Column) -> None:
     shown = np.ma.masked_invalid(values)
     mesh: Any = axes.pcolormesh(
         x, y, shown, shading="nearest", cmap="viridis", linewidth=0.2, edgecolors="face"
@@ -170,7 +170,7 @@ def _clouds(table: DesignTable, request: Request, legend: Legend) -> Figure:
     return figure
 
 
-def _cloud(axes: Axes, over: Varied, measure: Measure) -> None:
+def _cloud(axes: Axes, over: Column, measure: Column) -> None:
     good = np.isfinite(measure.values)
     x, y = over.values[good], measure.values[good]
     if len(x) > CROWD:

@@ -18,12 +18,14 @@ from linkwright.words.sentence import Sentence
 
 
 @dataclass(frozen=True)
-class Varied:
-    """A dimension that varies: ``values`` (designs,) in the unit in which it is shown."""
+class Column:
+    """A dimension that varies, or a metric: ``values`` (designs,) in the unit in which it is shown; ``best``: number
+    of the design in which a metric is best."""
 
     name: str
     values: Floats
     unit: Unit
+    best: int | None = None
 
     @property
     def label(self) -> str:
@@ -37,31 +39,16 @@ class Varied:
 
 
 @dataclass(frozen=True)
-class Measure:
-    """A metric: ``values`` (designs,) in the unit in which it is shown; ``best``: number of the best design."""
-
-    name: str
-    values: Floats
-    unit: Unit
-    best: int | None = None
-
-    @property
-    def label(self) -> str:
-        """The label of its axis."""
-        return self.unit.label(self.name)
-
-
-@dataclass(frozen=True)
 class DesignTable:
     """Designs in rows: what varies, the metrics, and which designs pass the cycle; ``grid``: all combinations."""
 
     title: str
-    varied: tuple[Varied, ...]
-    measures: tuple[Measure, ...]
+    varied: tuple[Column, ...]
+    measures: tuple[Column, ...]
     ok: Flags
 
     @property
-    def moving(self) -> tuple[Varied, ...]:
+    def moving(self) -> tuple[Column, ...]:
         """The dimensions that have more than one value."""
         return tuple(each for each in self.varied if len(each.steps) > 1)
 
@@ -72,16 +59,16 @@ class DesignTable:
         return len(np.unique(places, axis=0)) == len(places) == np.prod([len(e.steps) for e in self.moving])
 
 
-def varied(mechanism: Mechanism, name: str, values: Floats, written: str = "") -> Varied:
+def varied(mechanism: Mechanism, name: str, values: Floats, written: str = "") -> Column:
     """A dimension in the unit that the user wrote, else in the usual one of its kind."""
     unit = _unit(mechanism, name, written)
-    return Varied(name, np.asarray(values * unit.factor), unit)
+    return Column(name, np.asarray(values * unit.factor), unit)
 
 
-def measure(name: str, values: Floats, dimension: str, best: int | None = None) -> Measure:
+def measure(name: str, values: Floats, dimension: str, best: int | None = None) -> Column:
     """A metric in the unit for its size."""
     unit = unit_of(dimension, [values])
-    return Measure(name, np.asarray(values * unit.factor), unit, best)
+    return Column(name, np.asarray(values * unit.factor), unit, best)
 
 
 def chosen(asked: tuple[str, ...], known: Mapping[str, object]) -> list[str]:

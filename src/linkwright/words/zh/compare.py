@@ -27,8 +27,6 @@ linkwright compare a.yaml b.yaml --of jaw ram          各方案的输出构件"
     "language": "zh",
     "metric": "设计指标",
     "unit": "单位",
-    "comma": "、",
-    "semicolon": "；",
     "marked": "* 各方案中最优",
     "ranking": "排名（各指标接近最优程度的平均值，100 表示全部最优）",
     "no_ranking": "所选指标都没有优劣方向，因此不排名。",
