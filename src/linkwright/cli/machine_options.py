@@ -10,6 +10,7 @@ import numpy as np
 
 from linkwright import units
 from linkwright.cli.errors import UsageError
+from linkwright.cli.parser import number_of
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError, QuantityError
 from linkwright.machine.flywheel import FlywheelSize, disk, flywheel_inertia, on_faster_shaft, rim
@@ -101,10 +102,7 @@ def areas(text: str, say: Say) -> list[float]:
     """Areas in mm²; raises UsageError for a text that is no list of numbers."""
     found = []
     for part in text.replace("−", "-").split(","):
-        try:
-            found.append(float(part.replace("mm²", "").replace("mm2", "").replace(" ", "")))
-        except ValueError:
-            found.append(math.nan)
+        found.append(number_of(part.replace("mm²", "").replace("mm2", "").replace(" ", "")))
         if not math.isfinite(found[-1]):
             raise UsageError(say("machine.bad_area", text=part.strip()))
     return found
@@ -130,21 +128,18 @@ def scale(text: str | None, say: Say) -> tuple[float, float]:
 
 def _any_quantity(part: str, text: str, say: Say) -> tuple[float, units.Dimension]:
     plain = units.tidy(part)
-    number = units.NUMBER.match(plain)
-    if number is None or not plain[number.end() :].strip():
+    found = units.NUMBER.match(plain)
+    if found is None or not plain[found.end() :].strip():
         raise UsageError(say("machine.bad_scale", text=text))
     try:
-        factor, dimension = units.unit(plain[number.end() :].strip())
+        factor, dimension = units.unit(plain[found.end() :].strip())
     except QuantityError as error:
         raise UsageError(Sentence("cli.about", name="--scale", cause=error)) from None
-    return float(number.group()) * factor, dimension
+    return float(found.group()) * factor, dimension
 
 
 def _number(option: str, text: str, say: Say) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        value = math.nan
+    value = number_of(text)
     if not math.isfinite(value):
         raise UsageError(say("machine.no_number", option=option, text=text))
     return value

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import math
 from collections.abc import Sequence
 
 from linkwright.cli.reading import read
@@ -62,6 +63,14 @@ def whole_number(text: str) -> int:
     if number < 1:
         raise ValueError(text)
     return number
+
+
+def number_of(text: str) -> float:
+    """The number of a text; NaN where it is none."""
+    try:
+        return float(text)
+    except ValueError:
+        return math.nan
 
 
 def add_common(parser: argparse.ArgumentParser, say: Say) -> None:

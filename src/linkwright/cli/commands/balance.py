@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from linkwright.cli.errors import UsageError
-from linkwright.cli.parser import whole_number
+from linkwright.cli.parser import number_of, whole_number
 from linkwright.cli.session import Session
 from linkwright.words import Say
 from linkwright.words.sentence import Sentence
@@ -60,10 +60,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
 
 
 def _share(text: str, say: Say) -> float:
-    try:
-        share = float(text)
-    except ValueError:
-        share = math.nan
+    share = number_of(text)
     if not 0.0 <= share <= 1.0:
         raise UsageError(say("balance.bad_share", text=text))
     return share

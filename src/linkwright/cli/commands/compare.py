@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkwright.cli.errors import UsageError
-from linkwright.cli.parser import whole_number
+from linkwright.cli.parser import number_of, whole_number
 from linkwright.cli.session import Session
 from linkwright.words import Say
 from linkwright.words.sentence import Sentence
@@ -82,10 +82,7 @@ def _weights(texts: list[str], say: Say) -> dict[str, float]:
 
 
 def _fluctuation(text: str, say: Say) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        value = 0.0
+    value = number_of(text)
     if not 0.0 < value < float("inf"):
         raise UsageError(say("compare.bad_fluctuation", text=text))
     return value

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkwright.cli.errors import UsageError
+from linkwright.cli.parser import number_of
 from linkwright.cli.session import Session
 from linkwright.words import Say
 
@@ -120,10 +121,7 @@ def _effort_lines(efforts: list[dict[str, float]], say: Say) -> list[str]:
 def _mass(text: str | None, say: Say) -> float | None:
     if text is None:
         return None
-    try:
-        value = float(text)
-    except ValueError:
-        value = 0.0
+    value = number_of(text)
     if not 0 < value < float("inf"):
         raise UsageError(say("synthesize.bad_mass", text=text))
     return value
