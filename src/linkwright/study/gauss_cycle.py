@@ -29,7 +29,7 @@ from linkwright.kinetostatics.site import limit_name
 from linkwright.kinetostatics.traced_loads import AlongInput
 from linkwright.loads.base import Load
 from linkwright.loads.phases import TURN
-from linkwright.study.limit_stages import edge_name, part_edge, whole_turns
+from linkwright.study.limit_stages import edge_name, part_edge, part_edge_beside, whole_turns
 from linkwright.study.loaded_cycle import friction_doubt
 from linkwright.study.traced import VALID, Traced
 
@@ -160,14 +160,21 @@ class GaussCycle:
         found["width after"] = np.where(last, width, 0.0)
         return found
 
-    def part_stages(self) -> list[Stage]:
-        """The stages that find where parts of strokes begin and end."""
-        found, known = [], dict(self.cuts)
+    def part_stages(self, beside: Traced | None) -> list[Stage]:
+        """The stages that find where parts of strokes begin and end; ``beside``: programs with Newton's steps from
+        positions, where groups have no closed form."""
+        found: list[Stage] = []
+        known = dict(self.cuts)
         for load in self.traced.mechanism.loads.values():
             phase = getattr(load, "phase", None)
             if isinstance(phase, SwingPhase):
-                edges = _edges(load.name, phase).items()
-                found += [part_edge(self.traced, load, phase, k) for k, name in edges if name in known]
+                edges = [k for k, name in _edges(load.name, phase).items() if name in known]
+                for k in edges:
+                    found += (
+                        [part_edge(self.traced, load, phase, k)]
+                        if beside is None
+                        else part_edge_beside(beside, load, phase, k)
+                    )
         return found
 
     def cutting(self) -> Stage | None:

@@ -224,15 +224,9 @@ def edge_name(load: str, which: int) -> str:
 def part_edge(traced: Traced, load: Load, phase: SwingPhase, which: int) -> Stage:
     """The input at which a part of a stroke begins or ends: between the limits, where the output only grows or falls,
     by Newton's steps, and halvings where these leave the bracket."""
-    source, t = traced.solver.motion, Trace()
+    t = Trace()
     (driver,) = traced.mechanism.drivers
-    site = TracedSite(source, load, along_input=True)
-    rate, _ = rates(traced, phase.output)
-    begin, end, stroke = part_ends(phase, site)
-    slack = NEAR * absolute(stroke)
-    edge = end + slack if which else begin - slack
-    way = (site.output(phase.output) - site.limit_value(phase.output, phase.start)) * sign(stroke)
-    motion = Program.of(source.trace, {"gap": way - edge, "rate": rate * sign(stroke)})
+    motion = Program.of(traced.solver.motion.trace, _to_edge(traced, load, phase, which))
     x, low, high = (t.state(name) for name in ("x", "low", "high"))
     speed = t.parameter(f"{driver}.speed")
     there = traced.at_input(motion, t, x)
@@ -258,6 +252,46 @@ def part_edge(traced: Traced, load: Load, phase: SwingPhase, which: int) -> Stag
         starts={"x": 0.0, "low": 0.0, "high": 0.0},
         roots={"x": "gap"},
     )
+
+
+def part_edge_beside(traced: Traced, load: Load, phase: SwingPhase, which: int) -> list[Stage]:
+    """The same in groups without closed form, from the position next to it on the way; what is carried from position
+    to position is given as fields."""
+    source, name, t = traced.solver.motion, edge_name(load.name, which), Trace()
+    (driver,) = traced.mechanism.drivers
+    to_edge = _to_edge(traced, load, phase, which)
+    carried = {f"carried:{each}": value for each, value in source.next_states.items()}
+    away = select(to_edge["rate"] > 0.0, absolute(to_edge["gap"]), np.inf)
+    seen = {"away": away, "input": source.trace.position("input"), VALID: source.valid, **carried}
+    wanted = {f"{each}:{name}": Reduction(each, "at_min", "away") for each in ("input", *carried)}
+    nearest = Stage(states_as_fields(Program.of(source.trace, seen)), wanted, valid=VALID)
+    x, low, high = (t.state(each) for each in ("x", "low", "high"))
+    speed, near = t.parameter(f"{driver}.speed"), t.parameter(f"input:{name}")
+    states = {each.removeprefix("carried:"): t.parameter(f"{each}:{name}") for each in carried}
+    there = traced.at_input(Program.of(source.trace, to_edge), t, x, states)
+    step, first = t.parameter(STEP) * sign(speed), absolute(low) + absolute(high) <= 0.0
+    before = there["gap"] < 0.0
+    low1 = select(before, x, select(first, near - step, low))
+    high1 = select(before, select(first, near + step, high), x)
+    newton = x - there["gap"] / there["rate"] * speed
+    inside = (newton - low1) * (newton - high1) <= 0.0
+    following = select(inside, newton, 0.5 * (low1 + high1))
+    program = Program.of(
+        t, {"x": following, "gap": there["gap"]}, {"x": following, "low": low1, "high": high1}
+    )
+    starts: dict[str, str | float] = {"x": f"input:{name}", "low": 0.0, "high": 0.0}
+    edge = Stage(program, {name: Reduction("x", "last")}, steps=STEPS, starts=starts, roots={"x": "gap"})
+    return [nearest, edge]
+
+
+def _to_edge(traced: Traced, load: Load, phase: SwingPhase, which: int) -> dict[str, Scalar]:
+    """How far an output has gone beyond the edge of a part of its stroke, and its rate on this way."""
+    site = TracedSite(traced.solver.motion, load, along_input=True)
+    begin, end, stroke = part_ends(phase, site)
+    slack = NEAR * absolute(stroke)
+    edge = end + slack if which else begin - slack
+    way = (site.output(phase.output) - site.limit_value(phase.output, phase.start)) * sign(stroke)
+    return {"gap": way - edge, "rate": rates(traced, phase.output)[0] * sign(stroke)}
 
 
 def near_limits(traced: Traced, outputs: Iterable[Output], valued: Iterable[Output]) -> Program:

@@ -29,7 +29,7 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import Analysis, strokes, true_speed
 from linkwright.metrics.summary import Summary, one
 from linkwright.study.followed_points import FollowedPoints, followed_points
-from linkwright.study.gauss_cycle import PIECES, SHARE, GaussCycle, iterated, reversing, side_by_side
+from linkwright.study.gauss_cycle import PIECES, SHARE, GaussCycle, reversing, side_by_side
 from linkwright.study.iterated_groups import limits_beside
 from linkwright.study.limit_stages import constants, extreme_name, limit_stages, rates
 from linkwright.study.loaded_cycle import along_input, with_loads
@@ -66,8 +66,8 @@ def metric_cycle(
 
     ``steps``: of the motion by which it is judged what applies; ``asked``: see ``terms.term``. None where the
     designs cannot go side by side: the cycle is no whole number of turns of one driver of constant speed, the way
-    passes change points, loads do not follow the input, or act in parts of strokes of groups without closed form, or
-    polynomials do not meet the machine itself. What is found for a machine is kept.
+    passes change points, loads do not follow the input, or polynomials do not meet the machine itself. What is found
+    for a machine is kept.
     """
     given, addresses = tuple(names), tuple(varied)
     key = (addresses, given, steps, asked)
@@ -99,8 +99,6 @@ def _metric_cycle(
     coarsest = None
     for pieces in PIECES:
         gauss = GaussCycle.of(traced, loads, pieces)
-        if iterated(traced) and gauss.part_stages():
-            return None
         found = MetricCycle(traced, gauss, terms, analysis, loads)
         sure, running = found.met(nominal)
         if running.all():
@@ -311,7 +309,7 @@ class MetricCycle:
         cutting = self.gauss.cutting()
         find = limit_stages if self.followed is None else limits_beside
         limits = find(self.traced, self.outputs, valued=self.loads.valued, shown=self.shown)
-        parts = self.gauss.part_stages()
+        parts = self.gauss.part_stages(None if self.followed is None else self.followed.traced)
         if names := self.constant.output_names:
             parts.append(Stage(self.constant, {text: Reduction(text, "first") for text in names}, steps=1))
         return [*limits, *parts, *([] if cutting is None else [cutting])]

@@ -212,9 +212,8 @@ def objective(
     friction too, NaN where it is near locking.
 
     Raises:
-        LinkwrightError: unknown names; the friction and loads that :func:`sweep` finds design by design, and, for
-            design numbers, loads in parts of strokes of groups without closed form; positions too far apart to count
-            the turns of a link that a dyad places and a wheel follows.
+        LinkwrightError: unknown names; the friction and loads that :func:`sweep` finds design by design; positions
+            too far apart to count the turns of a link that a dyad places and a wheel follows.
     """
     names = checked_addresses(mechanism, vary)
     given = _weighted(terms)
