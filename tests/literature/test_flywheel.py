@@ -226,19 +226,36 @@ def test_what_is_left_of_unequal_work_is_said_with_both_means() -> None:
     assert str(falling.value).endswith("(90 N·m and 100 N·m)")
 
 
-def test_a_machine_that_its_loads_drive_says_how_much() -> None:
-    for speed in (1.0, -1.0):
-        crusher = lw.load("gallery:jaw_crusher_fourbar")
-        turned = crusher.with_dimensions({"driver.speed": speed * crusher.dimension("driver.speed")})
-        forces = lw.solve_forces(turned.with_dimensions({"loads.crushing.ramp.1": -85e3}), steps=360)
-        mean = np.sign(forces.motion.positions.coordinates["driver"][1][0]) * forces.input_torque.mean()
-        with pytest.raises(lw.LinkwrightError) as refused:
-            steady_running(forces, fluctuation=0.02)
-        number = float(str(refused.value).split("cycle is ")[1].split(" N·m")[0])
-        assert number < 0 and number == pytest.approx(mean, rel=2e-3)
-        assert str(refused.value).endswith(
-            "N·m: the loads drive the machine instead of resisting; check the direction of the loads"
-        )
+ENGINE = """
+format: 1
+frame: {points: {O: [0 m, 0 m]}}
+links:
+  shaft: {points: {O: [0 m, 0 m], P: [1 m, 0 m]}, inertia: 0.2 kg·m²}
+driver: {turn: shaft, about: O, speed: 10 rad/s}
+loads:
+  gas: {kind: torque, on: shaft, magnitude: "100 N*m + 90 N*m*sin(input)"}
+"""
+
+
+@pytest.mark.parametrize("speed", [10.0, -10.0])
+def test_an_engine_is_held_even_by_its_flywheel(speed: float) -> None:
+    """ΔE = 2·90 J; the speed as of the torque curve, which the next test compares with a pendulum."""
+    text = ENGINE.replace("10 rad/s", f"{speed} rad/s").replace("100 N*m", f"{100 * np.sign(speed)} N*m")
+    forces = lw.solve_forces(lw.loads(text), steps=360)
+    running = steady_running(forces, fluctuation=0.5)
+    assert (running.mean_torque, running.energy.value) == pytest.approx((-100, 180), rel=1e-9)
+    assert running.flywheel == pytest.approx(180 / (0.5 * 100) - 0.2, rel=1e-9)
+    curve = TorqueCurve.from_function(f"100 + {90 * np.sign(speed)}*sin({np.sign(speed)}*theta)")
+    assert running.speed.fluctuation == pytest.approx(true_speed(curve, 3.6, 10.0).fluctuation, rel=1e-6)
+    exact = true_speed(curve, 0.2 + running.exact_flywheel, 10.0)
+    assert exact.fluctuation == pytest.approx(0.5, rel=1e-6)
+    table = lw.metrics(forces)
+    assert table.value("energy_fluctuation") == pytest.approx(180, rel=1e-9)
+    assert table.value("flywheel") == pytest.approx(180 / (0.02 * 100) - 0.2, rel=1e-9)
+    swept = lw.sweep(forces.mechanism, {"shaft.inertia": [0.2, 0.4]}, outputs=["flywheel", "exact_flywheel"])
+    assert swept["flywheel"] == pytest.approx([89.8, 89.6], rel=1e-9)
+    assert swept["exact_flywheel"][0] - swept["exact_flywheel"][1] == pytest.approx(0.2, rel=1e-6)
+    assert "motor_power" not in running.data() and "the loads drive" in running.text()
 
 
 @pytest.mark.parametrize("inertia", [0.0825, 0.2, 5.0])

@@ -69,8 +69,9 @@ def of_running(running: SteadyRunning, wanted: Wanted) -> list[list[Row]]:
         Row("speed", reduced.speed, "angular_velocity"),
         Row("mean_torque", running.mean_torque, "torque"),
         Row("mean_power", motor_found.mean_power, "power"),
-        Row("motor_power", motor_found.power, "power"),
     ]
+    if running.driven is None:
+        first.append(Row("motor_power", motor_found.power, "power"))
     second = [
         Row("energy_fluctuation", energy.value, "energy"),
         Row("energy_lowest", float(np.min(energy.energy)), "energy", at(energy.low)),

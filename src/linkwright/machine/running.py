@@ -64,7 +64,7 @@ class SteadyRunning(Plotted):
 
     @property
     def mean_torque(self) -> float:
-        """Mean torque that the machine needs, N·m."""
+        """Mean torque that the machine needs, N·m; negative where its loads drive it."""
         return self.motor.mean_torque
 
     @property
@@ -83,12 +83,20 @@ class SteadyRunning(Plotted):
         for key, value in self.data().items():
             label = say(f"metrics.running.{key}", language)
             lines.append(f"{label}: {shown(value, DIMENSIONS[key])}")
+        if self.driven is not None:
+            lines.append(self.driven.say(language))
         return "\n".join(lines)
 
+    @property
+    def driven(self) -> Sentence | None:
+        """That the loads drive the machine, as an engine's gas does, and a constant torque resists them."""
+        name = self.equivalent.forces.mechanism.name
+        return Sentence("running.driven", name=name) if self.mean_torque < 0.0 else None
+
     def data(self) -> dict[str, float]:
-        """The numbers, SI."""
+        """The numbers, SI; without a motor where the loads drive the machine."""
         reduced = self.equivalent
-        return {
+        found = {
             "speed": reduced.speed,
             "mean_torque": self.mean_torque,
             "mean_power": self.motor.mean_power,
@@ -104,6 +112,9 @@ class SteadyRunning(Plotted):
             "exact_flywheel": self.exact_flywheel,
             "shaft_flywheel": self.shaft_flywheel,
         }
+        if self.driven is not None:
+            del found["motor_power"]
+        return found
 
 
 def steady_running(
@@ -114,7 +125,7 @@ def steady_running(
     efficiency: float = 1.0,
     margin: float = 1.0,
 ) -> SteadyRunning:
-    """Motor, flywheel and true speed of a machine driven by a constant torque.
+    """Motor, flywheel and true speed of a machine driven by a constant torque, or, as an engine, held by one.
 
     Args:
         forces: over a closed cycle of one turning driver of constant speed.
@@ -155,5 +166,3 @@ def _require_load(mean: float, forces: Forces) -> None:
     largest = float(np.abs(forces.input_torque).max())
     if abs(mean) <= NOTHING * largest or largest == 0:
         raise LinkwrightError(Sentence("running.no_work", name=forces.mechanism.name))
-    if mean < 0:
-        raise LinkwrightError(Sentence("running.driven_by_loads", name=forces.mechanism.name, mean=mean))

@@ -42,8 +42,8 @@ class EnergyFluctuation(Metric):
             return False
         turns = abs(rate[0]) * period / (2 * pi)
         steady = np.ptp(rate) <= 1e-9 * abs(rate[0]) and abs(turns - round(turns)) <= 1e-9
-        torque = np.sign(rate[0]) * analysis.forces.input_torque
-        return bool(steady and torque.mean() > NOTHING * np.abs(torque).max())
+        torque = analysis.forces.input_torque
+        return bool(steady and abs(torque.mean()) > NOTHING * np.abs(torque).max())
 
     def numbers(self, analysis: Analysis) -> Iterator[Number]:
         yield Number(next(iter(analysis.motion.mechanism.drivers)), (self.part,))
@@ -69,7 +69,7 @@ def _inertia(
 ) -> Scalar:
     """The flywheel; NaN where the drivers do no work."""
     needed = maximum(energy / (fluctuation * speed * speed) - own, 0.0)
-    return select((mean if speed > 0.0 else -mean) > NOTHING * peak, needed, float("nan"))
+    return select(maximum(mean, -mean) > NOTHING * peak, needed, float("nan"))
 
 
 class TrueSpeed(EnergyFluctuation):

@@ -173,8 +173,11 @@ class MetricCycle:
                 program = Program.of(trace, {text: value})
                 if not (program.positions or program.fields or program.states):
                     found[text] = value
-        for text in found:
-            self.courses.pop(self.parts[text].output, None)
+        needed = {part.output for text, part in self.parts.items() if text not in found}
+        for name in (
+            {self.parts[text].output for text in found} - needed - set(SIGNALS if self.running else ())
+        ):
+            self.courses.pop(name, None)
         return Program.of(trace, found)
 
     def _half_on_stroke(self, part: Summary) -> Scalar:

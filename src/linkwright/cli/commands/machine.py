@@ -104,6 +104,8 @@ def _mechanism(options: argparse.Namespace, asked: Wanted, session: Session) -> 
     warnings = closeness(forces.motion, session.language)
     if running.exact_flywheel == 0:
         warnings.insert(0, session.say("machine.none_needed"))
+    if running.driven is not None:
+        warnings.insert(0, running.driven.say(session.language))
     _show(mechanism.name, of_running(running, asked), warnings, session)
     if options.output is not None and not session.json:
         session.show(f"\n{session.say('cli.written', path=options.output)}")

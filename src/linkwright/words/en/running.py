@@ -23,8 +23,8 @@ WORDS = {
     "bad_margin": "the margin on the motor's power is {margin:g}; give 1 or more",
     "no_work": "the mean torque of {name!r} over its cycle is zero: no work is done, so there is no motor to "
     "choose and no flywheel to lay out; give the machine a load that does work over a cycle (loads: …)",
-    "driven_by_loads": "the mean torque of {name!r} over its cycle is {mean:.6g} N·m: the loads drive the "
-    "machine instead of resisting; check the direction of the loads",
+    "driven": "the loads drive {name!r}, as the gas does an engine: a constant torque against them takes up their "
+    "work; of a machine that should need a drive, check the direction of the loads",
     "bad_speed": "the mean speed is {speed:g} rad/s; give a value above zero",
     "no_inertia": "the total moment of inertia is zero somewhere in the cycle; give masses or a flywheel",
     "no_flywheel": "no flywheel was found with which the speed fluctuates by just {fluctuation:g}; ask for another "
