@@ -160,6 +160,7 @@ UNITS: Mapping[str, tuple[float, Dimension]] = {
     "rev": (_TURN, (0, 0, 0, 1)),
     "rpm": (_TURN / 60, (0, 0, -1, 1)),
     "Hz": (1.0, (0, 0, -1, 0)),
+    "%": (1e-2, NONE),
 }
 SPELLINGS: Mapping[str, str] = {
     "Nm": "N·m",
@@ -213,6 +214,8 @@ SPELLINGS: Mapping[str, str] = {
     "ton": "t",
     "rps": "rev/s",
     "r": "rev",
+    "percent": "%",
+    "％": "%",
     "U/min": "rpm",
     "u/min": "rpm",
     "turn": "rev",
@@ -233,7 +236,9 @@ NUMBER = re.compile(r"(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
 _QUANTITY = re.compile(r"^([+-]?)\s*((?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*)$")
 _PLAIN = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?) ?([^\s\d*(),.+-][^\s*(),]*)")
 _SUPERSCRIPTS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
-_FACTOR = re.compile(r"\s*((?:(?![⁰¹²³⁴⁵⁶⁷⁸⁹])[^\W\d_])+|°)\s*((?:\^|\*\*)\s*[-−]?\d+|⁻?[⁰¹²³⁴⁵⁶⁷⁸⁹]+)?\s*")
+_FACTOR = re.compile(
+    r"\s*((?:(?![⁰¹²³⁴⁵⁶⁷⁸⁹])[^\W\d_])+|[°%])\s*((?:\^|\*\*)\s*[-−]?\d+|⁻?[⁰¹²³⁴⁵⁶⁷⁸⁹]+)?\s*"
+)
 _JOINT = re.compile(r"[*·⋅/]")
 
 

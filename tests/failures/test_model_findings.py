@@ -39,6 +39,8 @@ def test_the_model_that_the_cases_change_is_right() -> None:
 ONE_CHANGE = [
     ("length: 1 m", "lenght: 1 m", "5:28", "links.crank.lenght", "unknown-key", '"length"'),
     ("length: 1 m", "length: 1", "5:36", "links.crank.length", "missing-unit", '"1 mm"'),
+    ("length: 1 m", "length: 10%", "5:36", "links.crank.length", "wrong-dimension", "dimensionless"),
+    ("driver: {turn", "drivers: {turn", "8:10", "drivers", "choice", "driver: {…} for a single one"),
     ("length: 1 m", "length: 1 kg", "5:36", "links.crank.length", "wrong-dimension", "a mass"),
     ("length: 1 m", "length: 60,5 mm", "5:36", "links.crank.length", "decimal-comma", '"60.5 mm"'),
     ("length: 1 m", 'length: "60,5 mm"', "5:37", "links.crank.length", "decimal-comma", '"60.5 mm"'),

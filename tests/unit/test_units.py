@@ -52,6 +52,7 @@ def test_a_text_gives_its_si_value(text: str, dimension: str, value: float) -> N
         ("rad mrad deg ° rev", "angle", [1.0, 1e-3, math.pi / 180, math.pi / 180, 2 * math.pi]),
         ("J N·m kJ", "torque", [1.0, 1.0, 1e3]),
         ("Hz 1/s", "frequency", [1.0, 1.0]),
+        ("%", "dimensionless", [0.01]),
     ],
 )
 def test_every_unit_by_its_definition(units_: str, dimension: str, values: list[float]) -> None:

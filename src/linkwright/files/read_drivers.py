@@ -9,7 +9,7 @@ from typing import Any
 from linkwright.drivers.base import LAWS, Driver, Law
 from linkwright.fields.base import Field
 from linkwright.fields.nodes import Mapping as MappingNode
-from linkwright.fields.nodes import Node, below
+from linkwright.fields.nodes import Node, Scalar, below
 from linkwright.fields.references import LinkName
 from linkwright.files.plain_reader import Place
 from linkwright.files.reader import Reader
@@ -45,6 +45,9 @@ def read_drivers(reader: Reader, root: MappingNode, joints: Mapping[str, Joint])
     if one is not None:
         _add(reader, found, joints, one, "driver", Place("driver", "driver"))
     mapping = None if several is None else reader.mapping(several, "drivers")
+    if mapping and any(isinstance(mapping.get(key), Scalar) for key in ("turn", "slide")):
+        reader.finding(mapping, "drivers", "drivers_without_names", "choice")
+        return found
     for entry in mapping.entries if mapping else []:
         name = reader.name(entry.key, f"drivers.{entry.key.text}", "driver")
         if name in reader.names.links or name in reader.names.joints:
