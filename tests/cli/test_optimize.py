@@ -59,18 +59,27 @@ def test_what_cannot_be_met_and_misuse(capsys: pytest.CaptureFixture[str]) -> No
     assert "crank.length is given twice" in capsys.readouterr().err
 
 
-def test_an_interruption_before_the_first_population_says_so(
+def test_an_interruption_before_the_first_population_leaves_a_file_to_go_on_from(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def stop(*_: object, **__: object) -> None:
         raise KeyboardInterrupt
 
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("linkwright.optimisation.task.Task.judge", stop)
-    assert main([*SEARCH, "--minimize", "flywheel"]) == 130
-    assert "Nothing had been computed yet" in capsys.readouterr().err
-    assert not list(tmp_path.iterdir())
-    (tmp_path / "state.json").write_text("{}")
-    monkeypatch.setattr("linkwright.optimisation.optimize.optimize", stop)
-    assert main([*SEARCH, "--minimize", "flywheel", "--state", "state.json", "--lang", "zh"]) == 130
-    assert "state.json" in capsys.readouterr().err
+    asked = [*SEARCH, "--minimize", "flywheel", "--evaluations", "100"]
+    with monkeypatch.context() as patched:
+        patched.setattr("linkwright.optimisation.optimize.Task", stop)  # before anything has been measured
+        assert main(asked) == 130
+        (left,) = tmp_path.iterdir()
+        assert f"--state {left.name}" in capsys.readouterr().err
+        left.write_text(kept := left.read_text() + " ")
+        assert main([*asked, "--state", left.name, "--lang", "zh"]) == 130
+        assert left.name in capsys.readouterr().err
+        assert left.read_text() == kept  # a file that is there already stays
+        patched.setattr("linkwright.optimisation.optimize.read_document", stop)
+        assert main(asked) == 130
+        assert "Nothing new had been computed" in capsys.readouterr().err
+    assert main([*asked, "--json"]) == 0
+    whole = capsys.readouterr().out
+    assert main([*asked, "--json", "--state", left.name]) == 0
+    assert capsys.readouterr().out == whole

@@ -7,6 +7,7 @@ import pytest
 
 import linkwright as lw
 from linkwright.cli import main
+from linkwright.study.designs import sweep_curves
 
 VARY = {"coupler.length": "3.2..4 m:40", "rocker.length": "2..2.8 m:30"}
 NUMBERS = ["rocker.angle range", "transmission_angle"]
@@ -59,7 +60,11 @@ def test_the_command(
     assert main([*words, "--folder", str(tmp_path / "a"), "--part", "16", "--json"]) == 0
     assert '"skipped": 4' in capsys.readouterr().out
     assert main([*words, "--folder", str(tmp_path / "a"), "--part", "32"]) == 2
-    assert main([*words, "--folder", str(tmp_path / "b"), "--cluster", "tcp://127.0.0.1:9"]) == 1
+    nobody = ["--cluster", "tcp://127.0.0.1:9"]
+    assert main([*words, "--folder", str(tmp_path / "b"), *nobody]) == 1
+    assert main(["study", "gallery:crank_rocker", "--vary", "coupler.length=3..4m:2", *nobody]) == 1
+    assert main(["tolerance", "gallery:crank_rocker_tolerance", *nobody]) == 1
+    assert capsys.readouterr().err.count('"tcp://127.0.0.1:9"') == 3
 
 
 def test_a_cluster_gives_the_same_bits(tmp_path: Path) -> None:
@@ -74,6 +79,7 @@ def test_a_cluster_gives_the_same_bits(tmp_path: Path) -> None:
     wide = {"coupler.length": "2..4 m:40", "rocker.length": "1.5..2.8 m:30"}
     study = {"vary": wide, "metrics": ["travel", "transmission_angle"], "steps": 40}
     whole = lw.study(crank, **study)
+    curves = [*sweep_curves(crank, columns, outputs=["rocker.angle"], steps=40)]
     alone = lw.optimize(group, minimize="peak_input_torque", **search)
     parts = lw.sweep_parts(crank, VARY, tmp_path / "here", outputs=NUMBERS, part=256, steps=60)
     options = {"n_workers": 1, "threads_per_worker": 2, "dashboard_address": ":0", "processes": False}
@@ -83,6 +89,7 @@ def test_a_cluster_gives_the_same_bits(tmp_path: Path) -> None:
     ):
         with lw.on_cluster(client):
             there = lw.sweep(crank, columns, outputs=NUMBERS, steps=40)
+            spread = [*sweep_curves(crank, columns, outputs=["rocker.angle"], steps=40)]
             shared = lw.optimize(group, minimize="peak_input_torque", **search)
             pieces = lw.study(crank, **study)
         again = lw.sweep_parts(
@@ -94,5 +101,12 @@ def test_a_cluster_gives_the_same_bits(tmp_path: Path) -> None:
     assert 512 < whole.ok.sum() < 1200 and whole.dimensions == pieces.dimensions
     for name, column in whole.metrics.items():
         assert column.tobytes() == pieces.metrics[name].tobytes()
+    assert (
+        [place for place, _ in curves]
+        == [place for place, _ in spread]
+        == [slice(0, 4096), slice(4096, 6000)]
+    )
+    for (_, one), (_, other) in zip(curves, spread, strict=True):
+        assert one["rocker.angle"].tobytes() == other["rocker.angle"].tobytes()
     assert not alone.exact
     assert dict(alone.best.values) == dict(shared.best.values)

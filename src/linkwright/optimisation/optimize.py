@@ -103,19 +103,28 @@ def optimize(
         OptimizeError: the demands cannot be met together; ``nearest`` is the design that misses them least. A search
             that was stopped before any met them gives that design with what it misses.
         ModelError: settings that cannot be read, with all findings.
-        KeyboardInterrupt: stopped before the first designs were known, or one that moves; a ``SearchInterrupted``
-            with the file ``state`` where that holds some.
+        SearchInterrupted: a KeyboardInterrupt before the first designs were known, or one that moves: the search
+            goes on from its file ``state``.
         LinkwrightError: a state of another problem; nothing moves.
     """
     mechanism, document, given = _source(source, settings)
     asked = problem(mechanism, given, "" if document is None else document.name)
-    task = Task(asked)
-    if not task.measures.side_by_side and "evaluations" not in given:
-        asked = replace(asked, evaluations=SLOW)
-    size = asked.population or (64 if len(asked.goals) > 1 else min(64, max(24, 8 * len(asked.variables))))
-    path = None if state is None else Path(state)
-    run = _Run(task, size, asked.evaluations, path, progress, _digest(asked, given), document, leading)
-    return run.optimum()
+    digest, path = _digest(asked, given), None if state is None else Path(state)
+    try:
+        task = Task(asked)
+        if not task.measures.side_by_side and "evaluations" not in given:
+            asked = replace(asked, evaluations=SLOW)
+        size = asked.population or (
+            64 if len(asked.goals) > 1 else min(64, max(24, 8 * len(asked.variables)))
+        )
+        return _Run(task, size, asked.evaluations, path, progress, digest, document, leading).optimum()
+    except SearchInterrupted:
+        raise
+    except KeyboardInterrupt:
+        path = path or _free(asked.mechanism.name)
+        if not path.exists():
+            _write(path, digest, [], {})
+        raise SearchInterrupted(path) from None
 
 
 def _source(
@@ -137,6 +146,11 @@ def _digest(asked: Any, given: Mapping[str, Any]) -> str:
     machine = dump(replace(asked.mechanism, optimize={}))
     plain = {key: value for key, value in given.items() if key != "evaluations"}
     return hashlib.blake2b(repr((plain, machine)).encode(), digest_size=12).hexdigest()
+
+
+def _write(path: Path, digest: str, judged: list[Any], snapshot: dict[str, Any]) -> None:
+    """Writes a state: the problem it belongs to, numbers of designs, and a population where there is one."""
+    write_whole(path, json.dumps({"problem": digest, "judged": judged, **snapshot}).encode())
 
 
 def _free(name: str) -> Path:
@@ -172,13 +186,28 @@ class _Run:
         self.task, self.size, self.most, self.path = task, size, most, path
         self.progress, self.digest, self.document, self.leading = progress, digest, document, leading
         self.stopped: Path | None = None
+        self.snapshot = self._kept()
         self.polish = Polish(task)
         alone = not task.measures.side_by_side
         self.best, self.places = (POLISHED_ALONE, FRONT_ALONE) if alone else (POLISHED, FRONT)
         self.last = LAST_ALONE if alone else LAST
 
     def optimum(self) -> Optimum:
-        state, judged = self._searched()
+        try:
+            state = self._searched()
+            return self._found(state, self._polished(self._sure(state)))
+        except KeyboardInterrupt:
+            if not self.snapshot and not self.task.measures.judged:
+                raise
+            self.path = self.stopped = self.path or _free(self.task.problem.mechanism.name)
+            self._save()
+            if not self.snapshot:
+                raise SearchInterrupted(self.path) from None
+            state = resumed(self.task, self.snapshot)
+            return self._found(state, state.judged)
+
+    def _found(self, state: State, judged: Judged) -> Optimum:
+        """The best of the designs, or their front; raises where none meets the demands."""
         chosen = self._chosen(judged)
         if not np.isfinite(chosen.violations).all():
             if self.stopped is not None:
@@ -208,32 +237,22 @@ class _Run:
             if np.isfinite(chosen.violations).all():
                 self.leading(self._made(chosen, state, made=False))
 
-    def _searched(self) -> tuple[State, Judged]:
-        """The search's end, and its designs, polished but where it was stopped."""
-        snapshot, saved = self._kept(), time.monotonic()
-        try:
-            state = self._begun(snapshot)
-            snapshot = self._data(state)
+    def _searched(self) -> State:
+        """The search's end, not polished."""
+        saved = time.monotonic()
+        state = self._begun(self.snapshot)
+        self.snapshot = self._data(state)
+        self._tell(state)
+        while state.evaluations < self.most and not idle(state):
+            generation(self.task, state)
+            self.snapshot = self._data(state)
+            if self.path is not None and time.monotonic() - saved > SAVED:
+                self._save()
+                saved = time.monotonic()
             self._tell(state)
-            while state.evaluations < self.most and not idle(state):
-                generation(self.task, state)
-                snapshot = self._data(state)
-                if self.path is not None and time.monotonic() - saved > SAVED:
-                    self._save(snapshot)
-                    saved = time.monotonic()
-                self._tell(state)
-            if self.path is not None:
-                self._save(snapshot)
-            return state, self._polished(self._sure(state))
-        except KeyboardInterrupt:
-            if not snapshot and not self.task.measures.judged:
-                raise
-            self.path = self.stopped = self.path or _free(self.task.problem.mechanism.name)
-            self._save(snapshot)
-            if not snapshot:
-                raise SearchInterrupted(self.path) from None
-            state = resumed(self.task, snapshot)
-            return state, state.judged
+        if self.path is not None:
+            self._save()
+        return state
 
     def _kept(self) -> dict[str, Any]:
         """The state in the file; empty where there is none, or none but the numbers of designs."""
@@ -296,10 +315,9 @@ class _Run:
         """A state as plain data, with the number of designs measured for it."""
         return {**state.data(), "measured": self.task.measures.evaluations}
 
-    def _save(self, snapshot: dict[str, Any]) -> None:
+    def _save(self) -> None:
         assert self.path is not None
-        judged = [*self.task.measures.judged.items()]
-        write_whole(self.path, json.dumps({"problem": self.digest, "judged": judged, **snapshot}).encode())
+        _write(self.path, self.digest, [*self.task.measures.judged.items()], self.snapshot)
 
     def _sure(self, state: State) -> Judged:
         """The population, with tolerances after some more generations with as many samples as the result is checked

@@ -13,6 +13,8 @@ from linkwright.words.sentence import Sentence
 
 #: Parts that wait on the cluster for every thread of a worker, so that memory stays the same however many there are.
 WAITING = 3
+#: Parts that are held where they are wanted in order.
+HELD = 16
 #: How often a part is given out whose workers died.
 AGAIN = 20
 #: Seconds that a scheduler has to answer.
@@ -44,12 +46,13 @@ def _dask() -> Any:
 @contextmanager
 def on_cluster(cluster: Any) -> Iterator[Any]:
     """Within it sweeps, the studies and tolerance runs made of them, and optimisations whose designs go one by one,
-    are computed by the workers of a Dask cluster: a client, or the address of a scheduler. Gives the client.
+    are computed by the workers of a Dask cluster: a client, or the address of a scheduler. Gives the client. None:
+    threads of this machine.
 
     Results are equal to the bit to those of threads. Raises LinkwrightError without the extra ``cluster``, and for a
     scheduler that does not answer.
     """
-    client = connected(cluster)
+    client = None if cluster is None else connected(cluster)
     token = _current.set(client)
     try:
         yield client
@@ -97,6 +100,14 @@ def in_turn(
                 break
     finally:
         client.cancel(list(numbers))
+
+
+def in_order(client: Any, work: Callable[..., Any], tasks: Sequence[tuple[Any, ...]]) -> Iterator[Any]:
+    """Results in the order of the tasks; at most ``HELD`` wait for those before them, so that memory stays fixed."""
+    for first in range(0, len(tasks), HELD):
+        some = tasks[first : first + HELD]
+        found = dict(in_turn(client, work, some))
+        yield from (found[number] for number in range(len(some)))
 
 
 def _died(future: Any) -> bool:

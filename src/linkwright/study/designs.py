@@ -15,12 +15,13 @@ from linkwright.core.frozen import Frozen
 from linkwright.core.html import columns_html
 from linkwright.core.plotted import Plotted
 from linkwright.engine.sweep import Backend, Progress
+from linkwright.engine.threads import chunks
 from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinetostatics.named import Quantity
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.summary import Summary, wanted
-from linkwright.study.cluster import current, in_turn
+from linkwright.study.cluster import current, in_order, in_turn
 from linkwright.study.design_numbers import numbers_of
 from linkwright.study.failures import Failure, explained
 from linkwright.study.sweep_run import Manner, SweepRun
@@ -203,10 +204,8 @@ def _shared(
     rest = outputs, steps, partial, backend
     pieces_of = ({a: np.array(c[k : k + SHARED]) for a, c in columns.items()} for k in firsts)
     tasks = [(mechanism, each, *rest) for each in pieces_of]
-    found: list[Sweep | None] = [None] * len(tasks)
-    for number, piece in in_turn(client, _piece, tasks):
-        found[number] = piece
-    pieces = [each for each in found if each is not None]
+    found: dict[int, Sweep] = dict(in_turn(client, _piece, tasks))
+    pieces = [found[number] for number in range(len(tasks))]
     head = pieces[0]
     margins = [each.branch_margin for each in pieces if each.branch_margin is not None]
     return Sweep(
@@ -249,5 +248,29 @@ def sweep_curves(
     columns = design_values(mechanism, vary)
     refuse_moved_positions(mechanism, positions, columns)
     asked = wanted([(output, "max") for output in outputs])
+    client = current()
+    if client is not None and len(next(iter(columns.values()))) > SHARED:
+        return _shared_curves(client, mechanism, columns, [*outputs], steps, backend)
     run = SweepRun(mechanism, columns, asked, positions, Manner(False, threads, backend, progress))
     return run.curves(outputs)
+
+
+def _shared_curves(
+    client: Any, mechanism: Mechanism, columns: Mapping[str, Floats], outputs: list[str], steps: int,
+    backend: Backend,
+) -> Iterator[tuple[slice, dict[str, Floats]]]:  # fmt: skip
+    """The same curves in pieces on a cluster, in the designs' order."""
+    places = [slice(*ends) for ends in chunks(len(next(iter(columns.values()))), SHARED)]
+    tasks = [
+        (mechanism, {a: np.array(c[each]) for a, c in columns.items()}, outputs, steps, backend)
+        for each in places
+    ]
+    yield from zip(places, in_order(client, _curves, tasks), strict=True)
+
+
+def _curves(
+    mechanism: Mechanism, columns: Mapping[str, Floats], outputs: list[str], steps: int, backend: Backend
+) -> dict[str, Floats]:
+    """The curves of at most ``SHARED`` designs, which are one block."""
+    ((_, found),) = sweep_curves(mechanism, columns, outputs=outputs, steps=steps, threads=1, backend=backend)
+    return found

@@ -16,7 +16,7 @@ from linkwright.core.installed import modules_within
 from linkwright.words import Say
 
 #: Commands that solve the file of a machine part and do nothing else.
-PARTS = ("beam", "program", "statistics", "tolerance", "trajectory", "vibration")
+PARTS = ("beam", "program", "statistics", "trajectory", "vibration")
 
 
 class Command(Protocol):

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import argparse
-from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import whole_number
@@ -42,6 +41,14 @@ def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
 
 def run(options: argparse.Namespace, session: Session) -> int:
     """Optimises and prints or writes what came out."""
+    try:
+        return _searched(options, session)
+    except KeyboardInterrupt as stopped:
+        session.tell(_stopped(stopped, session.say))
+        raise
+
+
+def _searched(options: argparse.Namespace, session: Session) -> int:
     from linkwright.cli.progress import progress
     from linkwright.cli.tables import PICTURES, refuse_output
     from linkwright.optimisation.optimize import optimize
@@ -64,17 +71,11 @@ def run(options: argparse.Namespace, session: Session) -> int:
         "evaluations": options.evaluations,
         "seed": options.seed,
     }
-    cluster: AbstractContextManager[Any] = (
-        nullcontext() if options.cluster is None else on_cluster(options.cluster)
-    )
     try:
-        with cluster, progress(session.say("optimize.searching")) as report:
+        with on_cluster(options.cluster), progress(session.say("optimize.searching")) as report:
             found = optimize(options.file, state=options.state, progress=report, **settings)
     except OptimizeError as error:
         return _unmet(error, session)
-    except KeyboardInterrupt as stopped:
-        session.tell(_stopped(stopped, options.state, session.say))
-        raise
     _show(found, options, session)
     return 0
 
@@ -94,14 +95,12 @@ def _pairs(texts: list[str] | None, say: Say) -> dict[str, str] | None:
     return found
 
 
-def _stopped(stopped: KeyboardInterrupt, state: str | None, say: Say) -> str:
+def _stopped(stopped: KeyboardInterrupt, say: Say) -> str:
     """What an interruption before the first population leaves."""
     from linkwright.optimisation.optimum import SearchInterrupted
 
     if isinstance(stopped, SearchInterrupted):
         return say("optimize.interrupted", path=stopped.state)
-    if state is not None and Path(state).exists():
-        return say("optimize.nothing_new", path=state)
     return say("optimize.nothing_yet")
 
 

@@ -34,6 +34,7 @@ def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
     )
     parser.add_argument("--steps", type=whole_number, default=360, metavar="N", help=say("study.steps_help"))
     parser.add_argument("--rows", type=whole_number, default=40, metavar="N", help=say("study.rows_help"))
+    parser.add_argument("--cluster", metavar="ADDRESS", help=say("sweep.cluster_help"))
     parser.add_argument("--output", metavar="FILE", help=say("study.output_help"))
     parser.add_argument("--plot", metavar="FILE", help=say("study.plot_help"))
     parser.add_argument("--force", action="store_true", help=say("cli.force_help"))
@@ -43,23 +44,18 @@ def run(options: argparse.Namespace, session: Session) -> int:
     """Studies the designs and prints or writes what came out."""
     from linkwright.cli.source import read_model
     from linkwright.cli.tables import PICTURES, refuse_output
+    from linkwright.study.cluster import on_cluster
     from linkwright.study.study import study
 
     refuse_output(options.output, ENDINGS, session.say, force=options.force)
     refuse_output(options.plot, PICTURES, session.say, force=options.force)
     vary = ranges_of(options.vary, session.say)
     mechanism, _ = read_model(options.file, session)
-    found = study(
-        mechanism,
-        vary,
-        metrics=options.metrics,
-        sampling=options.sampling,
-        samples=options.samples,
-        seed=options.seed,
-        output=options.of,
-        fluctuation=options.fluctuation,
-        steps=options.steps,
-    )
+    with on_cluster(options.cluster):
+        found = study(
+            mechanism, vary, metrics=options.metrics, sampling=options.sampling, samples=options.samples,
+            seed=options.seed, output=options.of, fluctuation=options.fluctuation, steps=options.steps,
+        )  # fmt: skip
     _show(found, options, session)
     return 0
 

@@ -1,0 +1,23 @@
+"""``linkwright tolerance``: what tolerances and clearances do to a mechanism's numbers, also on a cluster."""
+
+from __future__ import annotations
+
+import argparse
+
+from linkwright.cli.part import kinds_of, part_arguments, run_part
+from linkwright.cli.session import Session
+from linkwright.words import Say
+
+
+def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
+    """The command's options."""
+    part_arguments(parser, say)
+    parser.add_argument("--cluster", metavar="ADDRESS", help=say("sweep.cluster_help"))
+
+
+def run(options: argparse.Namespace, session: Session) -> int:
+    """Solves the file's problem; its drawn machines are computed by threads or a cluster."""
+    from linkwright.study.cluster import on_cluster
+
+    with on_cluster(options.cluster):
+        return run_part(options, session, kinds_of("tolerance"))
