@@ -55,8 +55,6 @@ POLISHED, FRONT = 3, 48
 #: What a step along a front must gain, as share of its width, and how often places without a design of their own are
 #: tried again from the designs beside them.
 EVEN, ROUNDS = 2e-5, 3
-#: Generations with many samples of the tolerances in the end, and how far in the cube these begin from the others.
-SURER, KICK = 25, 0.01
 #: Steps of the last local search, and how near in the cube two of its designs may begin.
 LAST, NEAR = 90, 0.03
 #: The same where designs go one by one: designs for each objective, places along a front, steps.
@@ -320,17 +318,11 @@ class _Run:
         _write(self.path, self.digest, [*self.task.measures.judged.items()], self.snapshot)
 
     def _sure(self, state: State) -> Judged:
-        """The population, with tolerances after some more generations with as many samples as the result is checked
-        with, where one of these meets the demands."""
-        task = self.task
-        if not task.problem.robust or task.at_corners or not task.measures.side_by_side:
+        """The population, for a yield judged by as many samples as the result is checked with."""
+        if self.task.problem.robust != "yield" or not self.task.measures.side_by_side:
             return state.judged
         self.task.samples = CHECKED
-        x = state.judged.x + KICK * state.draw.normal(size=state.judged.x.shape)
-        surer = State(self.task.judge(np.clip(x, 0.0, 1.0)), 0, 0, state.draw, [])
-        for _ in range(SURER):
-            generation(self.task, surer)
-        return surer.judged if (surer.judged.total == 0).any() else state.judged
+        return self.task.judge(state.judged.x)
 
     def _polished(self, judged: Judged) -> Judged:
         """The population with its best designs polished; of several objectives the front, evenly filled."""

@@ -18,6 +18,9 @@ ROOM, STEP = 2e-7, 1e-5
 AT_BOUND = 1e-8
 #: The least size of a demand beside the start's value.
 FINE = 1e-3
+#: What demands leave to a machine that does not move, and the share of the machines on either side of a quantile
+#: whose slopes count for it, one in so many.
+STUCK, BESIDE = -1.0, 64
 #: The value of an objective without weight: below all others.
 _NONE = -1e6
 
@@ -74,16 +77,46 @@ class Polish:
         own = [(goal.sign, *found[goal.text, goal.sign]) for goal in self.task.problem.goals]
         goals = np.column_stack([sign * value for sign, value, _ in own])
         falls = np.stack([sign * slope for sign, _, slope in own], axis=1)
-        rooms = np.empty((len(x), len(self.limits)))
-        climbs = np.empty((len(x), len(self.limits), x.shape[1]))
-        for k, (text, weight, offset) in enumerate(self.limits):
-            value, slope = found[text, -np.sign(weight)]
-            rooms[:, k], climbs[:, k] = weight * value + offset, weight * slope
+        if self.task.problem.robust == "yield" and self.limits:
+            rooms, climbs = self._left_to_share(columns)
+        else:
+            rooms, climbs = self._left(found)
         falls = weights[:, :, None] * falls
         falls += SHARED * falls.sum(axis=1, keepdims=True)
         goals = np.where(weights > 0.0, _weighed(goals, weights, aims), _NONE)
         bends = self._bends(columns, weights)
         return Model(x[:, self.free], goals, rooms, falls[:, :, self.free], climbs[:, :, self.free], bends)
+
+    def _left(self, found: Mapping[Side, tuple[Floats, Floats]]) -> tuple[Floats, Floats]:
+        """What is left to the demands, (K, demands), and its slopes, (K, demands, k)."""
+        each = [(weight, offset, *found[text, -np.sign(weight)]) for text, weight, offset in self.limits]
+        rooms = [weight * value + offset for weight, offset, value, _ in each]
+        climbs = [weight * slope for weight, _, _, slope in each]
+        shape = len(next(iter(found.values()))[0]), 0, len(self.names)
+        return (np.stack(rooms, 1), np.stack(climbs, 1)) if each else (np.empty(shape[:2]), np.empty(shape))
+
+    def _left_to_share(self, columns: Mapping[str, Floats]) -> tuple[Floats, Floats]:
+        """What all demands leave to the best machine that must not be missed, (K, 1), and its slope, (K, 1, k).
+
+        A share of the machines made meets the demands where a quantile of what these leave to the machines is not
+        negative; its slope is that of the machine there (Hong 2009, *Operations Research* 57, 118), here the mean
+        of some beside it.
+        """
+        made, count = self.task.made(columns, self.task.samples), len(next(iter(columns.values())))
+        values, slopes = self.task.measures.with_slopes(made, self.names)
+        sides = {(text, sign): (values[text], slopes[text] * self.span) for text, sign in self.task.sides}
+        rooms, climbs = self._left(sides)
+        least = np.argmin(np.where(np.isnan(rooms), -np.inf, rooms), axis=1)
+        room = np.take_along_axis(rooms, least[:, None], 1).reshape(count, -1)[:, 1:]
+        climb = np.take_along_axis(climbs, least[:, None, None], 1).reshape(count, -1, len(self.names))[:, 1:]
+        lost = ~np.isfinite(room)
+        room, climb = np.where(lost, STUCK, room), np.where(lost[:, :, None], 0.0, climb)
+        order, machines = np.argsort(room, axis=1), room.shape[1]
+        last = min(int((1.0 - self.task.problem.least_yield) * machines + 1e-9), machines - 1)
+        near = machines // BESIDE
+        beside = order[:, max(0, last - near) : last + near + 1]
+        slope = np.take_along_axis(climb, beside[:, :, None], 1).mean(axis=1)
+        return np.take_along_axis(room, order[:, last : last + 1], 1), slope[:, None, :]
 
     def _bends(self, columns: Mapping[str, Floats], weights: Floats) -> Floats:
         """What is known of the weighted objectives' curvatures by the free variables, (K, goals, n, n)."""

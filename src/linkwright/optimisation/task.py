@@ -118,7 +118,7 @@ class Task:
     @property
     def exact(self) -> bool:
         """Whether the last steps follow exact gradients."""
-        return self.measures.side_by_side and self.problem.robust != "yield"
+        return self.measures.side_by_side
 
     @property
     def at_corners(self) -> bool:
@@ -197,8 +197,8 @@ class Task:
         else:
             missed = sum(misses, np.zeros(next(iter(values.values())).shape))
             met = (missed == 0.0) & np.isfinite([*values.values()]).all(axis=0)
-            lack = np.maximum(self.problem.least_yield - met.mean(axis=1), 0.0)
-            violations = np.where(lack > 0.0, lack + missed.mean(axis=1), 0.0)[:, None]
+            lack = np.maximum(self.problem.least_yield - met[:, 1:].mean(axis=1), 0.0)
+            violations = np.where(lack > 0.0, lack + missed[:, 1:].mean(axis=1), 0.0)[:, None]
             goals = np.column_stack([goal.sign * values[goal.text][:, 0] for goal in self.problem.goals])
         stuck = ~np.isfinite(goals).all(axis=1) | np.isnan(violations).any(axis=1)
         goals[stuck], violations[stuck] = np.inf, np.inf
@@ -206,12 +206,13 @@ class Task:
 
     def sampled(self, columns: Mapping[str, Floats], samples: int) -> dict[str, Floats]:
         """Values (N, 1 + samples) of the designs as drawn (first) and as made."""
-        count = len(next(iter(columns.values())))
-        made = {}
-        for address, column in columns.items():
-            off = self._deviations(samples).get(address, np.zeros(samples + 1))
-            made[address] = (column[:, None] + off).ravel()
-        return {text: value.reshape(count, -1) for text, value in self.measures(made).items()}
+        found = self.measures(self.made(columns, samples))
+        return {text: value.reshape(-1, samples + 1) for text, value in found.items()}
+
+    def made(self, columns: Mapping[str, Floats], samples: int) -> dict[str, Floats]:
+        """Columns (N · (1 + samples),) of the designs as drawn (first) and as made."""
+        none, off = np.zeros(samples + 1), self._deviations(samples)
+        return {each: (column[:, None] + off.get(each, none)).ravel() for each, column in columns.items()}
 
     def _deviations(self, samples: int) -> dict[str, Floats]:
         """The same deviations for all designs: drawn evenly, uniform within ±; for the worst all corners where these
