@@ -19,7 +19,7 @@ def test_the_better_machine_is_shown_and_written(tmp_path: Path, capsys: pytest.
     words = ["--minimize", "peak_input_torque", "--output", str(file), "--plot", str(picture)]
     assert main([*SEARCH, *words]) == 0
     out = capsys.readouterr().out
-    assert "least peak_input_torque" in out and "1633.67 N·m" in out and "made least" in out
+    assert "least peak input torque" in out and "1633.67 N·m" in out and "made least" in out
     assert lw.load(file).dimension("crank.length") < 0.1
     assert "# a pin is implied" in file.read_text()
     assert picture.read_text().startswith("<?xml")

@@ -88,7 +88,7 @@ class Measures:
         return found, names
 
     def _is_number(self, name: str) -> bool:
-        if _is_metric(name) or name in self._dimensions or name in self.problem.paths:
+        if is_metric(name) or name in self._dimensions or name in self.problem.paths:
             return True
         if is_summary(name):
             wanted([name])
@@ -118,7 +118,7 @@ class Measures:
         return found if {term.name for each in found for term in each.terms} == set(self.numbers) else []
 
     def _term(self, name: str) -> str | Term:
-        if _is_metric(name) or not is_summary(name):
+        if is_metric(name) or not is_summary(name):
             return name
         (summary,) = wanted([name])[:1]
         return Term(name, (Number("", (summary.name,), _itself),), "")
@@ -291,7 +291,7 @@ def _of_problem(pickled: bytes) -> Measures:
     return Measures(pickle.loads(pickled))
 
 
-def _is_metric(name: str) -> bool:
+def is_metric(name: str) -> bool:
     """Whether a name means a design number, not a summary of the output of the same name."""
     return name in OWN or (metric_of(name) is not None and not is_summary(name))
 

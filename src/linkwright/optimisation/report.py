@@ -5,8 +5,10 @@ from __future__ import annotations
 import math
 
 from linkwright import units
+from linkwright.optimisation.measures import is_metric
 from linkwright.optimisation.optimum import Choice, Optimum
-from linkwright.words import Say, speaker
+from linkwright.study.criteria import criterion
+from linkwright.words import Say, say, speaker
 from linkwright.words.titles import title_said
 from linkwright.words.width import aligned
 
@@ -18,15 +20,15 @@ def report(found: Optimum, language: str) -> list[str]:
     """Title, the best design beside the start, the front, and notes."""
     tell = speaker(language)
     name = title_said(found.problem.mechanism.name, language)
-    lines = [tell("optimize.title", name=name, goals=_goals(found, tell)), ""]
-    lines += aligned(comparison(found, found.best, tell), "<>>><")
+    lines = [tell("optimize.title", name=name, goals=_goals(found, language)), ""]
+    lines += aligned(comparison(found, found.best, language), "<>>><")
     if len(found.problem.goals) > 1:
         lines += [
             "",
             tell("optimize.front", count=len(found), hypervolume=f"{found.hypervolume or 0.0:.4f}"),
             "",
         ]
-        lines += _front(found)
+        lines += _front(found, language)
     lines += ["", tell("optimize.work", evaluations=found.evaluations, generations=found.generations)]
     if found.exact or not found.problem.robust:
         lines.append(tell("optimize.exact" if found.exact else "optimize.differences"))
@@ -40,13 +42,26 @@ def report(found: Optimum, language: str) -> list[str]:
     return lines
 
 
-def _goals(found: Optimum, tell: Say) -> str:
+def _goals(found: Optimum, language: str) -> str:
     words = {1.0: "optimize.least", -1.0: "optimize.most"}
-    return ", ".join(tell(words[goal.sign], number=goal.text) for goal in found.problem.goals)
+    said = (
+        say(words[goal.sign], language, number=label(found, goal.text, language))
+        for goal in found.problem.goals
+    )
+    return say("optimize.and", language).join(said)
 
 
-def comparison(found: Optimum, choice: Choice, tell: Say) -> list[list[str]]:
+def label(found: Optimum, text: str, language: str) -> str:
+    """A number in words; expressions and summaries as they are written."""
+    if text in found.problem.define or not is_metric(text):
+        return text
+    kinds = {kind: name for name, kind in units.DIMENSIONS.items()}
+    return criterion(text).label(language, kinds.get(found.kinds[text], ""))
+
+
+def comparison(found: Optimum, choice: Choice, language: str) -> list[list[str]]:
     """A head and a row for every variable and number: name, start, design, change, bounds."""
+    tell = speaker(language)
     rows = [[tell(f"optimize.column.{name}") for name in ("what", "start", "found", "change", "bounds")]]
     for variable, was in zip(found.problem.variables, found.problem.start, strict=True):
         factor = units.unit(variable.unit)[0] if variable.unit else 1.0
@@ -59,7 +74,8 @@ def comparison(found: Optimum, choice: Choice, tell: Say) -> list[list[str]]:
         symbol, factor = shown_unit(kind)
         was = found.start[text]
         shown = [_shown(value, factor, symbol) for value in (was, now)]
-        rows.append([text, *shown, _change(was, now), _limits(found, choice, text, factor, tell)])
+        name = label(found, text, language)
+        rows.append([name, *shown, _change(was, now), _limits(found, choice, text, factor, tell)])
     return rows
 
 
@@ -90,10 +106,10 @@ def _change(was: float, now: float) -> str:
     return f"{100 * (now - was) / abs(was):+.2f} %"
 
 
-def _front(found: Optimum) -> list[str]:
+def _front(found: Optimum, language: str) -> list[str]:
     texts = [goal.text for goal in found.problem.goals]
     addresses = [variable.address for variable in found.problem.variables]
-    rows = [["", *texts, *addresses]]
+    rows = [["", *(label(found, text, language) for text in texts), *addresses]]
     count = len(found)
     listed = {round(k * (count - 1) / max(1, LISTED - 1)) for k in range(LISTED)} if count > LISTED else None
     for number, choice in enumerate(found.choices, 1):

@@ -20,7 +20,6 @@ from linkwright.optimisation.problem import problem
 from linkwright.optimisation.report import comparison
 from linkwright.server.background import Job
 from linkwright.study.criteria import criterion
-from linkwright.words import speaker
 from linkwright.words.sentence import Sentence
 
 #: Designs of a front that are shown.
@@ -50,9 +49,8 @@ def _optimise(document: Document, job: Job) -> None:
 
 def _shown(found: Optimum, language: str) -> Plain:
     """The designs with their values (SI) and the rows of numbers beside those of the start, as texts."""
-    say = speaker(language)
     choices = found.choices[:: -(-len(found) // SHOWN)]
-    tables = [comparison(found, each, say) for each in choices]
+    tables = [comparison(found, each, language) for each in choices]
     return {
         "head": tables[0][0],
         "candidates": [

@@ -44,13 +44,13 @@ class Criterion:
     def __reduce__(self) -> tuple[Callable[[str], Criterion], tuple[str]]:
         return criterion, (self.name,)
 
-    def label(self, language: str = "en") -> str:
-        """Its name in words."""
+    def label(self, language: str = "en", dimension: str = "") -> str:
+        """Its name in words; a driver that slides has a force, by its ``dimension``."""
         if self.name in OWN:
             return say(f"compare.{self.name}.label", language)
         if (found := metric_of(self.name)) is None:
             return self.name
-        title = found[0]().label_in(language)
+        title = found[0]().label_in(language, dimension)
         return f"{title}, {found[1]}" if found[1] else title
 
 

@@ -60,7 +60,7 @@ def _chosen(designs: int, rows: int) -> list[int]:
 
 def _heading(study: Study, name: str, language: str) -> str:
     unit = shown_unit(study.dimensions[name])
-    label = criterion(name).label(language)
+    label = criterion(name).label(language, study.dimensions[name])
     return f"{label} [{unit}]" if unit else label
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from linkwright.optimisation.optimum import Optimum
-from linkwright.optimisation.report import shown_unit
+from linkwright.optimisation.report import label, shown_unit
 from linkwright.plot.diagrams.base import Request, result_diagram
 from linkwright.plot.diagrams.picture import COLOURS, INK, style
 from linkwright.words import say
@@ -44,16 +44,16 @@ def _front(axes: Any, result: Optimum, text: str, language: str) -> None:
     for name in (first, text):
         symbol, factor = shown_unit(result.kinds[name])
         values = np.array([each.numbers[name] for each in result.choices]) / factor
-        label = f"{name}, {symbol}" if symbol else name
-        columns.append((values, result.start[name] / factor, label))
+        title = label(result, name, language)
+        columns.append((values, result.start[name] / factor, f"{title}, {symbol}" if symbol else title))
     (x, x0, x_label), (y, y0, y_label) = columns
     axes.plot(x, y, "o-", ms=4.5, color=COLOURS[0], lw=1, label=say("optimize.legend.front", language))
     if np.isfinite([x0, y0]).all():
         wide, high = max(np.ptp([*x, x0]), 1e-300), max(np.ptp([*y, y0]), 1e-300)
         near = len(x) == 1 or (np.ptp(x) > NEAR * wide and np.ptp(y) > NEAR * high)
         key = "optimize.legend.start" if near else "optimize.legend.outside"
-        label = say(key, language, x=f"{x0:.5g}", y=f"{y0:.5g}")
-        axes.plot([x0] if near else [], [y0] if near else [], "s", ms=7, mfc="none", color=INK, label=label)
+        said = say(key, language, x=f"{x0:.5g}", y=f"{y0:.5g}")
+        axes.plot([x0] if near else [], [y0] if near else [], "s", ms=7, mfc="none", color=INK, label=said)
     axes.margins(0.06)
     axes.set_xlabel(x_label)
     axes.set_ylabel(y_label)
@@ -69,8 +69,8 @@ def _progress(axes: Any, result: Optimum, language: str) -> None:
     if met and np.isfinite(result.start[goal.text]):
         generations = np.arange(len(history) + 1)
         history = np.append(result.start[goal.text] / factor, history)
-    label = say("optimize.legend.search", language)
-    axes.step(generations, history, where="post", color=COLOURS[0], label=label)
+    said = say("optimize.legend.search", language)
+    axes.step(generations, history, where="post", color=COLOURS[0], label=said)
     best = result.best.numbers[goal.text] / factor
     axes.plot(
         [len(result.history)],
@@ -84,5 +84,6 @@ def _progress(axes: Any, result: Optimum, language: str) -> None:
         axes.axhline(start, ls="--", lw=1, color=INK, label=say("optimize.legend.start", language))
     axes.margins(0.03)
     axes.set_xlabel(say("optimize.axis.generation", language))
-    axes.set_ylabel(f"{goal.text}, {symbol}" if symbol else goal.text)
+    title = label(result, goal.text, language)
+    axes.set_ylabel(f"{title}, {symbol}" if symbol else title)
     axes.legend()

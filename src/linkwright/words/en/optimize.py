@@ -35,6 +35,7 @@ linkwright optimize crusher.yaml --minimize peak_input_torque flywheel --plot fr
     "title": "{name}: {goals}",
     "least": "least {number}",
     "most": "greatest {number}",
+    "and": "; ",
     "column.what": "number",
     "column.start": "start",
     "column.found": "found",

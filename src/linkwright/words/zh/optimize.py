@@ -33,6 +33,7 @@ linkwright optimize crusher.yaml --minimize peak_input_torque flywheel --plot fr
     "title": "{name}：{goals}",
     "least": "{number} 最小",
     "most": "{number} 最大",
+    "and": "；",
     "column.what": "数",
     "column.start": "原设计",
     "column.found": "所得",
