@@ -58,7 +58,7 @@ def on_cluster(cluster: Any) -> Iterator[Any]:
         yield client
     finally:
         _current.reset(token)
-        if client is not cluster:
+        if client is not None and client is not cluster:
             client.close()
 
 
