@@ -417,6 +417,7 @@ def test_hypervolume_and_crowding_in_closed_form() -> None:
         ({"keep": {"stroke guide": "at least 2 kg"}}, "length"),
         ({"keep": {"stroke guide": "90..50 mm"}}, "falls from 90 mm to 50 mm"),
         ({"minimize": "nothing at all"}, "nothing"),
+        ({"minimize": "peak_reacton"}, "did you mean .*peak_reaction"),
         ({"minimise": "r"}, "minimize"),
         ({"robust": "worst"}, "needs tolerance"),
         ({"evaluations": 0}, "evaluations"),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pickle
+import re
 from collections.abc import Mapping
 from functools import cached_property, lru_cache
 from typing import Any
@@ -37,6 +38,8 @@ from linkwright.words.sentence import Sentence
 
 #: Designs that a worker of a cluster takes at a time where they go one by one.
 FEW = 4
+#: What is meant for one number, not for an expression.
+_WORDS = re.compile(r"[^\W\d][\w.]*( [\w.]+)*")
 
 
 class Measures:
@@ -75,6 +78,8 @@ class Measures:
             return None, {"": given}
         defined = {name: name if name in paths else str(value) for name, value in self.problem.define.items()}
         known = [*defined, *self.mechanism.parameters]
+        if _WORDS.fullmatch(given) and given not in known:
+            criterion(given)  # raises, and offers the nearest
         found = parse(text, known)
         names = {name: defined.get(name, name) for name in found.names}
         for name in names.values():
