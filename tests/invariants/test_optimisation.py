@@ -354,6 +354,20 @@ def test_teeth_change_the_cycle_and_are_varied_one_by_one() -> None:
     assert found.mechanism().dimension("mesh.teeth.1") == 54
 
 
+def test_few_pairs_of_teeth_are_all_judged() -> None:
+    pair = lw.loads(
+        GEARS.replace("20 +", "small +").replace("[20,", "[small,").replace("{count", "{small: 20, count")
+    )
+    found = lw.optimize(
+        pair, vary={"small": {"whole": "17..20"}, "count": {"whole": "30..34"}}, evaluations=60,
+        minimize=["peak_input_torque", "s + c"], define={"s": "small", "c": "count"},
+    )  # fmt: skip
+    # the torque 40 N·m · small / count grows with small, as the sum does: the front has the least pinion
+    front = [(17.0, float(count)) for count in range(34, 29, -1)]
+    assert sorted(tuple(each.values.values()) for each in found) == sorted(front)
+    assert "differences" not in found.text()
+
+
 CAM = """\
 format: 1
 name: Lobe

@@ -30,7 +30,8 @@ def report(found: Optimum, language: str) -> list[str]:
         ]
         lines += _front(found, language)
     lines += ["", tell("optimize.work", evaluations=found.evaluations, generations=found.generations)]
-    if found.exact or not found.problem.robust:
+    moved = any(each.choices is None for each in found.problem.variables)
+    if moved and (found.exact or not found.problem.robust):
         lines.append(tell("optimize.exact" if found.exact else "optimize.differences"))
     if found.best.worst:
         lines.append(tell("optimize.worst", numbers=", ".join(_worst(found))))

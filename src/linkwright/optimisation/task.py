@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Mapping
 from functools import cached_property
@@ -81,6 +82,13 @@ class Task:
         span = np.where(self.high > self.low, self.high - self.low, 0.0)
         raw = self.low + np.clip(x, 0.0, 1.0) * span
         return np.column_stack([each.allowed(raw[:, k]) for k, each in enumerate(self.problem.variables)])
+
+    def every(self, most: int) -> Floats | None:
+        """Places (N, k) of all designs, where there are no more than ``most``; None where there are."""
+        choices = [each.choices for each in self.problem.variables if each.choices is not None]
+        if len(choices) < len(self.problem.variables) or math.prod(map(len, choices)) > most:
+            return None
+        return self.inverse(np.array([*product(*choices)]))
 
     def inverse(self, values: Floats) -> Floats:
         """Places in the cube of values (k,)."""
