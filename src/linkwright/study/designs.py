@@ -14,6 +14,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.frozen import Frozen
 from linkwright.core.html import columns_html
 from linkwright.core.plotted import Plotted
+from linkwright.engine.machine_code import available
 from linkwright.engine.sweep import Backend, Progress
 from linkwright.engine.threads import chunks
 from linkwright.errors import RequestError
@@ -163,7 +164,7 @@ def sweep(
     columns = design_values(mechanism, vary)
     refuse_moved_positions(mechanism, positions, columns)
     asked = wanted(outputs)
-    client = current()
+    client, backend = current(), _of_all(backend, columns)
     if client is not None and len(next(iter(columns.values()))) > SHARED:
         return _shared(
             client, mechanism, columns, [each.name.strip() for each in asked], steps, partial, backend
@@ -192,6 +193,12 @@ def sweep(
         run.margins,
         dimensions,
     )
+
+
+def _of_all(backend: Backend, columns: Mapping[str, Floats]) -> Backend:
+    """What serves all pieces of a sweep, however few designs are in the last; else numbers differ in last bits."""
+    many = len(next(iter(columns.values()))) > SHARED
+    return "llvm" if backend == "auto" and many and available() else backend
 
 
 def _shared(
@@ -248,7 +255,7 @@ def sweep_curves(
     columns = design_values(mechanism, vary)
     refuse_moved_positions(mechanism, positions, columns)
     asked = wanted([(output, "max") for output in outputs])
-    client = current()
+    client, backend = current(), _of_all(backend, columns)
     if client is not None and len(next(iter(columns.values()))) > SHARED:
         return _shared_curves(client, mechanism, columns, [*outputs], steps, backend)
     run = SweepRun(mechanism, columns, asked, positions, Manner(False, threads, backend, progress))

@@ -197,8 +197,9 @@ class MetricCycle:
         values = {each.name: np.empty(designs) for each in self.terms}
         certain = np.zeros(designs, dtype=np.bool_)
         block = WEIGHED if self.followed else RUNNING if self.running else BLOCK
-        # what is compiled for one of several blocks serves all, however few designs are in the last
-        own: Backend = "llvm" if backend == "auto" and designs > block and available() else backend
+        # what is compiled serves all blocks, and all pieces on a cluster, however few designs are in the last
+        many = designs > min(block, RUNNING)
+        own: Backend = "llvm" if backend == "auto" and many and available() else backend
 
         def work(first: int, end: int) -> None:
             part = {address: column[first:end] for address, column in columns.items()}

@@ -15,6 +15,7 @@ from linkwright.core.frozen import Frozen
 from linkwright.core.html import columns_html
 from linkwright.core.outputs import Output
 from linkwright.core.plotted import Plotted
+from linkwright.engine.machine_code import available
 from linkwright.errors import LinkwrightError, RequestError, with_remedy
 from linkwright.machine import flywheel_inertia
 from linkwright.mechanism.mechanism import Mechanism
@@ -37,7 +38,7 @@ from linkwright.words.sentence import Sentence
 if TYPE_CHECKING:
     import pandas
 
-    from linkwright.engine.sweep import Progress
+    from linkwright.engine.sweep import Backend, Progress
 
 Sampling = Literal["grid", "sobol"]
 _Piece = tuple[dict[str, Floats], dict[str, str], dict[str, None], dict[int, str]]
@@ -275,9 +276,11 @@ class _Work:
             (*found.notes, *self.notes),
         )  # fmt: skip
 
-    def found(self, asked: list[Criterion], designs: Indices, together: bool) -> None:
+    def found(
+        self, asked: list[Criterion], designs: Indices, together: bool, backend: Backend = "auto"
+    ) -> None:
         """Numbers of the designs, at once as far as they are certain so (``together``), the others one by one."""
-        certain = self._together(asked, designs) if together else {}
+        certain = self._together(asked, designs, backend) if together else {}
         for done, index in enumerate(designs.tolist(), 1):
             single = [each for each in asked if index not in certain.get(each.name, ())]
             if single:
@@ -306,13 +309,13 @@ class _Work:
             self.notes |= notes
             self.troubled |= {int(part[index]): why for index, why in troubled.items()}
 
-    def _together(self, asked: list[Criterion], designs: Indices) -> dict[str, set[int]]:
+    def _together(self, asked: list[Criterion], designs: Indices, backend: Backend) -> dict[str, set[int]]:
         """Numbers of many designs at once; which designs' they are certain of, by name."""
         wanted = Asked(self.output, self.fluctuation)
         part = {address: column[designs] for address, column in self.columns.items()}
         sure: dict[str, set[int]] = {}
         for cycle in side_by_side(self.mechanism, self.columns, [each.name for each in asked], wanted):
-            found = cycle.evaluate(part)
+            found = cycle.evaluate(part, backend=backend)
             for term in cycle.terms:
                 self.values[term.name][designs[found.certain]] = found.values[term.name][found.certain]
                 self.dimensions[term.name] = term.dimension
@@ -378,7 +381,9 @@ def _piece(
     """Numbers of some designs, on a worker of a cluster: values, dimensions, notes, and what is wrong with which."""
     asked = criteria(names)
     work = _Work(mechanism, columns, asked, output, fluctuation, steps, None)
-    work.found(asked, np.arange(work.count), True)
+    work.found(
+        asked, np.arange(work.count), True, "llvm" if available() else "auto"
+    )  # as many designs have it
     return work.values, work.dimensions, work.notes, work.troubled
 
 
