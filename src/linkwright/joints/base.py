@@ -168,6 +168,17 @@ class Entry:
 
 
 @dataclass(frozen=True)
+class Bends:
+    """Angles of a link to its carrier, rad, at which a joint goes over from one formula to the next; the dimension
+    ``phase``, rad, is added to them."""
+
+    link: str
+    carrier: str
+    phase: str
+    angles: tuple[float, ...]
+
+
+@dataclass(frozen=True)
 class Joint(ABC):
     """A connection of links; ``name`` is its name in the model.
 
@@ -271,6 +282,11 @@ class Joint(ABC):
     def turning(self) -> tuple[str, ...]:
         """The links whose rotations the rows of a higher pair add up."""
         return ()
+
+    @property
+    def bends(self) -> Bends | None:
+        """Where what the joint ties goes over from one formula to the next; None where it has one formula."""
+        return None
 
     @property
     def pairs(self) -> int:

@@ -13,7 +13,16 @@ from linkwright.core.dataclass import dataclass
 from linkwright.engine.trace import Scalar
 from linkwright.fields.base import Field, Quantity, Word
 from linkwright.fields.references import LinkName, PointName
-from linkwright.joints.base import JOINTS, Cut, Entry, HigherPair, Joint, LackingError, carried_steadily
+from linkwright.joints.base import (
+    JOINTS,
+    Bends,
+    Cut,
+    Entry,
+    HigherPair,
+    Joint,
+    LackingError,
+    carried_steadily,
+)
 from linkwright.laws.program_fields import ProgramField
 from linkwright.words.sentence import Sentence
 
@@ -85,6 +94,11 @@ class CamJoint(HigherPair):
     def sense(self) -> float:
         """1 where the program runs on while the cam turns counter-clockwise."""
         return -1.0 if self.turn == "clockwise" else 1.0
+
+    @property
+    def bends(self) -> Bends:
+        edges = tuple(self.sense * float(edge) for edge in self.lift.edges[:-1])
+        return Bends(self.cam, self.carrier, f"{self.name}.phase", edges)
 
     @cached_property
     def lift(self) -> LiftCurve:

@@ -29,6 +29,7 @@ from linkwright.kinetostatics.site import limit_name
 from linkwright.kinetostatics.traced_loads import AlongInput
 from linkwright.loads.base import Load
 from linkwright.loads.phases import TURN
+from linkwright.study.joint_bends import FIRST, bend_names, bend_stage
 from linkwright.study.limit_stages import edge_name, part_edge, part_edge_beside, whole_turns
 from linkwright.study.loaded_cycle import friction_doubt
 from linkwright.study.traced import VALID, Traced
@@ -38,8 +39,6 @@ from linkwright.study.traced import VALID, Traced
 PIECES, LEAST = (12, 28, 56, 112), 0.25
 #: Share of the turn within which two cuts are one.
 SAME = 1e-9
-#: The constant that is the input where the turn begins.
-FIRST = "first input"
 #: The output that is a node's share of the cycle's time.
 SHARE = "share of the cycle"
 
@@ -82,6 +81,7 @@ class GaussCycle:
             found |= dict.fromkeys(_cuts(traced.mechanism.loads[name]))
         for term in loads.swinging:
             found |= dict.fromkeys((limit_name(term, kind), 0) for kind in ("max", "min"))
+        found |= dict.fromkeys((name, 0) for name in bend_names(traced))
         return cls(traced, tuple(found), wanted)
 
     @property
@@ -161,10 +161,10 @@ class GaussCycle:
         return found
 
     def part_stages(self, beside: Traced | None) -> list[Stage]:
-        """The stages that find where parts of strokes begin and end; ``beside``: programs with Newton's steps from
-        positions, where groups have no closed form."""
-        found: list[Stage] = []
-        known = dict(self.cuts)
+        """The stages that find where parts of strokes begin and end, and where joints bend; ``beside``: programs with
+        Newton's steps from positions, where groups have no closed form."""
+        bending, known = bend_stage(self.traced), dict(self.cuts)
+        found = [] if bending is None else [bending]
         for load in self.traced.mechanism.loads.values():
             phase = getattr(load, "phase", None)
             if isinstance(phase, SwingPhase):
@@ -192,12 +192,7 @@ class GaussCycle:
             for lap in self._laps(every):
                 share = first + lap / self.turns
                 shares.append(share - floor(share) if lap or period > self.turns else share)
-        for end in range(len(shares) - 1, 0, -1):
-            for k in range(end):
-                shares[k], shares[k + 1] = (
-                    minimum(shares[k], shares[k + 1]),
-                    maximum(shares[k], shares[k + 1]),
-                )
+        _sort(shares)
         outputs = {f"cut {k}": share for k, share in enumerate(_apart(shares))}
         return Stage(Program.of(t, outputs), {name: Reduction(name, "first") for name in outputs}, steps=1)
 
@@ -227,6 +222,21 @@ class GaussCycle:
         way = sign(t.parameter(f"{driver}.speed")) * self.way * share
         time = t.parameter("first time") + way / t.parameter(f"{driver}.speed")
         return {"input": t.parameter(FIRST) + way, "time": time}, width
+
+
+def _sort(shares: list[Scalar]) -> None:
+    """Brings traced values into order, by merging that exchanges (Batcher 1968; Knuth 5.2.2, algorithm M)."""
+    top = 1 << max(0, (len(shares) - 1).bit_length() - 1)
+    p = top
+    while p:
+        q, r, d = top, 0, p
+        while d:
+            for i in range(len(shares) - d):
+                if i & p == r:
+                    low, high = shares[i], shares[i + d]
+                    shares[i], shares[i + d] = minimum(low, high), maximum(low, high)
+            d, q, r = q - p, q >> 1, p
+        p >>= 1
 
 
 def _apart(shares: list[Scalar]) -> list[Scalar]:

@@ -31,6 +31,7 @@ from linkwright.metrics.summary import Summary, one
 from linkwright.study.followed_points import FollowedPoints, followed_points
 from linkwright.study.gauss_cycle import PIECES, SHARE, GaussCycle, reversing, side_by_side
 from linkwright.study.iterated_groups import limits_beside
+from linkwright.study.joint_bends import rests
 from linkwright.study.limit_stages import constants, extreme_name, limit_stages, rates
 from linkwright.study.loaded_cycle import along_input, with_loads
 from linkwright.study.piece_summaries import SIDES, PieceSummaries
@@ -489,9 +490,10 @@ def _strokes(texts: Iterable[str]) -> dict[str, Summary]:
 
 
 def _without_more_limits(each: Term, analysis: Analysis) -> bool:
-    """Whether the outputs whose limits a term takes have no others than two."""
+    """Whether the outputs whose limits a term takes have no others than two, and rest nowhere."""
     parts = [one(text) for text in each.parts]
     words = [part.output for part in parts if part.kind in _PLACES]
     words += [strokes.output_of(part) for part in _strokes(each.parts).values()]
     outputs = [output for output in map(analysis.output, words) if output is not None]
-    return all(len(analysis.limits(output)) == 2 for output in outputs)
+    moving = (output for output in outputs if not rests(analysis.motion, output))
+    return len(outputs) == sum(len(analysis.limits(output)) == 2 for output in moving)

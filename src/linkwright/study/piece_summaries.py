@@ -276,13 +276,22 @@ def _tables() -> Floats:
 
 
 def _squared(program: Program, plain: Collection[str]) -> tuple[Program, tuple[str, ...]]:
-    """The program with the squares of outputs that are roots, but for ``plain`` ones; which these are.
+    """The program with the squares of outputs that are roots or sizes, but for ``plain`` ones; which these are.
 
-    Squares cost nothing, and are smooth where roots of sums come near zero.
+    Squares cost nothing, and are smooth where roots of sums come near zero, and where what has a size changes its
+    sign.
     """
-    roots = [name for name, i in program.outputs if name not in plain and program.nodes[i].op == "sqrt"]
-    outputs = tuple((name, program.nodes[i].args[0] if name in roots else i) for name, i in program.outputs)
-    return Program(program.entries, outputs).only(list(program.output_names)), tuple(roots)
+    entries, outputs, squared = list(program.entries), [], []
+    for name, i in program.outputs:
+        op, args, *_, varies = program.entries[i]
+        if name not in plain and op in ("sqrt", "abs"):
+            squared.append(name)
+            if op == "abs":
+                entries.append(("mul", (args[0], args[0]), 0.0, "", varies))
+            i = args[0] if op == "sqrt" else len(entries) - 1
+        outputs.append((name, i))
+    found = Program(tuple(entries), tuple(outputs))
+    return found.only(list(program.output_names)), tuple(squared)
 
 
 def _of(fields: Mapping[str, Floats], designs: slice) -> dict[str, Floats]:

@@ -1,0 +1,91 @@
+"""Where in the cycle of many designs cams and the like go over from one formula to the next."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from linkwright.core.dataclass import dataclass
+from linkwright.core.outputs import Output
+from linkwright.engine.program import Program
+from linkwright.engine.reductions import Reduction
+from linkwright.engine.stage import Stage
+from linkwright.engine.trace import Scalar, Trace, atan
+from linkwright.joints.base import Bends
+from linkwright.kinematics.motion import Motion
+from linkwright.kinetostatics.signals import MotionSignals
+from linkwright.loads.phases import TURN
+from linkwright.study.limit_stages import whole_turns
+from linkwright.study.traced import Traced
+
+#: The constant that is the input where the cycle begins.
+FIRST = "first input"
+#: Change of a ratio of speeds over the cycle, as share of it, up to which it is fixed.
+_FIXED = 1e-9
+
+
+@dataclass(frozen=True)
+class _Turning:
+    """A joint with bends whose link turns steadily: how often in the cycle, and from which angle to its carrier, rad,
+    in the machine as it is."""
+
+    joint: str
+    bends: Bends
+    turns: int
+    rest: float
+
+    def names(self) -> Iterator[tuple[str, float]]:
+        """Names of the cycle values, with the angles, rad."""
+        for k, angle in enumerate(self.bends.angles):
+            for lap in range(self.turns):
+                yield f"bend:{self.joint}:{k}:{lap}", angle + TURN * lap
+
+
+def _turning(traced: Traced) -> Iterator[_Turning]:
+    rate = next(iter(traced.positions.coordinates.values()))[1]
+    for name, joint in traced.mechanism.joints.items():
+        bends = joint.bends
+        if bends is None:
+            continue
+        link, carrier = traced.nominal.link(bends.link), traced.nominal.link(bends.carrier)
+        ratios = (link.angular_velocity - carrier.angular_velocity) / rate
+        turns = abs(float(ratios[0])) * whole_turns(traced)
+        if round(turns) >= 1 and np.ptp(ratios) <= _FIXED * np.abs(ratios).max():
+            yield _Turning(name, bends, round(turns), float(link.angle[0] - carrier.angle[0]))
+
+
+def bend_names(traced: Traced) -> tuple[str, ...]:
+    """Names of the cycle values that are the inputs, rad, at which joints go over from one formula to the next; of
+    those joints whose links turn in a fixed ratio to the driver."""
+    return tuple(name for each in _turning(traced) for name, _ in each.names())
+
+
+def bend_stage(traced: Traced) -> Stage | None:
+    """The stage that finds them from where the links stand as the cycle begins; None where there are none."""
+    source, t = traced.solver.motion, Trace()
+    found: dict[str, Scalar] = {}
+    (driver,) = traced.mechanism.drivers
+    for each in _turning(traced):
+        a, b = (source.poses[link].direction for link in (each.bends.carrier, each.bends.link))
+        along, across = a.dot(b), a.cross(b)
+        c, s = float(np.cos(each.rest)), float(np.sin(each.rest))
+        moved = 2.0 * atan((across * c - along * s) / (1.0 + along * c + across * s))
+        phase = source.dimensions(each.bends.phase)
+        speed = source.states[each.bends.link].omega - source.states[each.bends.carrier].omega
+        program = Program.of(source.trace, {"behind": phase - moved - each.rest, "speed": speed})
+        there = traced.at_input(program, t, t.parameter(FIRST))
+        ratio = there["speed"] / t.parameter(f"{driver}.speed")
+        found |= {
+            name: t.parameter(FIRST) + (there["behind"] + angle) / ratio for name, angle in each.names()
+        }
+    if not found:
+        return None
+    return Stage(Program.of(t, found), {name: Reduction(name, "first") for name in found}, steps=1)
+
+
+def rests(motion: Motion, output: Output) -> bool:
+    """Whether an output stands still for a part of the cycle, so that no position alone is its limit."""
+    rate = np.abs(MotionSignals(motion).output(output)[1])
+    still = rate <= _FIXED * np.nanmax(rate, initial=0.0)
+    return bool((still[1:] & still[:-1]).any())
