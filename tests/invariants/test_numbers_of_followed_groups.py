@@ -114,7 +114,7 @@ def test_numbers_are_those_of_an_energy_balance_of_loops_closed_here() -> None:
 
 @pytest.mark.parametrize(
     ("loads", "many"),
-    [({"push": PUSH, "brake": BRAKE}, 18), ({"push": PART}, 18), ({"damper": DAMPER}, 22)],
+    [({"push": PUSH, "brake": BRAKE}, 22), ({"push": PART}, 22), ({"damper": DAMPER}, 22)],
     ids=["between limits", "part of a stroke", "true speed"],
 )
 def test_numbers_are_those_of_each_machine_alone(loads: dict[str, str], many: int) -> None:

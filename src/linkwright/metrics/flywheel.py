@@ -42,8 +42,10 @@ class EnergyFluctuation(Metric):
             return False
         turns = abs(rate[0]) * period / (2 * pi)
         steady = np.ptp(rate) <= 1e-9 * abs(rate[0]) and abs(turns - round(turns)) <= 1e-9
-        torque = analysis.forces.input_torque
-        return bool(steady and abs(torque.mean()) > NOTHING * np.abs(torque).max())
+        if not steady:
+            return False
+        mean = float(analysis.part("input_torque mean").value)
+        return abs(mean) > NOTHING * float(np.abs(analysis.forces.input_torque).max())
 
     def numbers(self, analysis: Analysis) -> Iterator[Number]:
         yield Number(next(iter(analysis.motion.mechanism.drivers)), (self.part,))

@@ -84,7 +84,9 @@ class SteadyDesigns:
         size, speeds = self._speeds(part)
         largest_torque = np.abs(self.torque).max(axis=(1, 2))
         with np.errstate(invalid="ignore"):
-            value = np.where(self.mean > NOTHING * largest_torque, self._value(part, size, speeds), np.nan)
+            value = np.where(
+                np.abs(self.mean) > NOTHING * largest_torque, self._value(part, size, speeds), np.nan
+            )
             met = speeds.rough <= SMOOTH
             for signal, most in (
                 (self.torque, largest_torque),
