@@ -179,6 +179,16 @@ def test_designs_that_go_one_by_one_are_kept_by_an_interruption_before_the_first
     assert rest.history == whole.history and dict(rest.best.values) == dict(whole.best.values)
 
 
+@pytest.mark.parametrize("address", ["count", "mesh.teeth.0"])
+def test_numbers_of_teeth_are_not_varied_in_fractions(address: str) -> None:
+    """Neither by themselves nor by a parameter that they follow."""
+    gears = lw.loads(GEARS)
+    if address not in gears.dimensions():
+        (address,) = [each for each in gears.dimensions() if ".teeth." in each][:1]
+    with pytest.raises(lw.ModelError, match=rf"{address} gives numbers of teeth.*whole: 17\.\.20"):
+        lw.optimize(gears, vary={address: "16.5..20"}, minimize="peak_input_torque")
+
+
 def test_designs_of_which_none_moves_and_numbers_that_none_has(press: Path) -> None:
     none = (
         r"no design of Press within .* \(crank\.length \d+.* mm, .* fails in \d+ of 360 positions: group RRP"

@@ -50,6 +50,12 @@ cycle: {duration: 1 s}
             "joints.incline.block_angle",
             "5° off .* write block_angle: 105 deg",
         ),
+        (
+            "block_angle: 40 deg",
+            "0 deg",
+            "joints.incline.block_angle",
+            "75° off .* write block_angle: 105 deg",
+        ),
         ("friction: 0.1", "105 deg", "joints.incline.block_angle", "40° off .* write block_angle: 65 deg"),
     ],
 )
@@ -57,3 +63,10 @@ def test_guides_that_do_not_fit_together_are_found(column: str, incline: str, ke
     _, found = read_text(WEDGE.replace("COLUMN", column).replace("INCLINE", incline), "w.yaml")
     assert [each.key for each in found] == ([key] if key else [])
     assert all(re.search(said, str(each)) and each.severity == "error" for each in found)
+
+
+@pytest.mark.parametrize(("points", "count"), [("[B]", 0), ("{B: [0 mm, 0 mm], D: [9 mm, 0 mm]}", 1)])
+def test_a_block_of_one_point_takes_the_angle_that_fits(points: str, count: int) -> None:
+    text = WEDGE.replace("COLUMN", "block_angle: 40 deg").replace(", block_angle: INCLINE", "")
+    _, found = read_text(text.replace("upper: {points: [B]}", f"upper: {{points: {points}}}"), "w.yaml")
+    assert [each.severity for each in found] == ["error"] * count

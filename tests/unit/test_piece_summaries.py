@@ -62,7 +62,7 @@ def place_of(peak: tuple[np.ndarray, ...], edges: np.ndarray) -> np.ndarray:
 
 def reduced(pieces: int, backend: str) -> tuple[Reduced, np.ndarray]:
     found, run, edges = summaries(pieces)
-    return found.reduced(DESIGNS, Run(run.positions, run.length, None, 1, backend)), edges
+    return found.reduced(DESIGNS, {}, Run(run.positions, run.length, None, 1, backend)), edges
 
 
 @pytest.mark.parametrize("backend", ["numpy", "llvm"])
@@ -140,6 +140,6 @@ def test_a_signal_without_a_number_somewhere_has_no_bounds() -> None:
         outputs = {"signal": sqrt(a - x) + 1.0, SHARE: t.position(SHARE)}
         _, run, _ = summaries(12)
         found = PieceSummaries(Program.of(t, outputs), [Summary("signal", "max")], 12, SHARE, [])
-        kept = found.reduced(np.array([[7.0], [3.0]]), Run(run.positions, run.length, None, 1, backend))
+        kept = found.reduced(np.array([[7.0], [3.0]]), {}, Run(run.positions, run.length, None, 1, backend))
         finite = np.isfinite(kept.bounds["signal"][2])
         assert finite.tolist() == [True, False], backend

@@ -116,7 +116,12 @@ def _near_points(reader: Reader, root: MappingNode, mechanism: Mechanism) -> Non
 
 
 def _guides_at_odds(reader: Reader, root: MappingNode, mechanism: Mechanism) -> None:
-    """Guides that hold a link at another angle than other guides do, so that it cannot be put together."""
+    """Guides that hold a link at another angle than other guides do, so that it cannot be put together.
+
+    A block of one point that carries no guide has no angle of its own: without a ``block_angle`` it takes the one
+    that fits.
+    """
+    carriers = {guide.guide for guide in mechanism.guides.values()}
     held: dict[str, tuple[str, float]] = {}
     for name, joint in sorted(mechanism.joints.items(), key=lambda each: not each[1].ties):
         if not joint.ties:
@@ -131,8 +136,10 @@ def _guides_at_odds(reader: Reader, root: MappingNode, mechanism: Mechanism) -> 
             continue
         off = math.remainder(turn - (angle_b - angle_a), math.pi)
         if joint.coordinate == "slide" and abs(off) > SAME_ANGLE:
-            key = f"joints.{name}.block_angle"
-            node = below(root, "joints", name, "block_angle") or below(root, "joints", name)
+            key, given = f"joints.{name}.block_angle", below(root, "joints", name, "block_angle")
+            if given is None and len(mechanism.links[b].points) == 1 and b not in carriers:
+                continue
+            node = given or below(root, "joints", name)
             fitting = math.remainder(mechanism.guides[name].block_angle + off, math.tau)
             reader.finding(
                 node,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterable, Mapping
 from dataclasses import field
@@ -13,6 +14,7 @@ from linkwright import units
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, LinkwrightError, ModelError, RequestError
+from linkwright.joints.toothed import Numbers, whole
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.optimisation.paths import path_error
 from linkwright.registry import offered
@@ -249,7 +251,21 @@ class _Reading:
         _rising(found)
         if not found.low < found.high:
             raise RequestError(Sentence("optimize.bounds", address=address))
+        if self._gives_teeth(address, found):
+            low, high = math.ceil(found.low), math.floor(found.high)
+            raise RequestError(Sentence("optimize.whole_teeth", address=address, low=low, high=high))
         return Variable(address, found.low, found.high, None, found.unit)
+
+    def _gives_teeth(self, address: str, bounds: Range) -> bool:
+        """Whether some value between the bounds makes a number of teeth that is not whole."""
+        try:
+            changed = self.mechanism.with_dimensions(
+                {address: bounds.low + (bounds.high - bounds.low) / math.pi}
+            )
+        except LinkwrightError:
+            return False
+        given = ((changed.declared(name), value) for name, value in changed.dimensions().items())
+        return any(isinstance(declared, Numbers) and not whole(value) for declared, value in given)
 
     def _demands(self) -> list[Demand]:
         found = []

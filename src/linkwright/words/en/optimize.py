@@ -78,6 +78,7 @@ linkwright optimize crusher.yaml --minimize peak_input_torque flywheel --plot fr
     "no_effect": "{address} changes none of these numbers; leave it out of vary:, or ask for a number that it "
     "changes.",
     "bounds": "{address} has equal bounds; give a lower and a higher one",
+    "whole_teeth": "{address} gives numbers of teeth, which are whole; write {address}: {{whole: {low}..{high}}}",
     "demand": '"{given}" is no demand; write at least 40 deg, at most 60 kN, 1..2 m, or same within 1 %',
     "falling_demand": "the range falls from {low} to {high}; write the lower value first",
     "no_start": 'the start has no value of "{text}", so it cannot stay the same; demand a range',

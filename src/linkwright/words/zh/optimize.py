@@ -70,6 +70,7 @@ linkwright optimize crusher.yaml --minimize peak_input_torque flywheel --plot fr
     "falling": "{address} 的上下限由 {first} 降到 {last}；请先写较小的值",
     "no_effect": "{address} 不影响这里的任何一个量；请从 vary: 中去掉，或要求一个受它影响的量。",
     "bounds": "{address} 的上下限相等；请给不同的上下限",
+    "whole_teeth": "{address} 决定齿数，齿数须为整数；请写 {address}: {{whole: {low}..{high}}}",
     "demand": '"{given}" 不是要求；请写 at least 40 deg、at most 60 kN、1..2 m 或 same within 1 %',
     "falling_demand": "范围由 {low} 降到 {high}；请先写较小的值",
     "no_start": '原设计没有 "{text}" 的值，不能要求保持不变；请给范围',
