@@ -50,12 +50,6 @@ cycle: {duration: 1 s}
             "joints.incline.block_angle",
             "5° off .* write block_angle: 105 deg",
         ),
-        (
-            "block_angle: 40 deg",
-            "0 deg",
-            "joints.incline.block_angle",
-            "75° off .* write block_angle: 105 deg",
-        ),
         ("friction: 0.1", "105 deg", "joints.incline.block_angle", "40° off .* write block_angle: 65 deg"),
     ],
 )
