@@ -53,6 +53,17 @@ cycle: {from: -0.4 m, to: 0.37 m}
 """
 
 
+@pytest.mark.parametrize("steps", [1, 2, 3, 8])
+def test_a_small_group_in_a_large_machine_is_looked_through(steps: int) -> None:
+    """A way of 0.77 m is short beside a frame of 40 m; the pins stand nearer than 0.1 m from s = -0.1 m on."""
+    text = INVERTED.replace("OFFSET", "0.1")
+    large = text.replace(
+        "frame: {points: {P: [0 m, 0 m]}}", "frame: {points: {P: [0 m, 0 m], F: [40 m, 0 m]}}"
+    )
+    motion = lw.solve_motion(lw.loads(large), steps=steps, failures="mark")
+    assert motion.ok.tolist() == (motion.input < -0.1).tolist()
+
+
 @pytest.mark.parametrize("steps", [4, 17, 60])
 @pytest.mark.parametrize("offset", ["0.0005", "0.00002"])
 def test_pins_that_pass_each_other_closer_than_the_guides_offset_cannot(steps: int, offset: str) -> None:

@@ -44,6 +44,8 @@ ON_IT = 1e-5
 LARGEST_STEP = 0.55
 #: Samples of laws that are no straight lines in which a cycle is looked through, and the most places looked at.
 SAMPLES, MOST = 720, 40_000
+#: Into at least so many steps a cycle is divided.
+FEWEST = 24
 #: From so many groups that pass change points on, the signs of all groups are inputs: their motion is traced once.
 MANY = 3
 
@@ -147,7 +149,8 @@ def nearness(solver: MotionSolver) -> Scalar:
 
 
 def parts(solver: MotionSolver, positions: Positions) -> int:
-    """How often the steps of a cycle must be divided, so that no driver moves farther than :data:`FINE` in one."""
+    """How often the steps of a cycle must be divided, so that no driver moves farther than :data:`FINE` in one, and
+    there are :data:`FEWEST` of them, since a small group in a large machine may come and go on a short way."""
     if not positions.cycle or not positions.coordinates:
         return 1
     mechanism, ways = solver.mechanism, positions
@@ -159,7 +162,9 @@ def parts(solver: MotionSolver, positions: Positions) -> int:
         pace * abs(step) / (1.0 if positions.rotary[name] else mechanism.size)
         for name, pace in ways.paces.items()
     )
-    return min(ceil(farthest / FINE - 1e-9) or 1, max(MOST // positions.count, 1))
+    steps = positions.count if positions.closed else positions.count - 1
+    wanted = max(ceil(farthest / FINE - 1e-9), ceil(FEWEST / max(steps, 1)))
+    return min(wanted, max(MOST // positions.count, 1))
 
 
 def _step(positions: Positions) -> float:
