@@ -875,8 +875,10 @@ def test_saving_asks_before_it_overwrites_and_a_drag_that_the_file_refuses_goes_
         assert not Files(tmp_path).open("a.yaml")["recovered"]
         (tmp_path / "c.yaml").write_bytes((GEARED + "# theirs").replace("\n", "\r\n").encode())
         banner.get_by_role("button", name="Take its text").click()
+        tab.wait_for_function("() => desk.text.value.endsWith('# theirs')")
         tab.keyboard.press("Control+s")
         banner.wait_for(state="detached")
+        tab.locator(".said", has_text="Saved.").wait_for()
         area.press("Control+End")
         tab.keyboard.type("\n# and mine")
         tab.locator(".said", has_text="Not saved; kept as a draft.").wait_for()
