@@ -842,7 +842,9 @@ def test_saving_asks_before_it_overwrites_and_a_drag_that_the_file_refuses_goes_
         for wrong, limit in (("", False), ("-5", True)):
             field.fill(wrong)
             field.press("Enter")
-            assert field.input_value() == "50"
+            tab.wait_for_function(
+                """() => document.querySelector('[aria-label="Value of c1.length"]').value === '50'"""
+            )
             assert ("must stay above zero" in tab.locator(".status").first.inner_text()) == limit
         area = tab.locator("textarea")
         assert area.input_value() == GEARED
@@ -854,7 +856,7 @@ def test_saving_asks_before_it_overwrites_and_a_drag_that_the_file_refuses_goes_
         assert area.input_value() == GEARED
         tab.keyboard.press("Control+y")
         assert area.input_value() == GEARED + "# mine"
-        assert tab.locator(".said").inner_text() == "Not saved; kept as a draft."
+        tab.locator(".said", has_text="Not saved; kept as a draft.").wait_for()
         area.fill(GEARED.replace("40 mm", "40 mmm"))
         tab.locator(".findings .error").wait_for()
         tab.get_by_role("button", name="Move", exact=True).click()
