@@ -11,10 +11,10 @@ from functools import cached_property
 import numpy as np
 
 from linkwright.cli.errors import UsageError
+from linkwright.cli.parser import did_you_mean
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
-from linkwright.registry import nearest
 from linkwright.units import SI_UNITS
 from linkwright.words import Say
 from linkwright.words.width import GAP, cells, padded
@@ -90,11 +90,8 @@ def pick(columns: Mapping[str, Column], patterns: Sequence[str], say: Say) -> li
         ]
         if not hits:
             owners = dict.fromkeys(column.owner for column in columns.values() if column.owner)
-            offer = nearest(pattern, [*columns, *owners])
-            hint = say("cli.did_you_mean", name=offer) if offer else ""
-            raise UsageError(
-                say("solve.no_column", pattern=pattern, owners=say("finding.comma").join(owners)) + hint
-            )
+            said = say("solve.no_column", pattern=pattern, owners=say("finding.comma").join(owners))
+            raise UsageError(said + did_you_mean(pattern, [*columns, *owners], say))
         found.update((column.name, column) for column in hits)
     return list(found.values())
 

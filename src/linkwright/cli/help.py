@@ -5,7 +5,7 @@ from __future__ import annotations
 from importlib.util import find_spec
 
 from linkwright.cli import commands
-from linkwright.cli.parser import CommandParser, add_common
+from linkwright.cli.parser import CommandParser, Options, add_common
 from linkwright.cli.session import Session
 from linkwright.words import Say
 
@@ -49,7 +49,7 @@ def command_parser(name: str, say: Say) -> CommandParser:
         ]
     )
     parser = CommandParser(f"linkwright {name}", say, description=say(f"{name}.description"), epilog=epilog)
-    commands.command(name).arguments(parser, say)
+    commands.command(name).arguments(Options(parser, say, name))
     add_common(parser, say)
     return parser
 

@@ -10,13 +10,12 @@ import numpy as np
 
 from linkwright import units
 from linkwright.cli.errors import UsageError
-from linkwright.cli.parser import number_of
+from linkwright.cli.parser import did_you_mean, number_of
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError, QuantityError
 from linkwright.machine.flywheel import FlywheelSize, disk, flywheel_inertia, on_faster_shaft, rim
 from linkwright.machine.motor import motor
 from linkwright.machine.torque_curve import TURN, TorqueCurve
-from linkwright.registry import nearest
 from linkwright.words import Say
 from linkwright.words.sentence import Sentence
 
@@ -173,8 +172,7 @@ def _shape_values(option: str, text: str, say: Say) -> dict[str, float]:
     for part in filter(None, (part.strip() for part in text.split(","))):
         key, sign, given = (piece.strip() for piece in part.partition("="))
         if not sign or key not in keys:
-            offer = nearest(key, keys) if sign else None
-            hint = say("cli.did_you_mean", name=offer) if offer else ""
+            hint = did_you_mean(key, keys, say) if sign else ""
             known = say("finding.comma").join(keys)
             raise UsageError(say("machine.bad_shape", option=option, text=part, keys=known) + hint)
         dimension, name = SHAPE_KEYS[key]

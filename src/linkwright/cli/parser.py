@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import argparse
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from typing import Any
 
 from linkwright.cli.reading import read
 from linkwright.words import Say
@@ -50,11 +51,12 @@ class CommandParser(argparse.ArgumentParser):
         return self.say("cli.usage") + text.removeprefix("usage: ")
 
 
-def nearest_of(word: str, known: Sequence[str]) -> str | None:
-    """The known word nearest to a mistyped one."""
+def did_you_mean(word: str, known: Iterable[str], say: Say, otherwise: str = "") -> str:
+    """What to put behind a sentence about a mistyped word: the known one nearest to it, where one is near."""
     from linkwright.registry import nearest
 
-    return nearest(word, list(known))
+    offer = nearest(word, list(known))
+    return say("cli.did_you_mean", name=offer) if offer else otherwise
 
 
 def whole_number(text: str) -> int:
@@ -73,10 +75,62 @@ def number_of(text: str) -> float:
         return math.nan
 
 
+class Options:
+    """Declares options in a parser or a group of one; what ``--name`` does is the word ``AREA.name_help``."""
+
+    def __init__(self, place: argparse._ActionsContainer, say: Say, area: str) -> None:
+        self.place, self.say, self.area = place, say, area
+
+    def __call__(
+        self, name: str, metavar: str | None = None, *others: str, words: str = "", **settings: Any
+    ) -> None:
+        """An option or an argument, with further names; ``words``: a key of another area or name for its help."""
+        key = words or f"{self.area}.{name.lstrip('-').replace('-', '_')}_help"
+        settings["help"] = settings.get("help") or self.say(key)
+        self.place.add_argument(
+            name, *others, **settings if metavar is None else {**settings, "metavar": metavar}
+        )
+
+    def flag(self, name: str, words: str = "") -> None:
+        """An option that stands or does not."""
+        self(name, action="store_true", words=words)
+
+    def either(self, name: str, usual: bool | None) -> None:
+        """An option that stands, stands with ``no-`` before it, or does not."""
+        self(name, action=argparse.BooleanOptionalAction, default=usual)
+
+    def count(self, name: str, usual: int | None = None, **settings: Any) -> None:
+        """An option with a whole number, 1 or more."""
+        self(name, "N", type=whole_number, default=usual, **settings)
+
+    def model(self) -> None:
+        """The model file that a command takes."""
+        self("file", "FILE", words="cli.file_help")
+
+    def force(self) -> None:
+        """Whether files may be replaced."""
+        self.flag("--force", words="cli.force_help")
+
+    def group(self, title: str) -> Options:
+        """Options under a title of their own in the help."""
+        return Options(self.place.add_argument_group(self.say(self._key(title))), self.say, self.area)
+
+    def exclusive(self) -> Options:
+        """Options of which one may stand."""
+        return Options(self.place.add_mutually_exclusive_group(), self.say, self.area)
+
+    def of(self, area: str) -> Options:
+        """The same place, with the words of another area."""
+        return Options(self.place, self.say, area)
+
+    def _key(self, name: str) -> str:
+        return name if "." in name else f"{self.area}.{name}"
+
+
 def add_common(parser: argparse.ArgumentParser, say: Say) -> None:
     """Options that every command has."""
-    group = parser.add_argument_group(say("cli.common"))
-    group.add_argument("--json", action="store_true", help=say("cli.json_help"))
-    group.add_argument("--lang", metavar="en|zh", help=say("cli.lang_help"))
-    group.add_argument("--debug", action="store_true", help=say("cli.debug_help"))
-    group.add_argument("-h", "--help", action="store_true", help=say("cli.help_help"))
+    common = Options(parser, say, "cli").group("common")
+    common.flag("--json")
+    common("--lang", "en|zh")
+    common.flag("--debug")
+    common("-h", None, "--help", action="store_true", words="cli.help_help")

@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkwright.cli.errors import UsageError
+from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
-from linkwright.words import Say
 
 if TYPE_CHECKING:
     from linkwright.parts.base import Problem, Result
@@ -20,16 +20,15 @@ ENDINGS = (".csv", ".json")
 DIGITS = range(3, 16)
 
 
-def part_arguments(parser: argparse.ArgumentParser, say: Say) -> None:
+def part_arguments(option: Options) -> None:
     """The options that all commands for machine parts have."""
-    parser.add_argument("file", metavar="FILE", help=say("part.file_help"))
-    parser.add_argument("--worked", action="store_true", help=say("part.worked_help"))
-    parser.add_argument(
-        "--digits", type=int, choices=DIGITS, default=6, metavar="N", help=say("part.digits_help")
-    )
-    parser.add_argument("--plot", metavar="FILE", help=say("part.plot_help"))
-    parser.add_argument("--output", metavar="FILE", help=say("part.output_help"))
-    parser.add_argument("--force", action="store_true", help=say("cli.force_help"))
+    option = option.of("part")
+    option("file", "FILE")
+    option.flag("--worked")
+    option("--digits", "N", type=int, choices=DIGITS, default=6)
+    option("--plot", "FILE")
+    option("--output", "FILE")
+    option.force()
 
 
 def run_part(options: argparse.Namespace, session: Session, kinds: Sequence[str]) -> int:
@@ -47,9 +46,9 @@ class PartCommand:
     def __init__(self, name: str) -> None:
         self.name = name
 
-    def arguments(self, parser: argparse.ArgumentParser, say: Say) -> None:
+    def arguments(self, option: Options) -> None:
         """The options that all commands for machine parts have."""
-        part_arguments(parser, say)
+        part_arguments(option)
 
     def run(self, options: argparse.Namespace, session: Session) -> int:
         """Solves the file's problem."""
@@ -125,6 +124,4 @@ def show(result: Result, options: argparse.Namespace, session: Session, *, kind:
         result.worked(session.language) if options.worked else result.text(session.language, options.digits)
     )
     session.show(text)
-    for written in (options.output, options.plot):
-        if written is not None:
-            session.show(f"\n{session.say('cli.written', path=written)}")
+    session.show_written(options.output, options.plot, apart=True)

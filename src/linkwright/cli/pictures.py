@@ -7,38 +7,38 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from linkwright.cli.errors import UsageError
-from linkwright.cli.parser import whole_number
+from linkwright.cli.parser import Options, whole_number
 from linkwright.cli.session import Session
 from linkwright.kinematics.motion import Motion
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import no_such
-from linkwright.words import Say
 from linkwright.words.sentence import Sentence
 
 
-def source_arguments(parser: argparse.ArgumentParser, say: Say, *, steps: int) -> None:
+def source_arguments(option: Options, *, steps: int) -> None:
     """The model file, and the steps of its cycle."""
-    parser.add_argument("file", metavar="FILE", help=say("cli.file_help"))
-    parser.add_argument(
-        "--steps", type=whole_number, default=steps, metavar="N", help=say("draw.steps_help", steps=steps)
-    )
+    option.model()
+    option.count("--steps", steps, help=option.say("draw.steps_help", steps=steps))
 
 
-def vector_arguments(group: argparse._ArgumentGroup, say: Say) -> None:
+def vector_arguments(option: Options) -> None:
     """What may be drawn as arrows."""
-    for name, metavar in (("velocities", "POINT"), ("accelerations", "POINT"), ("forces", "JOINT")):
-        group.add_argument(f"--{name}", nargs="*", metavar=metavar, help=say(f"draw.{name}_help"))
-    group.add_argument("--static", action="store_true", help=say("draw.static_help"))
-    group.add_argument("--centres", action="store_true", help=say("draw.centres_help"))
+    drawn = option.of("draw")
+    drawn("--velocities", "POINT", nargs="*")
+    drawn("--accelerations", "POINT", nargs="*")
+    drawn("--forces", "JOINT", nargs="*")
+    drawn.flag("--static")
+    drawn.flag("--centres")
 
 
-def file_arguments(parser: argparse.ArgumentParser, say: Say, output_help: str) -> None:
+def file_arguments(option: Options) -> None:
     """Where the picture goes, how large, and in which letters."""
-    group = parser.add_argument_group(say("draw.form_title"))
-    group.add_argument("--output", metavar="FILE", required=True, help=output_help)
-    group.add_argument("--force", action="store_true", help=say("cli.force_help"))
-    group.add_argument("--width", type=whole_number, metavar="PIXELS", help=say("draw.width_help"))
-    group.add_argument("--fonts", nargs="+", metavar="FILE", default=(), help=say("draw.fonts_help"))
+    group = option.group("draw.form_title")
+    group("--output", "FILE", required=True)
+    group.force()
+    drawn = group.of("draw")
+    drawn("--width", "PIXELS", type=whole_number)
+    drawn("--fonts", "FILE", nargs="+", default=())
 
 
 def names(words: Sequence[str] | None) -> tuple[str, ...]:
@@ -92,4 +92,4 @@ def told(path: Path, options: argparse.Namespace, session: Session) -> None:
     if options.json:
         session.show_data({"ok": True, "written": str(path)})
     else:
-        session.show(session.say("cli.written", path=path))
+        session.show_written(path)

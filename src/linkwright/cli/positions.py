@@ -8,8 +8,8 @@ from collections.abc import Mapping
 
 from linkwright import units
 from linkwright.cli.errors import UsageError
+from linkwright.cli.parser import did_you_mean
 from linkwright.errors import QuantityError
-from linkwright.registry import nearest
 from linkwright.words import Say
 from linkwright.words.sentence import Sentence
 
@@ -46,8 +46,7 @@ def inputs(text: str, rotary: Mapping[str, bool], say: Say) -> dict[str, list[fl
         name, equals, values = part.rpartition("=")
         name = name.strip() if equals else next(iter(rotary))
         if name not in rotary:
-            offer = nearest(name, list(rotary))
-            hint = say("cli.did_you_mean", name=offer) if offer else ""
+            hint = did_you_mean(name, rotary, say)
             raise UsageError(say("cli.about", name="--at", cause=say("solve.no_driver", name=name) + hint))
         found[name] = quantities(values, "angle" if rotary[name] else "length", say, "--at")
     counts = {len(values) for values in found.values()} - {1}

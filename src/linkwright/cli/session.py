@@ -42,6 +42,12 @@ class Session:
 
         self.show(json_text(value))
 
+    def show_written(self, *paths: object, apart: bool = False) -> None:
+        """Says which files were written, but for those that are None; ``apart``: each behind an empty line."""
+        for path in paths:
+            if path is not None:
+                self.show("\n" * apart + self.say("cli.written", path=path))
+
     def flush(self) -> None:
         """Sees to it that everything shown is written."""
         with _writing():

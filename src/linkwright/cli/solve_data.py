@@ -3,27 +3,22 @@
 from __future__ import annotations
 
 import argparse
-import csv
-import io
 
 from linkwright.cli.columns import Column, pick
 from linkwright.cli.data import finding_data
 from linkwright.cli.solve_columns import leading, point_keys
 from linkwright.cli.solve_remarks import closeness, largest
 from linkwright.cli.solving import Solved
+from linkwright.cli.tables import csv_of
 from linkwright.plot.force_names import reaction_pairs
 from linkwright.words import Say
 
 
 def csv_text(solved: Solved, options: argparse.Namespace, say: Say) -> str:
     """A line of names with units, then a line per position; empty where a position was not reached."""
-    columns = chosen(solved, options, say)
-    stream = io.StringIO()
-    writer = csv.writer(stream, lineterminator="\n")
-    writer.writerow([f"{column.name} [{column.unit}]" for column in columns])
-    for row in zip(*(column.values.tolist() for column in columns), strict=True):
-        writer.writerow(["" if value != value else repr(value) for value in row])
-    return stream.getvalue()
+    return csv_of(
+        {f"{column.name} [{column.unit}]": column.values for column in chosen(solved, options, say)}
+    )
 
 
 def data(solved: Solved, options: argparse.Namespace, say: Say) -> dict[str, object]:

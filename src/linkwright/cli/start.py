@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from linkwright.cli import commands
 from linkwright.cli.errors import OutputError, UsageError
 from linkwright.cli.help import command_parser, overview, version
-from linkwright.cli.parser import nearest_of
+from linkwright.cli.parser import did_you_mean
 from linkwright.cli.session import Session
 from linkwright.errors import NO_FILE, LinkwrightError, ModelError, RequestError
 from linkwright.words import LANGUAGES, Say, speaker
@@ -131,9 +131,7 @@ def _language(arguments: Sequence[str]) -> str:
 
 
 def _unknown(say: Say, key: str, word: str, known: Sequence[str]) -> str:
-    offer = nearest_of(word, known)
-    hint = say("cli.did_you_mean", name=offer) if offer else say("cli.see_help", command="linkwright")
-    return say(key, name=word) + hint
+    return say(key, name=word) + did_you_mean(word, known, say, say("cli.see_help", command="linkwright"))
 
 
 def _refused(error: LinkwrightError, session: Session) -> int:

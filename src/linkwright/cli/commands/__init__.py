@@ -1,6 +1,6 @@
 """The commands, one module each, imported only when the command is called.
 
-A module ``NAME`` has ``arguments(parser, say)``, which adds its options, and ``run(options, session)``, which
+A module ``NAME`` has ``arguments(option)``, which declares its options, and ``run(options, session)``, which
 returns the exit code. Its words are the area ``NAME`` of the catalogue, at least ``summary`` (one line for the
 list of commands), ``description`` and ``examples``. The commands ``PARTS`` have words alone.
 """
@@ -11,9 +11,9 @@ import argparse
 import importlib
 from typing import Protocol, cast
 
+from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
 from linkwright.core.installed import modules_within
-from linkwright.words import Say
 
 #: Commands that solve the file of a machine part and do nothing else.
 PARTS = ("beam", "program", "statistics", "trajectory", "vibration")
@@ -22,8 +22,8 @@ PARTS = ("beam", "program", "statistics", "trajectory", "vibration")
 class Command(Protocol):
     """What a command's module has."""
 
-    def arguments(self, parser: argparse.ArgumentParser, say: Say) -> None:
-        """Adds the command's own options."""
+    def arguments(self, option: Options) -> None:
+        """Declares the command's own options."""
 
     def run(self, options: argparse.Namespace, session: Session) -> int:
         """Does the work and returns the exit code."""

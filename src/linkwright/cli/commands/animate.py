@@ -6,7 +6,7 @@ import argparse
 from typing import TYPE_CHECKING
 
 from linkwright.cli.errors import UsageError
-from linkwright.cli.parser import whole_number
+from linkwright.cli.parser import Options
 from linkwright.cli.pictures import (
     cycle,
     file_arguments,
@@ -31,26 +31,17 @@ FRAMES = 60
 WIDTH = 640
 
 
-def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
-    """The command's options."""
-    source_arguments(parser, say, steps=STEPS)
-    what = parser.add_argument_group(say("draw.what_title"))
-    what.add_argument("--traces", nargs="+", metavar="POINT", help=say("animate.traces_help"))
-    what.add_argument("--curves", nargs="+", metavar="RESULT", help=say("animate.curves_help"))
-    vector_arguments(what, say)
-    what.add_argument(
-        "--labels", action=argparse.BooleanOptionalAction, default=True, help=say("animate.labels_help")
-    )
-    pace = parser.add_argument_group(say("animate.pace_title"))
-    pace.add_argument("--seconds", metavar="TIME", help=say("animate.seconds_help"))
-    pace.add_argument(
-        "--frames",
-        type=whole_number,
-        default=FRAMES,
-        metavar="N",
-        help=say("animate.frames_help", frames=FRAMES),
-    )
-    file_arguments(parser, say, say("animate.output_help"))
+def arguments(option: Options) -> None:
+    source_arguments(option, steps=STEPS)
+    what = option.group("draw.what_title")
+    what("--traces", "POINT", nargs="+")
+    what("--curves", "RESULT", nargs="+")
+    vector_arguments(what)
+    what.either("--labels", True)
+    pace = option.group("pace_title")
+    pace("--seconds", "TIME")
+    pace.count("--frames", FRAMES, help=option.say("animate.frames_help", frames=FRAMES))
+    file_arguments(option)
 
 
 def run(options: argparse.Namespace, session: Session) -> int:

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from linkwright.cli.errors import UsageError
-from linkwright.cli.parser import number_of, whole_number
+from linkwright.cli.parser import Options, did_you_mean, number_of
 from linkwright.cli.session import Session
 from linkwright.words import Say
 from linkwright.words.sentence import Sentence
@@ -23,16 +23,13 @@ ENDINGS = (".yaml", ".yml")
 NOTHING = 1e-12
 
 
-def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
-    """The command's options."""
-    parser.add_argument("file", metavar="FILE", help=say("cli.file_help"))
-    parser.add_argument("--radius", required=True, metavar="LENGTH", help=say("balance.radius_help"))
-    parser.add_argument("--share", default="1", metavar="NUMBER", help=say("balance.share_help"))
-    parser.add_argument(
-        "--steps", type=whole_number, default=360, metavar="N", help=say("balance.steps_help")
-    )
-    parser.add_argument("--output", metavar="FILE", help=say("balance.output_help"))
-    parser.add_argument("--force", action="store_true", help=say("cli.force_help"))
+def arguments(option: Options) -> None:
+    option.model()
+    option("--radius", "LENGTH", required=True)
+    option("--share", "NUMBER", default="1")
+    option.count("--steps", 360)
+    option("--output", "FILE")
+    option.force()
 
 
 def run(options: argparse.Namespace, session: Session) -> int:
@@ -54,8 +51,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
         session.show_data(_data(found))
         return 0
     session.show("\n".join(_report(found, session)))
-    if options.output is not None:
-        session.show(f"\n{say('cli.written', path=options.output)}")
+    session.show_written(options.output, apart=True)
     return 0
 
 
@@ -74,10 +70,7 @@ def _radius(text: str, mechanism: Mechanism, say: Say) -> float | dict[str, floa
     for part in text.split(","):
         link, _, given = (piece.strip() for piece in part.partition("="))
         if link not in mechanism.links:
-            from linkwright.registry import nearest
-
-            offer = nearest(link, list(mechanism.links))
-            hint = say("cli.did_you_mean", name=offer) if offer else ""
+            hint = did_you_mean(link, mechanism.links, say)
             raise UsageError(say("balance.no_link", link=link) + hint)
         radii[link] = _length(given, say)
     return radii

@@ -8,10 +8,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkwright.cli.errors import UsageError
-from linkwright.cli.parser import whole_number
+from linkwright.cli.parser import Options
 from linkwright.cli.part import kinds_of, part_arguments, read, refuse_outputs, show
 from linkwright.cli.session import Session
-from linkwright.words import Say
 
 if TYPE_CHECKING:
     from linkwright.cams.result import CamDesign
@@ -20,14 +19,13 @@ DIAGRAMS = ("cam_motion", "cam_checks", "cam_profile", "cam_vibration")
 PROFILES, DRAWINGS = (".dxf", ".csv", ".txt"), (".svg", ".pdf", ".png")
 
 
-def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
-    """The command's options."""
-    part_arguments(parser, say)
-    parser.add_argument("--kind", choices=DIAGRAMS, default=DIAGRAMS[0], help=say("cam.kind_help"))
-    parser.add_argument("--profile", metavar="FILE", help=say("cam.profile_help"))
-    parser.add_argument("--points", type=whole_number, default=720, metavar="N", help=say("cam.points_help"))
-    parser.add_argument("--draw", metavar="FILE", help=say("cam.draw_help"))
-    parser.add_argument("--at", type=float, default=0.0, metavar="DEG", help=say("cam.at_help"))
+def arguments(option: Options) -> None:
+    part_arguments(option)
+    option("--kind", choices=DIAGRAMS, default=DIAGRAMS[0])
+    option("--profile", "FILE")
+    option.count("--points", 720)
+    option("--draw", "FILE")
+    option("--at", "DEG", type=float, default=0.0)
 
 
 def run(options: argparse.Namespace, session: Session) -> int:
@@ -56,5 +54,4 @@ def _write(design: CamDesign, options: argparse.Namespace, session: Session) -> 
     if options.draw is not None:
         written.append(design.draw(math.radians(options.at), session.language).save(Path(options.draw)))
     if not session.json:
-        for path in written:
-            session.show(session.say("cli.written", path=path))
+        session.show_written(*written)

@@ -8,10 +8,10 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from linkwright import gallery
+from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
 from linkwright.core.expressions import Expression
 from linkwright.errors import NO_FILE, Finding, LinkwrightError, ModelError
-from linkwright.words import Say
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
@@ -25,10 +25,9 @@ if TYPE_CHECKING:
 TRIED = 72
 
 
-def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
-    """The command's options."""
-    parser.add_argument("files", metavar="FILE", nargs="+", help=say("check.files_help"))
-    parser.add_argument("--strict", action="store_true", help=say("check.strict_help"))
+def arguments(option: Options) -> None:
+    option("files", "FILE", nargs="+")
+    option.flag("--strict")
 
 
 def run(options: argparse.Namespace, session: Session) -> int:

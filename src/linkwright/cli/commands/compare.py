@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkwright.cli.errors import UsageError
-from linkwright.cli.parser import number_of, whole_number
+from linkwright.cli.parser import Options, number_of
 from linkwright.cli.session import Session
 from linkwright.words import Say
 from linkwright.words.sentence import Sentence
@@ -19,20 +19,17 @@ if TYPE_CHECKING:
 ENDINGS = (".csv", ".json")
 
 
-def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
-    """The command's options."""
-    parser.add_argument("files", metavar="FILE", nargs="+", help=say("compare.files_help"))
-    parser.add_argument("--metrics", nargs="+", metavar="METRIC", help=say("compare.metrics_help"))
-    parser.add_argument("--weights", nargs="+", metavar="NAME=NUMBER", help=say("compare.weights_help"))
-    parser.add_argument("--of", nargs="+", metavar="NAME", help=say("compare.of_help"))
-    parser.add_argument("--fluctuation", default="0.02", metavar="δ", help=say("compare.fluctuation_help"))
-    parser.add_argument(
-        "--steps", type=whole_number, default=360, metavar="N", help=say("compare.steps_help")
-    )
-    parser.add_argument("--output", metavar="FILE", help=say("compare.output_help"))
-    parser.add_argument("--curves", metavar="FILE", help=say("compare.curves_help"))
-    parser.add_argument("--plot", metavar="FILE", help=say("compare.plot_help"))
-    parser.add_argument("--force", action="store_true", help=say("cli.force_help"))
+def arguments(option: Options) -> None:
+    option("files", "FILE", nargs="+")
+    option("--metrics", "METRIC", nargs="+")
+    option("--weights", "NAME=NUMBER", nargs="+")
+    option("--of", "NAME", nargs="+")
+    option("--fluctuation", "δ", default="0.02")
+    option.count("--steps", 360)
+    option("--output", "FILE")
+    option("--curves", "FILE")
+    option("--plot", "FILE")
+    option.force()
 
 
 def run(options: argparse.Namespace, session: Session) -> int:
@@ -105,6 +102,4 @@ def _show(found: Comparison, options: argparse.Namespace, session: Session) -> N
         session.show_data(found.data())
         return
     session.show("\n".join(session.table(found.text(session.language).splitlines())))
-    for path in (options.output, options.curves, options.plot):
-        if path is not None:
-            session.show(session.say("cli.written", path=Path(path)))
+    session.show_written(*(path and Path(path) for path in (options.output, options.curves, options.plot)))

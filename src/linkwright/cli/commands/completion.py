@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import argparse
 
+from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
 from linkwright.cli.shells import SHELLS, script
-from linkwright.words import Say
 
 
-def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
-    """The command's options."""
-    parser.add_argument("shell", metavar="|".join(SHELLS), choices=SHELLS, help=say("completion.shell_help"))
+def arguments(option: Options) -> None:
+    option("shell", "|".join(SHELLS), choices=SHELLS)
 
 
 def run(options: argparse.Namespace, session: Session) -> int:

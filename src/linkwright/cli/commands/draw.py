@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkwright.cli.errors import UsageError
+from linkwright.cli.parser import Options
 from linkwright.cli.pictures import (
     cycle,
     file_arguments,
@@ -32,23 +33,20 @@ STEPS = 120
 LABELS: dict[str, bool | str] = {"all": True, "points": "points", "none": False}
 
 
-def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
-    """The command's options."""
-    source_arguments(parser, say, steps=STEPS)
-    where = parser.add_argument_group(say("draw.where_title"))
-    one = where.add_mutually_exclusive_group()
-    one.add_argument("--at", metavar="INPUTS", help=say("draw.at_help"))
-    one.add_argument("--time", metavar="TIME", help=say("draw.time_help"))
-    where.add_argument("--overlay", metavar="WHICH", default="", help=say("draw.overlay_help"))
-    what = parser.add_argument_group(say("draw.what_title"))
-    what.add_argument("--paths", nargs="+", metavar="POINT", help=say("draw.paths_help"))
-    vector_arguments(what, say)
-    what.add_argument("--dimensions", nargs="*", metavar="LENGTH", help=say("draw.dimensions_help"))
-    what.add_argument("--labels", choices=tuple(LABELS), default="all", help=say("draw.labels_help"))
-    what.add_argument(
-        "--inputs", action=argparse.BooleanOptionalAction, default=True, help=say("draw.inputs_help")
-    )
-    file_arguments(parser, say, say("draw.output_help"))
+def arguments(option: Options) -> None:
+    source_arguments(option, steps=STEPS)
+    where = option.group("where_title")
+    one = where.exclusive()
+    one("--at", "INPUTS")
+    one("--time", "TIME")
+    where("--overlay", "WHICH", default="")
+    what = option.group("what_title")
+    what("--paths", "POINT", nargs="+")
+    vector_arguments(what)
+    what("--dimensions", "LENGTH", nargs="*")
+    what("--labels", choices=tuple(LABELS), default="all")
+    what.either("--inputs", True)
+    file_arguments(option)
 
 
 def run(options: argparse.Namespace, session: Session) -> int:

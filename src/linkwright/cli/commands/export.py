@@ -8,9 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from linkwright.cli.errors import UsageError
-from linkwright.cli.parser import whole_number
+from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
-from linkwright.words import Say
 
 NAMES = ("csv", "dxf", "html", "json", "mjcf", "modelica", "parquet", "pdf", "png", "svg", "xlsx")
 #: Options of formats; one that a format lacks is refused with those that it has.
@@ -20,34 +19,27 @@ OPTIONS = (
 )  # fmt: skip
 
 
-def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
-    """The command's options."""
-    parser.add_argument("file", metavar="FILE", help=say("cli.file_help"))
-    parser.add_argument(
-        "--output", "--to", dest="output", metavar="FILE", required=True, help=say("export.output_help")
-    )
-    parser.add_argument(
-        "--format", choices=NAMES, metavar="FORMAT", help=say("export.format_help", names=", ".join(NAMES))
-    )
-    parser.add_argument("--steps", type=whole_number, default=360, metavar="N", help=say("export.steps_help"))
-    parser.add_argument("--degrees", action="store_true", default=None, help=say("export.degrees_help"))
-    parser.add_argument("--unit", choices=("mm", "m"), help=say("export.unit_help"))
-    parser.add_argument("--position", type=int, metavar="N", help=say("export.position_help"))
-    parser.add_argument("--paths", nargs="+", metavar="POINT", help=say("export.paths_help"))
-    parser.add_argument("--curve", choices=("polyline", "spline"), help=say("export.curve_help"))
+def arguments(option: Options) -> None:
+    option.model()
+    option("--output", "FILE", "--to", required=True)
+    option("--format", "FORMAT", choices=NAMES, help=option.say("export.format_help", names=", ".join(NAMES)))
+    option.count("--steps", 360)
+    option("--degrees", action="store_true", default=None)
+    option("--unit", choices=("mm", "m"))
+    option("--position", "N", type=int)
+    option("--paths", "POINT", nargs="+")
+    option("--curve", choices=("polyline", "spline"))
     for name in ("dimensions", "labels", "accelerations"):
-        parser.add_argument(
-            f"--{name}", action=argparse.BooleanOptionalAction, default=None, help=say(f"export.{name}_help")
-        )
-    parser.add_argument("--form", choices=("rates", "positions"), help=say("export.form_help"))
-    parser.add_argument("--name", metavar="NAME", help=say("export.name_help"))
-    parser.add_argument("--timestep", type=float, metavar="S", help=say("export.timestep_help"))
-    parser.add_argument("--indent", type=int, metavar="N", help=say("export.indent_help"))
-    parser.add_argument("--compression", metavar="NAME", help=say("export.compression_help"))
-    parser.add_argument("--width", type=whole_number, metavar="N", help=say("export.width_help"))
-    parser.add_argument("--size", type=float, metavar="N", help=say("export.size_help"))
-    parser.add_argument("--beside", nargs="+", metavar="FILE", help=say("export.beside_help"))
-    parser.add_argument("--force", action="store_true", help=say("cli.force_help"))
+        option.either(f"--{name}", None)
+    option("--form", choices=("rates", "positions"))
+    option("--name", "NAME")
+    option("--timestep", "S", type=float)
+    option("--indent", "N", type=int)
+    option("--compression", "NAME")
+    option.count("--width")
+    option("--size", "N", type=float)
+    option("--beside", "FILE", nargs="+")
+    option.force()
 
 
 def run(options: argparse.Namespace, session: Session) -> int:
@@ -74,7 +66,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     if session.json:
         session.show_data({"ok": True, "path": str(path), "format": chosen})
     else:
-        session.show(session.say("cli.written", path=path))
+        session.show_written(path)
     return 0
 
 

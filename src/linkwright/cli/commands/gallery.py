@@ -7,18 +7,17 @@ from pathlib import Path
 
 from linkwright.cli.errors import UsageError
 from linkwright.cli.files import write_whole
-from linkwright.cli.parser import nearest_of
+from linkwright.cli.parser import Options, did_you_mean
 from linkwright.cli.session import Session
+from linkwright.registry import nearest
 from linkwright.words import Say
 
 
-def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
-    """The command's options."""
-    what = say("gallery.action_help")
-    parser.add_argument("action", metavar="list|show|copy", nargs="?", default="list", help=what)
-    parser.add_argument("name", metavar="NAME", nargs="?", help=say("gallery.name_help"))
-    parser.add_argument("folder", metavar="DIR", nargs="?", default=".", help=say("gallery.folder_help"))
-    parser.add_argument("--force", action="store_true", help=say("cli.force_help"))
+def arguments(option: Options) -> None:
+    option("action", "list|show|copy", nargs="?", default="list")
+    option("name", "NAME", nargs="?")
+    option("folder", "DIR", nargs="?", default=".")
+    option.force()
 
 
 def run(options: argparse.Namespace, session: Session) -> int:
@@ -26,7 +25,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     actions = {"list": _list, "show": _show, "copy": _copy}
     if options.action not in actions:
         say = session.say
-        offer = nearest_of(options.action, list(actions))
+        offer = nearest(options.action, list(actions))
         hint = say("cli.did_you_mean", name=f"gallery {offer}") if offer else ""
         choices = say("finding.comma").join(actions)
         raise UsageError(say("cli.bad_choice", name="gallery", value=options.action, choices=choices) + hint)
@@ -76,7 +75,7 @@ def _copy(options: argparse.Namespace, session: Session) -> int:
     if session.json:
         session.show_data({"written": str(path)})
     else:
-        session.show(session.say("cli.written", path=path))
+        session.show_written(path)
     return 0
 
 
@@ -89,12 +88,7 @@ def _text(options: argparse.Namespace, say: Say) -> tuple[str, str]:
     name = options.name.removeprefix("gallery:").removesuffix(".yaml")
     known = (*gallery.names(), *gallery.calculations(), *gallery.tasks())
     if name not in known:
-        offer = nearest_of(name, known)
-        hint = (
-            say("cli.did_you_mean", name=offer)
-            if offer
-            else say("cli.see_help", command="linkwright gallery")
-        )
+        hint = did_you_mean(name, known, say, say("cli.see_help", command="linkwright gallery"))
         raise UsageError(say("gallery.unknown", name=name) + hint)
     return name, gallery.file(name).read_text(encoding="utf-8")
 

@@ -6,18 +6,17 @@ import argparse
 import json
 from pathlib import Path
 
+from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
-from linkwright.words import Say
 
 ENDINGS = (".csv",)
 
 
-def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
-    """The command's options."""
-    parser.add_argument("key", metavar="KEY", help=say("grade.key_help"))
-    parser.add_argument("answers", metavar="ANSWERS", help=say("grade.answers_help"))
-    parser.add_argument("--output", metavar="FILE", help=say("grade.output_help"))
-    parser.add_argument("--force", action="store_true", help=say("cli.force_help"))
+def arguments(option: Options) -> None:
+    option("key", "KEY")
+    option("answers", "ANSWERS")
+    option("--output", "FILE")
+    option.force()
 
 
 def run(options: argparse.Namespace, session: Session) -> int:
@@ -42,6 +41,5 @@ def run(options: argparse.Namespace, session: Session) -> int:
         session.show_data({"ok": True, "sheets": sheets})
         return 0
     session.show("\n".join(session.table(aligned(rows, "<>><<"))))
-    if options.output is not None:
-        session.show(f"\n{session.say('cli.written', path=options.output)}")
+    session.show_written(options.output, apart=True)
     return 0

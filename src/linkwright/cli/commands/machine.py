@@ -6,7 +6,7 @@ import argparse
 from typing import TYPE_CHECKING, Any
 
 from linkwright.cli.errors import UsageError
-from linkwright.cli.parser import whole_number
+from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
 from linkwright.words import Say
 
@@ -21,29 +21,26 @@ FLUCTUATION = "0.02"
 CURVE_OPTIONS = ("scale", "load", "period", "speed", "inertia", "mass", "gyration")
 
 
-def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
-    """The command's options."""
-    parser.add_argument("file", metavar="FILE", nargs="?", help=say("machine.file_help"))
-    what = parser.add_argument_group(say("machine.what_title"))
-    what.add_argument("--fluctuation", metavar="δ", help=say("machine.fluctuation_help"))
-    what.add_argument("--ratio", default="1", metavar="i", help=say("machine.ratio_help"))
-    what.add_argument("--efficiency", default="1", metavar="η", help=say("machine.efficiency_help"))
-    what.add_argument("--margin", default="1", metavar="NUMBER", help=say("machine.margin_help"))
-    shape = what.add_mutually_exclusive_group()
+def arguments(option: Options) -> None:
+    option("file", "FILE", nargs="?")
+    what = option.group("what_title")
+    what("--fluctuation", "δ")
+    what("--ratio", "i", default="1")
+    what("--efficiency", "η", default="1")
+    what("--margin", "NUMBER", default="1")
+    shape = what.exclusive()
     for name in ("disk", "rim"):
-        shape.add_argument(
-            f"--{name}", nargs="?", const="", metavar="KEY=VALUE,…", help=say(f"machine.{name}_help")
-        )
-    curves = parser.add_argument_group(say("machine.curves_title"))
-    given = curves.add_mutually_exclusive_group()
-    given.add_argument("--areas", metavar="MM²,…", help=say("machine.areas_help"))
-    given.add_argument("--torque", metavar="EXPRESSION", help=say("machine.torque_help"))
+        shape(f"--{name}", "KEY=VALUE,…", nargs="?", const="")
+    curves = option.group("curves_title")
+    given = curves.exclusive()
+    given("--areas", "MM²,…")
+    given("--torque", "EXPRESSION")
     for name in CURVE_OPTIONS:
-        curves.add_argument(f"--{name}", metavar=name.upper(), help=say(f"machine.{name}_help"))
-    form = parser.add_argument_group(say("machine.form_title"))
-    form.add_argument("--steps", type=whole_number, default=360, metavar="N", help=say("machine.steps_help"))
-    form.add_argument("--output", metavar="FILE", help=say("machine.output_help"))
-    form.add_argument("--force", action="store_true", help=say("cli.force_help"))
+        curves(f"--{name}", name.upper())
+    form = option.group("form_title")
+    form.count("--steps", 360)
+    form("--output", "FILE")
+    form.force()
 
 
 def run(options: argparse.Namespace, session: Session) -> int:
@@ -107,8 +104,8 @@ def _mechanism(options: argparse.Namespace, asked: Wanted, session: Session) -> 
     if running.driven is not None:
         warnings.insert(0, running.driven.say(session.language))
     _show(mechanism.name, of_running(running, asked), warnings, session)
-    if options.output is not None and not session.json:
-        session.show(f"\n{session.say('cli.written', path=options.output)}")
+    if not session.json:
+        session.show_written(options.output, apart=True)
     return 0
 
 

@@ -6,7 +6,7 @@ import argparse
 from typing import TYPE_CHECKING, Any
 
 from linkwright.cli.errors import UsageError
-from linkwright.cli.parser import whole_number
+from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
 from linkwright.words import Say, say
 from linkwright.words.sentence import Sentence, in_words
@@ -21,19 +21,14 @@ ENDINGS = (".csv", ".json")
 COLUMNS = ("metric", "subject", "value", "unit", "at", "at_unit", "limit", "exact", "warning", "remark")
 
 
-def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
-    """The command's options."""
-    parser.add_argument("file", metavar="FILE", help=say("cli.file_help"))
-    parser.add_argument("--names", nargs="+", metavar="NAME,NAME", help=say("metrics.names_help"))
-    parser.add_argument(
-        "--steps", type=whole_number, default=360, metavar="N", help=say("metrics.steps_help")
-    )
-    parser.add_argument(
-        "--forces", action=argparse.BooleanOptionalAction, default=None, help=say("metrics.forces_help")
-    )
-    parser.add_argument("--mark", action="store_true", help=say("metrics.mark_help"))
-    parser.add_argument("--output", metavar="FILE", help=say("metrics.output_help"))
-    parser.add_argument("--force", action="store_true", help=say("cli.force_help"))
+def arguments(option: Options) -> None:
+    option.model()
+    option("--names", "NAME,NAME", nargs="+")
+    option.count("--steps", 360)
+    option.either("--forces", None)
+    option.flag("--mark")
+    option("--output", "FILE")
+    option.force()
 
 
 def run(options: argparse.Namespace, session: Session) -> int:
@@ -54,8 +49,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
         session.show_data(data)
     else:
         session.show("\n".join(_report(table, session)))
-        if options.output is not None:
-            session.show(f"\n{say('cli.written', path=options.output)}")
+        session.show_written(options.output, apart=True)
     if trouble is not None:
         session.tell_error(trouble.say(session.language))
     return int(trouble is not None)

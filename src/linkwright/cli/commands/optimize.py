@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkwright.cli.errors import UsageError
-from linkwright.cli.parser import whole_number
+from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
 from linkwright.words import Say
 
@@ -17,26 +17,23 @@ if TYPE_CHECKING:
 ENDINGS = (".yaml", ".yml", ".json")
 
 
-def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
-    """The command's options."""
-    parser.add_argument("file", metavar="FILE", help=say("optimize.file_help"))
-    parser.add_argument("--vary", nargs="+", metavar="RANGE", help=say("optimize.vary_help"))
-    parser.add_argument("--minimize", nargs="+", metavar="NUMBER", help=say("optimize.minimize_help"))
-    parser.add_argument("--maximize", nargs="+", metavar="NUMBER", help=say("optimize.maximize_help"))
-    parser.add_argument("--keep", nargs="+", metavar="DEMAND", help=say("optimize.keep_help"))
-    parser.add_argument("--define", nargs="+", metavar="NAME", help=say("optimize.define_help"))
-    parser.add_argument("--tolerance", nargs="+", metavar="DEVIATION", help=say("optimize.tolerance_help"))
-    parser.add_argument("--robust", metavar="worst|yield", help=say("optimize.robust_help"))
-    parser.add_argument("--yield", dest="least_yield", metavar="SHARE", help=say("optimize.yield_help"))
-    parser.add_argument(
-        "--evaluations", type=whole_number, metavar="N", help=say("optimize.evaluations_help")
-    )
-    parser.add_argument("--seed", type=int, metavar="N", help=say("optimize.seed_help"))
-    parser.add_argument("--state", metavar="FILE", help=say("optimize.state_help"))
-    parser.add_argument("--output", metavar="FILE", help=say("optimize.output_help"))
-    parser.add_argument("--plot", metavar="FILE", help=say("optimize.plot_help"))
-    parser.add_argument("--cluster", metavar="ADDRESS", help=say("sweep.cluster_help"))
-    parser.add_argument("--force", action="store_true", help=say("cli.force_help"))
+def arguments(option: Options) -> None:
+    option("file", "FILE")
+    option("--vary", "RANGE", nargs="+")
+    option("--minimize", "NUMBER", nargs="+")
+    option("--maximize", "NUMBER", nargs="+")
+    option("--keep", "DEMAND", nargs="+")
+    option("--define", "NAME", nargs="+")
+    option("--tolerance", "DEVIATION", nargs="+")
+    option("--robust", "worst|yield")
+    option("--yield", "SHARE", dest="least_yield")
+    option.count("--evaluations")
+    option("--seed", "N", type=int)
+    option("--state", "FILE")
+    option("--output", "FILE")
+    option("--plot", "FILE")
+    option("--cluster", "ADDRESS", words="sweep.cluster_help")
+    option.force()
 
 
 def run(options: argparse.Namespace, session: Session) -> int:
@@ -134,5 +131,4 @@ def _show(found: Optimum, options: argparse.Namespace, session: Session) -> None
         session.show_data({"ok": True, **found.data()})
         return
     session.show(found.text(session.language))
-    for path in [*written, *([options.plot] if options.plot else [])]:
-        session.show(session.say("cli.written", path=path))
+    session.show_written(*written, options.plot)

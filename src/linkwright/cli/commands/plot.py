@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkwright.cli.errors import UsageError
-from linkwright.cli.parser import whole_number
+from linkwright.cli.parser import Options
 from linkwright.cli.positions import quantities
 from linkwright.cli.session import Session
 from linkwright.words import Say
@@ -23,29 +23,26 @@ ENDINGS = (".svg", ".pdf", ".png")
 STEPS = 720
 
 
-def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
-    """The command's options."""
+def arguments(option: Options) -> None:
     from linkwright.plot.diagrams.diagram_by_name import kinds
 
-    parser.add_argument("files", metavar="FILE", nargs="+", help=say("plot.files_help"))
-    what = parser.add_argument_group(say("plot.what_title"))
-    what.add_argument(
-        "--kind", default="sva", metavar="KIND", help=say("plot.kind_help", kinds=", ".join(kinds()))
-    )
-    what.add_argument("--of", nargs="+", default=[], metavar="NAME", help=say("plot.of_help"))
-    what.add_argument("--joint", metavar="JOINT", help=say("plot.joint_help"))
-    what.add_argument("--on", metavar="LINK", help=say("plot.on_help"))
-    what.add_argument("--axes", metavar="LINK", help=say("plot.axes_help"))
-    what.add_argument("--at", metavar="INPUT", help=say("plot.at_help"))
-    what.add_argument("--steps", type=whole_number, default=STEPS, metavar="N", help=say("plot.steps_help"))
-    what.add_argument("--fluctuation", metavar="δ", help=say("plot.fluctuation_help"))
-    what.add_argument("--static", action="store_true", help=say("plot.static_help"))
-    form = parser.add_argument_group(say("plot.form_title"))
-    form.add_argument("--no-marks", action="store_true", help=say("plot.no_marks_help"))
-    form.add_argument("--title", metavar="TEXT", help=say("plot.title_help"))
-    form.add_argument("--dpi", default="200", metavar="N", help=say("plot.dpi_help"))
-    form.add_argument("--output", metavar="FILE", help=say("plot.output_help"))
-    form.add_argument("--force", action="store_true", help=say("cli.force_help"))
+    option("files", "FILE", nargs="+")
+    what = option.group("what_title")
+    what("--kind", "KIND", default="sva", help=option.say("plot.kind_help", kinds=", ".join(kinds())))
+    what("--of", "NAME", nargs="+", default=[])
+    what("--joint", "JOINT")
+    what("--on", "LINK")
+    what("--axes", "LINK")
+    what("--at", "INPUT")
+    what.count("--steps", STEPS)
+    what("--fluctuation", "δ")
+    what.flag("--static")
+    form = option.group("form_title")
+    form.flag("--no-marks")
+    form("--title", "TEXT")
+    form("--dpi", "N", default="200")
+    form("--output", "FILE")
+    form.force()
 
 
 def run(options: argparse.Namespace, session: Session) -> int:
@@ -151,7 +148,7 @@ def _write(diagram: Diagram, path: Path, dpi: float, options: argparse.Namespace
     if session.json:
         session.show_data({"ok": True, "kind": options.kind, "file": str(path)})
     else:
-        session.show(session.say("cli.written", path=path))
+        session.show_written(path)
 
 
 def _number(text: str, name: str, above: float, most: float, say: Say) -> float:

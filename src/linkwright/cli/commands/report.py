@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 
 from linkwright.cli.errors import UsageError
-from linkwright.cli.parser import whole_number
+from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
 from linkwright.words import Say
 
@@ -18,18 +18,15 @@ SECTIONS = (
 )  # fmt: skip
 
 
-def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
-    """The command's options."""
-    parser.add_argument("files", metavar="FILE", nargs="+", help=say("report.files_help"))
+def arguments(option: Options) -> None:
+    option("files", "FILE", nargs="+")
     names = ", ".join(SECTIONS)
-    parser.add_argument(
-        "--sections", nargs="+", default=[], metavar="NAME", help=say("report.sections_help", names=names)
-    )
-    parser.add_argument("--position", default="", metavar="INPUT", help=say("report.position_help"))
-    parser.add_argument("--positions", type=whole_number, metavar="N", help=say("report.positions_help"))
-    parser.add_argument("--to", metavar="pdf|html|docx", help=say("report.to_help"))
-    parser.add_argument("--output", metavar="FILE", help=say("report.output_help"))
-    parser.add_argument("--force", action="store_true", help=say("cli.force_help"))
+    option("--sections", "NAME", nargs="+", default=[], help=option.say("report.sections_help", names=names))
+    option("--position", "INPUT", default="")
+    option.count("--positions")
+    option("--to", "pdf|html|docx")
+    option("--output", "FILE")
+    option.force()
 
 
 def run(options: argparse.Namespace, session: Session) -> int:
@@ -62,7 +59,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
         session.tell(session.say("report.missing_title"))
         for sentence in found.missing:
             session.tell(f"  {sentence}")
-    session.show(session.say("cli.written", path=path))
+    session.show_written(path)
     return int(found.broken)
 
 

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import argparse
 
+from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
-from linkwright.words import Say
 
 
-def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
-    """The command's options."""
-    parser.add_argument("--output", metavar="FILE", help=say("schema.output_help"))
-    parser.add_argument("--force", action="store_true", help=say("cli.force_help"))
+def arguments(option: Options) -> None:
+    option("--output", "FILE")
+    option.force()
 
 
 def run(options: argparse.Namespace, session: Session) -> int:
@@ -27,5 +26,5 @@ def run(options: argparse.Namespace, session: Session) -> int:
         session.show(text)
         return 0
     write_whole(Path(options.output), text + "\n", force=options.force)
-    session.show(session.say("cli.written", path=options.output))
+    session.show_written(options.output)
     return 0

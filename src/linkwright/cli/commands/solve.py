@@ -6,7 +6,7 @@ import argparse
 from typing import TYPE_CHECKING
 
 from linkwright.cli.errors import UsageError
-from linkwright.cli.parser import whole_number
+from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
 from linkwright.words import Say
 
@@ -16,26 +16,23 @@ if TYPE_CHECKING:
 ENDINGS = (".csv", ".json")
 
 
-def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
-    """The command's options."""
-    parser.add_argument("file", metavar="FILE", help=say("cli.file_help"))
-    where = parser.add_argument_group(say("solve.where_title")).add_mutually_exclusive_group()
-    where.add_argument("--steps", type=whole_number, metavar="N", help=say("solve.steps_help"))
-    where.add_argument("--at", metavar="INPUTS", help=say("solve.at_help"))
-    where.add_argument("--times", metavar="TIMES", help=say("solve.times_help"))
-    what = parser.add_argument_group(say("solve.what_title"))
-    what.add_argument("--columns", nargs="+", metavar="PATTERN", help=say("solve.columns_help"))
-    what.add_argument("--points", nargs="+", metavar="POINT", help=say("solve.points_help"))
-    what.add_argument(
-        "--forces", action=argparse.BooleanOptionalAction, default=None, help=say("solve.forces_help")
-    )
-    what.add_argument("--static", action="store_true", help=say("solve.static_help"))
-    what.add_argument("--mark", action="store_true", help=say("solve.mark_help"))
-    what.add_argument("--worked", action="store_true", help=say("worked.help"))
-    form = parser.add_argument_group(say("solve.form_title"))
-    form.add_argument("--si", action="store_true", help=say("solve.si_help"))
-    form.add_argument("--output", metavar="FILE", help=say("solve.output_help"))
-    form.add_argument("--force", action="store_true", help=say("cli.force_help"))
+def arguments(option: Options) -> None:
+    option.model()
+    where = option.group("where_title").exclusive()
+    where.count("--steps")
+    where("--at", "INPUTS")
+    where("--times", "TIMES")
+    what = option.group("what_title")
+    what("--columns", "PATTERN", nargs="+")
+    what("--points", "POINT", nargs="+")
+    what.either("--forces", None)
+    what.flag("--static")
+    what.flag("--mark")
+    what.flag("--worked", words="worked.help")
+    form = option.group("form_title")
+    form.flag("--si")
+    form("--output", "FILE")
+    form.force()
 
 
 def run(options: argparse.Namespace, session: Session) -> int:
@@ -96,4 +93,4 @@ def _write(solved: Solved, options: argparse.Namespace, session: Session) -> Non
     asked = solved, options, session.say
     write_table(options.output, lambda: csv_text(*asked), lambda: data(*asked), force=options.force)
     if not session.json:
-        session.show(session.say("cli.written", path=Path(options.output)))
+        session.show_written(Path(options.output))

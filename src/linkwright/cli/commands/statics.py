@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import argparse
 
+from linkwright.cli.parser import Options
 from linkwright.cli.part import kinds_of, part_arguments, refuse_outputs, run_part, show
 from linkwright.cli.session import Session
-from linkwright.words import Say
 
 
-def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
-    """The command's options."""
-    part_arguments(parser, say)
+def arguments(option: Options) -> None:
+    part_arguments(option)
 
 
 def run(options: argparse.Namespace, session: Session) -> int:

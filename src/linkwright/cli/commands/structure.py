@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
+from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
 from linkwright.cli.source import read_model
 from linkwright.words import Say
@@ -14,11 +15,10 @@ if TYPE_CHECKING:
     from linkwright.mechanism.mechanism import Mechanism
 
 
-def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
-    """The command's options."""
-    parser.add_argument("file", metavar="FILE", help=say("cli.file_help"))
-    parser.add_argument("--program", action="store_true", help=say("structure.program_help"))
-    parser.add_argument("--forces", action="store_true", help=say("structure.forces_help"))
+def arguments(option: Options) -> None:
+    option.model()
+    option.flag("--program")
+    option.flag("--forces")
 
 
 def run(options: argparse.Namespace, session: Session) -> int:

@@ -4,20 +4,18 @@ from __future__ import annotations
 
 import argparse
 
-from linkwright.cli.parser import whole_number
+from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
-from linkwright.words import Say
 from linkwright.words.reasons import reason_of
 from linkwright.words.sentence import Sentence
 
 LAST_PORT = 65535
 
 
-def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
-    """The command's options."""
-    parser.add_argument("file", metavar="FILE", nargs="?", help=say("studio.file_help"))
-    parser.add_argument("--port", type=whole_number, default=0, metavar="N", help=say("studio.port_help"))
-    parser.add_argument("--no-browser", action="store_true", help=say("studio.browser_help"))
+def arguments(option: Options) -> None:
+    option("file", "FILE", nargs="?")
+    option.count("--port", 0)
+    option.flag("--no-browser", words="studio.browser_help")
 
 
 def run(options: argparse.Namespace, session: Session) -> int:

@@ -6,7 +6,7 @@ import argparse
 from typing import TYPE_CHECKING
 
 from linkwright.cli.errors import UsageError
-from linkwright.cli.parser import whole_number
+from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
 from linkwright.words import Say
 
@@ -16,28 +16,21 @@ if TYPE_CHECKING:
 ENDINGS = (".csv", ".json")
 
 
-def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
-    """The command's options."""
-    parser.add_argument("file", metavar="FILE", help=say("cli.file_help"))
-    parser.add_argument("--vary", nargs="+", required=True, metavar="RANGE", help=say("study.vary_help"))
-    parser.add_argument("--metrics", nargs="+", metavar="METRIC", help=say("study.metrics_help"))
-    parser.add_argument(
-        "--sampling", choices=("grid", "sobol"), default="grid", help=say("study.sampling_help")
-    )
-    parser.add_argument(
-        "--samples", type=whole_number, default=64, metavar="N", help=say("study.samples_help")
-    )
-    parser.add_argument("--seed", type=int, default=0, metavar="N", help=say("study.seed_help"))
-    parser.add_argument("--of", metavar="NAME", help=say("study.of_help"))
-    parser.add_argument(
-        "--fluctuation", type=float, default=0.02, metavar="δ", help=say("study.fluctuation_help")
-    )
-    parser.add_argument("--steps", type=whole_number, default=360, metavar="N", help=say("study.steps_help"))
-    parser.add_argument("--rows", type=whole_number, default=40, metavar="N", help=say("study.rows_help"))
-    parser.add_argument("--cluster", metavar="ADDRESS", help=say("sweep.cluster_help"))
-    parser.add_argument("--output", metavar="FILE", help=say("study.output_help"))
-    parser.add_argument("--plot", metavar="FILE", help=say("study.plot_help"))
-    parser.add_argument("--force", action="store_true", help=say("cli.force_help"))
+def arguments(option: Options) -> None:
+    option.model()
+    option("--vary", "RANGE", nargs="+", required=True)
+    option("--metrics", "METRIC", nargs="+")
+    option("--sampling", choices=("grid", "sobol"), default="grid")
+    option.count("--samples", 64)
+    option("--seed", "N", type=int, default=0)
+    option("--of", "NAME")
+    option("--fluctuation", "δ", type=float, default=0.02)
+    option.count("--steps", 360)
+    option.count("--rows", 40)
+    option("--cluster", "ADDRESS", words="sweep.cluster_help")
+    option("--output", "FILE")
+    option("--plot", "FILE")
+    option.force()
 
 
 def run(options: argparse.Namespace, session: Session) -> int:
@@ -82,7 +75,4 @@ def _show(found: Study, options: argparse.Namespace, session: Session) -> None:
         session.show_data(found.data())
         return
     session.show("\n".join(session.table(found.text(session.language, max(2, options.rows)).splitlines())))
-    for written in (options.output, options.plot):
-        if written is not None:
-            session.show()
-            session.show(session.say("cli.written", path=written))
+    session.show_written(options.output, options.plot, apart=True)

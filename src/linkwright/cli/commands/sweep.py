@@ -6,33 +6,25 @@ import argparse
 from typing import TYPE_CHECKING
 
 from linkwright.cli.commands.study import ranges_of
-from linkwright.cli.parser import whole_number
+from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
-from linkwright.words import Say
 
 if TYPE_CHECKING:
     from linkwright.export.sweep_parts import SweepParts
 
 
-def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
-    """The command's options."""
-    parser.add_argument("file", metavar="FILE", help=say("cli.file_help"))
-    parser.add_argument("--vary", nargs="+", required=True, metavar="RANGE", help=say("study.vary_help"))
-    parser.add_argument(
-        "--numbers", nargs="+", required=True, metavar="NUMBER", help=say("sweep.numbers_help")
-    )
-    parser.add_argument("--folder", required=True, metavar="FOLDER", help=say("sweep.folder_help"))
-    parser.add_argument(
-        "--sampling", choices=("grid", "sobol"), default="grid", help=say("study.sampling_help")
-    )
-    parser.add_argument(
-        "--samples", type=whole_number, default=65536, metavar="N", help=say("study.samples_help")
-    )
-    parser.add_argument("--seed", type=int, default=0, metavar="N", help=say("study.seed_help"))
-    parser.add_argument("--steps", type=whole_number, default=360, metavar="N", help=say("study.steps_help"))
-    parser.add_argument("--part", type=whole_number, default=16384, metavar="N", help=say("sweep.part_help"))
-    parser.add_argument("--cluster", metavar="ADDRESS", help=say("sweep.cluster_help"))
-    parser.add_argument("--best", metavar="NUMBER", help=say("sweep.best_help"))
+def arguments(option: Options) -> None:
+    option.model()
+    option("--vary", "RANGE", nargs="+", required=True, words="study.vary_help")
+    option("--numbers", "NUMBER", nargs="+", required=True)
+    option("--folder", "FOLDER", required=True)
+    option("--sampling", choices=("grid", "sobol"), default="grid", words="study.sampling_help")
+    option.count("--samples", 65536, words="study.samples_help")
+    option("--seed", "N", type=int, default=0, words="study.seed_help")
+    option.count("--steps", 360, words="study.steps_help")
+    option.count("--part", 16384)
+    option("--cluster", "ADDRESS")
+    option("--best", "NUMBER")
 
 
 def run(options: argparse.Namespace, session: Session) -> int:

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkwright.cli.errors import UsageError
-from linkwright.cli.parser import number_of
+from linkwright.cli.parser import Options, number_of
 from linkwright.cli.session import Session
 from linkwright.words import Say
 
@@ -15,19 +15,16 @@ if TYPE_CHECKING:
     from linkwright.synthesis.result import Synthesis, SynthesisError
 
 
-def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
-    """The command's options."""
+def arguments(option: Options) -> None:
     from linkwright.synthesis.names import TASK_NAMES
 
-    parser.add_argument(
-        "task", metavar="FILE|TASK", help=say("synthesize.task_help", tasks=", ".join(TASK_NAMES))
-    )
-    parser.add_argument("demands", metavar="KEY=VALUE", nargs="*", help=say("synthesize.demands_help"))
-    parser.add_argument("--output", metavar="FOLDER", help=say("synthesize.output_help"))
-    parser.add_argument("--plot", metavar="FILE", help=say("synthesize.plot_help"))
-    parser.add_argument("--mass", metavar="KG/M", help=say("synthesize.mass_help"))
-    parser.add_argument("--speed", default="60 rpm", metavar="SPEED", help=say("synthesize.speed_help"))
-    parser.add_argument("--force", action="store_true", help=say("cli.force_help"))
+    option("task", "FILE|TASK", help=option.say("synthesize.task_help", tasks=", ".join(TASK_NAMES)))
+    option("demands", "KEY=VALUE", nargs="*")
+    option("--output", "FOLDER")
+    option("--plot", "FILE")
+    option("--mass", "KG/M")
+    option("--speed", "SPEED", default="60 rpm")
+    option.force()
 
 
 def run(options: argparse.Namespace, session: Session) -> int:
@@ -103,8 +100,7 @@ def _show(found: Synthesis, options: argparse.Namespace, mass: float | None, ses
     session.show(found.text(session.language))
     if efforts:
         session.show("\n" + "\n".join(_effort_lines(efforts, session.say)))
-    for path in written:
-        session.show(session.say("cli.written", path=path))
+    session.show_written(*written)
 
 
 def _effort_lines(efforts: list[dict[str, float]], say: Say) -> list[str]:

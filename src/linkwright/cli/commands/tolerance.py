@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import argparse
 
+from linkwright.cli.parser import Options
 from linkwright.cli.part import kinds_of, part_arguments, run_part
 from linkwright.cli.session import Session
-from linkwright.words import Say
 
 
-def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
-    """The command's options."""
-    part_arguments(parser, say)
-    parser.add_argument("--cluster", metavar="ADDRESS", help=say("sweep.cluster_help"))
+def arguments(option: Options) -> None:
+    part_arguments(option)
+    option("--cluster", "ADDRESS", words="sweep.cluster_help")
 
 
 def run(options: argparse.Namespace, session: Session) -> int:

@@ -5,14 +5,13 @@ from __future__ import annotations
 import argparse
 
 from linkwright.cli.errors import UsageError
+from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
-from linkwright.words import Say
 
 
-def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
-    """The command's options."""
-    parser.add_argument("--case", default="", metavar="TEXT", help=say("validate.case_help"))
-    parser.add_argument("--every", action="store_true", help=say("validate.every_help"))
+def arguments(option: Options) -> None:
+    option("--case", "TEXT", default="")
+    option.flag("--every")
 
 
 def run(options: argparse.Namespace, session: Session) -> int:

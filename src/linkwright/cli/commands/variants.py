@@ -8,23 +8,19 @@ from math import degrees
 from pathlib import Path
 
 from linkwright.cli.errors import UsageError
-from linkwright.cli.parser import whole_number
+from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
-from linkwright.words import Say
 
 COUNT = 30
 
 
-def arguments(parser: argparse.ArgumentParser, say: Say) -> None:
-    """The command's options."""
-    parser.add_argument("file", metavar="FILE", help=say("cli.file_help"))
-    parser.add_argument(
-        "--count", type=whole_number, default=COUNT, metavar="N", help=say("variants.count_help")
-    )
-    parser.add_argument("--seed", type=int, default=0, metavar="N", help=say("variants.seed_help"))
-    parser.add_argument("--to", nargs="+", default=[], metavar="FORM", help=say("variants.to_help"))
-    parser.add_argument("--output", metavar="FOLDER", help=say("variants.output_help"))
-    parser.add_argument("--force", action="store_true", help=say("cli.force_help"))
+def arguments(option: Options) -> None:
+    option.model()
+    option.count("--count", COUNT)
+    option("--seed", "N", type=int, default=0)
+    option("--to", "FORM", nargs="+", default=[])
+    option("--output", "FOLDER")
+    option.force()
 
 
 def run(options: argparse.Namespace, session: Session) -> int:
