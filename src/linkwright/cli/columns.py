@@ -12,7 +12,7 @@ import numpy as np
 
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import did_you_mean
-from linkwright.core.arrays import Floats
+from linkwright.core.arrays import Floats, largest
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.units import SI_UNITS
@@ -65,7 +65,7 @@ class Column:
 
     @cached_property
     def _largest(self) -> float:
-        return float(np.max(np.abs(self.values[np.isfinite(self.values)]), initial=0.0))
+        return largest(self.values)
 
     @cached_property
     def _decimals(self) -> int | None:

@@ -60,7 +60,7 @@ def _range(text: str, dimension: str, say: Say, option: str) -> list[float]:
     first, last = bounds.split("..", 1)
     if not colon or not step_text.strip():
         raise UsageError(say("solve.range_step", option=option, text=text))
-    unit = _unit(last)
+    unit = _NUMBER.sub("", last.strip(), count=1).strip()
     begin, end = _value(first, unit, dimension, option), _value(last, unit, dimension, option)
     step = abs(_value(step_text, unit, dimension, option))
     count = abs(end - begin) / step if step else math.inf
@@ -79,7 +79,3 @@ def _value(text: str, unit: str, dimension: str, option: str) -> float:
         return units.parse(own, dimension)
     except QuantityError as error:
         raise UsageError(Sentence("cli.about", name=option, cause=error)) from None
-
-
-def _unit(text: str) -> str:
-    return _NUMBER.sub("", text.strip(), count=1).strip()

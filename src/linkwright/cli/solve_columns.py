@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from linkwright.cli.columns import Column
 from linkwright.cli.errors import UsageError
-from linkwright.cli.solving import Solved, steady
+from linkwright.cli.solving import Solved
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.motion import Motion
 from linkwright.mechanism.mechanism import Mechanism
@@ -21,7 +21,7 @@ POINT = tuple(f"{kind}.{axis}" for kind in ("position", "velocity", "acceleratio
 
 def leading(solved: Solved, columns: Mapping[str, Column]) -> list[Column]:
     """Time where it matters, and the drivers' coordinates."""
-    first = [] if steady(solved.motion.mechanism) else [columns["time"]]
+    first = [] if solved.motion.mechanism.steady else [columns["time"]]
     return first + [columns[name] for name in solved.motion.mechanism.drivers]
 
 

@@ -9,8 +9,8 @@ from functools import partial
 import numpy as np
 
 from linkwright.cli.columns import Column
-from linkwright.cli.solving import Solved, steady
-from linkwright.core.arrays import Floats
+from linkwright.cli.solving import Solved
+from linkwright.core.arrays import Floats, largest
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.motion import Motion
@@ -137,7 +137,7 @@ def failures(solved: Solved, say: Say, language: str, *, degrees: bool) -> list[
 
 def input_text(motion: Motion, place: int, *, degrees: bool) -> str:
     """Where a position is: the drivers' coordinates, or the time where drivers follow laws of their own."""
-    if not steady(motion.mechanism):
+    if not motion.mechanism.steady:
         return f"t = {_short(motion.time[place])} s"
     texts = []
     for name, values in motion.inputs.items():
@@ -173,8 +173,3 @@ def _efforts(solved: Solved, forces: Forces, say: Say, *, degrees: bool) -> list
             said += say("solve.effort_mean", mean=number(solved.analysis.mean_of(effort)), unit=unit)
         rows.append(said)
     return rows
-
-
-def largest(values: Floats) -> float:
-    """Largest size of an array's numbers, those that are not finite left out."""
-    return float(np.max(np.abs(values[np.isfinite(values)]), initial=0.0))

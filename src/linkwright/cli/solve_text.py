@@ -43,8 +43,7 @@ def _table(solved: Solved, options: argparse.Namespace, session: Session) -> tup
 
 def _structure_line(solved: Solved, say: Say) -> str:
     structure = solved.motion.structure
-    chain = " + ".join(f"{group.signature}({', '.join(group.links)})" for group in structure.groups)
-    return say("solve.structure", mobility=structure.mobility, chain=chain)
+    return say("solve.structure", mobility=structure.mobility, chain=structure.chain)
 
 
 def _chosen(solved: Solved, options: argparse.Namespace, session: Session) -> tuple[list[Column], str]:

@@ -9,10 +9,11 @@ import numpy as np
 
 from linkwright.cli.errors import UsageError
 from linkwright.cli.positions import MOST, inputs, quantities
-from linkwright.core.arrays import Floats, Indices
+from linkwright.core.arrays import Floats, Indices, largest
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.errors import Finding, LinkwrightError
+from linkwright.kinematics.cycle import rotary
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinematics.table import motion_results
@@ -56,7 +57,7 @@ class Solved:
         if self.forces is not None:
             for joint, link in reaction_pairs(self.motion.mechanism):
                 force = self.forces.reaction(joint, on=link)
-                sizes.append(float(np.max(np.abs(force[np.isfinite(force)]), initial=0.0)))
+                sizes.append(largest(force))
         return max(sizes)
 
     @cached_property
@@ -89,22 +90,12 @@ def solve(mechanism: Mechanism, warnings: list[Finding], options: argparse.Names
     return Solved(motion, forces, rows, tuple(warnings), trouble, whole)
 
 
-def steady(mechanism: Mechanism) -> bool:
-    """Whether inputs say where a position is: all drivers have constant speed."""
-    drivers = mechanism.drivers.values()
-    return bool(drivers) and all(driver.law.constant_speed is not None for driver in drivers)
-
-
 def _motion(mechanism: Mechanism, options: argparse.Namespace, say: Say) -> tuple[Motion, Indices]:
     failures = "mark" if options.mark else "raise"
     if options.at is not None:
         if not mechanism.drivers:
             raise UsageError(say("cli.about", name="--at", cause=say("solve.no_input")))
-        rotary = {
-            name: mechanism.joints[driver.joint].coordinate == "turn"
-            for name, driver in mechanism.drivers.items()
-        }
-        given = inputs(options.at, rotary, say)
+        given = inputs(options.at, rotary(mechanism), say)
         motion = solve_motion(mechanism, at=given, failures=failures)  # type: ignore[arg-type]
     elif options.times is not None:
         times = quantities(options.times, "time", say, "--times")

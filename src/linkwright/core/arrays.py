@@ -10,3 +10,8 @@ Complexes = NDArray[np.complex128]
 Whole = NDArray[np.int64]
 Indices = NDArray[np.intp]
 Flags = NDArray[np.bool_]
+
+
+def largest(values: Floats) -> float:
+    """Largest size of the numbers that are finite; 0 where there is none."""
+    return float(np.max(np.abs(values[np.isfinite(values)]), initial=0.0))

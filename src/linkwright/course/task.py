@@ -72,10 +72,9 @@ def _task(mechanism: Mechanism, given: Mapping[str, Any]) -> Task:
         if key not in KEYS:
             hint = offered(str(key), KEYS)
             raise RequestError(Sentence("course.unknown_key", place=f"course.{key}", name=key, hint=hint))
-    drivers = mechanism.drivers.values()
-    if not drivers or not all(driver.law.constant_speed is not None for driver in drivers):
+    if not mechanism.steady:
         raise LinkwrightError(Sentence("course.no_input", name=mechanism.name))
-    driver = next(iter(drivers))
+    driver = next(iter(mechanism.drivers.values()))
     rotary = mechanism.joints[driver.joint].coordinate == "turn"
     at = _quantity("at", given.get("at", "60 deg" if rotary else "0.01 m"), "angle" if rotary else "length")
     sheet = Sheet(mechanism, at)

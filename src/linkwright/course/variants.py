@@ -98,7 +98,7 @@ class Variants:
                         {
                             "mistake": found.mistake,
                             "where": found.where,
-                            "answers": [_plain(x) for x in answers],
+                            "answers": [x if math.isfinite(x) else None for x in answers],
                         }
                         for found, answers in each.mistakes
                     ],
@@ -164,7 +164,7 @@ def variants(
     bar = _transmission(asked.mechanism)
     found: list[Variant] = []
     for _ in range(TRIES * count):
-        changes = {name: _rounded(rng.uniform(*limits)) for name, limits in asked.ranges.items()}
+        changes = {name: float(f"{rng.uniform(*limits):.{DIGITS}g}") for name, limits in asked.ranges.items()}
         if any(dict(each.dimensions) == changes for each in found):
             continue
         fresh = _sound(asked, len(found) + 1, changes, model, bar)
@@ -175,10 +175,6 @@ def variants(
         if len(found) == count:
             return Variants(asked, seed, tuple(found))
     raise LinkwrightError(Sentence("course.too_few", found=len(found), count=count, tried=TRIES * count))
-
-
-def _rounded(value: float) -> float:
-    return float(f"{value:.{DIGITS}g}")
 
 
 def _transmission(mechanism: Mechanism) -> float | None:
@@ -242,7 +238,3 @@ def close(answer: float, right: float, tolerance: float, unit: str) -> bool:
     if unit == "°":
         return abs(math.remainder(answer - right, 360.0)) <= 50.0 * tolerance
     return abs(answer - right) <= tolerance * abs(right)
-
-
-def _plain(value: float) -> float | None:
-    return value if math.isfinite(value) else None

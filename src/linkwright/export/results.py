@@ -49,6 +49,11 @@ class Results:
         return self.motion.mechanism
 
     @property
+    def notes(self) -> tuple[str, ...]:
+        """Notes of motion and forces."""
+        return (*self.motion.notes, *(self.forces.notes if self.forces is not None else ()))
+
+    @property
     def structure(self) -> Structure:
         """Its Assur groups."""
         return self.motion.structure

@@ -181,7 +181,8 @@ class _Composer:
         return found
 
     def entry(self, found: Mapping, key: Node, value: Node, seen: dict[str, Scalar]) -> None:
-        if isinstance(key, Scalar) and key.plain and key.text.endswith(":") and _nothing(value):
+        nothing = isinstance(value, Scalar) and value.empty
+        if isinstance(key, Scalar) and key.plain and key.text.endswith(":") and nothing:
             key.text = key.text.rstrip(":")
         if not isinstance(key, Scalar):
             self.remark(key, "key", "key")
@@ -200,7 +201,3 @@ class _Composer:
                 continue
             found.entries += [entry for entry in source.entries if entry.key.text not in have]
             have.update(entry.key.text for entry in source.entries)
-
-
-def _nothing(value: Node) -> bool:
-    return isinstance(value, Scalar) and value.empty

@@ -78,20 +78,18 @@ def declared_kind(root: Node | None) -> str | None:
     return node.text if isinstance(node, Scalar) else None
 
 
+def read_nodes(text: str, name: str) -> tuple[Node | None, list[Finding]]:
+    """The tree of a text as far as there is one, and what is wrong with the text itself."""
+    root, remarks = compose(text.removeprefix("\ufeff"))
+    return root, [
+        Finding("error", f"{name}:{r.line + 1}:{r.column + 1}", r.key, r.message, r.remedy, r.code)
+        for r in remarks
+    ]
+
+
 def read_root(text: str, name: str) -> tuple[Node | None, list[Finding]]:
     """The tree of a text, None where there is nothing to read, and what is wrong with the text itself."""
-    root, remarks = compose(text.removeprefix("\ufeff"))
-    findings = [
-        Finding(
-            "error",
-            f"{name}:{remark.line + 1}:{remark.column + 1}",
-            remark.key,
-            remark.message,
-            remark.remedy,
-            remark.code,
-        )
-        for remark in remarks
-    ]
+    root, findings = read_nodes(text, name)
     if root is None or (isinstance(root, Scalar) and root.empty):
         empty = Finding(
             "error", f"{name}:1:1", "", Sentence("model.empty"), Sentence("model.begin_with"), "empty"

@@ -95,7 +95,7 @@ def at_times(
     if not np.isfinite(t).all():
         raise CycleError(Sentence("motion.bad_time"))
     coordinates = {name: _driven(driver, t) for name, driver in mechanism.drivers.items()}
-    return Positions(t, coordinates, _rotary(mechanism), closed, period)
+    return Positions(t, coordinates, rotary(mechanism), closed, period)
 
 
 def _driven(driver: Driver, time: Floats) -> tuple[Floats, Floats, Floats]:
@@ -157,7 +157,7 @@ def at_inputs(mechanism: Mechanism, at: ArrayLike | Mapping[str, ArrayLike]) -> 
     coordinates = {name: _driven(driver, time) for name, driver in mechanism.drivers.items()}
     for name, q in rows.items():
         coordinates[name] = (np.broadcast_to(q, (count,)).copy(), *coordinates[name][1:])
-    return Positions(np.array(time), coordinates, _rotary(mechanism), False, None)
+    return Positions(np.array(time), coordinates, rotary(mechanism), False, None)
 
 
 def over_cycle(mechanism: Mechanism, steps: int, endpoint: bool = False) -> Positions:
@@ -172,7 +172,7 @@ def over_cycle(mechanism: Mechanism, steps: int, endpoint: bool = False) -> Posi
         return at_times(mechanism, [0.0])
     if mechanism.higher:
         return _over_cycle(mechanism, steps, endpoint)
-    turning = tuple(_rotary(mechanism).values())
+    turning = tuple(rotary(mechanism).values())
     key = (steps, endpoint, mechanism.cycle, turning)
     return _cycles.get(mechanism.drivers, key, lambda: _over_cycle(mechanism, steps, endpoint))
 
@@ -278,7 +278,7 @@ def _multiple(whole: float, part: float) -> bool:
     return abs(whole / part - round(whole / part)) < 1e-9
 
 
-def _rotary(mechanism: Mechanism) -> dict[str, bool]:
+def rotary(mechanism: Mechanism) -> dict[str, bool]:
     return {
         name: mechanism.joints[driver.joint].coordinate == "turn"
         for name, driver in mechanism.drivers.items()

@@ -207,7 +207,10 @@ def _refuse_table(table: Table, course: CycleCourse, where: Flags) -> None:
     short, first, last = place[0][where & place[1]], table.x[0], table.x[-1]
     if not len(short):
         return
-    dimension = table.over.dimension if isinstance(table.over, Output) else _across(table, course.signals)
+    if isinstance(table.over, Output):
+        dimension = table.over.dimension
+    else:
+        dimension = "time" if table.over == "time" else input_dimension(course.signals)
     ranges = []
     if (short < first).any():
         low = shown(float(short.min()), dimension)
@@ -224,7 +227,3 @@ def _refuse_table(table: Table, course: CycleCourse, where: Flags) -> None:
             ranges=together(ranges),
         )
     )
-
-
-def _across(table: Table, signals: Signals) -> str:
-    return "time" if table.over == "time" else input_dimension(signals)

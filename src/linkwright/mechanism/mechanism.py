@@ -328,6 +328,12 @@ class Mechanism(Frozen):
         return structure(self)
 
     @property
+    def steady(self) -> bool:
+        """Whether inputs say where a position is: there are drivers, all of constant speed."""
+        laws = [driver.law for driver in self.drivers.values()]
+        return bool(laws) and all(law.constant_speed is not None for law in laws)
+
+    @property
     def has_loads(self) -> bool:
         """Whether there is anything that joints would have to carry: loads, masses or moments of inertia."""
         return bool(self.loads) or any(link.mass or link.inertia for link in self.links.values())

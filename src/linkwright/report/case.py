@@ -129,8 +129,7 @@ class Case:
     @cached_property
     def steady(self) -> bool:
         """Whether inputs say where a position is; else the drivers follow laws in time."""
-        drivers = self.mechanism.drivers.values()
-        return bool(drivers) and all(driver.law.constant_speed is not None for driver in drivers)
+        return self.mechanism.steady
 
     @cached_property
     def asked_place(self) -> float | None:

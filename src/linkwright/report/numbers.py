@@ -8,7 +8,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from linkwright.core.arrays import Floats
+from linkwright.core.arrays import Floats, largest
 from linkwright.core.outputs import KINDS, RESIDUALS, Output
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.plot.force_names import link_numbers
@@ -77,26 +77,23 @@ class Heads:
 
 def without_rounding(results: Mapping[Output, Floats]) -> dict[Output, Floats]:
     """Results, zero where a number is nothing beside the largest of its dimension; residuals as they are."""
-    largest: dict[str, float] = {}
+    sizes: dict[str, float] = {}
     for output, values in results.items():
-        known = np.abs(values[np.isfinite(values)])
-        size = float(known.max(initial=0.0))
-        largest[output.dimension] = max(largest.get(output.dimension, 0.0), size)
+        sizes[output.dimension] = max(sizes.get(output.dimension, 0.0), largest(values))
     return {
         output: values
         if output.kind in RESIDUALS
-        else np.where(np.abs(values) < ROUNDING * largest[output.dimension], 0.0, values)
+        else np.where(np.abs(values) < ROUNDING * sizes[output.dimension], 0.0, values)
         for output, values in results.items()
     }
 
 
 def column(values: Floats) -> list[str]:
     """Numbers of one column with the same decimals, as many as the largest needs for six digits."""
-    known = np.abs(values[np.isfinite(values)])
-    largest = float(known.max()) if len(known) else 0.0
-    if largest and not 1e-4 <= largest < 1e9:
+    size = largest(values)
+    if size and not 1e-4 <= size < 1e9:
         return [small(value, DIGITS) for value in values]
-    place = max(DIGITS - 1 - math.floor(math.log10(largest)), 0) if largest else 0
+    place = max(DIGITS - 1 - math.floor(math.log10(size)), 0) if size else 0
     place = min(place, 6)
     return [_plain(float(value), place) for value in values]
 

@@ -30,7 +30,7 @@ from linkwright.report.document import (
 from linkwright.report.markdown import own_text, printable
 from linkwright.report.numbers import typeset
 from linkwright.report.section import SECTIONS, Section
-from linkwright.report.settings import Settings, settings
+from linkwright.report.settings import settings
 from linkwright.whole_files import write_whole
 from linkwright.words import speaker
 from linkwright.words.sentence import Sentence, in_language
@@ -133,7 +133,10 @@ def report(
     chosen = _chosen(sections or own.sections)
     names = [case.mechanism.name for case in cases] or [problem.name for problem in problems]
     document = Document(
-        own.title or " / ".join(dict.fromkeys(names)), speaker(language), language, _lines(own)
+        own.title or " / ".join(dict.fromkeys(names)),
+        speaker(language),
+        language,
+        tuple(filter(None, (own.course, own.author, own.date))),
     )
     parts = list(_parts(cases, chosen, document)) if cases else []
     for done, (case, part) in enumerate(parts):
@@ -226,10 +229,6 @@ def _chosen(names: Iterable[str]) -> list[str]:
             ordered = sorted(SECTIONS, key=lambda each: SECTIONS[each].rank)
             raise RequestError(Sentence("report.no_section", name=name, hint=listed(name, ordered)))
     return asked
-
-
-def _lines(own: Settings) -> tuple[str, ...]:
-    return tuple(line for line in (own.course, own.author, own.date) if line)
 
 
 Part = Section | str

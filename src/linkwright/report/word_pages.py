@@ -23,6 +23,7 @@ from linkwright.report.document import (
 )
 from linkwright.report.formula import Atom, Row, formula, set_lines
 from linkwright.report.word_formula import SPACE, equation
+from linkwright.words.characters import printable
 from linkwright.words.sentence import Sentence
 from linkwright.words.width import cells
 
@@ -220,7 +221,7 @@ class _Writer:
             elif kind == "reference" and part in self.numbers.labels:
                 self._link(line, self.numbers.labels[part])
             else:
-                run = line.add_run(_written(part))
+                run = line.add_run(printable(part))
                 run.bold = True if kind == "strong" else None
 
     def _link(self, line: Any, index: int) -> None:
@@ -319,8 +320,3 @@ def _ruled(grid: Any, widths: list[float]) -> None:
             if number == 0:
                 below = f"<w:tcBorders {nsdecls('w')}>{line.format('bottom', 6)}</w:tcBorders>"
                 cell.get_or_add_tcPr().append(parse_xml(below))
-
-
-def _written(text: str) -> str:
-    """A text without characters that XML forbids."""
-    return "".join(c for c in text if c in "\t\n" or " " <= c <= "\ud7ff" or c >= "\ue000")

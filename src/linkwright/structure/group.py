@@ -171,6 +171,10 @@ class Structure:
 
         return as_data(self)
 
+    @property
+    def chain(self) -> str:
+        """The groups in solving order: ``RRR(coupler, rocker) + RRP(rod, slider)``."""
+        return " + ".join(f"{group.signature}({', '.join(group.links)})" for group in self.groups)
+
     def __repr__(self) -> str:
-        chain = " + ".join(f"{g.signature}({', '.join(g.links)})" for g in self.groups)
-        return f"Structure(mobility {self.mobility}; {chain}; class {self.mechanism_class})"
+        return f"Structure(mobility {self.mobility}; {self.chain}; class {self.mechanism_class})"

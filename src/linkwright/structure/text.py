@@ -13,7 +13,6 @@ from linkwright.words.width import cells, padded
 def describe(structure: Structure, language: str = "en") -> str:
     """Mobility, groups in solving order, class: as in the structure chapter of a design report."""
     say = speaker(language)
-    chain = " + ".join(f"{group.signature}({', '.join(group.links)})" for group in structure.groups)
     level = numeral(structure.mechanism_class, say)
     lines = [
         *_mobility(structure, say),
@@ -21,7 +20,7 @@ def describe(structure: Structure, language: str = "en") -> str:
         say("structure_text.groups"),
         *_table(structure, say),
         "",
-        say("structure_text.chain", chain=chain),
+        say("structure_text.chain", chain=structure.chain),
         say("structure_text.class", level=level),
     ]
     if len(structure.parts) > 1:

@@ -69,8 +69,8 @@ def assess_four_bars(o1: Complexes, a: Complexes, b: Complexes, o2: Complexes) -
     kind = grashof_types(lengths)
     place = four_bar_range(lengths)[2]
     theta = np.angle((a - o1[:, None]) / frame[:, None])
-    sine = _cross(o2[:, None] - a, b - a)
-    size = np.abs(o2[:, None] - a) * np.abs(b - a)
+    to_pivot, along = o2[:, None] - a, b - a
+    sine, size = (to_pivot.conj() * along).imag, np.abs(to_pivot) * np.abs(along)
     branch = _sign(sine, size)
     rocking = (place == PAIR)[:, None]
     circuit = np.where(
@@ -81,7 +81,8 @@ def assess_four_bars(o1: Complexes, a: Complexes, b: Complexes, o2: Complexes) -
     square = lengths[0] ** 2 + lengths[3] ** 2 - 2 * lengths[0] * lengths[3] * extremes
     cosine = (lengths[1] ** 2 + lengths[2] ** 2 - square) / (2 * lengths[1] * lengths[2])
     transmission = np.arccos(np.clip(np.nanmax(np.abs(cosine), 0), 0, 1))
-    return _assessment(kind, place, order, branch, circuit, transmission, _ratio(lengths), first, last)
+    ratio = lengths.max(0) / np.maximum(lengths.min(0), 1e-300)
+    return _assessment(kind, place, order, branch, circuit, transmission, ratio, first, last)
 
 
 def assess_slider_cranks(
@@ -102,7 +103,8 @@ def assess_slider_cranks(
     first, last, order = _working_range(np.where((place == FULL)[:, None], theta, shifted), upright)
     middle = np.where(place == FULL, 0.0, np.where(offset < 0, -np.pi / 2, np.pi / 2))
     first, last = first + middle, last + middle
-    height = np.abs(crank * _sines(first, last) - offset) / rod
+    sines = _cosines(first - np.pi / 2, last - np.pi / 2, np.pi * np.arange(-3, 4))
+    height = np.abs(crank * sines - offset) / rod
     transmission = np.arccos(np.clip(np.nanmax(height, 0), 0, 1))
     kind = np.where(place == FULL, TYPES.index("slider_crank"), TYPES.index("slider_rocker"))
     ratio = np.maximum(crank, rod) / np.minimum(crank, rod)
@@ -167,10 +169,6 @@ def _cosines(first: Floats, last: Floats, special: NDArray[np.floating[Any]]) ->
     return np.concatenate([np.cos(first)[None], np.cos(last)[None], middle])
 
 
-def _sines(first: Floats, last: Floats) -> Floats:
-    return _cosines(first - np.pi / 2, last - np.pi / 2, np.pi * np.arange(-3, 4))
-
-
 def _assessment(
     kind: Whole, place: Whole, order: Flags, branch: Whole, circuit: Whole,
     transmission: Floats, ratio: Floats, first: Floats, last: Floats,
@@ -188,11 +186,3 @@ def _differs(sign: Whole) -> Flags:
 
 def _sign(value: Floats, size: Floats) -> Whole:
     return np.where(np.abs(value) <= EQUAL * size, 0, np.sign(value)).astype(np.int64)
-
-
-def _cross(u: Complexes, v: Complexes) -> Floats:
-    return np.asarray((u.conj() * v).imag)
-
-
-def _ratio(lengths: Floats) -> Floats:
-    return np.asarray(lengths.max(0) / np.maximum(lengths.min(0), 1e-300))

@@ -14,6 +14,7 @@ from linkwright.errors import Finding, ModelError, QuantityError
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar, Sequence
 from linkwright.files.compose import compose
+from linkwright.files.model_file import read_nodes
 from linkwright.files.plain_reader import Place
 from linkwright.files.read_model import TASK_KEYS
 from linkwright.files.reader import Reader
@@ -120,11 +121,7 @@ def synthesize_file(source: str | Path) -> Synthesis:
 
 def synthesize_text(text: str, name: str = "<text>") -> Synthesis:
     """Runs the section ``synthesis`` of a text; ``name`` stands for the file in findings."""
-    root, remarks = compose(text.removeprefix("\ufeff"))
-    findings = [
-        Finding("error", f"{name}:{r.line + 1}:{r.column + 1}", r.key, r.message, r.remedy, r.code)
-        for r in remarks
-    ]
+    root, findings = read_nodes(text, name)
     section = root.get("synthesis") if isinstance(root, MappingNode) else None
     if findings or not isinstance(section, MappingNode):
         place = f"{name}:1:1"

@@ -80,7 +80,7 @@ def check_closure(book: Book, places: Places, step: Step, group: Group) -> None:
             continue
         ends = []
         for end in (cut.a, cut.b):
-            name = _end_name(book, cut.joint, end)
+            name = book.mechanism.joints[cut.joint].point_on(end)
             at = attach_of(book, group, end)
             base = book.spot(end, at)
             arm = turned(book.arm(end, at, name), book.turn(end)) if end != "frame" else None
@@ -105,10 +105,6 @@ def attach_of(book: Book, group: Group, link: str) -> str:
         if joint.child == link:
             return attach(joint, link, book)
     return next(iter(book.mechanism.link(link).points))
-
-
-def _end_name(book: Book, joint: str, link: str) -> str:
-    return book.mechanism.joints[joint].point_on(link)
 
 
 class Movers:

@@ -88,12 +88,11 @@ def _inputs(mechanism: Mechanism, text: str | None, say: Say) -> dict[str, float
     if text is None:
         return None
     from linkwright.cli.positions import inputs
+    from linkwright.kinematics.cycle import rotary
 
     if not mechanism.drivers:
         raise UsageError(say("cli.about", name="--at", cause=say("solve.no_input")))
-    joints = mechanism.joints
-    rotary = {name: joints[d.joint].coordinate == "turn" for name, d in mechanism.drivers.items()}
-    given = inputs(text, rotary, say)
+    given = inputs(text, rotary(mechanism), say)
     if any(len(values) > 1 for values in given.values()):
         raise UsageError(say("draw.one_position", option="--at", text=text))
     return {name: values[0] for name, values in given.items()}

@@ -26,7 +26,6 @@ def _data(results: Results) -> dict[str, Any]:
     from linkwright.files.write import dump
 
     motion, mechanism = results.motion, results.mechanism
-    notes = (*motion.notes, *(results.forces.notes if results.forces is not None else ()))
     return {
         "format": "linkwright results",
         "version": 1,
@@ -45,7 +44,7 @@ def _data(results: Results) -> dict[str, Any]:
         "period": {"unit": "s", "value": motion.positions.period},
         "static": None if results.forces is None else results.forces.static,
         "outcomes": [{"ok": each.ok, "sentence": each.sentence} for each in motion.outcomes],
-        "notes": list(notes),
+        "notes": list(results.notes),
         "tables": {
             table.subject: {
                 column.name: {

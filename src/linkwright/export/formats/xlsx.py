@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from linkwright.core.arrays import largest
 from linkwright.errors import RequestError
 from linkwright.export.base import FORMATS, Format, package
 from linkwright.export.results import Results
@@ -127,8 +128,7 @@ class Workbook:
 
 def number_format(values: np.ndarray[Any, np.dtype[np.float64]]) -> str:
     """Decimals that show six digits of the largest value; a power of ten where it is very large or small."""
-    finite = values[np.isfinite(values)]
-    size = float(np.max(np.abs(finite), initial=0.0))
+    size = largest(values)
     if size == 0.0:
         return "0.000"
     place = math.floor(math.log10(size))
@@ -149,7 +149,7 @@ def _model(results: Results, word: Any) -> Iterable[Sequence[Cell]]:
     yield word("reached"), int(results.motion.ok.sum()), ""
     if results.motion.positions.period is not None:
         yield word("period"), results.motion.positions.period, "s"
-    for note in (*results.motion.notes, *(results.forces.notes if results.forces is not None else ())):
+    for note in results.notes:
         yield word("note"), note, ""
     for address, value in mechanism.dimensions().items():
         yield address, value, si_symbol(dimension_of(mechanism, address) or NONE)

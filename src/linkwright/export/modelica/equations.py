@@ -96,17 +96,13 @@ class Equations:
             self._place(link, point, f"{me}_x", f"{me}_y")
 
     def point(self, me: str, key: str, meaning: str) -> None:
-        x, y = (
-            self.motion.point_of(key).position[self.index] if not self._fixed(key) else self._fixed_place(key)
-        )
+        held = self._fixed(key)
+        x, y = self.mechanism.frame.points[key] if held else self.motion.point_of(key).position[self.index]
         self.unknown(f"{me}_x", "m", x, f"{meaning}, x")
         self.unknown(f"{me}_y", "m", y, f"{meaning}, y")
 
     def _fixed(self, key: str) -> bool:
         return key in self.pins and "frame" in self.pins[key].links
-
-    def _fixed_place(self, key: str) -> tuple[float, float]:
-        return self.mechanism.frame.points[key]
 
     def _place(self, link: str, point: str, x: str, y: str) -> None:
         """The point's coordinates from the place of the link."""

@@ -169,11 +169,8 @@ class Program(Problem):
         """The optimum. Raises ModelError with all findings; for a program without solution with the constraints that
         cannot hold together, for one without limit with the direction in which it runs away."""
         self.require()
-        return self._linear() if self.model.linear and not self._choosing else self._nonlinear()
-
-    @property
-    def _choosing(self) -> bool:
-        return any(v.choices for v in self.variables.values())
+        choosing = any(v.choices for v in self.variables.values())
+        return self._linear() if self.model.linear and not choosing else self._nonlinear()
 
     def _linear(self) -> Optimum:
         model = self.model

@@ -144,7 +144,8 @@ class ForcePolygon(Kind):
         for (link, each), scale in zip(parts.items(), scales, strict=True):
             title = f"{_title(forces, link)}\n{symbol('μ', 'F')} = {_per_mm(scale)}"
             unit = unit_of("force", [np.array([BAR * scale])])
-            cells.append(Cell(_drawn(each, scale), title, _notes(each), unit.text(BAR * scale)))
+            drawn = np.array([place for pair in _pairs(each, scale) for place in pair])
+            cells.append(Cell(drawn, title, _notes(each), unit.text(BAR * scale)))
         subject = f"{say('kind.force_polygon')}, {source.place_text(forces.motion, say)}"
         title = request.titled(source.label, subject)
         wide = max(LEAST, sum(float(cell.size[0]) for cell in cells[:IN_ROW]))
@@ -211,10 +212,6 @@ def _corners(found: list[LinkForce]) -> Floats:
 def _pairs(found: list[LinkForce], scale: float) -> list[tuple[Floats, Floats]]:
     corners = _corners(found) / scale
     return side_by_side(list(pairwise(corners)))
-
-
-def _drawn(found: list[LinkForce], scale: float) -> Floats:
-    return np.array([place for pair in _pairs(found, scale) for place in pair])
 
 
 def _draw(axes: Axes, found: list[LinkForce], scale: float) -> None:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from linkwright.core.arrays import largest
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.errors import LinkwrightError
@@ -15,7 +16,7 @@ from linkwright.loads.over_cycle import activity
 from linkwright.metrics.analysis import Kind
 from linkwright.plot.diagrams.picture import INK
 from linkwright.plot.diagrams.source import Source
-from linkwright.plot.diagrams.units import Unit, size
+from linkwright.plot.diagrams.units import Unit
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -102,7 +103,7 @@ def mark_peaks(axes: Axes, panel: Panel, axis: InputAxis, unit: Unit) -> None:
 
 def _mark(axes: Axes, curve: Curve, axis: InputAxis, unit: Unit) -> None:
     values = curve.values
-    if np.nanmax(values) - np.nanmin(values) <= 1e-9 * size(values) + 1e-12:
+    if np.nanmax(values) - np.nanmin(values) <= 1e-9 * largest(values) + 1e-12:
         return
     places = (axis.values if curve.x is None else curve.x) * axis.unit.factor
     left, right = float(np.min(places)), float(np.max(places))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from linkwright.core.arrays import largest
 from linkwright.core.outputs import Output
 from linkwright.errors import RequestError
 from linkwright.kinematics.limits import output_of
@@ -12,7 +13,6 @@ from linkwright.kinematics.names import canonical, owners
 from linkwright.kinetostatics.forces import Forces
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.outputs import free_points, mechanism_outputs, output_link
-from linkwright.plot.diagrams.units import size
 from linkwright.plot.force_names import reaction_pairs
 from linkwright.words.sentence import Sentence
 
@@ -52,7 +52,7 @@ def main_output(motion: Motion) -> Output | str:
             return max(found, key=lambda each: order.index(output_link(mechanism, each)))
     if free := free_points(mechanism, geared):
         return free[-1]
-    moving = [link for link in reversed(order) if size(motion.link(link).angular_velocity) > 1e-9]
+    moving = [link for link in reversed(order) if largest(motion.link(link).angular_velocity) > 1e-9]
     moving.sort(key=lambda link: link in geared)
     return Output("angle", moving[0]) if moving else Output("angle", order[-1])
 
@@ -70,8 +70,8 @@ def turning_links(motion: Motion) -> list[str]:
     """Links that turn and are not driven against the frame, in solving order; the driven ones where no other does."""
     driven = {d.link if d.link != "frame" else d.relative_to for d in motion.mechanism.drivers.values()}
     order = [link for group in motion.structure.groups for link in group.links]
-    largest = max((size(motion.link(link).angular_velocity) for link in order), default=0.0)
-    turning = [link for link in order if size(motion.link(link).angular_velocity) > 1e-9 * largest]
+    fastest = max((largest(motion.link(link).angular_velocity) for link in order), default=0.0)
+    turning = [link for link in order if largest(motion.link(link).angular_velocity) > 1e-9 * fastest]
     return [link for link in turning if link not in driven] or turning
 
 
@@ -110,7 +110,7 @@ def joint_and_link(forces: Forces, joint: str | None, on: str | None) -> tuple[s
             on_frame = pairs = [p for p in pairs if p[1] == known_link(mechanism, on)]
         if not pairs:
             raise RequestError(Sentence("picture.no_force_there", name=mechanism.name))
-        return max(on_frame or pairs, key=lambda pair: size(forces.reaction(pair[0], on=pair[1])))
+        return max(on_frame or pairs, key=lambda pair: largest(forces.reaction(pair[0], on=pair[1])))
     if on is None and joint in mechanism.joints:
         on = [link for link in mechanism.joints[joint].joined if link != "frame"][-1]
     forces.reaction(joint, on=on)
@@ -121,4 +121,4 @@ def joint_and_link(forces: Forces, joint: str | None, on: str | None) -> tuple[s
 def loaded(forces: Forces) -> bool:
     """Whether any joint carries a force."""
     pairs = reaction_pairs(forces.mechanism)
-    return any(np.nan_to_num(size(forces.reaction(joint, on=link))) > 1e-9 for joint, link in pairs)
+    return any(np.nan_to_num(largest(forces.reaction(joint, on=link))) > 1e-9 for joint, link in pairs)

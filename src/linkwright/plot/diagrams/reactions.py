@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from linkwright.core.arrays import largest
 from linkwright.core.outputs import Output
 from linkwright.errors import RequestError
 from linkwright.kinetostatics.forces import Forces
@@ -15,7 +16,6 @@ from linkwright.plot.diagrams.outputs import joint_and_link, loaded, main_output
 from linkwright.plot.diagrams.panels import Curve, OverInput, Panel, look
 from linkwright.plot.diagrams.picture import COLOURS
 from linkwright.plot.diagrams.source import Extremes, Source
-from linkwright.plot.diagrams.units import size
 from linkwright.plot.force_names import chosen_pairs
 from linkwright.words.sentence import Sentence
 
@@ -58,12 +58,12 @@ def _of_all(source: Source, request: Request) -> Panel:
         shared = len(mechanism.joints[joint].joined) > 2
         label = f"{joint} ({link})" if shared else joint
         sizes[label], signals[label] = np.hypot(force[:, 0], force[:, 1]), magnitude(joint, link)
-    largest = max(sizes, key=lambda label: size(sizes[label]))
+    marked = max(sizes, key=lambda label: largest(sizes[label]))
     curves = []
     for number, (label, values) in enumerate(sizes.items()):
         colour, dash = look(number)
         exact = source.extremes(signals[label], "forces")
-        curves.append(Curve(label, values, "max" if label == largest else "", colour, dash, extremes=exact))
+        curves.append(Curve(label, values, "max" if label == marked else "", colour, dash, extremes=exact))
     return Panel(f"{request.say('joint_force')} F", "force", tuple(curves))
 
 
@@ -81,8 +81,8 @@ def _of_one(source: Source, request: Request) -> list[Panel]:
         Curve(f"F{name}", force[:, i], "largest", COLOURS[1 + i], extremes=exact(i))
         for i, name in enumerate(named)
     ]
-    largest = source.extremes(magnitude(joint, link), "forces")
-    total = Curve("", np.hypot(force[:, 0], force[:, 1]), "max", extremes=largest)
+    exact_size = source.extremes(magnitude(joint, link), "forces")
+    total = Curve("", np.hypot(force[:, 0], force[:, 1]), "max", extremes=exact_size)
     title = say("components") if axes == "frame" else say("components_in", link=axes)
     return [
         Panel(f"{say('joint_force')} F", "force", (total,)),

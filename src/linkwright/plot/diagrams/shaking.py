@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from linkwright.core.arrays import Floats
-from linkwright.kinetostatics.forces import Forces
 from linkwright.plot.diagrams.base import DIAGRAMS, Request
 from linkwright.plot.diagrams.panels import Curve, OverInput, Panel
 from linkwright.plot.diagrams.picture import COLOURS
@@ -23,10 +21,11 @@ class Shaking(OverInput):
         say, forces = request.say, source.forces
         require_forces(forces)
         force = source.closed(forces.shaking_force)
+        size = source.extremes(lambda f: np.hypot(*f.shaking_force.T), "forces")
         curves = (
             Curve("Fx", force[:, 0], "", COLOURS[1]),
             Curve("Fy", force[:, 1], "", COLOURS[2]),
-            Curve("F", np.hypot(*force.T), "max", COLOURS[0], extremes=source.extremes(_size, "forces")),
+            Curve("F", np.hypot(*force.T), "max", COLOURS[0], extremes=size),
         )
         turning = source.extremes(lambda f: f.shaking_moment, "forces")
         moment = Curve("", source.closed(forces.shaking_moment), extremes=turning)
@@ -34,7 +33,3 @@ class Shaking(OverInput):
             Panel(f"{say('shaking_force')} F", "force", curves),
             Panel(f"{say('shaking_moment')} M", "torque", (moment,)),
         ]
-
-
-def _size(forces: Forces) -> Floats:
-    return np.asarray(np.hypot(*forces.shaking_force.T))

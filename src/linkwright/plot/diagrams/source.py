@@ -104,7 +104,7 @@ class Source:
     def input_dimension(self) -> Literal["angle", "length", "time"]:
         """What says where a position is: the first driver's angle or length, or the time."""
         drivers = self.mechanism.drivers
-        if not drivers or not all(each.law.constant_speed is not None for each in drivers.values()):
+        if not self.mechanism.steady:
             return "time"
         turning = self.mechanism.joints[next(iter(drivers.values())).joint].coordinate == "turn"
         return "angle" if turning else "length"
@@ -173,7 +173,7 @@ class Source:
         if motion.steps < 2:
             raise RequestError(Sentence("picture.one_position_only", name=motion.mechanism.name))
         name, driver = next(iter(motion.mechanism.drivers.items()))
-        if not all(each.law.constant_speed is not None for each in motion.mechanism.drivers.values()):
+        if not motion.mechanism.steady:
             end = [] if self._end is None else [self._end]
             return InputAxis("", "time", np.append(motion.time, end))
         values = motion.input

@@ -5,9 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 
-import numpy as np
-
-from linkwright.core.arrays import Floats
+from linkwright.core.arrays import Floats, largest
 from linkwright.core.dataclass import dataclass
 from linkwright.metrics.quantities import si_unit
 
@@ -47,16 +45,9 @@ def unit_of(dimension: str, arrays: Iterable[Floats] = ()) -> Unit:
         return Unit(*_FIXED[dimension])
     if dimension not in _PREFIXED:
         return Unit(si_unit(dimension), 1.0)
-    largest = max((size(values) for values in arrays), default=0.0)
-    prefix, factor = next(
-        (p, f) for least, p, f in _PREFIXES if largest >= least or (largest == 0.0 and f == 1.0)
-    )
+    size = max(map(largest, arrays), default=0.0)
+    prefix, factor = next((p, f) for least, p, f in _PREFIXES if size >= least or (size == 0.0 and f == 1.0))
     return Unit(prefix + _PREFIXED[dimension], factor)
-
-
-def size(values: Floats) -> float:
-    """Largest size of the numbers that are finite."""
-    return float(np.max(np.abs(values[np.isfinite(values)]), initial=0.0))
 
 
 def significant(value: float, digits: int = 4) -> str:

@@ -107,7 +107,8 @@ def _rod(machine: Machine, joint: SlidingJoint, low: float, high: float) -> Iter
     """The line of a guide on a moving link, long enough for the whole travel, and its tie to the link."""
     start, way = line_start(machine, joint), direction(machine, joint)
     through = machine.local(joint.guide, joint.through)
-    reach = [(x - through[0]) * way[0] + (y - through[1]) * way[1] for x, y in _named(machine, joint)]
+    named = (machine.local(joint.guide, point) for point in joint.direction_points or ())
+    reach = [(x - through[0]) * way[0] + (y - through[1]) * way[1] for x, y in named]
     ends = (low - LENGTH / 2 - STUB, high + LENGTH / 2 + STUB)
     if joint.offset or len(machine.motion.mechanism.link(joint.guide).points) > 1:
         reach.append(0.0)
@@ -115,10 +116,6 @@ def _rod(machine: Machine, joint: SlidingJoint, low: float, high: float) -> Iter
     yield Part("bodies", joint.guide, rod)
     if joint.offset:
         yield Part("bodies", joint.guide, SYMBOLS["bar"](through=[through, start]))
-
-
-def _named(machine: Machine, joint: SlidingJoint) -> list[Vec]:
-    return [machine.local(joint.guide, point) for point in joint.direction_points or ()]
 
 
 def ground_side(machine: Machine, joint: SlidingJoint) -> int:

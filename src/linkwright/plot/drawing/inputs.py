@@ -11,7 +11,7 @@ from linkwright.drivers.base import Driver
 from linkwright.plot.drawing.guides import block_direction, direction, ground_side, is_cylinder, travel
 from linkwright.plot.drawing.machine import Machine, Part, support_direction
 from linkwright.plot.drawing.view import Placement
-from linkwright.plot.symbols.base import SYMBOLS, Vec
+from linkwright.plot.symbols.base import SYMBOLS
 from linkwright.plot.symbols.guides_and_blocks import HEIGHT
 
 RADIUS = 21.0
@@ -66,7 +66,7 @@ def _slide(machine: Machine, driver: Driver, index: int) -> Part:
 def _free_angle(machine: Machine, pin: str, index: int) -> float:
     """The direction on the paper in which an arc about a pin is farthest from the links and the support."""
     joint = machine.pins[pin]
-    taken = [_spread(machine.placed[link], index, way)
+    taken = [math.atan2(way[1], way[0]) + _turned(machine.placed[link], index)
              for link in joint.links if link != "frame" for way in machine.directions(link, pin)]  # fmt: skip
     if "frame" in joint.links:
         x, y = support_direction(machine, pin, joint)
@@ -76,10 +76,6 @@ def _free_angle(machine: Machine, pin: str, index: int) -> float:
         return float(angles[0])
     gaps = np.abs((angles[:, None] - np.array(taken)[None, :] + np.pi) % (2 * np.pi) - np.pi)
     return float(angles[int(np.argmax(gaps.min(axis=1)))])
-
-
-def _spread(placement: Placement, index: int, way: Vec) -> float:
-    return math.atan2(way[1], way[0]) + _turned(placement, index)
 
 
 def _turned(placement: Placement, index: int) -> float:

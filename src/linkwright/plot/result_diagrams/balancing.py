@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from linkwright.core.arrays import Floats
+from linkwright.core.arrays import Floats, largest
 from linkwright.kinetostatics.balancing import Balancing
 from linkwright.plot.diagrams.axes import Legend, equal, framed, label_input
 from linkwright.plot.diagrams.base import Request, result_diagram
 from linkwright.plot.diagrams.panels import DASHES, Curve, Panel, draw_panel
 from linkwright.plot.diagrams.picture import COLOURS, INK, new_figure
 from linkwright.plot.diagrams.source import Source
-from linkwright.plot.diagrams.units import size, unit_of
+from linkwright.plot.diagrams.units import unit_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -61,12 +61,12 @@ def _hodograph(
     axes: Axes, loops: list[Floats], names: tuple[str, str], request: Request, legend: Legend
 ) -> None:
     unit = unit_of("force", loops)
-    largest = max(size(loop) for loop in loops)
+    widest = max(map(largest, loops))
     for name, loop, colour, dash in zip(names, loops, COLOURS, DASHES, strict=False):
         x, y = loop.T * unit.factor
         (line,) = axes.plot(x, y, color=colour, linestyle=dash)
         legend.add(name, line)
-        if size(loop) <= VANISHED * largest:
+        if largest(loop) <= VANISHED * widest:
             axes.plot([0], [0], "o", color=colour, markersize=6, zorder=4)
     axes.set_title(request.say("shaking_force"), color=INK)
     axes.set_xlabel(unit.label("Fx"))

@@ -47,7 +47,8 @@ def _pictures(case: Case) -> Block:
         pictures = to_one_scale([group_picture(case, group) for group in case.structure.groups])
     except LinkwrightError as error:
         return Paragraph(literal(case.told(error)), "missing")
-    caption = case.say("report.groups_caption", names=literal(_names(case)))
+    names = ", ".join(f"{n} {group.signature}" for n, group in enumerate(case.structure.groups, 1))
+    caption = case.say("report.groups_caption", names=literal(names))
     return Figure(caption, pictures, "group-pictures")
 
 
@@ -79,7 +80,3 @@ def _groups(case: Case) -> Table:
         say(f"report.{key}") for key in ("step", "group", "of_links", "class", "order", "outer", "inner")
     )
     return Table(say("report.groups"), head, tuple(rows), "<<<<<<<", "groups")
-
-
-def _names(case: Case) -> str:
-    return ", ".join(f"{n} {group.signature}" for n, group in enumerate(case.structure.groups, 1))

@@ -233,7 +233,7 @@ def _candidate(
     lengths = np.array(list(linkage.lengths().values()))
     zero = float(np.angle(at.points["A"][0, 0]) - demand.inputs[0])
     values = {
-        "input_zero [rad]": _turned(zero),
+        "input_zero [rad]": (zero + math.pi) % (2 * math.pi) - math.pi,
         "output_constant": float(constant[0]),
         "scale": float(factor[0]),
     }
@@ -256,7 +256,3 @@ def _type(generator: Generator, run: Run) -> str:
     return TYPES[
         int(grashof_types(np.array([[abs(a - o1)], [abs(b - a)], [abs(b - o2)], [abs(o2 - o1)]]))[0])
     ]
-
-
-def _turned(angle: float) -> float:
-    return (angle + math.pi) % (2 * math.pi) - math.pi

@@ -101,7 +101,7 @@ def five_poses(p: Complexes, phi: Floats) -> tuple[Complexes, Complexes, Flags, 
     d, e = relative_poses(p, phi)
     size = np.sqrt((np.abs(d) ** 2).mean(-1, keepdims=True)) + 1e-300
     d, e = (d / size)[:, 1:], e[:, 1:]
-    space = _null_space(d, e)
+    space = np.linalg.svd(_coefficients(d, e))[2][:, 4:].conj().swapaxes(1, 2)
     product, product_c, z, zc, c, cc, one = (space[:, k] for k in range(7))
     t = _conics(_quadric(product, one, z, cc), _quadric(product_c, one, zc, c))
     product, product_c, z, zc, c, cc, one = ((space[:, k, None] * t).sum(-1) for k in range(7))
@@ -125,11 +125,6 @@ def _coefficients(d: Complexes, e: Complexes) -> Complexes:
     """Rows (N, 4, 7) of the equations in (zC*, z*C, z, z*, C, C*, 1)."""
     dc, ec = d.conj(), e.conj()
     return np.stack([1 - e, 1 - ec, dc * e, d * ec, -dc, -d, d * dc], -1)
-
-
-def _null_space(d: Complexes, e: Complexes) -> Complexes:
-    """(N, 7, 3)."""
-    return np.linalg.svd(_coefficients(d, e))[2][:, 4:].conj().swapaxes(1, 2)
 
 
 def _quadric(a: Complexes, b: Complexes, c: Complexes, d: Complexes) -> Complexes:
