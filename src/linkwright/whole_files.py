@@ -7,8 +7,7 @@ from contextlib import suppress
 from pathlib import Path
 
 from linkwright.errors import RequestError
-from linkwright.words.reasons import reason_of
-from linkwright.words.sentence import Sentence
+from linkwright.words.sentence import Sentence, reason_of
 
 
 def refuse_target(path: str | Path, *, force: bool = True, remedy: str = "") -> None:

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from linkwright.cli import main
-from linkwright.words.width import cells
+from linkwright.words.characters import cells
 
 PRESS, CONVEYOR = "gallery:slider_crank_offset", "gallery:swing_conveyor"
 CRANK, ROD, OFFSET = 0.198, 0.7025, 0.0605

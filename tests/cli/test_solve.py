@@ -10,7 +10,7 @@ import pytest
 
 import linkwright as lw
 from linkwright.cli import main
-from linkwright.words.width import cells
+from linkwright.words.characters import cells
 
 PUBLISHED = Path(__file__).parents[2] / "src" / "linkwright" / "validation" / "data"
 CRUSHER = "gallery:jaw_crusher_sixbar"

@@ -11,7 +11,7 @@ import pytest
 import linkwright as lw
 from linkwright import units
 from linkwright.cli import main
-from linkwright.cli.tables import csv_of
+from linkwright.cli.files import csv_of
 from linkwright.core.expressions import parse_quantity
 from linkwright.errors import QuantityError
 from linkwright.words.characters import terminal_text

@@ -18,8 +18,8 @@ from linkwright.cli import main
 from linkwright.groups.base import DYADS
 from linkwright.kinematics.outcome import Outcome
 from linkwright.kinematics.rank import jacobian_rank, rank_from_drawing, rank_sentence
+from linkwright.words.characters import cells
 from linkwright.words.sentence import Sentence, in_language
-from linkwright.words.width import cells
 
 CRUSHER = "gallery:jaw_crusher_sixbar"
 SYMBOLS = {"F", "n", "p", "p_H", "w", "m"}

@@ -10,9 +10,7 @@ import numpy as np
 
 from linkwright.laws.program import MotionProgram
 from linkwright.laws.smoothest import FoundProgram
-from linkwright.parts.base import Block, Row
-from linkwright.parts.display import number, shown
-from linkwright.parts.steps import put
+from linkwright.parts.base import Block, Row, number, put, shown
 from linkwright.words import Say, language_of
 from linkwright.words.sentence import in_language
 from linkwright.worked.page import Step

@@ -17,7 +17,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.units import SI_UNITS
 from linkwright.words import Say
-from linkwright.words.width import GAP, cells, padded
+from linkwright.words.characters import GAP, cells, padded
 
 #: Digits of a column's largest value.
 DIGITS = 5

@@ -1,10 +1,23 @@
-"""Files that are written whole or not at all, and never over another one unless asked."""
+"""Files that commands write, whole or not at all, never over another one unless asked: tables, data, diagrams."""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from linkwright import whole_files
+from linkwright.cli.errors import UsageError
+from linkwright.cli.session import Session
+from linkwright.words import Say
+from linkwright.words.characters import cell_text
+
+if TYPE_CHECKING:
+    from linkwright.core.plotted import Plotted
+    from linkwright.study.compare import Comparison
+
+
+PICTURES = (".svg", ".pdf", ".png")
 
 
 def refuse_existing(path: Path, *, force: bool) -> None:
@@ -16,3 +29,92 @@ def write_whole(path: Path, content: str | bytes, *, force: bool) -> None:
     """Writes a file by way of a temporary one beside it, so that a broken one is never seen."""
     refuse_existing(path, force=force)
     whole_files.write_whole(path, content.encode() if isinstance(content, str) else content)
+
+
+def write_diagram(
+    name: str | None,
+    found: Plotted,
+    session: Session,
+    *,
+    force: bool,
+    kind: str | None = None,
+) -> None:
+    """Draws a diagram of a result, the usual one unless a ``kind`` is named; the file's ending is its format."""
+    if name is None:
+        return
+    path = Path(name)
+    content = found.plot(kind=kind, language=session.language).content(path.suffix.lower())
+    write_whole(path, content, force=force)
+
+
+def refuse_output(name: str | None, endings: Sequence[str], say: Say, *, force: bool) -> None:
+    """Raises UsageError for a file that could not be written, before any work is done."""
+    if name is None:
+        return
+    path = Path(name)
+    if path.suffix.lower() not in endings:
+        raise UsageError(say("cli.bad_suffix", path=path, endings=say("finding.comma").join(endings)))
+    refuse_existing(path, force=force)
+
+
+def write_table(name: str | None, table: Callable[[], str], data: Callable[[], Any], *, force: bool) -> None:
+    """Writes the table or the data, as the file's ending says."""
+    if name is None:
+        return
+    from linkwright.cli.data import json_text
+
+    path = Path(name)
+    text = table() if path.suffix.lower() == ".csv" else json_text(data()) + "\n"
+    write_whole(path, text, force=force)
+
+
+def csv_of(columns: Mapping[str, Any]) -> str:
+    """Columns as CSV; numbers to the last bit, nothing where there is no number."""
+    import csv
+    import io
+
+    stream = io.StringIO()
+    writer = csv.writer(stream, lineterminator="\n")
+    writer.writerow([cell_text(name) for name in columns])
+    count = max((len(column) for column in columns.values()), default=0)
+    for i in range(count):
+        writer.writerow([_cell(column[i]) if i < len(column) else "" for column in columns.values()])
+    return stream.getvalue()
+
+
+def _cell(value: Any) -> str:
+    if isinstance(value, str):
+        return cell_text(value)
+    number = float(value)
+    return repr(number) if number == number else ""
+
+
+def curve_columns(found: Comparison) -> dict[str, Any]:
+    """Curves of a comparison as columns, SI."""
+    from linkwright.metrics.quantities import si_unit
+
+    columns: dict[str, Any] = {}
+    for overlay in found.curves:
+        unit = si_unit(overlay.dimension)
+        for label, (across, values) in overlay.lines.items():
+            if overlay.name == "hodograph":
+                columns[f"{label}: pivot_reaction.x [{unit}]"] = across
+                columns[f"{label}: pivot_reaction.y [{unit}]"] = values
+                continue
+            columns.setdefault(f"{label}: input", across)
+            columns[f"{label}: {overlay.name} [{unit}]"] = values
+    return columns
+
+
+def curve_data(found: Comparison) -> list[dict[str, Any]]:
+    """The same as plain data."""
+    from linkwright.metrics.quantities import si_unit
+
+    return [
+        {
+            "name": overlay.name,
+            "unit": si_unit(overlay.dimension),
+            "lines": {label: {"x": x.tolist(), "y": y.tolist()} for label, (x, y) in overlay.lines.items()},
+        }
+        for overlay in found.curves
+    ]

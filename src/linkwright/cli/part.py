@@ -57,7 +57,7 @@ class PartCommand:
 
 def refuse_outputs(options: argparse.Namespace, session: Session) -> None:
     """Raises UsageError for files that could not be written, before any work is done."""
-    from linkwright.cli.tables import PICTURES, refuse_output
+    from linkwright.cli.files import PICTURES, refuse_output
 
     refuse_output(options.output, ENDINGS, session.say, force=options.force)
     refuse_output(options.plot, PICTURES, session.say, force=options.force)
@@ -107,7 +107,7 @@ def kinds_of(command: str) -> tuple[str, ...]:
 
 def show(result: Result, options: argparse.Namespace, session: Session, *, kind: str | None = None) -> None:
     """Prints the result; writes its curves and its diagram (``kind``: another than its usual one) where asked."""
-    from linkwright.cli.tables import csv_of, write_diagram, write_table
+    from linkwright.cli.files import csv_of, write_diagram, write_table
 
     def table() -> str:
         columns = result.columns()

@@ -12,8 +12,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding
 from linkwright.words import Say
 from linkwright.words.characters import terminal_text
-from linkwright.words.reasons import reason_of
-from linkwright.words.sentence import Sentence
+from linkwright.words.sentence import Sentence, reason_of
 
 #: Width of tables where there is no terminal, as in a pipe or a file.
 PIPE_WIDTH = 100

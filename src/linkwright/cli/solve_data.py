@@ -6,10 +6,10 @@ import argparse
 
 from linkwright.cli.columns import Column, pick
 from linkwright.cli.data import finding_data
+from linkwright.cli.files import csv_of
 from linkwright.cli.solve_columns import leading, point_keys
 from linkwright.cli.solve_remarks import closeness
 from linkwright.cli.solving import Solved
-from linkwright.cli.tables import csv_of
 from linkwright.core.arrays import largest
 from linkwright.plot.force_names import reaction_pairs
 from linkwright.words import Say

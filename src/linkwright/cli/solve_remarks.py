@@ -19,7 +19,7 @@ from linkwright.kinetostatics.forces import Forces
 from linkwright.metrics.analysis import Kind
 from linkwright.plot.force_names import reaction_pairs
 from linkwright.words import Say
-from linkwright.words.width import aligned
+from linkwright.words.characters import aligned
 
 Wanted = tuple[Callable[[Forces], Floats], Kind]
 

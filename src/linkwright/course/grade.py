@@ -14,8 +14,7 @@ from linkwright.course.key import read_key
 from linkwright.course.variants import close
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.words import speaker
-from linkwright.words.reasons import reason_of
-from linkwright.words.sentence import Sentence, lines
+from linkwright.words.sentence import Sentence, lines, reason_of
 
 #: Letters of an answer that a sentence repeats.
 SHOWN = 60

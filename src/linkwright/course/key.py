@@ -10,8 +10,7 @@ from typing import Any
 from linkwright.course.mistakes import MISTAKES
 from linkwright.course.variants import FORMAT
 from linkwright.errors import RequestError
-from linkwright.words.reasons import reason_of
-from linkwright.words.sentence import Sentence
+from linkwright.words.sentence import Sentence, reason_of
 
 #: Above this size no answer lies.
 LARGEST = 1e300

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING
 from linkwright import gallery
 from linkwright.errors import Finding, ModelError
 from linkwright.registry import nearest
-from linkwright.words.reasons import reason_of
-from linkwright.words.sentence import Sentence
+from linkwright.words.sentence import Sentence, reason_of
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -1,4 +1,4 @@
-"""Laws of a straight line and sines of whole orders, and those that are known by a name."""
+"""Laws of cosines, of a straight line and sines of whole orders, and those that are known by a name."""
 
 from __future__ import annotations
 
@@ -120,3 +120,35 @@ class TripleHarmonic(MotionLaw):
     def curves(self, u: Any) -> tuple[Any, Any, Any, Any]:
         one, two = self.first / (2 * pi), self.second / (4 * pi)
         return sines(u, ((1, one), (2, two), (3, 1.0 - one - two)))
+
+
+@MOTION_LAWS.register("simple_harmonic")
+@dataclass(frozen=True)
+class SimpleHarmonic(MotionLaw):
+    """s = (1 - cos πu)/2: turns at both ends; beside a dwell the acceleration jumps."""
+
+    source: ClassVar[str] = "Rothbart, Cam Design Handbook, ch. 2"
+    formula = r"\frac{1-\cos\left(\pi\,u\right)}{2}"
+
+    def curves(self, u: Any) -> tuple[Any, Any, Any, Any]:
+        c, s = np.cos(pi * u), np.sin(pi * u)
+        return 0.5 - 0.5 * c, 0.5 * pi * s, 0.5 * pi**2 * c, -0.5 * pi**3 * s
+
+
+@MOTION_LAWS.register("double_harmonic")
+@dataclass(frozen=True)
+class DoubleHarmonic(MotionLaw):
+    """s = (1 - cos πu)/2 - (1 - cos 2πu)/8: from rest to a turn, for a rise that a fall follows at once."""
+
+    source: ClassVar[str] = "Rothbart, Cam Design Handbook, ch. 3"
+    formula = r"\frac{1-\cos\left(\pi\,u\right)}{2}-\frac{1-\cos\left(2\,\pi\,u\right)}{8}"
+
+    def curves(self, u: Any) -> tuple[Any, Any, Any, Any]:
+        c, s = np.cos(pi * u), np.sin(pi * u)
+        c2, s2 = np.cos(2 * pi * u), np.sin(2 * pi * u)
+        return (
+            0.5 * (1 - c) - 0.125 * (1 - c2),
+            0.5 * pi * s - 0.25 * pi * s2,
+            0.5 * pi**2 * (c - c2),
+            0.5 * pi**3 * (-s + 2 * s2),
+        )

@@ -12,8 +12,8 @@ from linkwright.metrics.base import METRICS, MetricValue
 from linkwright.metrics.quantities import number, shown, shown_unit
 from linkwright.registry import offered
 from linkwright.words import say
+from linkwright.words.characters import aligned
 from linkwright.words.sentence import Sentence, in_language
-from linkwright.words.width import aligned
 
 if TYPE_CHECKING:
     import pandas

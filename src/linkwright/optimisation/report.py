@@ -9,8 +9,8 @@ from linkwright.optimisation.measures import is_metric
 from linkwright.optimisation.optimum import Choice, Optimum
 from linkwright.study.criteria import criterion
 from linkwright.words import Say, say, speaker
+from linkwright.words.characters import aligned
 from linkwright.words.titles import title_said
-from linkwright.words.width import aligned
 
 #: Designs of a front that are listed.
 LISTED = 24

@@ -15,16 +15,60 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.plotted import Plotted
 from linkwright.errors import Finding, ModelError
-from linkwright.parts.display import number, si_unit, unit
+from linkwright.metrics.quantities import FURTHER, SHOWN
+from linkwright.units import SI_UNITS
 from linkwright.words import Say, speaker
+from linkwright.words.characters import aligned
 from linkwright.words.sentence import Sentence
-from linkwright.words.width import aligned
+from linkwright.worked.page import Equation, Step
 
 if TYPE_CHECKING:
     from typing import Self
 
     from linkwright.fields.base import Field
     from linkwright.worked.page import Step
+
+
+#: Dimensions that only these results have, with their SI units.
+OWN: Mapping[str, str] = {
+    "slope": "rad",
+    "flexural_rigidity": "N·m²",
+    "section_modulus": "m³",
+    "power_of_drag": "kg/m",
+    "length_per_angle_cubed": "m/rad³",
+    "per_angle_squared": "1/rad²",
+}
+#: Units of display with the factor from SI, where they differ from SI.
+UNITS: Mapping[str, tuple[str, float]] = {
+    **SHOWN,
+    "pressure": ("MPa", 1e-6),
+    "slope": ("mrad", 1e3),
+    "area": ("mm²", 1e6),
+    "section_modulus": ("mm³", 1e9),
+    "second_moment_of_area": ("mm⁴", 1e12),
+}
+
+
+def si_unit(dimension: str) -> str:
+    """SI unit of a dimension; empty for a plain number."""
+    return OWN.get(dimension) or FURTHER.get(dimension) or SI_UNITS.get(dimension, "")
+
+
+def unit(dimension: str) -> str:
+    """Unit in which the dimension is shown."""
+    return UNITS[dimension][0] if dimension in UNITS else si_unit(dimension)
+
+
+def number(value: float, dimension: str = "", digits: int = 6) -> str:
+    """The number alone in the shown unit; nothing but rounding is zero."""
+    shown = value * (UNITS[dimension][1] if dimension in UNITS else 1.0)
+    return f"{0.0 if abs(shown) < 1e-12 else shown:.{digits}g}"
+
+
+def shown(value: float, dimension: str = "", digits: int = 6) -> str:
+    """Number and unit: ``4.21875 mm``, ``12 MPa``."""
+    name = unit(dimension)
+    return f"{number(value, dimension, digits)}{'' if name in ('', '°') else ' '}{name}"
 
 
 def fault(code: str, key: str, **values: object) -> Finding:
@@ -165,3 +209,13 @@ class Result(Plotted, ABC):
 
     def __repr__(self) -> str:
         return self.text()
+
+
+def put(
+    step: Step, symbol: str, formula: str, value: float, dimension: str = "", *, numbers: str = ""
+) -> None:
+    """Adds a result: symbol, formula, the formula with its numbers, and the value (SI) in the shown unit."""
+    shown = number(value, dimension)
+    step.items.append(
+        Equation(symbol, symbol, formula, formula, numbers, numbers, shown, unit(dimension), value)
+    )

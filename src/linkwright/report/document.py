@@ -194,7 +194,7 @@ def plain(text: str) -> str:
 def longest_part(text: str) -> int:
     """Characters of the longest part of a text that does not break; a formula is one."""
     from linkwright.report.formula import formula, width
-    from linkwright.words.width import cells
+    from linkwright.words.characters import cells
 
     joined = "".join("m" * round(2.6 * width(formula(part))) if kind == "formula" else part
                      for kind, part in spans(text))  # fmt: skip

@@ -12,8 +12,8 @@ from dataclasses import field
 
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError
+from linkwright.words.characters import cells
 from linkwright.words.sentence import Sentence
-from linkwright.words.width import cells
 
 SYMBOLS = {
     "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "Delta": "Δ", "varepsilon": "ε", "eta": "η",

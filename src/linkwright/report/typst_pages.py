@@ -27,8 +27,8 @@ from linkwright.report.document import (
 )
 from linkwright.report.formula import formula, set_lines, width
 from linkwright.report.typst_formula import quoted, typst
+from linkwright.words.characters import cells
 from linkwright.words.sentence import Sentence
-from linkwright.words.width import cells
 
 LATIN = ("Libertinus Serif", "DejaVu Serif", "DejaVu Sans")
 MATHEMATICS = "New Computer Modern Math"

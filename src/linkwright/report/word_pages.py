@@ -23,9 +23,8 @@ from linkwright.report.document import (
 )
 from linkwright.report.formula import Atom, Row, formula, set_lines
 from linkwright.report.word_formula import SPACE, equation
-from linkwright.words.characters import printable
+from linkwright.words.characters import cells, printable
 from linkwright.words.sentence import Sentence
-from linkwright.words.width import cells
 
 #: Width of the text, inches; pictures' dots per inch.
 TEXT, DOTS = 6.69, 160.0

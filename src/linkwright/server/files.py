@@ -12,8 +12,7 @@ from linkwright.core.plain import Plain
 from linkwright.errors import LinkwrightError
 from linkwright.files.source import decode
 from linkwright.whole_files import make_folder, write_whole
-from linkwright.words.reasons import reason_of
-from linkwright.words.sentence import Sentence
+from linkwright.words.sentence import Sentence, reason_of
 
 _ENDINGS = (".yaml", ".yml", ".json")
 _DRAFTS = ".linkwright"

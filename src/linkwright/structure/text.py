@@ -7,7 +7,7 @@ from linkwright.structure.group import Connection, Group, Structure
 from linkwright.structure.mobility import lower_pairs
 from linkwright.structure.trains import GearTrain, written
 from linkwright.words import Say, has, speaker
-from linkwright.words.width import cells, padded
+from linkwright.words.characters import cells, padded
 
 
 def describe(structure: Structure, language: str = "en") -> str:

@@ -10,8 +10,8 @@ from linkwright.metrics.quantities import SHOWN, shown
 from linkwright.study.alternatives import Alternative
 from linkwright.study.criteria import criterion
 from linkwright.words import Say, speaker
+from linkwright.words.characters import aligned
 from linkwright.words.sentence import in_language
-from linkwright.words.width import aligned
 
 if TYPE_CHECKING:
     from linkwright.study.compare import Comparison, Rank, Row

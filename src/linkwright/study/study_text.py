@@ -9,8 +9,8 @@ import numpy as np
 from linkwright.metrics.quantities import number, shown, shown_unit
 from linkwright.study.criteria import criterion
 from linkwright.words import Say, speaker
+from linkwright.words.characters import aligned
 from linkwright.words.sentence import in_language
-from linkwright.words.width import aligned
 
 if TYPE_CHECKING:
     from linkwright.study.failures import Failure

@@ -6,8 +6,8 @@ from math import degrees
 
 from linkwright.synthesis.result import Candidate, Synthesis
 from linkwright.words import Say, has, speaker
+from linkwright.words.characters import aligned
 from linkwright.words.sentence import in_language
-from linkwright.words.width import aligned
 
 #: Share of the longest length, or of a radian, below which a deviation is rounding.
 ROUNDING = 1e-12

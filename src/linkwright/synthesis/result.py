@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import field
 from pathlib import Path
@@ -199,3 +200,16 @@ def ranked(candidates: Sequence[Candidate], size: float) -> tuple[Candidate, ...
     transmission = np.array([each.transmission_angle for each in candidates])
     sound = np.array([not each.defects for each in candidates])
     return tuple(candidates[i] for i in ranking(error, transmission, sound, size))
+
+
+def whole(*, least: int = 1, **values: float) -> None:
+    """Raises SynthesisError for the first value that is no whole number of ``least`` or more."""
+    for name, value in values.items():
+        if not (value == value and value >= least and float(value).is_integer()):
+            raise refuse("not_whole", name=name, given=f"{value:g}", least=least)
+
+
+def allowed_transmission(angle: float) -> None:
+    """Raises SynthesisError for a smallest transmission angle (rad) outside [0, 90°)."""
+    if not 0.0 <= angle < math.pi / 2 - 1e-6:
+        raise refuse("transmission", given=f"{math.degrees(angle):g}")

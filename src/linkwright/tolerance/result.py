@@ -13,9 +13,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError, ModelError
 from linkwright.kinetostatics.forces import Forces
 from linkwright.metrics.summary import Summary, wanted
-from linkwright.parts.base import Block, Result, Row, fault
-from linkwright.parts.display import number, shown, unit
-from linkwright.parts.steps import put
+from linkwright.parts.base import Block, Result, Row, fault, number, put, shown, unit
 from linkwright.study.designs import Sweep, sweep
 from linkwright.study.sensitivity import Sensitivity, sensitivity
 from linkwright.study.vary import design_values

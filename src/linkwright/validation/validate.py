@@ -11,9 +11,9 @@ from linkwright.units import unit
 from linkwright.validation.probes import PROBES
 from linkwright.validation.published import Printed, Published, published
 from linkwright.words import say, speaker
+from linkwright.words.characters import aligned
 from linkwright.words.sentence import in_language
 from linkwright.words.titles import title_said
-from linkwright.words.width import aligned
 
 
 @dataclass(frozen=True)

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import errno
 import re
 from collections.abc import Sequence
 from typing import Protocol, runtime_checkable
 
 from linkwright.core.dataclass import dataclass
-from linkwright.words import say
+from linkwright.words import has, say
 
 _OWN_NAMES = re.compile(
     r"(?<![\w.-])(?:frame|driver)(?![\w-])|\b(?:max|min)(?=→)|(?<=→)(?:max|min)\b|(?<= )(?:max|min)$"
@@ -97,3 +98,11 @@ def _value(value: object, language: str) -> object:
     if isinstance(value, SaidAnywhere):
         return value.say(language)
     return value
+
+
+def reason_of(problem: Exception) -> str:
+    """Why a file cannot be read or written."""
+    name = errno.errorcode.get(getattr(problem, "errno", None) or 0, "")
+    if has(f"system.{name}"):
+        return Sentence(f"system.{name}")
+    return getattr(problem, "strerror", None) or str(problem)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from unicodedata import east_asian_width
 
-from linkwright.words.width import cells
+from linkwright.words.characters import cells
 from linkwright.worked.page import Equation, Note, Relation, Step
 
 WIDTH = 100

@@ -46,9 +46,9 @@ def arguments(option: Options) -> None:
 
 def run(options: argparse.Namespace, session: Session) -> int:
     """Writes the moving picture; 1 where positions of the cycle were left out."""
+    from linkwright.cli.files import refuse_output
     from linkwright.cli.progress import progress
     from linkwright.cli.source import read_model
-    from linkwright.cli.tables import refuse_output
     from linkwright.kinematics.table import motion_results
     from linkwright.kinetostatics.table import force_results
     from linkwright.plot.animation import animate

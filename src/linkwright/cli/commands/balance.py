@@ -34,9 +34,8 @@ def arguments(option: Options) -> None:
 
 def run(options: argparse.Namespace, session: Session) -> int:
     """Prints the counterweights and their effect, and writes the balanced model."""
-    from linkwright.cli.files import write_whole
+    from linkwright.cli.files import refuse_output, write_whole
     from linkwright.cli.source import read_model
-    from linkwright.cli.tables import refuse_output
     from linkwright.kinetostatics.balancing import balance
 
     say = session.say
@@ -116,7 +115,7 @@ def _effects(found: Balancing) -> dict[str, tuple[str, float, float]]:
 
 
 def _report(found: Balancing, session: Session) -> list[str]:
-    from linkwright.words.width import aligned
+    from linkwright.words.characters import aligned
 
     say = session.say
     lines = [session.strong(found.mechanism.name), ""]

@@ -30,7 +30,7 @@ def arguments(option: Options) -> None:
 
 def run(options: argparse.Namespace, session: Session) -> int:
     """Solves the file's cam, shows its numbers and writes what is asked for."""
-    from linkwright.cli.tables import refuse_output
+    from linkwright.cli.files import refuse_output
 
     refuse_outputs(options, session)
     refuse_output(options.profile, PROFILES, session.say, force=options.force)

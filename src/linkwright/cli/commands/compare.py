@@ -38,8 +38,8 @@ def run(options: argparse.Namespace, session: Session) -> int:
     if len(options.files) < 2:
         raise UsageError(Sentence("cli.about", name="linkwright compare", cause=Sentence("compare.too_few")))
     weights, fluctuation = _weights(options.weights or [], say), _fluctuation(options.fluctuation, say)
+    from linkwright.cli.files import PICTURES, refuse_output
     from linkwright.cli.source import read_model
-    from linkwright.cli.tables import PICTURES, refuse_output
     from linkwright.study.compare import compare
 
     for path in (options.output, options.curves):
@@ -86,7 +86,7 @@ def _fluctuation(text: str, say: Say) -> float:
 
 
 def _show(found: Comparison, options: argparse.Namespace, session: Session) -> None:
-    from linkwright.cli.tables import csv_of, curve_columns, curve_data, write_diagram, write_table
+    from linkwright.cli.files import csv_of, curve_columns, curve_data, write_diagram, write_table
 
     table: dict[str, Sequence[str] | Sequence[float]] = {
         "metric": [

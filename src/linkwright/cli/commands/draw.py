@@ -51,8 +51,8 @@ def arguments(option: Options) -> None:
 
 def run(options: argparse.Namespace, session: Session) -> int:
     """Draws a model and writes the picture."""
+    from linkwright.cli.files import refuse_output
     from linkwright.cli.source import read_model
-    from linkwright.cli.tables import refuse_output
     from linkwright.plot.drawing.draw import draw
 
     refuse_output(options.output, ENDINGS, session.say, force=options.force)

@@ -21,11 +21,10 @@ def arguments(option: Options) -> None:
 
 def run(options: argparse.Namespace, session: Session) -> int:
     """Grades, prints a row per sheet, writes them where asked."""
-    from linkwright.cli.files import write_whole
-    from linkwright.cli.tables import refuse_output
+    from linkwright.cli.files import refuse_output, write_whole
     from linkwright.course.grade import grade, text
     from linkwright.course.questions import csv_bytes
-    from linkwright.words.width import aligned
+    from linkwright.words.characters import aligned
 
     refuse_output(options.output, ENDINGS, session.say, force=options.force)
     grades = grade(options.key, options.answers)

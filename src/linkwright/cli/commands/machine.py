@@ -79,10 +79,10 @@ def _refuse_contradictions(options: argparse.Namespace, say: Say) -> None:
 
 
 def _mechanism(options: argparse.Namespace, asked: Wanted, session: Session) -> int:
+    from linkwright.cli.files import csv_of, refuse_output, write_table
     from linkwright.cli.machine_rows import of_running
     from linkwright.cli.solve_remarks import closeness
     from linkwright.cli.source import read_model
-    from linkwright.cli.tables import csv_of, refuse_output, write_table
     from linkwright.kinetostatics.forces import solve_forces
     from linkwright.machine.running import steady_running
 
@@ -140,7 +140,7 @@ def _cycle(running: SteadyRunning) -> dict[str, Any]:
 
 
 def _show(title: str, blocks: list[list[Row]], remarks: list[str], session: Session) -> None:
-    from linkwright.words.width import aligned
+    from linkwright.words.characters import aligned
 
     say = session.say
     if session.json:

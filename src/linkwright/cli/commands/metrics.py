@@ -33,8 +33,8 @@ def arguments(option: Options) -> None:
 
 def run(options: argparse.Namespace, session: Session) -> int:
     """Prints or writes the numbers; 1 where the joint forces failed that some of them need."""
+    from linkwright.cli.files import csv_of, refuse_output, write_table
     from linkwright.cli.source import read_model
-    from linkwright.cli.tables import csv_of, refuse_output, write_table
 
     say = session.say
     refuse_output(options.output, ENDINGS, say, force=options.force)
@@ -119,7 +119,7 @@ def _report(table: MetricsTable, session: Session) -> list[str]:
 
 def _lines(table: MetricsTable, session: Session) -> list[str]:
     """Lines of the table; where it is too wide, each remark on a line of its own beneath its number."""
-    from linkwright.words.width import aligned, cells
+    from linkwright.words.characters import aligned, cells
 
     keys = ("metric", "subject", "value", "unit", "at", "limit", "remark")
     rows = [[session.say(f"metrics.column.{key}") for key in keys]]

@@ -46,8 +46,8 @@ def run(options: argparse.Namespace, session: Session) -> int:
 
 
 def _searched(options: argparse.Namespace, session: Session) -> int:
+    from linkwright.cli.files import PICTURES, refuse_output
     from linkwright.cli.progress import progress
-    from linkwright.cli.tables import PICTURES, refuse_output
     from linkwright.optimisation.optimize import optimize
     from linkwright.optimisation.optimum import OptimizeError
     from linkwright.study.cluster import on_cluster
@@ -114,8 +114,7 @@ def _unmet(error: OptimizeError, session: Session) -> int:
 
 
 def _show(found: Optimum, options: argparse.Namespace, session: Session) -> None:
-    from linkwright.cli.files import write_whole
-    from linkwright.cli.tables import write_diagram
+    from linkwright.cli.files import write_diagram, write_whole
 
     written: list[str] = []
     if options.output is not None:

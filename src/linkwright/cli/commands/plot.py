@@ -76,7 +76,7 @@ def _require_kind(options: argparse.Namespace) -> None:
 
 def _path(options: argparse.Namespace, say: Say) -> Path:
     """Where the diagram goes; refused before any work is done."""
-    from linkwright.cli.tables import refuse_output
+    from linkwright.cli.files import refuse_output
 
     source = options.files[0].removeprefix("gallery:")
     path = Path(options.output or f"{Path(source).stem}-{options.kind}.svg")

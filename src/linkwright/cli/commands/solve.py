@@ -79,7 +79,7 @@ def _refuse_contradictions(options: argparse.Namespace, say: Say) -> None:
     if options.static and options.forces is False:
         raise UsageError(say("cli.not_together", name="--static", other="--no-forces"))
     if options.output is not None:
-        from linkwright.cli.tables import refuse_output
+        from linkwright.cli.files import refuse_output
 
         refuse_output(options.output, ENDINGS, say, force=options.force)
 
@@ -87,8 +87,8 @@ def _refuse_contradictions(options: argparse.Namespace, say: Say) -> None:
 def _write(solved: Solved, options: argparse.Namespace, session: Session) -> None:
     from pathlib import Path
 
+    from linkwright.cli.files import write_table
     from linkwright.cli.solve_data import csv_text, data
-    from linkwright.cli.tables import write_table
 
     asked = solved, options, session.say
     write_table(options.output, lambda: csv_text(*asked), lambda: data(*asked), force=options.force)

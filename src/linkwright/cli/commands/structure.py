@@ -65,7 +65,7 @@ def _program(mechanism: Mechanism, forces: bool) -> Program:
 
 def _counts(program: Program, say: Say) -> str:
     """Operations in a table: once per design, once per position."""
-    from linkwright.words.width import aligned
+    from linkwright.words.characters import aligned
 
     counts = program.counts()
     design, position = counts["design"], counts["position"]

@@ -6,8 +6,7 @@ import argparse
 
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
-from linkwright.words.reasons import reason_of
-from linkwright.words.sentence import Sentence
+from linkwright.words.sentence import Sentence, reason_of
 
 LAST_PORT = 65535
 

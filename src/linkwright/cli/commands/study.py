@@ -35,8 +35,8 @@ def arguments(option: Options) -> None:
 
 def run(options: argparse.Namespace, session: Session) -> int:
     """Studies the designs and prints or writes what came out."""
+    from linkwright.cli.files import PICTURES, refuse_output
     from linkwright.cli.source import read_model
-    from linkwright.cli.tables import PICTURES, refuse_output
     from linkwright.study.cluster import on_cluster
     from linkwright.study.study import study
 
@@ -67,7 +67,7 @@ def ranges_of(texts: list[str], say: Say) -> dict[str, str]:
 
 
 def _show(found: Study, options: argparse.Namespace, session: Session) -> None:
-    from linkwright.cli.tables import write_diagram, write_table
+    from linkwright.cli.files import write_diagram, write_table
 
     write_table(options.output, found.csv, found.data, force=options.force)
     write_diagram(options.plot, found, session, force=options.force)

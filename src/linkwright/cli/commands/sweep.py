@@ -46,7 +46,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
 
 
 def _show(found: SweepParts, options: argparse.Namespace, session: Session) -> None:
-    from linkwright.words.width import aligned
+    from linkwright.words.characters import aligned
 
     ranges = found.ranges()
     best = found.best(options.best) if options.best is not None else {}

@@ -29,7 +29,7 @@ def arguments(option: Options) -> None:
 
 def run(options: argparse.Namespace, session: Session) -> int:
     """Runs the task and shows or writes its candidates."""
-    from linkwright.cli.tables import PICTURES, refuse_output
+    from linkwright.cli.files import PICTURES, refuse_output
     from linkwright.synthesis.result import SynthesisError
 
     say = session.say
@@ -78,8 +78,7 @@ def _unmet(error: SynthesisError, options: argparse.Namespace, mass: float | Non
 
 
 def _show(found: Synthesis, options: argparse.Namespace, mass: float | None, session: Session) -> None:
-    from linkwright.cli.files import write_whole
-    from linkwright.cli.tables import write_diagram
+    from linkwright.cli.files import write_diagram, write_whole
 
     efforts = [each.loads(mass, speed=options.speed) for each in found] if mass is not None else []
     written = []
@@ -104,7 +103,7 @@ def _show(found: Synthesis, options: argparse.Namespace, mass: float | None, ses
 
 
 def _effort_lines(efforts: list[dict[str, float]], say: Say) -> list[str]:
-    from linkwright.words.width import aligned
+    from linkwright.words.characters import aligned
 
     rows = [[say(f"synthesize.column.{name}") for name in ("number", "torque", "reaction")]]
     rows += [

@@ -16,14 +16,12 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding
 from linkwright.fields.base import Quantities, Quantity, Schema, Word, quantity_schema
-from linkwright.parts.base import Block, Problem, Result, Row, fault
+from linkwright.parts.base import Block, Problem, Result, Row, fault, number, put, shown
 from linkwright.parts.beams.elastic import ElasticLine, Hold, Point, Spread, free_motions, solve_line
 from linkwright.parts.beams.materials import MATERIAL, Material
 from linkwright.parts.beams.sections import Section, section_field
-from linkwright.parts.display import number, shown
 from linkwright.parts.fields import Flag, Listed, Named, Table
 from linkwright.parts.motions import plain_motions
-from linkwright.parts.steps import put
 from linkwright.words import Say
 from linkwright.words.sentence import Sentence
 from linkwright.worked.page import Step

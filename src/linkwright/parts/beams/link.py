@@ -17,15 +17,13 @@ from linkwright.fields.base import Quantity, Text
 from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.kinetostatics.link_balance import applied_rows
 from linkwright.mechanism.mechanism import Link, Mechanism
-from linkwright.parts.base import Block, Result, Row, fault
+from linkwright.parts.base import Block, Result, Row, fault, put, shown
 from linkwright.parts.beams.axis import LinkAxis, SpreadMass
 from linkwright.parts.beams.beam import polynomial_text
 from linkwright.parts.beams.materials import MATERIAL, Material
 from linkwright.parts.beams.sections import Section, require_modulus, section_field
-from linkwright.parts.display import shown
 from linkwright.parts.fields import Listed, Whole
 from linkwright.parts.mechanism_field import MECHANISM, OfMechanism
-from linkwright.parts.steps import put
 from linkwright.words import Say
 from linkwright.worked.page import Step
 

@@ -18,8 +18,7 @@ from linkwright.errors import Finding, ModelError, QuantityError
 from linkwright.fields.base import Field
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Scalar
-from linkwright.parts.base import Block, Problem, Result, Row, fault
-from linkwright.parts.display import UNITS, shown, si_unit
+from linkwright.parts.base import UNITS, Block, Problem, Result, Row, fault, put, shown, si_unit
 from linkwright.parts.fields import AnyQuantity, Flag, Listed, Named, Table
 from linkwright.parts.programs.conflict import conflict
 from linkwright.parts.programs.formula import Constraint, Formula, constraint, formula
@@ -33,7 +32,6 @@ from linkwright.parts.programs.nonlinear import (
     solve_nonlinear,
 )
 from linkwright.parts.programs.problem import Model, Variable
-from linkwright.parts.steps import put
 from linkwright.words import Say
 from linkwright.words.sentence import Sentence
 from linkwright.worked.page import Step

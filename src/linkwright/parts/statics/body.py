@@ -13,12 +13,10 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding
 from linkwright.fields.base import Word
-from linkwright.parts.base import Block, Problem, Result, Row, fault
-from linkwright.parts.display import number
+from linkwright.parts.base import Block, Problem, Result, Row, fault, number, put
 from linkwright.parts.fields import Listed, Named, Table
 from linkwright.parts.motions import plain_motions
 from linkwright.parts.statics.forces import COUPLES, FORCES, Components, Force, spatial
-from linkwright.parts.steps import put
 from linkwright.words import Say
 from linkwright.words.sentence import Sentence
 from linkwright.worked.page import Step

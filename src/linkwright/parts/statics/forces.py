@@ -15,10 +15,8 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding
 from linkwright.fields.base import Quantities, Quantity
-from linkwright.parts.base import Block, Problem, Result, Row, fault
-from linkwright.parts.display import number
+from linkwright.parts.base import Block, Problem, Result, Row, fault, number, put
 from linkwright.parts.fields import Either, Named, Table
-from linkwright.parts.steps import put
 from linkwright.words import Say
 from linkwright.worked.page import Step
 

@@ -11,8 +11,7 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding
 from linkwright.fields.base import Quantity
-from linkwright.parts.base import Block, Problem, Result, Row, fault
-from linkwright.parts.steps import put
+from linkwright.parts.base import Block, Problem, Result, Row, fault, put
 from linkwright.words import Say
 from linkwright.worked.page import Step
 

@@ -14,8 +14,7 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding
 from linkwright.fields.base import Quantity, Text, Word
-from linkwright.parts.base import Block, Problem, Result, Row, Scale, fault
-from linkwright.parts.display import number
+from linkwright.parts.base import Block, Problem, Result, Row, Scale, fault, number, put
 from linkwright.parts.fields import AnyQuantity, Listed, Named, Numbers, Sample, Table, Whole
 from linkwright.parts.statistics.describe import (
     DISTRIBUTIONS,
@@ -31,7 +30,6 @@ from linkwright.parts.statistics.describe import (
 )
 from linkwright.parts.statistics.hypotheses import AGAINST, TESTS, TOGETHER, Outcome
 from linkwright.parts.statistics.regression import Regression, regression
-from linkwright.parts.steps import put
 from linkwright.words import Say
 from linkwright.worked.page import Step
 

@@ -16,11 +16,9 @@ from linkwright.fields.base import Quantity, Text
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.parts.base import Block, Result, Row, fault
-from linkwright.parts.display import shown
+from linkwright.parts.base import Block, Result, Row, fault, put, shown
 from linkwright.parts.fields import Whole
 from linkwright.parts.mechanism_field import MECHANISM, OfMechanism
-from linkwright.parts.steps import put
 from linkwright.parts.trajectories.transport import FLIGHT, MODES, Transported, Trough, transport
 from linkwright.words import Say
 from linkwright.worked.page import Step

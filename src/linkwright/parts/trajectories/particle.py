@@ -16,9 +16,8 @@ from linkwright.errors import Finding, LinkwrightError, ModelError
 from linkwright.fields.base import Quantity, Text
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.parts.base import Block, Problem, Result, Row, fault
+from linkwright.parts.base import Block, Problem, Result, Row, fault, put
 from linkwright.parts.mechanism_field import load_beside
-from linkwright.parts.steps import put
 from linkwright.words import Say
 from linkwright.worked.page import Step
 

@@ -20,9 +20,7 @@ from linkwright.laws.base import MOTION_LAWS, MotionLaw
 from linkwright.laws.fitting import motion_law
 from linkwright.laws.program_fields import LawField
 from linkwright.laws.residual import residual
-from linkwright.parts.base import Block, Problem, Result, Row, fault
-from linkwright.parts.display import number
-from linkwright.parts.steps import put
+from linkwright.parts.base import Block, Problem, Result, Row, fault, number, put
 from linkwright.parts.vibration.linear import Linear
 from linkwright.words import Say
 from linkwright.worked.page import Step

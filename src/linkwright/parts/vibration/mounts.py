@@ -16,11 +16,9 @@ from linkwright.errors import Finding, LinkwrightError, ModelError
 from linkwright.fields.base import Quantities, Quantity
 from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.parts.base import Block, Result, Row, fault
-from linkwright.parts.display import number, shown
+from linkwright.parts.base import Block, Result, Row, fault, number, put, shown
 from linkwright.parts.fields import Named, Table, Whole
 from linkwright.parts.mechanism_field import MECHANISM, OfMechanism
-from linkwright.parts.steps import put
 from linkwright.words import Say
 from linkwright.worked.page import Step
 

@@ -15,10 +15,8 @@ from linkwright.core.arrays import Complexes, Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, ModelError
 from linkwright.fields.base import Quantities, Quantity, Text
-from linkwright.parts.base import Block, Problem, Result, Row, fault
-from linkwright.parts.display import number
+from linkwright.parts.base import Block, Problem, Result, Row, fault, number, put
 from linkwright.parts.fields import AnyQuantity, Listed, Named, Table
-from linkwright.parts.steps import put
 from linkwright.parts.vibration.linear import Linear, tuned
 from linkwright.units import DIMENSIONS
 from linkwright.words import Say

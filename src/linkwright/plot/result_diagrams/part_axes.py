@@ -9,7 +9,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.parts.display import UNITS, unit
+from linkwright.parts.base import UNITS, unit
 from linkwright.plot.diagrams.axes import Legend, angle_ticks, framed
 from linkwright.plot.diagrams.base import Request
 from linkwright.plot.diagrams.picture import COLOURS, FAINT, INK, new_figure

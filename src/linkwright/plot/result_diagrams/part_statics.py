@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.parts.display import shown
+from linkwright.parts.base import shown
 from linkwright.parts.statics.belt import BeltTensions
 from linkwright.parts.statics.body import HELD, Reactions
 from linkwright.parts.statics.forces import Resultant, spatial

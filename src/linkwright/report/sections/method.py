@@ -9,10 +9,11 @@ from linkwright.errors import LinkwrightError
 from linkwright.report.case import Case
 from linkwright.report.document import Block, Formula, Heading, Paragraph, literal, strong, symbols
 from linkwright.report.formula import formula, width
-from linkwright.report.loops import loops
 from linkwright.report.section import section
 from linkwright.structure.group import Group
+from linkwright.worked.chains import Chain, chain_closures
 from linkwright.worked.page import Equation, Note, Relation, Step
+from linkwright.worked.symbols import Book, tex
 
 #: Width of a line of formulas, em.
 LINE = 36.0
@@ -86,3 +87,36 @@ def side_by_side(formulas: list[str]) -> Iterator[Formula]:
         used += wide
     if line:
         yield Formula((r" ,\quad ".join(line),), number=False)
+
+
+def loops(case: Case, group: Group) -> list[tuple[str, str]]:
+    """Left and right side of every loop, LaTeX; for the cut at a guide the component across it.
+
+    Rows of gears and racks are no loops: they stand among the formulas.
+    """
+    book = Book(*case.worked_motion, case.say)
+    found = []
+    for closure in chain_closures(book, group):
+        first, second = (_sum(chain) for chain in closure.chains)
+        if closure.across is not None:
+            name = tex(closure.cut.joint)
+            first, second = (
+                rf"\vec{{n}}_{{\perp {name}}}\cdot \left({each}\right)" for each in (first, second)
+            )
+            joint = case.mechanism.joints[closure.cut.joint]
+            if getattr(joint, "offset", 0.0):
+                first = rf"{first} + h_{{{name}}}"
+        found.append((first, second))
+    return found
+
+
+def _sum(chain: Chain) -> str:
+    """Vectors along a chain, from its base to its tip."""
+    found = rf"\vec{{r}}_{{{tex(chain.base.label)}}}"
+    for piece in chain.pieces:
+        if piece.start.key != piece.end.key:
+            found += rf" + \overrightarrow{{{tex(piece.start.label)}{tex(piece.end.label)}}}"
+        for step, _, sign in piece.slides:
+            name = tex(step.joint)
+            found += rf" {'+' if sign > 0 else '-'} s_{{{name}}}\,\vec{{n}}_{{{name}}}"
+    return found

@@ -11,7 +11,6 @@ from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Complexes
 from linkwright.engine.machine_code import available
-from linkwright.synthesis.demands import whole
 from linkwright.synthesis.free_curve.curve_file import read_curve
 from linkwright.synthesis.free_curve.drawn import drawing
 from linkwright.synthesis.free_curve.linkages import Placed, kind_of, linkage_of
@@ -20,7 +19,7 @@ from linkwright.synthesis.free_curve.search import JOINTS, Search
 from linkwright.synthesis.free_curve.target import EVEN, Target, even_points, symmetric_distance
 from linkwright.synthesis.path_generation.generate import complex_points
 from linkwright.synthesis.requirements.slider_crank import not_negative, positive
-from linkwright.synthesis.result import Candidate, Synthesis, note, refuse
+from linkwright.synthesis.result import Candidate, Synthesis, note, refuse, whole
 
 #: Positions of a candidate's curve.
 SHOWN = 721

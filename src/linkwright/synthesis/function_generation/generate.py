@@ -12,7 +12,6 @@ from numpy.typing import ArrayLike
 from linkwright.core.arrays import Complexes, Floats
 from linkwright.synthesis.assessment import assess_four_bars
 from linkwright.synthesis.build import four_bar_candidate
-from linkwright.synthesis.demands import allowed_transmission, whole
 from linkwright.synthesis.function_generation.exact import families, freudenstein
 from linkwright.synthesis.function_generation.fit import FunctionDemand, fit
 from linkwright.synthesis.function_generation.generators import (
@@ -22,7 +21,16 @@ from linkwright.synthesis.function_generation.generators import (
     Run,
     TurningFourBar,
 )
-from linkwright.synthesis.result import Candidate, Synthesis, different, note, ranked, refuse
+from linkwright.synthesis.result import (
+    Candidate,
+    Synthesis,
+    allowed_transmission,
+    different,
+    note,
+    ranked,
+    refuse,
+    whole,
+)
 
 FINE = 181
 #: Candidates whose points differ less than this share of their size are one.

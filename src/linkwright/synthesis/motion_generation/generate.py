@@ -18,7 +18,6 @@ from linkwright.synthesis.build import (
     slider_crank,
     working_span,
 )
-from linkwright.synthesis.demands import whole
 from linkwright.synthesis.motion_generation.burmester import Dyads, centres, circles, join, relative_poses
 from linkwright.synthesis.motion_generation.families import (
     LINES,
@@ -31,7 +30,7 @@ from linkwright.synthesis.motion_generation.families import (
     usual_window,
 )
 from linkwright.synthesis.motion_generation.mixed import counted_solutions, mixed_solutions
-from linkwright.synthesis.result import Candidate, Synthesis, different, note, ranked, ranking, refuse
+from linkwright.synthesis.result import Candidate, Synthesis, different, note, ranked, ranking, refuse, whole
 
 Pose = Sequence[float]
 

@@ -8,11 +8,10 @@ from numpy.typing import ArrayLike
 from linkwright.core.arrays import Complexes
 from linkwright.synthesis.assessment import Assessment, assess_four_bars
 from linkwright.synthesis.build import four_bar_candidate, path_of_four_bar
-from linkwright.synthesis.demands import whole
 from linkwright.synthesis.nine_points.classes import is_real, relatives
 from linkwright.synthesis.nine_points.query import NinePoints, nine_points
 from linkwright.synthesis.path_generation.generate import complex_points, path_generation
-from linkwright.synthesis.result import Candidate, Synthesis, note, refuse
+from linkwright.synthesis.result import Candidate, Synthesis, note, refuse, whole
 
 #: Sum of squares below which a path of least squares passes its points exactly, in units of their size squared.
 EXACT = 1e-18

@@ -11,11 +11,19 @@ from linkwright.core.arrays import Complexes
 from linkwright.synthesis.assessment import assess_four_bars
 from linkwright.synthesis.build import four_bar_candidate, path_of_four_bar
 from linkwright.synthesis.crank_family import couplers
-from linkwright.synthesis.demands import allowed_transmission, whole
 from linkwright.synthesis.path_generation.projection import Demand
 from linkwright.synthesis.path_generation.search import Found, search
 from linkwright.synthesis.requirements.slider_crank import positive
-from linkwright.synthesis.result import Candidate, Synthesis, different, note, ranked, refuse
+from linkwright.synthesis.result import (
+    Candidate,
+    Synthesis,
+    allowed_transmission,
+    different,
+    note,
+    ranked,
+    refuse,
+    whole,
+)
 
 #: Solutions whose lengths agree so far (relative) are one.
 ALIKE = 1e-4

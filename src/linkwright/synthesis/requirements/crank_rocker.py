@@ -15,10 +15,9 @@ import numpy as np
 from linkwright.core.arrays import Complexes, Flags
 from linkwright.synthesis.assessment import Assessment, assess_four_bars
 from linkwright.synthesis.build import four_bar_candidate
-from linkwright.synthesis.demands import whole
 from linkwright.synthesis.linkage import Guide, Linkage
 from linkwright.synthesis.requirements.slider_crank import angle_between_limits, not_negative, positive
-from linkwright.synthesis.result import Candidate, Synthesis, SynthesisError, note, refuse
+from linkwright.synthesis.result import Candidate, Synthesis, SynthesisError, note, refuse, whole
 
 SAMPLES = 20_001
 #: A rocker swings less than half a turn.
