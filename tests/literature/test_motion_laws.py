@@ -15,7 +15,7 @@ import linkwright as lw
 from linkwright.errors import LinkwrightError
 from linkwright.laws.base import END_KINDS, MOTION_LAWS, Ends, MotionLaw
 from linkwright.laws.fitting import laws_for, motion_law
-from linkwright.laws.harmonic_combination import HarmonicCombination
+from linkwright.laws.harmonics import HarmonicCombination
 from linkwright.laws.polynomial import Polynomial5, Polynomial7
 
 #: Values that laws without usual ones need.

@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from linkwright import parts
-from linkwright.parts.programs.conflict import conflict
-from linkwright.parts.programs.linear import feasible
+from linkwright.parts.programs.linear import conflict, feasible
 from linkwright.parts.programs.program import Optimum
 
 INCH = 0.0254

@@ -7,9 +7,8 @@ import pytest
 from linkwright.errors import LinkwrightError
 from linkwright.report.document import Document, Formula
 from linkwright.report.formula import Atom, Row, formula, lines, set_lines, width
-from linkwright.report.typst_formula import typst
-from linkwright.report.word_formula import SPACE, equation
-from linkwright.report.word_pages import word
+from linkwright.report.typst_pages import typst
+from linkwright.report.word_pages import SPACE, equation, word
 from linkwright.words import speaker
 
 SIGN = Atom("sign", "=")

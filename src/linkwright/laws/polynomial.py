@@ -171,3 +171,15 @@ class Polydyne(Polynomial):
         second = np.append(first[1:] * np.arange(1, 10), 0.0)
         total: Floats = y + 2 * self.damping_ratio / w * first + second / w**2
         return tuple(total.tolist())
+
+
+@MOTION_LAWS.register("constant_velocity")
+@dataclass(frozen=True)
+class ConstantVelocity(MotionLaw):
+    """s = u: for passages between motions of the same velocity; beside a dwell the velocity jumps."""
+
+    source: ClassVar[str] = "VDI 2143-1; Norton, Cam Design and Manufacturing Handbook, ch. 2"
+
+    def curves(self, u: Any) -> tuple[Any, Any, Any, Any]:
+        none = 0.0 * u
+        return u + none, none + 1.0, none, none

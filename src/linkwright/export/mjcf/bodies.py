@@ -1,4 +1,4 @@
-"""Links as bodies of a MuJoCo model, nested as they hang in the chains of the Assur groups."""
+"""Links as bodies of a MuJoCo model, nested in the chains of the Assur groups, and what closes the loops."""
 
 from __future__ import annotations
 
@@ -208,3 +208,41 @@ def span(link: Link) -> float:
     """Largest distance between two points of a link, m."""
     places = np.array(list(link.points.values()))
     return float(np.hypot(*(places[:, None] - places[None]).T).max())
+
+
+def loops(results: Results, bodies: Bodies) -> ET.Element:
+    """A ``connect`` for each cut pin, a ``weld`` to the rider of each cut guide and for each cut weld."""
+    equality = ET.Element("equality")
+    for group in results.structure.groups:
+        for cut in group.cuts:
+            name = f"{cut.joint}.{cut.b}"
+            if cut.turns:
+                ET.SubElement(
+                    equality, "connect", name=name, site1=f"{cut.a}.{cut.joint}", site2=f"{cut.b}.{cut.joint}"
+                )
+            elif cut.slides:
+                ET.SubElement(equality, "weld", name=name, body1=f"{cut.joint}.rider", body2=cut.b)
+            elif cut.higher:
+                ET.SubElement(equality, "tendon", name=name, tendon1=cut.joint, polycoef="0 0 0 0 0")
+            else:
+                a, b = (link if link != "frame" else "world" for link in (cut.a, cut.b))
+                ET.SubElement(equality, "weld", name=name, body1=a, body2=b)
+    return equality
+
+
+def tendons(results: Results, bodies: Bodies) -> ET.Element:
+    """For each higher pair the sum of joint coordinates that it keeps, as a tendon of fixed factors."""
+    found = ET.Element("tendon")
+    for group in results.structure.groups:
+        for cut in group.cuts:
+            if not cut.higher:
+                continue
+            rotations, slides, _ = results.mechanism.joints[cut.joint].sums(results.mechanism)
+            factors = bodies.turned(rotations)
+            for name, factor in slides.items():
+                factors[name] = factors.get(name, 0.0) + factor
+            tendon = ET.SubElement(found, "fixed", name=cut.joint)
+            for name, factor in factors.items():
+                if factor:
+                    ET.SubElement(tendon, "joint", joint=name, coef=numbers([factor]))
+    return found

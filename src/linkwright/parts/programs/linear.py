@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -114,3 +116,30 @@ def runaway(model: Model) -> Floats:
         form.rows[eq] if eq.any() else None, np.zeros(int(eq.sum())) if eq.any() else None, ends, method="highs",
     )  # fmt: skip
     return np.asarray(found.x) * form.sizes
+
+
+def conflict(model: Model, feasible: Callable[[Model], bool]) -> tuple[list[str], list[tuple[str, str]]]:
+    """Names of constraints, and bounds (variable, ``low`` or ``high``), that cannot hold together; without any one of
+    them the others can (deletion filter: Chinneck and Dravnieks, ORSA Journal on Computing 3, 1991)."""
+    constraints = [c.name for c in model.constraints]
+    bounds = [
+        (name, side)
+        for name, v in model.variables.items()
+        for side in ("low", "high")
+        if math.isfinite(getattr(v, side)) and not v.choices
+    ]
+    kept: list[str] = []
+    for name in constraints:
+        fewer = model.without(constraint=name)
+        if feasible(fewer):
+            kept.append(name)
+        else:
+            model = fewer
+    held: list[tuple[str, str]] = []
+    for bound in bounds:
+        fewer = model.without(bound=bound)
+        if feasible(fewer):
+            held.append(bound)
+        else:
+            model = fewer
+    return kept, held

@@ -20,9 +20,8 @@ from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Scalar
 from linkwright.parts.base import UNITS, Block, Problem, Result, Row, fault, put, shown, si_unit
 from linkwright.parts.fields import AnyQuantity, Flag, Listed, Named, Table
-from linkwright.parts.programs.conflict import conflict
 from linkwright.parts.programs.formula import Constraint, Formula, constraint, formula
-from linkwright.parts.programs.linear import feasible, runaway, solve_linear
+from linkwright.parts.programs.linear import conflict, feasible, runaway, solve_linear
 from linkwright.parts.programs.nonlinear import (
     ENUMERATED,
     branch,

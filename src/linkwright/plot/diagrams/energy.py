@@ -1,15 +1,20 @@
-"""Torque against its mean, and the energy indicator diagram."""
+"""Torque against its mean with the energy indicator diagram; the speed with a flywheel and without."""
 
 from __future__ import annotations
 
 import numpy as np
 
+from linkwright.errors import LinkwrightError
 from linkwright.machine.energy import EnergyFluctuation
 from linkwright.machine.equivalent import Equivalent, equivalent
+from linkwright.machine.running import SteadyRunning
+from linkwright.machine.speed import SpeedCurve
+from linkwright.metrics.true_speed import steady_cycle
 from linkwright.plot.diagrams.base import DIAGRAMS, Request
 from linkwright.plot.diagrams.panels import Curve, Level, OverInput, Panel
+from linkwright.plot.diagrams.picture import COLOURS
 from linkwright.plot.diagrams.source import InputAxis, Source
-from linkwright.plot.diagrams.units import unit_of
+from linkwright.plot.diagrams.units import significant, unit_of
 
 
 @DIAGRAMS.register("energy")
@@ -48,3 +53,44 @@ def _reduced(source: Source) -> tuple[Equivalent, EnergyFluctuation]:
         return source.result_running.equivalent, source.result_running.energy
     reduced = source.once("energy", lambda: equivalent(source.forces))
     return reduced, reduced.energy
+
+
+@DIAGRAMS.register("speed")
+class Speed(OverInput):
+    """ω(φ) of steady running under a constant motor torque: with the flywheel for a required δ, and without any."""
+
+    options = ("fluctuation", "static")
+
+    def axis(self, source: Source) -> InputAxis:
+        if source.result_running is None:
+            return source.axis
+        reduced = source.result_running.equivalent
+        return InputAxis("", "angle", reduced.start + reduced.direction * np.array([0.0, reduced.period]))
+
+    def panels(self, source: Source, request: Request) -> list[Panel]:
+        running = source.once(f"running {request.fluctuation}", lambda: source.running(request.fluctuation))
+        say, mean = request.say, running.equivalent.speed
+        title = f"{say('input_speed')} ω"
+        level = Level(say("mean", value=f"{significant(mean)} rad/s"), mean)
+        first = _curve(running, running.exact_speed, running.exact_flywheel, say("flywheel"), COLOURS[0])
+        found = [Panel(title, "angular_velocity", (first,), (level,))]
+        alone = _alone(running) if running.exact_flywheel > 0 else None
+        if alone is not None:
+            bare = _curve(running, alone, 0.0, say("no_flywheel"), COLOURS[4])
+            found.append(Panel(title, "angular_velocity", (bare,), (level,)))
+        return found
+
+
+def _curve(running: SteadyRunning, speed: SpeedCurve, flywheel: float, name: str, colour: str) -> Curve:
+    inertia = f", J = {significant(flywheel)} kg·m²" if flywheel else ""
+    label = f"{name}{inertia}: δ = {significant(speed.fluctuation, 3)}"
+    reduced = running.equivalent
+    return Curve(label, speed.speed, colour=colour, x=reduced.start + reduced.direction * speed.angle)
+
+
+def _alone(running: SteadyRunning) -> SpeedCurve | None:
+    """The speed without a flywheel; None where the machine would stop within its cycle."""
+    try:
+        return steady_cycle(running.equivalent.forces)[1].curve(motor_torque=running.mean_torque)
+    except LinkwrightError:
+        return None

@@ -1,4 +1,4 @@
-"""Joint forces over the input."""
+"""Joint forces, and what the inertia of the links does to the frame, over the input."""
 
 from __future__ import annotations
 
@@ -88,3 +88,27 @@ def _of_one(source: Source, request: Request) -> list[Panel]:
         Panel(f"{say('joint_force')} F", "force", (total,)),
         Panel(title, "force", tuple(parts)),
     ]
+
+
+@DIAGRAMS.register("shaking")
+class Shaking(OverInput):
+    """What the inertia of the moving links does to the frame: force with its components, moment about the origin."""
+
+    options = ("static",)
+
+    def panels(self, source: Source, request: Request) -> list[Panel]:
+        say, forces = request.say, source.forces
+        require_forces(forces)
+        force = source.closed(forces.shaking_force)
+        size = source.extremes(lambda f: np.hypot(*f.shaking_force.T), "forces")
+        curves = (
+            Curve("Fx", force[:, 0], "", COLOURS[1]),
+            Curve("Fy", force[:, 1], "", COLOURS[2]),
+            Curve("F", np.hypot(*force.T), "max", COLOURS[0], extremes=size),
+        )
+        turning = source.extremes(lambda f: f.shaking_moment, "forces")
+        moment = Curve("", source.closed(forces.shaking_moment), extremes=turning)
+        return [
+            Panel(f"{say('shaking_force')} F", "force", curves),
+            Panel(f"{say('shaking_moment')} M", "torque", (moment,)),
+        ]

@@ -1,9 +1,10 @@
-"""What the drivers must supply, with its mean."""
+"""What the drivers must supply, torque and power, with its mean."""
 
 from __future__ import annotations
 
 from functools import partial
 
+from linkwright.core.arrays import Floats
 from linkwright.core.outputs import Output
 from linkwright.errors import RequestError
 from linkwright.kinetostatics.forces import Forces
@@ -41,3 +42,27 @@ class Torque(OverInput):
             label = f"{f'{name}: ' if several else ''}{say('mean', value=panel.unit.text(mean))}"
             found.append(Panel(title, dimension, panel.curves, (Level(label, mean),)))
         return found
+
+
+@DIAGRAMS.register("power")
+class Power(OverInput):
+    """Power that all drivers supply together, from the powers of all forces."""
+
+    options = ("static",)
+
+    def output(self, source: Source, request: Request) -> Output | str | None:
+        return main_output(source.motion)
+
+    def panels(self, source: Source, request: Request) -> list[Panel]:
+        power = source.forces.power
+        title = f"{request.say('power')} P"
+        panel = Panel(
+            title, "power", (Curve("", source.closed(power), extremes=source.extremes(_total, "forces")),)
+        )
+        mean = Analysis(source.motion, source.forces).mean_of(_total)
+        label = request.say("mean", value=panel.unit.text(mean))
+        return [Panel(title, "power", panel.curves, (Level(label, mean),))]
+
+
+def _total(forces: Forces) -> Floats:
+    return forces.power

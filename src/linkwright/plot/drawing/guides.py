@@ -12,7 +12,7 @@ from linkwright.joints.lower import SlidingJoint
 from linkwright.plot.drawing.machine import Machine, Part
 from linkwright.plot.drawing.view import Placement
 from linkwright.plot.symbols.base import SYMBOLS, Vec, points
-from linkwright.plot.symbols.guides_and_blocks import HEIGHT, LENGTH
+from linkwright.plot.symbols.joints import HEIGHT, LENGTH
 
 STUB = 8.0
 

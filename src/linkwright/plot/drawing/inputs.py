@@ -12,7 +12,7 @@ from linkwright.plot.drawing.guides import block_direction, direction, ground_si
 from linkwright.plot.drawing.machine import Machine, Part, support_direction
 from linkwright.plot.drawing.view import Placement
 from linkwright.plot.symbols.base import SYMBOLS
-from linkwright.plot.symbols.guides_and_blocks import HEIGHT
+from linkwright.plot.symbols.joints import HEIGHT
 
 RADIUS = 21.0
 

@@ -17,7 +17,7 @@ from linkwright.plot.drawing.names import LINK_SIZE
 from linkwright.plot.drawing.scene import Scene
 from linkwright.plot.svg.element import Element
 from linkwright.plot.symbols.base import EMPTY, SYMBOLS, Shape, Vec, joined
-from linkwright.plot.symbols.guides_and_blocks import HEIGHT, LENGTH
+from linkwright.plot.symbols.joints import HEIGHT, LENGTH
 
 PUSH = 52.0
 GAP, BLOCK_GAP = 7.0, 19.0
