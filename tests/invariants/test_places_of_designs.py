@@ -40,6 +40,51 @@ def test_numbers_and_slopes_are_those_of_machines_alone(model: str, by: str, nam
     assert gradient[0] == pytest.approx(difference, rel=1e-7, abs=1e-8 * abs(own) / value)
 
 
+def test_bare_names_mean_the_largest_value_whatever_comes_first_in_the_cycle() -> None:
+    """Rockers whose pivot goes round the crank's: the larger limit comes first in some designs, last in others. Its
+    value by the cosine rule of the crank and coupler in one line, and where the rocker's angle is there."""
+    machine, rng = lw.load("gallery:crank_rocker"), np.random.default_rng(5)
+    columns = {"frame.O2.y": rng.uniform(-3.0, 3.0, 8), "crank.length": rng.uniform(0.5, 1.1, 8)}
+    names = ["limit_position", "dead_point"]
+    found, order = lw.sweep(machine, columns, outputs=names), set[str]()
+    for k, (up, crank) in enumerate(zip(*columns.values(), strict=True)):
+        design = machine.with_dimensions({"frame.O2.y": float(up), "crank.length": float(crank)})
+        solved, ground = lw.solve_forces(design), np.hypot(4.0, up)
+        order.add(lw.limit_positions(solved.motion, "rocker")[0].kind)
+        swung = []
+        for rod in (3.5 + crank, 3.5 - crank):  # crank and coupler stretched, folded
+            swung.append(np.arccos((2.5**2 + ground**2 - rod**2) / (2 * 2.5 * ground)))
+        # the rocker stands left of the ground line O1O2, turned by its own angle from O2O1
+        largest = np.arctan2(-up, -4.0) % (2 * np.pi) - min(swung)
+        assert np.cos(found["limit_position"][k]) == pytest.approx(np.cos(largest), abs=1e-9)
+        table = metrics(solved, names)
+        assert table["limit_position"][0].value == pytest.approx(found["limit_position"][k], abs=1e-12)
+        assert table.value("dead_point", "rocker max") == pytest.approx(found["dead_point"][k], abs=1e-12)
+    assert order == {"max", "min"}
+
+
+def test_bare_names_go_to_the_first_output_that_reverses() -> None:
+    """With the shortest ground the second link turns fully, and the block is the first output that goes to and fro;
+    with a longer one it swings itself."""
+    machine = lw.loads(
+        "format: 1\nname: drag link\nframe: {points: {O1: [0 m, 0 m], O2: [0.3 m, 0 m]}}\n"
+        "links:\n  crank: {points: [O1, A], length: 0.4 m}\n  coupler: {points: [A, B], length: 1.2 m}\n"
+        "  follower: {points: [O2, B], length: 1.2 m}\n  rod: {points: [B, C], length: 4 m}\n"
+        "  block: {points: [C]}\njoints:\n  guide: {kind: prismatic, guide: frame, through: O1, direction: 0 deg,"
+        " block: block, at: C}\nassembly: {B: left, C: forward}\ndriver: {turn: crank, about: O1, speed: 1 rad/s}\n"
+    )
+    grounds = np.array([0.1, 0.3, 0.6, 1.0])
+    alone = []
+    for ground in grounds.tolist():
+        table = metrics(lw.solve_motion(machine.with_dimensions({"frame.O2.x": ground})), "limit_position")
+        assert table["limit_position"][0].subject == ("guide max" if ground < 0.4 else "follower max")
+        alone.append(table["limit_position"][0].value)
+    for start in (0.3, 1.0):
+        begun = machine.with_dimensions({"frame.O2.x": start})
+        found = lw.sweep(begun, {"frame.O2.x": grounds}, outputs="limit_position")
+        assert found["limit_position"] == pytest.approx(alone, abs=1e-12)
+
+
 def test_slopes_of_an_ellipse() -> None:
     """A trammel's point 80 mm and b from the blocks: π a b, and 4 a E(m) with dE/dm = (E - K)/(2 m)."""
     trammel = lw.load("gallery:elliptic_trammel")

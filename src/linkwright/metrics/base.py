@@ -11,6 +11,7 @@ from typing import Any, ClassVar, Literal
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.outputs import Output
 from linkwright.engine.trace import Scalar
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis, Extreme, Result
@@ -99,7 +100,8 @@ class Number:
     ``parts``: outputs in words with a kind of summary, ``"reaction O5 on jaw max"`` (see ``metrics.summary.KINDS``);
     ``formula``: the value from these, with ``+ - * /`` and the functions of ``engine.trace`` alone, so that it serves
     numbers and traced values; ``at``: where it is, from the parts as extremes. ``dimension``: that of the metric
-    where left out.
+    where left out. ``passed_over``: outputs of the machine that come before, where that is no number of theirs as they
+    reverse nowhere; without a subject the number is meant in such designs alone.
     """
 
     subject: str
@@ -107,6 +109,7 @@ class Number:
     formula: Callable[..., Scalar] = _itself
     dimension: str | None = None
     at: Callable[..., float] = _first
+    passed_over: tuple[Output, ...] = ()
 
     def measured(self, analysis: Analysis) -> tuple[float, float, bool]:
         """Value, place, and whether it is exact between the positions, of one machine."""

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from linkwright.core.outputs import Output
-from linkwright.loads.phases import outermost
 from linkwright.loads.signals import Limit
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Metric, MetricValue, Number
@@ -13,7 +12,10 @@ from linkwright.metrics.base import METRICS, Metric, MetricValue, Number
 
 @METRICS.register("limit_position")
 class LimitPosition(Metric):
-    """Every position in which an output reverses: its angle or displacement there, and the input."""
+    """Every position in which an output reverses: its angle or displacement there, and the input.
+
+    For each output those with the largest values first; without a subject the first of all is meant.
+    """
 
     dimension = "angle"
     source = "IFToMM terminology: the output's velocity is zero"
@@ -24,14 +26,13 @@ class LimitPosition(Metric):
 
     def numbers(self, analysis: Analysis) -> Iterator[Number]:
         """The outermost ones of a closed cycle."""
-        for output, limits in outermost_limits(analysis):
-            for limit in limits:
-                part = f"{output.owner}.{output.kind} {limit.kind}"
-                yield Number(f"{output} {limit.kind}", (part,), dimension=output.dimension)
+        for output, kind, passed_over in outermost_limits(analysis):
+            part = f"{output.owner}.{output.kind} {kind}"
+            yield Number(f"{output} {kind}", (part,), dimension=output.dimension, passed_over=passed_over)
 
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:
         for output in analysis.outputs:
-            for limit in analysis.limits(output):
+            for limit in sorted(analysis.limits(output), key=_from_the_largest):
                 yield self.value(
                     analysis,
                     f"{output} {limit.kind}",
@@ -41,8 +42,17 @@ class LimitPosition(Metric):
                 )
 
 
-def outermost_limits(analysis: Analysis) -> Iterator[tuple[Output, list[Limit]]]:
-    """Outputs with limits in a closed cycle, with their outermost ones by increasing time."""
+def _from_the_largest(limit: Limit) -> tuple[bool, float]:
+    """Puts largest values first, the outermost one before the others, then smallest ones in the same way."""
+    return (False, -limit.value) if limit.kind == "max" else (True, limit.value)
+
+
+def outermost_limits(analysis: Analysis) -> Iterator[tuple[Output, str, tuple[Output, ...]]]:
+    """Outputs with limits in a closed cycle and the kinds of these, ``max`` first, which is the same in all designs;
+    with them the outputs before that reverse nowhere."""
+    never: list[Output] = []
     for output in analysis.outputs if analysis.whole else ():
-        if limits := analysis.limits(output):
-            yield output, outermost(limits)
+        kinds = {limit.kind for limit in analysis.limits(output)}
+        if not kinds:
+            never.append(output)
+        yield from ((output, kind, tuple(never)) for kind in ("max", "min") if kind in kinds)

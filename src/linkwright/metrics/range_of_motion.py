@@ -126,10 +126,11 @@ class DeadPoint(Metric):
         if len(drivers) != 1 or (speed := drivers[0].law.constant_speed) is None:
             return
         within = partial(_within, float(analysis.motion.input[0]), speed * period)
-        for output, limits in outermost_limits(analysis):
-            for limit in sorted(limits, key=lambda each: each.input):
-                part = f"{output.owner}.{output.kind} arg{limit.kind}"
-                yield Number(f"{output} {limit.kind}", (part,), within, analysis.input_dimension)
+        for output, kind, passed_over in outermost_limits(analysis):
+            part = f"{output.owner}.{output.kind} arg{kind}"
+            yield Number(
+                f"{output} {kind}", (part,), within, analysis.input_dimension, passed_over=passed_over
+            )
 
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:
         driver, kind = next(iter(analysis.motion.mechanism.drivers)), analysis.input_dimension

@@ -24,7 +24,7 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import Analysis
 from linkwright.metrics.outputs import mechanism_outputs
 from linkwright.registry import offered
-from linkwright.study.terms import pivot
+from linkwright.study.terms import Asked, pivot
 from linkwright.words.sentence import Sentence
 
 #: A mean torque of this share of the largest one is zero but for rounding.
@@ -70,6 +70,11 @@ class Alternative:
             self.notes.append(Sentence("cli.about", name=self.label, cause=error))
             return False
         return True
+
+    @property
+    def asked(self) -> Asked:
+        """What numbers of its own output depend on."""
+        return Asked(self.output, self.fluctuation)
 
     @property
     def loaded(self) -> bool:

@@ -14,7 +14,7 @@ from linkwright.metrics.flywheel import SIZED
 from linkwright.metrics.summary import is_summary, wanted
 from linkwright.registry import offered
 from linkwright.study.alternatives import Alternative
-from linkwright.study.terms import OWN, Asked, governing, metric_of, own
+from linkwright.study.terms import OWN, governing, metric_of, own, term
 from linkwright.words import say
 from linkwright.words.sentence import Sentence
 
@@ -92,6 +92,10 @@ def _metric(each: Alternative, metric: Metric, subject: str) -> Measured | None:
         if (why := metric.obstacle(each.analysis)) is not None:
             each.notes.append(Sentence("cli.about", name=each.label, cause=why))
         return None
+    meant = term(metric.name, each.analysis, each.asked) if metric.own_values and not subject else None
+    if meant is not None:
+        value, at, _ = meant.numbers[0].measured(each.analysis)
+        return Measured(value, meant.dimension, at)
     values = metric.evaluate(each.analysis)
     found = [v for v in values if v.subject == subject] if subject else _of_output(each, metric, values)
     if not found:
@@ -109,7 +113,7 @@ def _metric(each: Alternative, metric: Metric, subject: str) -> Measured | None:
 def numbers_of(each: Alternative, name: str) -> Iterable[Number]:
     """The formulas of summaries behind a criterion, of all subjects."""
     if name in OWN:
-        found = own(name, each.analysis, Asked(each.output, each.fluctuation))
+        found = own(name, each.analysis, each.asked)
         return found.numbers if found else ()
     metric, _ = metric_of(name) or (None, "")
     kind = metric() if metric is not None else None
@@ -120,7 +124,7 @@ def _own(each: Alternative, name: str) -> Measured | None:
     """A number of the shared output."""
     if name in SIZED and not each.takes_flywheel:
         return None
-    found = own(name, each.analysis, Asked(each.output, each.fluctuation))
+    found = own(name, each.analysis, each.asked)
     if found is None:
         return None
     value, at, _ = found.numbers[0].measured(each.analysis)

@@ -30,7 +30,7 @@ from linkwright.kinetostatics.traced_loads import AlongInput
 from linkwright.loads.base import Load
 from linkwright.loads.phases import TURN
 from linkwright.study.joint_bends import FIRST, bend_names, bend_stage
-from linkwright.study.limit_stages import edge_name, part_edge, part_edge_beside, whole_turns
+from linkwright.study.limit_stages import edge_name, part_edge, part_edge_beside, rates, whole_turns
 from linkwright.study.loaded_cycle import friction_doubt
 from linkwright.study.traced import VALID, Traced
 
@@ -196,11 +196,18 @@ class GaussCycle:
         outputs = {f"cut {k}": share for k, share in enumerate(_apart(shares))}
         return Stage(Program.of(t, outputs), {name: Reduction(name, "first") for name in outputs}, steps=1)
 
-    def signals(self, outputs: Mapping[str, Scalar]) -> tuple[Trace, dict[str, Scalar]]:
+    def signals(
+        self, outputs: Mapping[str, Scalar], one_way: Iterable[Output] = ()
+    ) -> tuple[Trace, dict[str, Scalar]]:
         """A trace over the Gauss points with the outputs, whether they are valid, and the share of the time; the
-        chain coordinates of groups without closed form are fields."""
+        chain coordinates of groups without closed form are fields. Valid is what moves ``one_way`` as in the machine
+        itself."""
         motion = self.traced.solver.motion
         sure = motion.trace.logic("and", self.traced.counted_for_certain, friction_doubt(self.traced) < 0.5)
+        nominal = MotionSignals(self.traced.nominal)
+        for output in one_way:
+            sense = float(np.sign(nominal.output(output)[1].mean()))
+            sure = motion.trace.logic("and", sure, rates(self.traced, output)[0] * sense > 0.0)
         source = Program.of(motion.trace, {**outputs, VALID: sure})
         t = Trace()
         point, width = self.point(t)

@@ -136,6 +136,7 @@ class MetricCycle:
         texts = all_parts(terms)
         on_strokes = _strokes(texts)
         self.least = _least(map(one, texts), on_strokes)
+        self.one_way = tuple(dict.fromkeys(output for each in terms for output in each.passed_over))
         self.parts = {
             text: Summary(text, "min") if text in on_strokes else one(text)
             for text in texts
@@ -332,7 +333,7 @@ class MetricCycle:
     @cached_property
     def _signals(self) -> PieceSummaries:
         """All signals at the Gauss points, and what is asked of them."""
-        program = Program.of(*self.gauss.signals(self.courses))
+        program = Program.of(*self.gauss.signals(self.courses, self.one_way))
         return PieceSummaries(program, self._summaries, self.gauss.pieces, SHARE, [VALID])
 
     @property
@@ -400,7 +401,7 @@ class MetricCycle:
 
     def _differentiable(self, asked: Sequence[Mapping[str, float]], by: tuple[str, ...]) -> CycleGradient:
         """The same summaries as sums over the Gauss points with known weights, whose places stay in their pieces."""
-        trace, found = self.gauss.signals(self.courses)
+        trace, found = self.gauss.signals(self.courses, self.one_way)
         width = found[SHARE]
         sums: dict[str, Scalar] = {}
         for text, part in self.parts.items():

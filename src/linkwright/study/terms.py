@@ -22,12 +22,16 @@ from linkwright.words.sentence import Sentence
 
 @dataclass(frozen=True)
 class Term:
-    """One number per design: of the ``numbers`` of a metric the governing one."""
+    """One number per design: of the ``numbers`` of a metric the governing one.
+
+    ``passed_over``: outputs that reverse nowhere where the number is meant, see ``Number``.
+    """
 
     name: str
     numbers: tuple[Number, ...]
     dimension: str
     better: str | None = None
+    passed_over: tuple[Output, ...] = ()
 
     @property
     def parts(self) -> tuple[str, ...]:
@@ -148,7 +152,8 @@ def term(name: str, analysis: Analysis, asked: Asked | None = None) -> Term | No
     if not numbers:
         return None
     chosen = _chosen(name, metric, numbers, subject, preferred)
-    return Term(name, chosen, chosen[0].dimension or metric.dimension, metric.better)
+    passed_over = chosen[0].passed_over if len(chosen) == len(numbers) and not subject else ()
+    return Term(name, chosen, chosen[0].dimension or metric.dimension, metric.better, passed_over)
 
 
 def measured(name: str, analysis: Analysis) -> tuple[float, str] | None:
@@ -186,8 +191,8 @@ def _chosen(
     name: str, metric: Metric, numbers: Sequence[Number], subject: str, preferred: str
 ) -> tuple[Number, ...]:
     """The numbers of one subject, or all."""
-    wanted = subject or ("" if metric.needs_forces else preferred)
-    mine = tuple(number for number in numbers if number.subject == wanted)
+    wanted = (subject,) if subject or metric.needs_forces else (preferred, f"{preferred} max")
+    mine = tuple(number for number in numbers if number.subject in wanted)
     chosen_subjects(name, subject, (number.subject for number in numbers))
     return mine or tuple(numbers)
 
