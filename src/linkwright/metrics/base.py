@@ -100,8 +100,8 @@ class Number:
     ``parts``: outputs in words with a kind of summary, ``"reaction O5 on jaw max"`` (see ``metrics.summary.KINDS``);
     ``formula``: the value from these, with ``+ - * /`` and the functions of ``engine.trace`` alone, so that it serves
     numbers and traced values; ``at``: where it is, from the parts as extremes. ``dimension``: that of the metric
-    where left out. ``passed_over``: outputs of the machine that come before, where that is no number of theirs as they
-    reverse nowhere; without a subject the number is meant in such designs alone.
+    where left out. ``passed_over``: outputs of the machine that come before and have no such number, as they reverse
+    nowhere; without a subject the number is meant in such designs alone.
     """
 
     subject: str
