@@ -9,7 +9,7 @@ import numpy as np
 from linkwright.optimisation.optimum import Optimum
 from linkwright.optimisation.report import label, shown_unit
 from linkwright.plot.diagrams.base import Request, result_diagram
-from linkwright.plot.diagrams.picture import COLOURS, INK, style
+from linkwright.plot.diagrams.picture import COLOURS, INK, new_figure
 from linkwright.words import say
 
 if TYPE_CHECKING:
@@ -22,19 +22,16 @@ NEAR = 0.1
 @result_diagram("optimisation", Optimum)
 def draw_optimisation(result: Optimum, request: Request) -> Figure:
     """Objectives of the designs against the first one, with the start; for one objective the search's progress."""
-    with style(request.language):
-        from matplotlib.figure import Figure
-
-        goals = result.problem.goals
-        count = max(len(goals) - 1, 1)
-        figure = Figure(figsize=request.size or (7.0, 1.4 + 3.4 * count), layout="constrained")
-        axes = figure.subplots(count, 1, squeeze=False)[:, 0]
-        if len(goals) == 1:
-            _progress(axes[0], result, request.language)
-        for one, goal in zip(axes, goals[1:], strict=False):
-            _front(one, result, goal.text, request.language)
-        title = say("optimize.picture", request.language, name=result.problem.mechanism.name)
-        figure.suptitle(title if request.title is None else request.title)
+    goals = result.problem.goals
+    count = max(len(goals) - 1, 1)
+    figure = new_figure(request.size or (7.0, 1.4 + 3.4 * count))
+    axes = figure.subplots(count, 1, squeeze=False)[:, 0]
+    if len(goals) == 1:
+        _progress(axes[0], result, request.language)
+    for one, goal in zip(axes, goals[1:], strict=False):
+        _front(one, result, goal.text, request.language)
+    title = say("optimize.picture", request.language, name=result.problem.mechanism.name)
+    figure.suptitle(title if request.title is None else request.title)
     return figure
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from linkwright.plot.diagrams.base import Request, result_diagram
-from linkwright.plot.diagrams.picture import COLOURS, FAINT, INK, style
+from linkwright.plot.diagrams.picture import COLOURS, FAINT, INK, new_figure
 from linkwright.synthesis.report import name_said
 from linkwright.synthesis.result import Candidate, Synthesis
 from linkwright.words import say, speaker
@@ -24,18 +24,15 @@ def draw_synthesis(result: Synthesis, request: Request) -> Figure:
 
     Functions are drawn beside them over the input.
     """
-    with style(request.language):
-        from matplotlib.figure import Figure
-
-        function = any(each.curve is not None and each.curve.ndim == 2 for each in result.candidates)
-        figure = Figure(figsize=request.size or ((11, 5.2) if function else (7.5, 6)), layout="constrained")
-        axes = figure.subplots(1, 2 if function else 1, squeeze=False)[0]
-        _plane(axes[0], result, request.language)
-        if function:
-            _function(axes[1], result, request.language)
-        task = name_said(result.task, speaker(request.language))
-        title = say("synthesize.title", request.language, task=task, count=len(result))
-        figure.suptitle(title if request.title is None else request.title)
+    function = any(each.curve is not None and each.curve.ndim == 2 for each in result.candidates)
+    figure = new_figure(request.size or ((11, 5.2) if function else (7.5, 6)))
+    axes = figure.subplots(1, 2 if function else 1, squeeze=False)[0]
+    _plane(axes[0], result, request.language)
+    if function:
+        _function(axes[1], result, request.language)
+    task = name_said(result.task, speaker(request.language))
+    title = say("synthesize.title", request.language, task=task, count=len(result))
+    figure.suptitle(title if request.title is None else request.title)
     return figure
 
 

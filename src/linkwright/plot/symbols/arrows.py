@@ -8,7 +8,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.plot.svg.element import Element, path
-from linkwright.plot.symbols.base import EMPTY, SYMBOLS, Shape, Vec, placed, points, vec
+from linkwright.plot.symbols.base import EMPTY, SYMBOLS, Shape, Vec, around, placed, points, vec, way
 
 HEAD = 9.0
 
@@ -35,13 +35,13 @@ def crank_arrow(
     """
     forward = -1.0 if turning >= 0 else 1.0
     angle = middle + forward * np.linspace(-sweep / 2, sweep / 2, 49)
-    arc = np.stack([at[0] + radius * np.cos(angle), at[1] + radius * np.sin(angle)], axis=1)
+    arc = around(at, radius, angle)
     size = HEAD
     back = max(1, round(size * (len(arc) - 1) / (abs(sweep) * radius)))
     elements: list[Element] = [path(_shortened(arc, size, both=turning == 0), f"{style}-line")]
-    elements.append(head(vec(arc[-1]), _chord(arc[-1 - back], arc[-1]), size, f"{style}-head"))
+    elements.append(head(vec(arc[-1]), way(arc[-1 - back], arc[-1])[1], size, f"{style}-head"))
     if turning == 0:
-        elements.append(head(vec(arc[0]), _chord(arc[back], arc[0]), size, f"{style}-head"))
+        elements.append(head(vec(arc[0]), way(arc[back], arc[0])[1], size, f"{style}-head"))
     return Shape(tuple(elements), (arc,))
 
 
@@ -71,17 +71,9 @@ def _shortened(arc: Floats, head: float, *, both: bool) -> Floats:
     return points(arc[count if both else 0 : -count])
 
 
-def _chord(a: Floats, b: Floats) -> Vec:
-    dx, dy = float(b[0] - a[0]), float(b[1] - a[1])
-    length = math.hypot(dx, dy)
-    return dx / length, dy / length
-
-
 def arrow_points(start: Vec, end: Vec) -> tuple[Floats, Floats]:
     """Shaft (2, 2) and head (3, 2) of an arrow; the head shrinks with a short arrow."""
-    dx, dy = end[0] - start[0], end[1] - start[1]
-    length = math.hypot(dx, dy)
-    along = (dx / length, dy / length) if length else (1.0, 0.0)
+    length, along = way(start, end)
     size = min(HEAD, 0.6 * length)
     neck = (end[0] - 0.8 * size * along[0], end[1] - 0.8 * size * along[1])
     tip = placed([(0, 0), (-size, -0.36 * size), (-size, 0.36 * size)], end, along)
@@ -91,7 +83,7 @@ def arrow_points(start: Vec, end: Vec) -> tuple[Floats, Floats]:
 @SYMBOLS.register("arrow")
 def arrow(*, start: Vec = (0.0, 0.0), end: Vec = (50.0, -20.0), style: str = "lw-force") -> Shape:
     """A vector from ``start`` to ``end``; nothing where both are the same."""
-    if math.hypot(end[0] - start[0], end[1] - start[1]) < 0.8:
+    if math.dist(start, end) < 0.8:
         return EMPTY
     shaft, tip = arrow_points(start, end)
     elements = (path(shaft, f"{style}-line"), path(tip, f"{style}-head", closed=True))
@@ -137,14 +129,12 @@ def dimension_line(
     ``offset``: to the right of the way from start to end on the paper, negative: to the left. ``rises``: how far
     to the right of start and end the places lie from which the extension lines come.
     """
-    dx, dy = end[0] - start[0], end[1] - start[1]
-    length = math.hypot(dx, dy)
+    length, along = way(start, end)
     if length < 1.0:
         return EMPTY
-    along = (dx / length, dy / length)
     over = offset + math.copysign(5.0, offset)
     line = placed([(0, offset), (length, offset)], start, along)
-    first, last = ((float(x), float(y)) for x, y in line)
+    first, last = vec(line[0]), vec(line[1])
     inside = length > 24.0
     back = (-along[0], -along[1])
     stroke = line if inside else placed([(-16, offset), (length + 16, offset)], start, along)
@@ -167,21 +157,14 @@ def dimension_arc(
 ) -> Shape:
     """An arc with two heads for an angle at a place, from the direction ``first`` on (rad, clockwise on paper)."""
     angle = first + sweep * np.linspace(0.0, 1.0, 25)
-    arc = np.stack([at[0] + radius * np.cos(angle), at[1] + radius * np.sin(angle)], axis=1)
+    arc = around(at, radius, angle)
     sides = tuple(
         placed([(0.3 * radius, 0.0), (radius + 5.0, 0.0)], at, (math.cos(each), math.sin(each)))
         for each in (first, first + sweep)
     )
     heads: tuple[Element, ...] = ()
     if abs(sweep) * radius > 24.0:
-        chords = [(arc[0], arc[0] - arc[4]), (arc[-1], arc[-1] - arc[-5])]
-        heads = tuple(
-            head((float(tip[0]), float(tip[1])), _unit(way), 8.0, "lw-dimension-head") for tip, way in chords
-        )
+        chords = [(arc[4], arc[0]), (arc[-5], arc[-1])]
+        heads = tuple(head(vec(tip), way(back, tip)[1], 8.0, "lw-dimension-head") for back, tip in chords)
     lines = (arc, *sides)
     return Shape((*(path(line, "lw-dimension") for line in lines), *heads), lines)
-
-
-def _unit(way: Floats) -> Vec:
-    length = float(np.hypot(*way))
-    return float(way[0]) / length, float(way[1]) / length

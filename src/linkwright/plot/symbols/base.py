@@ -6,6 +6,7 @@ right, y down, one unit a pixel at natural size. Directions are unit vectors on 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable
 
 import numpy as np
@@ -19,6 +20,8 @@ from linkwright.registry import Registry
 Vec = tuple[float, float]
 PIN = 5.0
 LINE = 2.6
+#: Distance and depth of the strokes of a hatching.
+HATCH = (6.0, 7.0)
 
 
 @dataclass(frozen=True)
@@ -54,10 +57,21 @@ def placed(local: ArrayLike, at: Vec, along: Vec) -> Floats:
     return np.stack([at[0] + c * p[:, 0] - s * p[:, 1], at[1] + s * p[:, 0] + c * p[:, 1]], axis=1)
 
 
+def around(at: Vec, radius: float | Floats, angle: Floats) -> Floats:
+    """Points (k, 2) about a place, at angles (k,) clockwise on the paper, rad."""
+    return np.stack([at[0] + radius * np.cos(angle), at[1] + radius * np.sin(angle)], axis=1)
+
+
 def ring(at: Vec, radius: float, count: int = 12) -> Floats:
     """A closed circle of points."""
-    angle = np.linspace(0.0, 2 * np.pi, count + 1)
-    return np.stack([at[0] + radius * np.cos(angle), at[1] + radius * np.sin(angle)], axis=1)
+    return around(at, radius, np.linspace(0.0, 2 * np.pi, count + 1))
+
+
+def way(start: Vec | Floats, end: Vec | Floats) -> tuple[float, Vec]:
+    """Length and direction from one place to another; to the right where both are the same."""
+    dx, dy = float(end[0] - start[0]), float(end[1] - start[1])
+    length = math.hypot(dx, dy)
+    return length, (dx / length, dy / length) if length else (1.0, 0.0)
 
 
 def vec(row: Floats) -> Vec:
@@ -65,12 +79,11 @@ def vec(row: Floats) -> Vec:
     return float(row[0]), float(row[1])
 
 
-def hatching(start: Vec, end: Vec, side: int, *, step: float = 6.0, depth: float = 7.0) -> list[Floats]:
+def hatching(start: Vec, end: Vec, side: int) -> list[Floats]:
     """Short strokes on one side (+1: right of the way from start to end on the paper) of a line."""
-    length = float(np.hypot(end[0] - start[0], end[1] - start[1]))
+    length, along = way(start, end)
     if length < 1e-9:
         return []
-    along = ((end[0] - start[0]) / length, (end[1] - start[1]) / length)
-    count = max(2, round(length / step))
+    count = max(2, round(length / HATCH[0]))
     marks = (np.arange(count) + 0.75) * length / count
-    return [placed([(x, 0.0), (x - 0.75 * depth, side * depth)], start, along) for x in marks]
+    return [placed([(x, 0.0), (x - 0.75 * HATCH[1], side * HATCH[1])], start, along) for x in marks]

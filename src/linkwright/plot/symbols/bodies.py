@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from linkwright.core.arrays import Floats
 from linkwright.core.plane import convex_hull
 from linkwright.plot.svg.element import circle, path
-from linkwright.plot.symbols.base import SYMBOLS, Shape, Vec, placed, points, ring
+from linkwright.plot.symbols.base import SYMBOLS, Shape, Vec, around, placed, points, ring
 
 
 @SYMBOLS.register("bar")
@@ -55,7 +55,7 @@ def gear(
     small = min(1.0, 2 * math.pi * radius / count / PITCH)
     height = small * np.tile(np.where(_TOOTH[:, 1] > 0, TALL, -DEEP), count) * (-1.0 if inside else 1.0)
     r = radius + height
-    outline = np.stack([at[0] + r * np.cos(angle), at[1] + r * np.sin(angle)], axis=1)
+    outline = around(at, r, angle)
     rim = (circle(at, radius + 4 * DEEP, "lw-gear"),) if inside else ()
     wheel = path(outline, "lw-rim" if inside else "lw-gear", closed=True)
     return Shape((*rim, wheel, circle(at, radius, "lw-pitch")), (ring(at, radius + TALL, 36),))

@@ -8,24 +8,21 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.plot.svg.element import circle, element, path
-from linkwright.plot.symbols.base import SYMBOLS, Shape, Vec, placed, points, ring
+from linkwright.plot.symbols.base import SYMBOLS, Shape, Vec, around, placed, points, ring, way
 
-
-def zigzag(start: Vec, end: Vec, *, coils: int = 6, height: float = 7.0) -> Floats:
-    """Corners of a spring between two points."""
-    length, along = _way(start, end)
-    lead = min(0.18 * length, 16.0)
-    x = np.linspace(lead, length - lead, 2 * coils + 1)
-    y = np.where(np.arange(len(x)) % 2 == 0, height, -height)
-    y[0] = y[-1] = 0.0
-    inner = np.stack([x, y], axis=1)
-    return placed(np.vstack([[(0.0, 0.0)], inner, [(length, 0.0)]]), start, along)
+#: Coils of a spring, and half of their width.
+COILS, HEIGHT = 6, 7.0
 
 
 @SYMBOLS.register("spring")
 def spring(*, start: Vec = (0.0, 0.0), end: Vec = (60.0, 0.0)) -> Shape:
     """A coil spring between two points."""
-    line = zigzag(start, end)
+    length, along = way(start, end)
+    lead = min(0.18 * length, 16.0)
+    x = np.linspace(lead, length - lead, 2 * COILS + 1)
+    y = np.where(np.arange(len(x)) % 2 == 0, HEIGHT, -HEIGHT)
+    y[0] = y[-1] = 0.0
+    line = placed(np.vstack([[(0.0, 0.0)], np.stack([x, y], axis=1), [(length, 0.0)]]), start, along)
     return Shape((path(line, "lw-spring"),), (line,))
 
 
@@ -34,14 +31,14 @@ def torsion_spring(*, at: Vec = (0.0, 0.0), radius: float = 14.0) -> Shape:
     """A spiral about a pin."""
     t = np.linspace(0.0, 1.0, 60)
     angle, r = 4.5 * math.pi * t, 6.0 + (radius - 6.0) * t
-    line = np.stack([at[0] + r * np.cos(angle), at[1] + r * np.sin(angle)], axis=1)
+    line = around(at, r, angle)
     return Shape((path(line, "lw-spring"),), (line,))
 
 
 @SYMBOLS.register("damper")
 def damper(*, start: Vec = (0.0, 0.0), end: Vec = (60.0, 0.0), height: float = 8.0) -> Shape:
     """A dashpot between two points."""
-    length, along = _way(start, end)
+    length, along = way(start, end)
     body = min(26.0, 0.5 * length)
     a, b, c = (length - body) / 2, (length + body) / 2, length / 2 + 0.15 * body
     lines = (
@@ -52,12 +49,6 @@ def damper(*, start: Vec = (0.0, 0.0), end: Vec = (60.0, 0.0), height: float = 8
     return Shape(tuple(path(stroke, "lw-spring") for stroke in strokes), tuple(strokes))
 
 
-def _way(start: Vec, end: Vec) -> tuple[float, Vec]:
-    dx, dy = end[0] - start[0], end[1] - start[1]
-    length = math.hypot(dx, dy)
-    return length, (dx / length, dy / length) if length else (1.0, 0.0)
-
-
 @SYMBOLS.register("torsion_damper")
 def torsion_damper(*, at: Vec = (0.0, 0.0), radius: float = 16.0) -> Shape:
     """A dashpot bent about a pin: the pot, closed at one end, and the vane in it on its arm."""
@@ -65,12 +56,10 @@ def torsion_damper(*, at: Vec = (0.0, 0.0), radius: float = 16.0) -> Shape:
     start, end, vane = middle - 0.8, middle + 0.7, middle + 0.15
 
     def arc(r: float, first: float, last: float) -> Floats:
-        angle = np.linspace(first, last, 15)
-        return np.stack([at[0] + r * np.cos(angle), at[1] + r * np.sin(angle)], axis=1)
+        return around(at, r, np.linspace(first, last, 15))
 
     def ray(angle: float, first: float, last: float) -> Floats:
-        r = np.array([first, last])
-        return np.stack([at[0] + r * math.cos(angle), at[1] + r * math.sin(angle)], axis=1)
+        return around(at, np.array([first, last]), np.array(angle))
 
     strokes = (
         np.concatenate([arc(outer, end, start), arc(inner, start, end)]),
