@@ -11,8 +11,7 @@ import linkwright as lw
 from linkwright import gallery
 from linkwright.plot.animation import animate
 from linkwright.plot.drawing import draw
-from linkwright.plot.drawing.labels import Obstacles, place
-from linkwright.plot.drawing.names import link_labels, point_labels
+from linkwright.plot.drawing.labels import Obstacles, link_labels, place, point_labels
 from linkwright.plot.drawing.scene import laid_out
 
 SVG = "{http://www.w3.org/2000/svg}"

@@ -15,7 +15,7 @@ from linkwright import parts
 from linkwright.cli import main
 from linkwright.cli.part import COMMANDS
 from linkwright.parts.file import KINDS, kind_of
-from linkwright.plot.diagrams.fonts import chinese_font
+from linkwright.plot.diagrams.picture import chinese_font
 
 NAMES = parts.gallery_names()
 

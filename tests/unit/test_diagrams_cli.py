@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from linkwright.cli import main
-from linkwright.plot.diagrams.fonts import chinese_font
+from linkwright.plot.diagrams.picture import chinese_font
 
 CRUSHER = "gallery:jaw_crusher_sixbar"
 

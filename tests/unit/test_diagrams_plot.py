@@ -12,12 +12,12 @@ import linkwright as lw
 from linkwright.errors import LinkwrightError
 from linkwright.machine import steady_running
 from linkwright.plot import Diagram, plot
-from linkwright.plot.diagrams import fonts
+from linkwright.plot.diagrams import picture
+from linkwright.plot.diagrams.axes import round_up, significant, unit_of
 from linkwright.plot.diagrams.base import DIAGRAMS
 from linkwright.plot.diagrams.marks import limit_marks, phase_marks
 from linkwright.plot.diagrams.outputs import main_output, output_named
 from linkwright.plot.diagrams.source import Source
-from linkwright.plot.diagrams.units import round_up, significant, unit_of
 from linkwright.words import LANGUAGES, catalogue
 
 CRUSHER = lw.load("gallery:jaw_crusher_sixbar")
@@ -118,7 +118,7 @@ def test_a_wheel_in_a_fixed_ratio_to_the_driver_is_shown_where_there_is_nothing_
 
 @pytest.mark.parametrize("kind", ["sva", "hodograph", "torque", "acceleration_polygon", "force_polygon"])
 def test_chinese_with_greek_letters_and_units_has_no_boxes(kind: str, forces: lw.Forces) -> None:
-    if fonts.chinese_font() is None:
+    if picture.chinese_font() is None:
         with pytest.raises(LinkwrightError, match="fonts-noto-cjk"):
             plot(forces, kind, language="zh")
         return
@@ -130,7 +130,7 @@ def test_chinese_with_greek_letters_and_units_has_no_boxes(kind: str, forces: lw
 
 
 def test_without_a_chinese_font_a_sentence_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(fonts, "chinese_font", lambda: None)
+    monkeypatch.setattr(picture, "chinese_font", lambda: None)
     with pytest.raises(LinkwrightError, match="apt-get install fonts-noto-cjk"):
         plot(CRUSHER, language="zh")
 

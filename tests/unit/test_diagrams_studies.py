@@ -19,7 +19,7 @@ from linkwright.machine import TorqueCurve
 from linkwright.metrics import metrics
 from linkwright.metrics.coupler_curve import coupler_curve
 from linkwright.plot import Diagram, plot
-from linkwright.plot.diagrams import fonts
+from linkwright.plot.diagrams import picture
 from linkwright.plot.diagrams.base import RESULT_DIAGRAMS
 from linkwright.study.compare import Comparison, compare
 from linkwright.study.designs import sweep
@@ -271,7 +271,7 @@ def test_double_points_are_ringed() -> None:
 
 def test_chinese_diagrams_have_no_boxes(comparison: Comparison, two: Study, balanced: Balancing) -> None:
     results = (comparison, two, balanced)
-    if fonts.chinese_font() is None:
+    if picture.chinese_font() is None:
         for result in results:
             with pytest.raises(LinkwrightError, match="fonts-noto-cjk"):
                 plot(result, language="zh")

@@ -387,7 +387,7 @@ def test_png_and_pdf(crusher: lw.Motion, tmp_path: Path) -> None:
 
 def test_chinese_needs_a_font(crusher: lw.Motion, monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("resvg_py")
-    monkeypatch.setattr("linkwright.plot.svg.fonts.system_fonts", lambda: (Path("DejaVuSans.ttf"),))
+    monkeypatch.setattr("linkwright.plot.svg.text.system_fonts", lambda: (Path("DejaVuSans.ttf"),))
     with pytest.raises(lw.LinkwrightError, match="fonts-noto-cjk"):
         draw(crusher, velocities=("B",), language="zh").png()
 

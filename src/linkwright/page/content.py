@@ -25,6 +25,8 @@ from linkwright.files.model_file import read_text
 from linkwright.files.write import dump
 from linkwright.joints.marks import RackWay, Wheels
 from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.solve import solve_motion
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.page.dimensions import dimensions
 from linkwright.page.glyphs import glyphs, undrawn
 from linkwright.page.loops import loops
@@ -40,6 +42,12 @@ _OUTCOMES = ("apart", "singular", "lost", "rrr_far", "rrr_near", "rrp_far", "rpr
 #: Words of the page's area that are said here, not by the page.
 _NAMES = frozenset(("opening",))
 _TAGS = {"en": "en", "zh": "zh-CN"}
+
+
+def solved(machine: Mechanism | Document, steps: int) -> tuple[Motion, str | None]:
+    """The motion of a machine over its cycle, and the text of its file where there is one."""
+    mechanism, text = (machine, None) if isinstance(machine, Mechanism) else (machine.mechanism, machine.text)
+    return solve_motion(mechanism, steps=steps), text
 
 
 def page(models: Sequence[tuple[Motion, str | None]], language: str = "en") -> str:

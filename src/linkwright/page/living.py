@@ -7,9 +7,8 @@ from pathlib import Path
 
 from linkwright.core.dataclass import dataclass
 from linkwright.files.document import Document
-from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.page.content import page
+from linkwright.page.content import page, solved
 from linkwright.whole_files import write_whole
 
 
@@ -49,8 +48,4 @@ def living_page(
         PositionError: a position of a cycle cannot be reached.
         StructureError, AssemblyError, CycleError: as :func:`linkwright.solve_motion`.
     """
-    models = []
-    for each in (machine, *beside):
-        mechanism, text = (each, None) if isinstance(each, Mechanism) else (each.mechanism, each.text)
-        models.append((solve_motion(mechanism, steps=steps), text))
-    return LivingPage(page(models, language))
+    return LivingPage(page([solved(each, steps) for each in (machine, *beside)], language))

@@ -19,11 +19,10 @@ from linkwright.kinetostatics.table import force_results
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.plot.drawing.draw import Names, all_arrows, solved
 from linkwright.plot.drawing.frames import frame_indices, key_indices, usual_seconds
-from linkwright.plot.drawing.labels import Label, Obstacles, place_moving, written
+from linkwright.plot.drawing.labels import Label, Obstacles, place_moving, point_labels, written
 from linkwright.plot.drawing.legend import Legend
 from linkwright.plot.drawing.loads import load_marks, moving_springs
 from linkwright.plot.drawing.moving import moving_links, moving_torques, moving_vectors, shift_text, shifted
-from linkwright.plot.drawing.names import point_labels
 from linkwright.plot.drawing.panel import Panel, panel
 from linkwright.plot.drawing.picture import Box, bounds, document
 from linkwright.plot.drawing.scene import Scene, laid_out

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 from linkwright.core.arrays import Floats
 from linkwright.plot.drawing.draw import Sheet, laid_out_beside
+from linkwright.plot.drawing.labels import point_labels
 from linkwright.plot.drawing.machine import Part
-from linkwright.plot.drawing.names import point_labels
 from linkwright.plot.drawing.picture import bounds, document
 from linkwright.plot.drawing.positions import Shown
 from linkwright.plot.drawing.scene import Scene

@@ -16,9 +16,8 @@ from linkwright.errors import RequestError
 from linkwright.export.base import package
 from linkwright.export.results import Results
 from linkwright.mechanism.mechanism import Link
-from linkwright.plot.drawing.labels import Obstacles, place
+from linkwright.plot.drawing.labels import Obstacles, link_labels, place, point_labels
 from linkwright.plot.drawing.machine import Part
-from linkwright.plot.drawing.names import link_labels, point_labels
 from linkwright.plot.drawing.scene import laid_out
 from linkwright.plot.drawing.view import moved
 from linkwright.plot.svg.element import Element

@@ -18,14 +18,10 @@ def content(
     ``text``: the model file's own text, which the page gives back with the changed numbers; ``beside``: further
     machines for comparison, or documents of their files, solved over as many steps.
     """
-    from linkwright.kinematics.solve import solve_motion
-    from linkwright.page.content import page
+    from linkwright.page.content import page, solved
 
     steps = max(results.motion.steps - (0 if results.motion.positions.closed else 1), 1)
-    models = [(results.motion, text)]
-    for each in beside:
-        mechanism, own = (each, None) if isinstance(each, Mechanism) else (each.mechanism, each.text)
-        models.append((solve_motion(mechanism, steps=steps), own))
+    models = [(results.motion, text), *(solved(each, steps) for each in beside)]
     return page(models, results.language).encode()
 
 

@@ -22,14 +22,15 @@ from linkwright.parts.statistics.describe import (
     Capability,
     Description,
     Fit,
+    Regression,
     capability,
     described,
     deviation_interval,
     fitted,
     mean_interval,
+    regression,
 )
 from linkwright.parts.statistics.hypotheses import AGAINST, TESTS, TOGETHER, Outcome
-from linkwright.parts.statistics.regression import Regression, regression
 from linkwright.words import Say
 from linkwright.worked.page import Step
 

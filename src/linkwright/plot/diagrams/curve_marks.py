@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from linkwright.core.arrays import Flags, Floats
+from linkwright.plot.diagrams.axes import round_up, significant
 from linkwright.plot.diagrams.marks import acting
 from linkwright.plot.diagrams.picture import INK
 from linkwright.plot.diagrams.source import InputAxis, Source
-from linkwright.plot.diagrams.units import round_up, significant
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -10,11 +10,11 @@ from linkwright.machine.equivalent import Equivalent, equivalent
 from linkwright.machine.running import SteadyRunning
 from linkwright.machine.speed import SpeedCurve
 from linkwright.metrics.true_speed import steady_cycle
+from linkwright.plot.diagrams.axes import significant, unit_of
 from linkwright.plot.diagrams.base import DIAGRAMS, Request
 from linkwright.plot.diagrams.panels import Curve, Level, OverInput, Panel
 from linkwright.plot.diagrams.picture import COLOURS
 from linkwright.plot.diagrams.source import InputAxis, Source
-from linkwright.plot.diagrams.units import significant, unit_of
 
 
 @DIAGRAMS.register("energy")

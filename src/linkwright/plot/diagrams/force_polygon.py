@@ -13,7 +13,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import row_names
 from linkwright.errors import RequestError
 from linkwright.kinetostatics.forces import Forces
-from linkwright.plot.diagrams.axes import wrapped
+from linkwright.plot.diagrams.axes import significant, unit_of, wrapped
 from linkwright.plot.diagrams.base import DIAGRAMS, Kind, Request
 from linkwright.plot.diagrams.outputs import known_link
 from linkwright.plot.diagrams.picture import COLOURS
@@ -35,7 +35,6 @@ from linkwright.plot.diagrams.scaled_page import (
     text_width,
 )
 from linkwright.plot.diagrams.source import Source
-from linkwright.plot.diagrams.units import significant, unit_of
 from linkwright.plot.force_names import link_numbers, reaction_index
 from linkwright.words.sentence import Sentence
 

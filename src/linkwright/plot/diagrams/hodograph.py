@@ -8,14 +8,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.plot.diagrams.axes import Legend, equal, framed
+from linkwright.plot.diagrams.axes import Legend, Unit, equal, framed, unit_of
 from linkwright.plot.diagrams.base import DIAGRAMS, Kind, Request
 from linkwright.plot.diagrams.curve_marks import draw_curve, jumps, mark_inputs
 from linkwright.plot.diagrams.outputs import joint_and_link, known_link
 from linkwright.plot.diagrams.picture import COLOURS, FAINT, INK, new_figure
 from linkwright.plot.diagrams.reactions import require_forces
 from linkwright.plot.diagrams.source import Source
-from linkwright.plot.diagrams.units import Unit, unit_of
 from linkwright.plot.force_names import chosen_pairs
 
 if TYPE_CHECKING:

@@ -14,9 +14,9 @@ from linkwright.kinematics.limits import limit_positions
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.loads.over_cycle import activity
 from linkwright.metrics.analysis import Kind
+from linkwright.plot.diagrams.axes import Unit
 from linkwright.plot.diagrams.picture import INK
 from linkwright.plot.diagrams.source import Source
-from linkwright.plot.diagrams.units import Unit
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

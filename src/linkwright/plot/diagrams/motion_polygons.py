@@ -12,7 +12,7 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.motion import Motion
-from linkwright.plot.diagrams.axes import wrapped
+from linkwright.plot.diagrams.axes import significant, wrapped
 from linkwright.plot.diagrams.base import DIAGRAMS, Kind, Request
 from linkwright.plot.diagrams.motion_vectors import MotionPolygon, acceleration_polygon, velocity_polygon
 from linkwright.plot.diagrams.picture import COLOURS, INK
@@ -34,7 +34,6 @@ from linkwright.plot.diagrams.scaled_page import (
     with_index,
 )
 from linkwright.plot.diagrams.source import Source
-from linkwright.plot.diagrams.units import significant
 from linkwright.words import Say
 from linkwright.words.sentence import Sentence
 

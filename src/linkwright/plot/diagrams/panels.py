@@ -12,12 +12,11 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
-from linkwright.plot.diagrams.axes import Legend, framed, label_input
+from linkwright.plot.diagrams.axes import Legend, Unit, framed, label_input, unit_of
 from linkwright.plot.diagrams.base import Kind, Request
 from linkwright.plot.diagrams.marks import LimitMark, PhaseMark, limit_marks, mark_peaks, phase_marks
 from linkwright.plot.diagrams.picture import COLOURS, FAINT, INK, SHADE, new_figure
 from linkwright.plot.diagrams.source import Extremes, InputAxis, Source
-from linkwright.plot.diagrams.units import Unit, unit_of
 from linkwright.words import Say
 
 if TYPE_CHECKING:

@@ -7,18 +7,70 @@ import io
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError, RequestError
-from linkwright.plot.diagrams.fonts import REMEDY, families
 from linkwright.plot.svg.render import MOST_PIXELS
 from linkwright.whole_files import write_whole
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+
+#: Families that hold Chinese characters, the ones that look best first.
+CHINESE = (
+    "Noto Sans CJK SC", "Noto Sans SC", "Source Han Sans SC", "Source Han Sans CN", "Noto Sans CJK TC",
+    "Noto Sans CJK JP", "Noto Sans TC", "Source Han Sans", "Microsoft YaHei", "PingFang SC", "Hiragino Sans GB",
+    "WenQuanYi Micro Hei", "WenQuanYi Zen Hei", "SimHei", "Heiti SC", "Heiti TC", "Droid Sans Fallback",
+    "Arial Unicode MS", "Microsoft JhengHei", "AR PL UMing CN", "AR PL UKai CN", "SimSun",
+)  # fmt: skip
+LATIN = "DejaVu Sans"
+REMEDY = Sentence("picture.install_font")
+
+
+@lru_cache(maxsize=1)
+def chinese_font() -> str | None:
+    """Family of an installed font with Chinese characters."""
+    from matplotlib import font_manager
+
+    installed = {font.name for font in font_manager.fontManager.ttflist}
+    for family in CHINESE:
+        if family in installed:
+            return family
+    return _registered()
+
+
+def families(language: str) -> list[str]:
+    """Font families for a diagram: the Chinese one first in Chinese, DejaVu Sans first else.
+
+    Raises LinkwrightError in Chinese where no font can write it.
+    """
+    chinese = chinese_font()
+    if language == "zh":
+        if chinese is None:
+            raise LinkwrightError(Sentence("picture.boxes", remedy=REMEDY))
+        return [chinese, LATIN]
+    return [LATIN] if chinese is None else [LATIN, chinese]
+
+
+def _registered() -> str | None:
+    """A Chinese font that was installed after matplotlib listed the fonts."""
+    from matplotlib import font_manager
+
+    from linkwright.plot.svg.text import chinese_fonts, system_fonts
+
+    for file in chinese_fonts(system_fonts()):
+        try:
+            font_manager.fontManager.addfont(str(file))
+        except (OSError, RuntimeError):
+            continue
+        return font_manager.fontManager.ttflist[-1].name
+    return None
+
 
 ENDINGS = (".svg", ".pdf", ".png")
 COLOURS = ("#1f5fa8", "#c8501e", "#2c8a4b", "#8a4fa3", "#a3781a", "#2a9aa8", "#b0305c", "#5b6470")

@@ -9,8 +9,8 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.plot.diagrams.axes import round_up
 from linkwright.plot.diagrams.picture import INK
-from linkwright.plot.diagrams.units import round_up
 from linkwright.plot.svg.text import split_index
 
 if TYPE_CHECKING:

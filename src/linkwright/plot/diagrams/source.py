@@ -18,7 +18,7 @@ from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.machine.running import SteadyRunning, steady_running
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis, Extreme, Kind
-from linkwright.plot.diagrams.units import Unit, unit_of
+from linkwright.plot.diagrams.axes import Unit, unit_of
 from linkwright.words import Say
 from linkwright.words.characters import one_line
 from linkwright.words.sentence import Sentence

@@ -13,10 +13,9 @@ from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.plot.drawing.dimensions import Dimension, dimension_lines
-from linkwright.plot.drawing.labels import Label, Obstacles, place, written
+from linkwright.plot.drawing.labels import Label, Obstacles, link_labels, place, point_labels, written
 from linkwright.plot.drawing.legend import Legend
 from linkwright.plot.drawing.loads import load_labels, load_marks, unmarked
-from linkwright.plot.drawing.names import link_labels, point_labels
 from linkwright.plot.drawing.picture import Drawing, bounds, document
 from linkwright.plot.drawing.positions import At, Shown, at_input, at_time, limits_of, with_limits
 from linkwright.plot.drawing.scene import Scene, laid_out

@@ -10,10 +10,9 @@ from linkwright.joints.base import JointName
 from linkwright.loads.base import LinkPoint, Load
 from linkwright.loads.marks import Press, Push, Turn
 from linkwright.plot.drawing.guides import clear_shift, is_cylinder
-from linkwright.plot.drawing.labels import Label
+from linkwright.plot.drawing.labels import LINK_SIZE, Label
 from linkwright.plot.drawing.machine import Machine
 from linkwright.plot.drawing.moving import moving_lines
-from linkwright.plot.drawing.names import LINK_SIZE
 from linkwright.plot.drawing.scene import Scene
 from linkwright.plot.svg.element import Element
 from linkwright.plot.symbols.base import EMPTY, SYMBOLS, Shape, Vec, joined

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from linkwright.plot.svg.fonts import FAMILY_LIST
+from linkwright.plot.svg.text import FAMILY_LIST
 from linkwright.plot.symbols.base import LINE
 
 INK, GROUND, BLUE, RED, GREEN, ORANGE, PURPLE, TEAL = (

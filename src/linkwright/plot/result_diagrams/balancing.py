@@ -6,12 +6,11 @@ from typing import TYPE_CHECKING
 
 from linkwright.core.arrays import Floats, largest
 from linkwright.kinetostatics.balancing import Balancing
-from linkwright.plot.diagrams.axes import Legend, equal, framed, label_input
+from linkwright.plot.diagrams.axes import Legend, equal, framed, label_input, unit_of
 from linkwright.plot.diagrams.base import Request, result_diagram
 from linkwright.plot.diagrams.panels import DASHES, Curve, Panel, draw_panel
 from linkwright.plot.diagrams.picture import COLOURS, INK, new_figure
 from linkwright.plot.diagrams.source import Source
-from linkwright.plot.diagrams.units import unit_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -8,12 +8,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from linkwright.errors import RequestError
-from linkwright.plot.diagrams.axes import Legend, equal, framed, label_input
+from linkwright.plot.diagrams.axes import Legend, equal, framed, label_input, unit_of
 from linkwright.plot.diagrams.base import Request, result_diagram
 from linkwright.plot.diagrams.panels import DASHES, Curve, Panel, stacked
 from linkwright.plot.diagrams.picture import COLOURS, INK, new_figure
 from linkwright.plot.diagrams.source import InputAxis
-from linkwright.plot.diagrams.units import unit_of
 from linkwright.registry import offered
 from linkwright.study.compare import Comparison
 from linkwright.study.overlay import Overlay

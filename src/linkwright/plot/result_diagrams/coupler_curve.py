@@ -7,10 +7,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from linkwright.metrics.coupler_curve import CouplerCurve
-from linkwright.plot.diagrams.axes import Legend, framed
+from linkwright.plot.diagrams.axes import Legend, framed, unit_of
 from linkwright.plot.diagrams.base import Request, result_diagram
 from linkwright.plot.diagrams.picture import COLOURS, new_figure
-from linkwright.plot.diagrams.units import unit_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -11,7 +11,7 @@ from linkwright.core.arrays import Flags, Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.plot.diagrams.units import Unit, unit_of
+from linkwright.plot.diagrams.axes import Unit, unit_of
 from linkwright.registry import offered
 from linkwright.study.ranges import dimension_of
 from linkwright.words.sentence import Sentence

@@ -9,10 +9,9 @@ import numpy as np
 from linkwright.errors import RequestError
 from linkwright.metrics.base import METRICS, MetricValue
 from linkwright.metrics.table import MetricsTable
-from linkwright.plot.diagrams.axes import Legend, framed
+from linkwright.plot.diagrams.axes import Legend, Unit, framed, unit_of
 from linkwright.plot.diagrams.base import Request, result_diagram
 from linkwright.plot.diagrams.picture import COLOURS, FAINT, new_figure
-from linkwright.plot.diagrams.units import Unit, unit_of
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:

@@ -10,10 +10,9 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.parts.base import UNITS, unit
-from linkwright.plot.diagrams.axes import Legend, angle_ticks, framed
+from linkwright.plot.diagrams.axes import Legend, Unit, angle_ticks, framed, unit_of
 from linkwright.plot.diagrams.base import Request
 from linkwright.plot.diagrams.picture import COLOURS, FAINT, INK, new_figure
-from linkwright.plot.diagrams.units import Unit, unit_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from linkwright.errors import LinkwrightError, RequestError
-from linkwright.plot.svg.fonts import check_fonts
+from linkwright.plot.svg.text import check_fonts
 from linkwright.whole_files import write_whole
 from linkwright.words.sentence import Sentence
 
