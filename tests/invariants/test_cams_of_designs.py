@@ -8,6 +8,7 @@ import pytest
 import linkwright as lw
 from linkwright.core.arrays import Floats
 from linkwright.metrics import METRICS, Analysis
+from linkwright.study.design_numbers import numbers_of
 from linkwright.study.metric_cycle import metric_cycle
 from linkwright.study.terms import measured
 
@@ -74,11 +75,15 @@ def test_designs_are_cut_where_the_lift_of_the_cam_bends() -> None:
     given = columns(mechanism)
     found = cycle.evaluate(given)
     assert found.certain.all()
+    area, _, _ = numbers_of(mechanism, given, ["swept_area"], np.arange(3))
     torque = [rms_torque(mechanism, mass) for mass in given["slide.mass"]]
     assert found.values["rms_input_torque"] == pytest.approx(torque, rel=1e-8)
     for index in (1, 2):
         alone = mechanism.with_dimensions({name: float(column[index]) for name, column in given.items()})
         analysis = Analysis.of(lw.solve_forces(alone))
+        assert (measured("swept_area", analysis) or (0.0,))[0] == pytest.approx(
+            area["swept_area"][index], rel=1e-7
+        )
         assert {"peak_reaction", "mean_power", "peak_jerk", "stroke"} <= {term.name for term in cycle.terms}
         for term in cycle.terms:
             known = measured(term.name, analysis)

@@ -66,9 +66,11 @@ class FollowedPoints:
     def of(
         self, columns: Mapping[str, Floats], numbers: Mapping[str, float], backend: Backend
     ) -> dict[str, Floats]:
-        """The coordinates at the Gauss points of cycles without cuts, (designs, n) by name, from the ``numbers`` that
-        do not vary; NaN for designs that are not certain."""
-        cycle = CycleProgram((), tuple(dict.fromkeys(self.parameters)))
+        """The coordinates at the Gauss points of cycles that no load cuts, (designs, n) by name, from the ``numbers``
+        that do not vary; NaN for designs that are not certain."""
+        cuts = CycleProgram(tuple(self.gauss.cut_stages(self.traced)))
+        more = (name for name in self.parameters if name not in cuts.results)
+        cycle = CycleProgram(cuts.stages, tuple(dict.fromkeys([*cuts.dimensions, *more])))
         table = design_table(cycle.dimensions, numbers, columns)
         ((_, known, run),) = cycle.blocks(table, self.gauss.positions, threads=1, backend=backend)
         found, certain = self.at_points(known, run, self.at_positions(columns, backend))

@@ -160,9 +160,10 @@ class GaussCycle:
         found["width after"] = np.where(last, width, 0.0)
         return found
 
-    def part_stages(self, beside: Traced | None) -> list[Stage]:
-        """The stages that find where parts of strokes begin and end, and where joints bend; ``beside``: programs with
-        Newton's steps from positions, where groups have no closed form."""
+    def cut_stages(self, beside: Traced | None = None) -> list[Stage]:
+        """The stages that find the cuts, but for limit positions: where parts of strokes begin and end, where joints
+        bend, and the cuts in order; ``beside``: programs with Newton's steps from positions, where groups have no
+        closed form."""
         bending, known = bend_stage(self.traced), dict(self.cuts)
         found = [] if bending is None else [bending]
         for load in self.traced.mechanism.loads.values():
@@ -175,12 +176,10 @@ class GaussCycle:
                         if beside is None
                         else part_edge_beside(beside, load, phase, k)
                     )
-        return found
+        return [*found, self._cutting()] if self.cuts else found
 
-    def cutting(self) -> Stage | None:
+    def _cutting(self) -> Stage:
         """The stage that brings the cuts into order, as shares of the cycle from its beginning."""
-        if not self.cuts:
-            return None
         t = Trace()
         (driver,) = self.traced.mechanism.drivers
         start, sense = t.parameter(FIRST), sign(t.parameter(f"{driver}.speed"))

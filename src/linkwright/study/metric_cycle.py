@@ -312,13 +312,12 @@ class MetricCycle:
 
     @cached_property
     def _before(self) -> list[Stage]:
-        cutting = self.gauss.cutting()
         find = limit_stages if self.followed is None else limits_beside
         limits = find(self.traced, self.outputs, valued=self.loads.valued, shown=self.shown)
-        parts = self.gauss.part_stages(None if self.followed is None else self.followed.traced)
+        cuts = self.gauss.cut_stages(None if self.followed is None else self.followed.traced)
         if names := self.constant.output_names:
-            parts.append(Stage(self.constant, {text: Reduction(text, "first") for text in names}, steps=1))
-        return [*limits, *parts, *([] if cutting is None else [cutting])]
+            cuts.append(Stage(self.constant, {text: Reduction(text, "first") for text in names}, steps=1))
+        return [*limits, *cuts]
 
     @cached_property
     def _forwards(self) -> CycleProgram:

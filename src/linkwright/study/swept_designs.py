@@ -79,7 +79,7 @@ class SweptDesigns:
         found = {name: self._signals[name] for name in (*self._rows, VALID)}
         reductions = {_PASSED: Reduction(self._rows[0], "first")}
         stage = Stage(Program.of(self._trace, found), reductions, valid=VALID, complete=True, keep=self._rows)
-        return CycleProgram((stage,))
+        return CycleProgram((*self._gauss.cut_stages(), stage))
 
     @cached_property
     def _backwards(self) -> CycleGradient:
@@ -91,7 +91,7 @@ class SweptDesigns:
         stage = Stage(
             Program.of(self._trace, found), {_TOTAL: Reduction(_TOTAL, "sum")}, valid=VALID, complete=True
         )
-        return cycle_gradient(CycleProgram((stage,)), _TOTAL, self.dimensions)
+        return cycle_gradient(CycleProgram((*self._gauss.cut_stages(), stage)), _TOTAL, self.dimensions)
 
     @property
     def dimensions(self) -> tuple[str, ...]:
