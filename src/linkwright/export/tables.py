@@ -9,11 +9,19 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.core.outputs import KINDS
 from linkwright.export.results import Results
+from linkwright.kinematics.table import motion_results
+from linkwright.kinetostatics.table import force_results
+from linkwright.units import SI_UNITS
 from linkwright.words import say
 
 #: Rates of a coordinate, by the unit of the coordinate.
 UNITS = {"rad": ("rad", "rad/s", "rad/s²"), "m": ("m", "m/s", "m/s²")}
+SUBJECTS = ("positions", "links", "points", "joints", "forces", "loads")
+#: The table of outputs by what they belong to, and by their kind; those of guides stand among all joints.
+OF_OWNER = {"motion": "positions", "link": "links", "point": "points", "joint": "forces", "machine": "forces"}
+OF_KIND = {"input": "positions", "effort": "forces"}
 
 
 @dataclass(frozen=True)
@@ -52,45 +60,23 @@ class Table:
 
 def tables(results: Results) -> list[Table]:
     """All tables that have columns; ``positions`` (time and inputs) is the first."""
-    found = [
-        Table("positions", tuple(_positions(results))),
-        Table("links", tuple(_links(results))),
-        Table("points", tuple(_points(results))),
-        Table("joints", tuple(_joints(results))),
-        Table("forces", tuple(_forces(results))),
-        Table("loads", tuple(_loads(results))),
-    ]
-    return [table for table in found if table.columns]
+    forces = results.forces
+    named = motion_results(results.motion) if forces is None else force_results(forces)
+    found: dict[str, list[Column]] = {subject: [] for subject in SUBJECTS}
+    for output, values in named.items():
+        subject = OF_KIND.get(output.kind) or OF_OWNER.get(KINDS[output.kind].of)
+        if subject is not None:
+            of_input = output.kind == "input"
+            owner, quantity = (output.owner, "") if of_input else (output.place, output.quantity)
+            found[subject].append(Column(owner, quantity, SI_UNITS[output.dimension], values))
+    found["joints"] += _joints(results)
+    found["loads"] += _loads(results)
+    return [Table(subject, tuple(columns)) for subject, columns in found.items() if columns]
 
 
 def wide(results: Results) -> dict[str, Column]:
     """All columns of all tables by name."""
     return {column.name: column for table in tables(results) for column in table.columns}
-
-
-def _positions(results: Results) -> Iterator[Column]:
-    motion = results.motion
-    yield Column("", "time", "s", motion.time)
-    for name, values in motion.inputs.items():
-        yield Column(name, "", "rad" if motion.positions.rotary[name] else "m", values)
-
-
-def _links(results: Results) -> Iterator[Column]:
-    kinds = ("angle", "angular_velocity", "angular_acceleration")
-    for name in results.mechanism.links:
-        link = results.motion.link(name)
-        rows = (link.angle, link.angular_velocity, link.angular_acceleration)
-        for kind, unit, values in zip(kinds, UNITS["rad"], rows, strict=True):
-            yield Column(name, kind, unit, values)
-
-
-def _points(results: Results) -> Iterator[Column]:
-    for name in results.motion.point_names():
-        point = results.motion.point_of(name)
-        for kind, unit in zip(("position", "velocity", "acceleration"), UNITS["m"], strict=True):
-            values = getattr(point, kind)
-            yield Column(name, f"{kind}.x", unit, values[:, 0])
-            yield Column(name, f"{kind}.y", unit, values[:, 1])
 
 
 def _joints(results: Results) -> Iterator[Column]:
@@ -106,26 +92,6 @@ def _joints(results: Results) -> Iterator[Column]:
         rows = (motion.displacement, motion.velocity, motion.acceleration)
         for kind, unit, values in zip(kinds, UNITS["rad" if pin else "m"], rows, strict=True):
             yield Column(name, kind, unit, values)
-
-
-def _forces(results: Results) -> Iterator[Column]:
-    forces = results.forces
-    if forces is None:
-        return
-    for name in results.mechanism.drivers:
-        yield Column(
-            name, "effort", "N·m" if forces.motion.positions.rotary[name] else "N", forces.driver_effort(name)
-        )
-    for name, joint in results.mechanism.joints.items():
-        for link in joint.joined:
-            if link != "frame":
-                yield from _vector(f"{name} on {link}", "", "N", forces.reaction(name, on=link))
-                if joint.couples:
-                    yield Column(f"{name} on {link}", "couple", "N·m", forces.couple(name, on=link))
-    yield from _vector("shaking_force", "", "N", forces.shaking_force, size=False)
-    yield Column("", "shaking_moment", "N·m", forces.shaking_moment)
-    yield Column("", "power_residual", "W", forces.power_residual)
-    yield Column("", "balance_residual", "N", forces.balance_residual)
 
 
 def _loads(results: Results) -> Iterator[Column]:

@@ -159,11 +159,12 @@ class Result(Plotted, ABC):
     """What was found: its numbers in blocks, the way to them in steps."""
 
     area: ClassVar[str]
+    problem: Problem
 
     @property
-    @abstractmethod
     def title(self) -> str:
         """Name of the problem."""
+        return self.problem.name
 
     @abstractmethod
     def blocks(self, say: Say) -> list[Block]:

@@ -162,7 +162,7 @@ class ToleranceStudy(OfMechanism):
             if name not in self.of
         ]
         found += [
-            fault("tolerance.limits_order", f"limits.{name}")
+            fault("part.limits_order", f"limits.{name}")
             for name, limit in self.limits.items()
             if limit.lower >= limit.upper
         ]

@@ -119,9 +119,7 @@ class Workbook:
 
     def _heading(self, column: Column) -> str:
         """Owner, quantity in words, unit, each on a line."""
-        owner = column.owner.replace("_", " ") if column.owner == "shaking_force" else column.owner
-        if column.owner == "shaking_force":
-            owner = self.say("quantity.shaking_force")
+        owner = self.say("quantity.shaking_force") if column.owner == "shaking_force" else column.owner
         word = column.words(self.results.language) if column.quantity else self.say("input")
         return printable("\n".join(filter(None, (owner, word, f"[{column.unit}]"))))
 

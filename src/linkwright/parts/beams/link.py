@@ -105,7 +105,7 @@ class LinkBending(OfMechanism):
         except LinkwrightError as error:
             from linkwright.errors import ModelError
 
-            raise ModelError([fault("beam.not_passed", "mechanism", why=error.sentence)]) from None
+            raise ModelError([fault("part.not_passed", "mechanism", why=error.sentence)]) from None
         return LinkStress(self, forces)
 
 
@@ -142,10 +142,6 @@ class LinkStress(Result):
     area: ClassVar[str] = "beam"
     problem: LinkBending
     forces: Forces
-
-    @property
-    def title(self) -> str:
-        return self.problem.name
 
     @property
     def link(self) -> Link:

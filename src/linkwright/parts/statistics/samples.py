@@ -224,7 +224,7 @@ class Samples(Problem):
         if limits.lower is None and limits.upper is None:
             return [fault("statistics.no_limits", key)]
         if limits.lower is not None and limits.upper is not None and limits.upper <= limits.lower:
-            return [fault("statistics.limits_order", key)]
+            return [fault("part.limits_order", key)]
         return self._small(key, (name,), "capability", 2 * (limits.subgroup or 1))
 
     def _fit_findings(self, word: str) -> list[Finding]:
@@ -263,10 +263,6 @@ class Statistics(Result):
 
     area: ClassVar[str] = "statistics"
     problem: Samples
-
-    @property
-    def title(self) -> str:
-        return self.problem.name
 
     @cached_property
     def descriptions(self) -> dict[str, Description]:

@@ -66,7 +66,7 @@ class Conveyor(OfMechanism):
             return [fault("trajectory.thrower", "mechanism", why=error.sentence)]
         found = []
         if not motion.positions.closed or np.ptp(np.diff(motion.time)) > 1e-9 * abs(float(motion.time[1])):
-            found.append(fault("trajectory.uneven", "mechanism"))
+            found.append(fault("part.uneven", "mechanism"))
         turning = np.abs(motion.link(self.link).angular_velocity).max()
         if turning * abs(float(motion.time[-1])) > 1e-6:
             found.append(fault("trajectory.turns", "link", link=self.link))

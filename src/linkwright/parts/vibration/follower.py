@@ -130,10 +130,6 @@ class FollowerVibration(Result):
     problem: FollowerSpring
 
     @property
-    def title(self) -> str:
-        return self.problem.name
-
-    @property
     def frequency(self) -> float:
         """Natural frequency ω, rad/s."""
         return math.sqrt(self.problem.stiffness / self.problem.mass)

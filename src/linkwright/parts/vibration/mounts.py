@@ -109,10 +109,10 @@ class Mounts(OfMechanism):
         try:
             time = self.forces.motion.time
         except LinkwrightError as error:
-            return [fault("vibration.not_passed", "mechanism", why=error.sentence)]
+            return [fault("part.not_passed", "mechanism", why=error.sentence)]
         gaps = np.diff(time)
         even = len(gaps) and np.ptp(gaps) < 1e-9 * abs(gaps[0]) and self.forces.motion.positions.closed
-        found = [] if even else [fault("vibration.uneven", "mechanism")]
+        found = [] if even else [fault("part.uneven", "mechanism")]
         moving = sum(link.mass for link in self.mechanism.links.values())
         if not moving:
             found.append(fault("vibration.nothing_shakes", "mechanism"))
@@ -167,10 +167,6 @@ class Shaken(Result):
 
     area: ClassVar[str] = "vibration"
     problem: Mounts
-
-    @property
-    def title(self) -> str:
-        return self.problem.name
 
     @property
     def period(self) -> float:

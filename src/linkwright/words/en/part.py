@@ -19,4 +19,10 @@ WORDS = {
     "no_kind_remedy": "add kind: (one of {known})",
     "known": "(known: {known})",
     "nearest": 'did you mean "{offer}"? (known: {known})',
+    "not_passed": "the mechanism does not pass its cycle: {why}",
+    "not_passed_remedy": "mend the model first (linkwright check)",
+    "uneven": "the cycle is not closed or not even in time",
+    "uneven_remedy": "drive the mechanism at constant speed over whole turns",
+    "limits_order": "the upper limit is not above the lower one",
+    "limits_order_remedy": "give the larger value as upper",
 }

@@ -81,8 +81,6 @@ linkwright statistics gallery:shaft_diameters --worked --lang zh""",
     "dependent_remedy": "leave one of them out",
     "no_limits": "there is no limit",
     "no_limits_remedy": "give lower, upper or both",
-    "limits_order": "the upper limit is not above the lower one",
-    "limits_order_remedy": "give the larger value as upper",
     "not_positive": "{what} is for positive values, but {sample} has zero or negative ones",
     "not_positive_remedy": "leave this distribution out",
 }

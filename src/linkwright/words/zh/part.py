@@ -19,4 +19,10 @@ WORDS = {
     "no_kind_remedy": "请加 kind:（{known} 之一）",
     "known": "已知：{known}",
     "nearest": "是不是“{offer}”？（已知：{known}）",
+    "not_passed": "机构不能走完循环：{why}",
+    "not_passed_remedy": "请先修正模型（linkwright check）",
+    "uneven": "循环不封闭或时间不均匀",
+    "uneven_remedy": "请以等速整周驱动机构",
+    "limits_order": "上限不大于下限",
+    "limits_order_remedy": "请把较大的值写作 upper",
 }

@@ -79,8 +79,6 @@ linkwright statistics gallery:shaft_diameters --worked --lang zh""",
     "dependent_remedy": "请去掉其中一个",
     "no_limits": "没有规格限",
     "no_limits_remedy": "请给 lower、upper 或两者",
-    "limits_order": "上限不大于下限",
-    "limits_order_remedy": "请把较大的值写作 upper",
     "not_positive": "{what} 只适用于正值，但 {sample} 有零或负值",
     "not_positive_remedy": "请去掉该分布",
 }
