@@ -11,6 +11,7 @@ import numpy as np
 from linkwright.core.arrays import Floats, largest
 from linkwright.core.outputs import KINDS, RESIDUALS, Output
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.metrics.quantities import SHOWN
 from linkwright.plot.force_names import link_numbers
 from linkwright.report.document import literal
 from linkwright.units import SI_UNITS
@@ -25,7 +26,6 @@ FADED = 1e-9
 ROUNDING = 1e-12
 #: Keeps a unit such as rad/s on one line.
 JOINER = "\u2060"
-_UNITS = {"rad": ("°", 180.0 / math.pi), "m": ("mm", 1e3)}
 _POWER_OF_TEN = re.compile(r"([-−]?\d+(?:\.\d+)?)e([+-]?\d+)((?: ?\S+)?)")
 #: Signs that a name cannot have inside a formula.
 _UNPRINTABLE = frozenset("$\\{}^#%&~")
@@ -41,8 +41,7 @@ class Heads:
 
     def head(self, output: Output) -> tuple[str, float]:
         """Head of a column of results in the unit of tables, and the factor from SI."""
-        unit = SI_UNITS[output.dimension]
-        shown, factor = _UNITS.get(unit, (unit, 1.0))
+        shown, factor = SHOWN.get(output.dimension, (SI_UNITS[output.dimension], 1.0))
         symbol = self.symbol(output)
         quantity = f"${symbol}$" if symbol else literal(output.column)
         return f"{quantity}\u00a0/\u00a0{shown.replace('/', f'/{JOINER}')}", factor

@@ -10,7 +10,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats, largest
 from linkwright.core.dataclass import dataclass
-from linkwright.metrics.quantities import si_unit
+from linkwright.metrics.quantities import SHOWN, si_unit
 from linkwright.plot.diagrams.picture import INK
 from linkwright.words.characters import printable
 
@@ -24,15 +24,6 @@ if TYPE_CHECKING:
     from linkwright.words import Say
 
 
-_FIXED = {
-    "angle": ("°", 180 / math.pi),
-    "length": ("mm", 1e3),
-    "time": ("s", 1.0),
-    "velocity": ("m/s", 1.0),
-    "acceleration": ("m/s²", 1.0),
-    "angular_velocity": ("rad/s", 1.0),
-    "angular_acceleration": ("rad/s²", 1.0),
-}
 _PREFIXED = {"force": "N", "torque": "N·m", "power": "W", "energy": "J"}
 _PREFIXES = ((1e7, "M", 1e-6), (1e4, "k", 1e-3), (1e-2, "", 1.0), (0.0, "m", 1e3))
 
@@ -56,8 +47,8 @@ class Unit:
 
 def unit_of(dimension: str, arrays: Iterable[Floats] = ()) -> Unit:
     """The unit for a quantity; forces, torques, powers and energies take a prefix by their largest size."""
-    if dimension in _FIXED:
-        return Unit(*_FIXED[dimension])
+    if dimension in SHOWN:
+        return Unit(*SHOWN[dimension])
     if dimension not in _PREFIXED:
         return Unit(si_unit(dimension), 1.0)
     size = max(map(largest, arrays), default=0.0)
