@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -16,6 +15,18 @@ if TYPE_CHECKING:
     from linkwright.parts.base import Problem, Result
 
 ENDINGS = (".csv", ".json")
+#: The kinds of files that each command takes, and the command of each kind.
+TAKES = {
+    "beam": ("beam", "link_bending"),
+    "statics": ("forces", "rigid_body", "belt", "wedge"),
+    "cam": ("cam",),
+    "vibration": ("vibration", "follower", "mounts"),
+    "statistics": ("statistics",),
+    "program": ("program",),
+    "tolerance": ("tolerance",),
+    "trajectory": ("trajectory", "throw"),
+}
+COMMANDS = {kind: command for command, kinds in TAKES.items() for kind in kinds}
 #: Digits that numbers can be shown with.
 DIGITS = range(3, 16)
 
@@ -31,12 +42,12 @@ def part_arguments(option: Options) -> None:
     option.force()
 
 
-def run_part(options: argparse.Namespace, session: Session, kinds: Sequence[str]) -> int:
-    """Reads a file of one of the kinds, solves it, and shows or writes what came out."""
+def run_part(options: argparse.Namespace, session: Session, command: str) -> int:
+    """Reads a file of a kind that the command takes, solves it, and shows or writes what came out."""
     from linkwright.parts.file import solve
 
     refuse_outputs(options, session)
-    show(solve(read(options.file, kinds, session), options.file), options, session)
+    show(solve(read(options.file, command, session), options.file), options, session)
     return 0
 
 
@@ -52,7 +63,7 @@ class PartCommand:
 
     def run(self, options: argparse.Namespace, session: Session) -> int:
         """Solves the file's problem."""
-        return run_part(options, session, kinds_of(self.name))
+        return run_part(options, session, self.name)
 
 
 def refuse_outputs(options: argparse.Namespace, session: Session) -> None:
@@ -63,13 +74,13 @@ def refuse_outputs(options: argparse.Namespace, session: Session) -> None:
     refuse_output(options.plot, PICTURES, session.say, force=options.force)
 
 
-def read(source: str, kinds: Sequence[str], session: Session) -> Problem:
+def read(source: str, command: str, session: Session) -> Problem:
     """The problem of a file; UsageError where its kind belongs to another command."""
-    from linkwright.parts.file import GALLERY, KINDS, kind_of, load
+    from linkwright.parts.file import GALLERY, kind_of, load
     from linkwright.words.titles import gallery_title
 
     kind = kind_of(source)
-    if kind is not None and kind in KINDS and kind not in kinds:
+    if kind in COMMANDS and COMMANDS[kind] != command:
         say = session.say
         raise UsageError(say("part.other_command", kind=kind, command=COMMANDS[kind], file=source))
     problem = load(source)
@@ -78,31 +89,6 @@ def read(source: str, kinds: Sequence[str], session: Session) -> Problem:
         if title != problem.name:  # a copy finds again what the problem has found of itself
             return replace(problem, name=title)  # type: ignore[type-var]
     return problem
-
-
-#: The command of each kind.
-COMMANDS = {
-    "beam": "beam",
-    "link_bending": "beam",
-    "forces": "statics",
-    "rigid_body": "statics",
-    "belt": "statics",
-    "cam": "cam",
-    "wedge": "statics",
-    "vibration": "vibration",
-    "follower": "vibration",
-    "mounts": "vibration",
-    "statistics": "statistics",
-    "program": "program",
-    "tolerance": "tolerance",
-    "trajectory": "trajectory",
-    "throw": "trajectory",
-}
-
-
-def kinds_of(command: str) -> tuple[str, ...]:
-    """The kinds of files that a command takes."""
-    return tuple(kind for kind, name in COMMANDS.items() if name == command)
 
 
 def show(result: Result, options: argparse.Namespace, session: Session, *, kind: str | None = None) -> None:

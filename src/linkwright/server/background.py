@@ -37,23 +37,14 @@ class Background:
     def __init__(self) -> None:
         self._lock = threading.Lock()
         self._number = 0
-        self._found: Plain = {
-            "number": 0,
-            "kind": "",
-            "running": False,
-            "candidates": [],
-            "sentence": "",
-            "done": [],
-        }
+        self._found = _beginning(0, "")
 
     def begin(self, kind: str, work: Callable[[Job], None], language: str) -> Plain:
         """Starts work; gives its number."""
         with self._lock:
             self._number += 1
             number = self._number
-            self._found = {
-                "number": number, "kind": kind, "running": True, "candidates": [], "sentence": "", "done": [],
-            }  # fmt: skip
+            self._found = _beginning(number, kind)
         threading.Thread(target=self._run, args=(number, work, language), daemon=True).start()
         return {"number": number}
 
@@ -90,6 +81,17 @@ class Background:
                 self.add(number, {"running": False})
         except Stopped:
             return
+
+
+def _beginning(number: int, kind: str) -> Plain:
+    return {
+        "number": number,
+        "kind": kind,
+        "running": number > 0,
+        "candidates": [],
+        "sentence": "",
+        "done": [],
+    }
 
 
 def unexpected(error: Exception, language: str) -> str:

@@ -15,7 +15,7 @@ from linkwright.fields.nodes import Scalar
 from linkwright.joints.base import JOINTS
 from linkwright.joints.cam import CamJoint
 from linkwright.joints.rack import RackPair
-from linkwright.server.draft import Draft, fresh
+from linkwright.server.draft import Draft
 from linkwright.units import number
 from linkwright.words.sentence import Sentence
 
@@ -63,7 +63,7 @@ def add_cam(draft: Draft, action: Mapping[str, Any]) -> None:
     entry["program"] = [
         {"rise": lift, "over": up, **law}, {"dwell": above}, {"fall": lift, "over": down, **law}, {"dwell": below},
     ]  # fmt: skip
-    draft.put("joints", fresh("cam", [key for key, _ in draft.section("joints") or ()]), entry)
+    draft.put_new("joints", "cam", entry)
 
 
 def add_rack(draft: Draft, action: Mapping[str, Any]) -> None:
@@ -84,7 +84,7 @@ def add_rack(draft: Draft, action: Mapping[str, Any]) -> None:
         "kind": RackPair.kind, "pinion": pinion, "rack": rack, "through": through,
         "radius": f"{number(1e3 * abs(gap.imag), 10)} mm",
     }  # fmt: skip
-    draft.put("joints", fresh("rack", [key for key, _ in draft.section("joints") or ()]), entry)
+    draft.put_new("joints", "rack", entry)
 
 
 def _place(shown: Plain, point: str) -> complex:

@@ -57,10 +57,19 @@ class Draft(Document):
         found = self.section(section)
         if found is None:
             self._append(f"{section}:\n  {key}: {flow(value)}")
-        elif (old := found.get(key)) is not None:
-            self.write(old, flow(value))
         else:
-            self.add(found, key, flow(value))
+            self.write_key(found, key, flow(value))
+
+    def put_new(self, section: str, stem: str, value: Any) -> None:
+        """Write an entry of a section under the first of stem1, stem2, … that is free."""
+        self.put(section, fresh(stem, [key for key, _ in self.section(section) or ()]), value)
+
+    def write_key(self, node: MappingNode, key: str, text: str) -> None:
+        """Writes a text as what a key of a mapping has."""
+        if (old := node.get(key)) is not None:
+            self.write(old, text)
+        else:
+            self.text = self._added(self.text, node, key, text).made(self.text)
 
     def write(self, node: Node, text: str) -> None:
         """Writes a text in place of a node."""
@@ -69,10 +78,6 @@ class Draft(Document):
         while end > start and self.text[end - 1] in " \r\n":
             end -= 1
         self.text = self.text[:start] + text + self.text[end:]
-
-    def add(self, node: MappingNode, key: str, text: str) -> None:
-        """Writes a key that a mapping has not yet."""
-        self.text = self._added(self.text, node, key, text).made(self.text)
 
     def _append(self, text: str) -> None:
         self.text = self.text.rstrip("\n") + ("\n" if self.text.strip() else "") + text + "\n"

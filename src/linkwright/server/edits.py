@@ -55,10 +55,8 @@ def _point(draft: Draft, action: Mapping[str, Any]) -> None:
     points = frame.get("points") if frame is not None else None
     if not isinstance(points, MappingNode):
         draft.put("frame", "points", {action["name"]: place})
-    elif (old := points.get(action["name"])) is not None:
-        draft.write(old, flow(place))
     else:
-        draft.add(points, action["name"], flow(place))
+        draft.write_key(points, action["name"], flow(place))
 
 
 def _link(draft: Draft, action: Mapping[str, Any]) -> None:
@@ -80,9 +78,8 @@ def _guide(draft: Draft, action: Mapping[str, Any]) -> None:
     shown = draft.shown()
     through = fresh("G", [*shown["points"], *shown["fixed"]])
     _point(draft, {"name": through, "at": shown["points"][action["at"]], "fixed": True})
-    name = fresh("guide", [key for key, _ in draft.section("joints") or ()])
     angle = f"{number(round(float(action['angle']), 3))} deg"
-    draft.put("joints", name, {
+    draft.put_new("joints", "guide", {
         "kind": PrismaticJoint.kind, "guide": "frame", "through": through, "direction": angle,
         "block": action["link"], "at": action["at"],
     })  # fmt: skip
@@ -104,7 +101,7 @@ def _slot(draft: Draft, action: Mapping[str, Any]) -> None:
     }  # fmt: skip
     if abs(across) >= _FINEST / 2:
         entry["offset"] = _coordinates([across])[0]
-    draft.put("joints", fresh("slot", [key for key, _ in draft.section("joints") or ()]), entry)
+    draft.put_new("joints", "slot", entry)
 
 
 def _gear(draft: Draft, action: Mapping[str, Any]) -> None:
@@ -112,12 +109,8 @@ def _gear(draft: Draft, action: Mapping[str, Any]) -> None:
     teeth = [each.strip() for each in str(action["teeth"]).split(":")]
     if len(teeth) != 2 or not all(each.isdigit() and int(each) for each in teeth):
         raise LinkwrightError(Sentence("studio.no_teeth", text=str(action["teeth"])))
-    name = fresh("mesh", [key for key, _ in draft.section("joints") or ()])
-    draft.put(
-        "joints",
-        name,
-        {"kind": GearPair.kind, "links": list(action["links"]), "teeth": [int(z) for z in teeth]},
-    )
+    entry = {"kind": GearPair.kind, "links": list(action["links"]), "teeth": [int(z) for z in teeth]}
+    draft.put_new("joints", "mesh", entry)
 
 
 def _optimize(draft: Draft, action: Mapping[str, Any]) -> None:
@@ -130,15 +123,11 @@ def _mass(draft: Draft, action: Mapping[str, Any]) -> None:
     link = links.get(action["link"]) if links is not None else None
     if not isinstance(link, MappingNode):
         raise LinkwrightError(Sentence("studio.no_link", name=str(action["link"])))
-    if (old := link.get("mass")) is not None:
-        draft.write(old, action["mass"])
-    else:
-        draft.add(link, "mass", action["mass"])
+    draft.write_key(link, "mass", action["mass"])
 
 
 def _load(draft: Draft, action: Mapping[str, Any]) -> None:
-    name = fresh("load", [key for key, _ in draft.section("loads") or ()])
-    draft.put("loads", name, {
+    draft.put_new("loads", "load", {
         "kind": "force", "on": action["link"], "at": action["at"], "direction": "-90 deg",
         "magnitude": action["force"],
     })  # fmt: skip

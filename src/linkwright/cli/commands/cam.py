@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options
-from linkwright.cli.part import kinds_of, part_arguments, read, refuse_outputs, show
+from linkwright.cli.part import part_arguments, read, refuse_outputs, show
 from linkwright.cli.session import Session
 
 if TYPE_CHECKING:
@@ -39,7 +39,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
         raise UsageError(session.say("cam.bad_angle", angle=options.at))
     from linkwright.cams.cam import Cam
 
-    problem = read(options.file, kinds_of("cam"), session)
+    problem = read(options.file, "cam", session)
     assert isinstance(problem, Cam)
     design = problem.solve()
     show(design, options, session, kind=options.kind)

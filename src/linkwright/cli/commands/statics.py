@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 from linkwright.cli.parser import Options
-from linkwright.cli.part import kinds_of, part_arguments, refuse_outputs, run_part, show
+from linkwright.cli.part import part_arguments, refuse_outputs, run_part, show
 from linkwright.cli.session import Session
 
 
@@ -20,7 +20,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     from linkwright.parts.statics.structure import equilibrium
 
     if kind_of(options.file) is not None:
-        return run_part(options, session, kinds_of("statics"))
+        return run_part(options, session, "statics")
     refuse_outputs(options, session)
     mechanism, _ = read_model(options.file, session)
     show(equilibrium(mechanism), options, session)

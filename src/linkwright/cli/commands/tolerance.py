@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 from linkwright.cli.parser import Options
-from linkwright.cli.part import kinds_of, part_arguments, run_part
+from linkwright.cli.part import part_arguments, run_part
 from linkwright.cli.session import Session
 
 
@@ -19,4 +19,4 @@ def run(options: argparse.Namespace, session: Session) -> int:
     from linkwright.study.cluster import on_cluster
 
     with on_cluster(options.cluster):
-        return run_part(options, session, kinds_of("tolerance"))
+        return run_part(options, session, "tolerance")
