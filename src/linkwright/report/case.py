@@ -127,17 +127,12 @@ class Case:
 
     # the worked position ----------------------------------------------------------------------
     @cached_property
-    def steady(self) -> bool:
-        """Whether inputs say where a position is; else the drivers follow laws in time."""
-        return self.mechanism.steady
-
-    @cached_property
     def asked_place(self) -> float | None:
         """The input (rad or m) or time (s) that is asked for as worked position; raises QuantityError."""
         given = self.settings.position
         if not given or not self.mechanism.drivers:
             return None
-        return parse(given, ("angle" if self.rotary else "length") if self.steady else "time")
+        return parse(given, ("angle" if self.rotary else "length") if self.mechanism.steady else "time")
 
     @cached_property
     def moment(self) -> float:
@@ -146,7 +141,7 @@ class Case:
         if place is None:
             reached = np.flatnonzero(self.motion.ok)
             return float(self.motion.time[reached[len(reached) // 6]])
-        return float(at_inputs(self.mechanism, [place]).time[0]) if self.steady else place
+        return float(at_inputs(self.mechanism, [place]).time[0]) if self.mechanism.steady else place
 
     @cached_property
     def worked_result(self) -> tuple[Forces | Motion, int]:
@@ -164,7 +159,7 @@ class Case:
         if not self.mechanism.drivers:
             return None
         motion, index = self.worked_motion
-        return float(motion.input[index]) if self.steady else float(motion.time[index])
+        return float(motion.input[index]) if self.mechanism.steady else float(motion.time[index])
 
     @property
     def worked_text(self) -> str:
@@ -172,7 +167,11 @@ class Case:
         place = self.worked_place
         if place is None:
             return ""
-        return f"q = {self.input_text(place)}{self.input_unit}" if self.steady else f"t = {place:.6g} s"
+        return (
+            f"q = {self.input_text(place)}{self.input_unit}"
+            if self.mechanism.steady
+            else f"t = {place:.6g} s"
+        )
 
     @property
     def worked_motion(self) -> tuple[Motion, int]:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import field
+from typing import TypeVar
 
 from linkwright.core.dataclass import dataclass
 from linkwright.registry import Registry
@@ -27,30 +28,19 @@ class Section:
     blocks: Callable[[Sequence[Case]], Iterator[Block]] = field(repr=False)
 
 
+#: What makes the blocks of a section, of a case or of all cases.
+Blocks = TypeVar("Blocks", bound=Callable[..., Iterator[Block]])
 SECTIONS: Registry[Section] = Registry("report_section", "linkwright.report.sections")
 
 
 def section(
-    name: str, rank: float, *, optional: bool = False
-) -> Callable[[Callable[[Case], Iterator[Block]]], Callable[[Case], Iterator[Block]]]:
-    """Decorator that registers a function as a section about one machine."""
+    name: str, rank: float, *, optional: bool = False, common: bool = False
+) -> Callable[[Blocks], Blocks]:
+    """Decorator that registers a function as a section: of one machine, or with ``common`` of all of them."""
 
-    def registered(blocks: Callable[[Case], Iterator[Block]]) -> Callable[[Case], Iterator[Block]]:
-        SECTIONS.register(name)(Section(name, rank, optional, False, lambda cases: blocks(cases[0])))
-        return blocks
-
-    return registered
-
-
-def common_section(
-    name: str, rank: float, *, optional: bool = False
-) -> Callable[[Callable[[Sequence[Case]], Iterator[Block]]], Callable[[Sequence[Case]], Iterator[Block]]]:
-    """Decorator that registers a function as a section about all machines together."""
-
-    def registered(
-        blocks: Callable[[Sequence[Case]], Iterator[Block]],
-    ) -> Callable[[Sequence[Case]], Iterator[Block]]:
-        SECTIONS.register(name)(Section(name, rank, optional, True, blocks))
+    def registered(blocks: Blocks) -> Blocks:
+        of_all = blocks if common else lambda cases: blocks(cases[0])
+        SECTIONS.register(name)(Section(name, rank, optional, common, of_all))
         return blocks
 
     return registered

@@ -7,12 +7,12 @@ from collections.abc import Iterator, Sequence
 from linkwright.errors import LinkwrightError
 from linkwright.report.case import Case, Missing
 from linkwright.report.document import Block, Figure, Heading, Paragraph, Table, literal
-from linkwright.report.section import common_section
+from linkwright.report.section import section
 from linkwright.study.evaluation import evaluation, ranking, table_rows
 from linkwright.words.sentence import Sentence
 
 
-@common_section("comparison", 20.0, optional=True)
+@section("comparison", 20.0, optional=True, common=True)
 def blocks(cases: Sequence[Case]) -> Iterator[Block]:
     """Design numbers side by side, best values marked; ranking with reasons; evaluation."""
     from linkwright.study.compare import compare

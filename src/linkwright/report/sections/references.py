@@ -11,12 +11,12 @@ from linkwright.groups.base import DYADS
 from linkwright.metrics.base import METRICS
 from linkwright.report.case import Case, Missing
 from linkwright.report.document import Block, Paragraph, Table, literal
-from linkwright.report.section import common_section
+from linkwright.report.section import section
 from linkwright.structure.group import Group
 from linkwright.words.sentence import Sentence
 
 
-@common_section("references", 31.0)
+@section("references", 31.0, common=True)
 def blocks(cases: Sequence[Case]) -> Iterator[Block]:
     """Sources of the machine, of the groups' formulas and of the design numbers, each once."""
     found: dict[str, None] = {}

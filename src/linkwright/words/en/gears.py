@@ -30,7 +30,6 @@ WORDS = {
     "pair": "z = {first} : {second}, m = {module} mm, a = {distance} mm, α_w = {angle}°, ε_α = {ratio}",
     "rack_title": "Rack of {teeth} teeth",
     "rack": "z = {teeth}, m = {module} mm, p = {pitch} mm, α = {angle}°",
-    "action": "line of action",
     "tips_overlap": "tips of pinion and ring overlap by {overlap:.4g}° beside the mesh; take a larger difference "
     "of the teeth",
 }

@@ -231,7 +231,6 @@ WORDS = {
     "define_none": "define it under parameters (none is defined)",
     "zero": "zero",
     "negative": "negative",
-    "not_allowed": "not allowed",
     "periodic_ends": "a periodic table must end where it begins",
     "periodic_turns": "a periodic table must end where it begins (or whole turns further)",
     "nothing": "nothing",

@@ -48,7 +48,6 @@ Linkwright 读取描述平面机构的简短文本文件，回答设计者的问
     "needs_value": "{name} 需要一个值",
     "bad_choice": "{name} 不能是“{value}”；可选：{choices}",
     "bad_whole": "{name} 应为整数，而不是“{value}”",
-    "at_least_one": "{name} 为 {value}；应不小于 1",
     "not_together": "{name} 不能与 {other} 同时使用",
     "bad_language": "没有语言“{name}”；请选 en 或 zh",
     "output_lost": "无法写出结果（{reason}）",

@@ -26,7 +26,6 @@ linkwright compare a.yaml b.yaml --of jaw ram          各方案的输出构件"
     "bad_count": "--of：{files} 个文件给出了 {count} 个名称；请给出一个共用名称，或每个文件一个",
     "language": "zh",
     "metric": "设计指标",
-    "unit": "单位",
     "marked": "* 各方案中最优",
     "ranking": "排名（各指标接近最优程度的平均值，100 表示全部最优）",
     "no_ranking": "所选指标都没有优劣方向，因此不排名。",

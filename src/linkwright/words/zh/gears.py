@@ -23,6 +23,5 @@ WORDS = {
     "pair": "z = {first} : {second}，m = {module} mm，a = {distance} mm，α_w = {angle}°，ε_α = {ratio}",
     "rack_title": "{teeth} 齿齿条",
     "rack": "z = {teeth}，m = {module} mm，p = {pitch} mm，α = {angle}°",
-    "action": "啮合线",
     "tips_overlap": "啮合区之外齿顶相互干涉 {overlap:.4g}°；应加大齿数差",
 }

@@ -228,7 +228,6 @@ WORDS = {
     "define_none": "请在 parameters 中定义（尚无参数）",
     "zero": "为零",
     "negative": "为负",
-    "not_allowed": "不允许",
     "periodic_ends": "周期性表格的终点须与起点相同",
     "periodic_turns": "周期性表格的终点须与起点相同（或相差整圈）",
     "nothing": "空值",
