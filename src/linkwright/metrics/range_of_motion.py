@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from functools import partial
+from itertools import chain
 
 import numpy as np
 
@@ -140,7 +141,9 @@ class DeadPoint(Metric):
         for output in analysis.outputs:
             link = output_link(analysis.motion.mechanism, output)
             found = [limit for limit in analysis.limits(output) if _drives(analysis, limit.time)]
-            for q, subject in _distinct((limit.input, f"{output} {limit.kind}") for limit in found):
+            sides = ([limit for limit in found if limit.kind == kind] for kind in ("max", "min"))
+            places = (_distinct((each.input, f"{output} {each.kind}") for each in side) for side in sides)
+            for q, subject in chain.from_iterable(places):
                 remarks = (Remark("dead_point.output", {"at": shown(q, kind), "output": link}),)
                 yield self.value(analysis, subject, q, dimension=kind, at=q, remarks=remarks)
 

@@ -108,6 +108,8 @@ class SweptHull:
         low, high = np.maximum(place - NEAR, -1.0 - BEYOND), np.minimum(place + NEAR, 1.0 + BEYOND)
         low = np.where(self._curves.begins[piece], np.maximum(low, -1.0), low)
         high = np.where(self._curves.ends[piece], np.minimum(high, 1.0), high)
+        # hollow curves touch in their ends alone
+        bounded = (self._curves.begins | self._curves.ends)[piece].astype(float)
         values = self._pieces_of(number)
         rates = values @ TO_SLOPE
         every = np.concatenate([values, rates, rates @ TO_SLOPE], axis=1)
@@ -116,7 +118,7 @@ class SweptHull:
             for _ in range(STEPS):
                 both = np.concatenate([along, along])
                 turn, speed = cross(both, found[:, 4:]), cross(both, found[:, 2:4])
-                step = np.divide(-speed, turn, out=np.zeros(len(turn)), where=turn > 0.0)
+                step = np.divide(-speed, turn, out=-np.sign(speed) * bounded, where=turn > 0.0)
                 before, place = place, np.minimum(np.maximum(place + step, low), high)
                 if np.abs(place - before).max(initial=0.0) <= CLOSE:
                     break

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
@@ -22,7 +23,7 @@ from linkwright.core.piecewise import NODES, POINTS, WEIGHTS
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import Reduction
 from linkwright.engine.stage import Stage
-from linkwright.engine.trace import Scalar, Trace, floor, maximum, minimum, select, sign
+from linkwright.engine.trace import Mask, Scalar, Trace, floor, maximum, minimum, select, sign
 from linkwright.fields.signals import InputPhase, MovingPhase, SwingPhase, Table
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.kinetostatics.site import limit_name
@@ -106,6 +107,18 @@ class GaussCycle:
     def turns(self) -> int:
         """Number of turns of the driver in the cycle."""
         return whole_turns(self.traced)
+
+    @property
+    def finer(self) -> GaussCycle | None:
+        """The same with the next number of pieces."""
+        following = [pieces for pieces in PIECES if pieces > self.wanted]
+        return replace(self, wanted=following[0]) if following else None
+
+    @property
+    def speed(self) -> float:
+        """Speed of the driver, rad/s."""
+        (driver,) = self.traced.positions.coordinates
+        return self.constants[f"{driver}.speed"]
 
     @property
     def way(self) -> float:
@@ -201,13 +214,8 @@ class GaussCycle:
         """A trace over the Gauss points with the outputs, whether they are valid, and the share of the time; the
         chain coordinates of groups without closed form are fields. Valid is what moves ``one_way`` as in the machine
         itself."""
-        motion = self.traced.solver.motion
-        sure = motion.trace.logic("and", self.traced.counted_for_certain, friction_doubt(self.traced) < 0.5)
-        nominal = MotionSignals(self.traced.nominal)
-        for output in one_way:
-            sense = float(np.sign(nominal.output(output)[1].mean()))
-            sure = motion.trace.logic("and", sure, rates(self.traced, output)[0] * sense > 0.0)
-        source = Program.of(motion.trace, {**outputs, VALID: sure})
+        trace = self.traced.solver.motion.trace
+        source = Program.of(trace, {**outputs, VALID: certain(self.traced, one_way)})
         t = Trace()
         point, width = self.point(t)
         carried = {name: t.field_input(at_point(name)) for name in iterated(self.traced)}
@@ -228,6 +236,18 @@ class GaussCycle:
         way = sign(t.parameter(f"{driver}.speed")) * self.way * share
         time = t.parameter("first time") + way / t.parameter(f"{driver}.speed")
         return {"input": t.parameter(FIRST) + way, "time": time}, width
+
+
+def certain(traced: Traced, one_way: Iterable[Output]) -> Mask:
+    """Where a position is reached, rotations are counted, friction is certain, and some outputs go the way that they
+    go in the machine itself."""
+    logic = traced.solver.motion.trace.logic
+    found = logic("and", traced.counted_for_certain, friction_doubt(traced) < 0.5)
+    nominal = MotionSignals(traced.nominal)
+    for output in one_way:
+        sense = float(np.sign(nominal.output(output)[1].mean()))
+        found = logic("and", found, rates(traced, output)[0] * sense > 0.0)
+    return found
 
 
 def _sort(shares: list[Scalar]) -> None:

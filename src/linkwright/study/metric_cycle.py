@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property, partial
 
@@ -20,10 +20,9 @@ from linkwright.engine.reductions import Reduction
 from linkwright.engine.replay import across_designs
 from linkwright.engine.stage import Backend, Stage
 from linkwright.engine.threads import cores, spread_over
-from linkwright.engine.trace import Scalar, Trace, absolute, atan, maximum, minimum, select, sqrt
+from linkwright.engine.trace import Scalar, Trace, absolute, atan, minimum, select, sqrt
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinetostatics.forces import solve_forces
-from linkwright.kinetostatics.site import limit_name
 from linkwright.kinetostatics.traced_loads import AlongInput
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import Analysis, strokes, true_speed
@@ -31,13 +30,23 @@ from linkwright.metrics.summary import Summary, one
 from linkwright.study.followed_points import FollowedPoints, followed_points
 from linkwright.study.gauss_cycle import PIECES, SHARE, GaussCycle, reversing, side_by_side
 from linkwright.study.iterated_groups import limits_beside
-from linkwright.study.joint_bends import rests
-from linkwright.study.limit_stages import constants, extreme_name, limit_stages, rates
+from linkwright.study.limit_stages import constants, limit_stages, rates
 from linkwright.study.loaded_cycle import along_input, with_loads
 from linkwright.study.piece_summaries import SIDES, PieceSummaries
 from linkwright.study.seen import Seen
 from linkwright.study.steady_designs import REST, SIGNALS, SteadyDesigns
+from linkwright.study.term_parts import (
+    AT_LIMITS,
+    PLACES,
+    least_of,
+    of_sides,
+    outputs_of,
+    stroke_parts,
+    without_limits,
+    without_more_limits,
+)
 from linkwright.study.terms import Asked, Term, all_parts, term
+from linkwright.study.timed_cycle import TimedCycle, follows_times, timed_cycle
 from linkwright.study.traced import VALID, Traced, design_table
 
 #: Designs of one call.
@@ -45,13 +54,6 @@ BLOCK = 2048
 #: Designs whose weights of Gauss points are kept at the same time, and whose signals, for the true speed.
 WEIGHED, RUNNING = 256, 512
 VALUE = "value"
-#: Kinds of summaries that are places of an output's limit.
-_PLACES = ("argmax", "argmin")
-#: Those that an output has at its limits: the names of the cycle values, and their sides.
-_AT_LIMITS = {
-    **{f"arg{side}": (limit_name, (side,)) for side in ("max", "min")},
-    **{kind: (extreme_name, SIDES[kind]) for kind in ("max", "min", "range")},
-}
 
 
 def metric_cycle(
@@ -66,8 +68,9 @@ def metric_cycle(
     changed, as cycle values; those that apply to it and are formulas of summaries. Terms are taken as they are.
 
     ``steps``: of the motion by which it is judged what applies; ``asked``: see ``terms.term``. None where the
-    designs cannot go side by side: the cycle is no whole number of turns of one driver of constant speed, the way
-    passes change points, loads do not follow the input, or polynomials do not meet the machine itself. What is found
+    designs cannot go side by side: the way passes change points, loads do not follow the input, polynomials do not
+    meet the machine itself, or the cycle is no whole number of turns of one driver of constant speed and the
+    dimensions move its times or inputs, loads or friction go by limits, or a group has no closed form. What is found
     for a machine is kept.
     """
     given, addresses = tuple(names), tuple(varied)
@@ -83,29 +86,39 @@ def _metric_cycle(
     asked: Asked | None,
 ) -> MetricCycle | None:
     plain = Traced(mechanism, addresses, over_cycle(mechanism, steps))
-    if not side_by_side(plain, addresses):
+    turns = side_by_side(plain, addresses)
+    if not turns and not follows_times(plain, addresses):
         return None
     analysis = Analysis.of(solve_forces(plain.nominal))
     offered = (each if isinstance(each, Term) else term(each, analysis, asked) for each in given)
-    terms = [each for each in offered if each is not None and _without_more_limits(each, analysis)]
-    program = plain.program(plain.quantities(_outputs(map(one, all_parts(terms)))))
+    fitting = without_more_limits if turns else without_limits
+    terms = [each for each in offered if each is not None and fitting(each, analysis)]
+    program = plain.program(plain.quantities(outputs_of(map(one, all_parts(terms)))))
     loads = along_input(plain, addresses, program.fields)
     if loads is None:
         return None
-    ways = (analysis.output(strokes.output_of(part)) for part in _strokes(all_parts(terms)).values())
+    ways = (analysis.output(strokes.output_of(part)) for part in stroke_parts(all_parts(terms)).values())
     swinging = (*loads.swinging, *reversing(plain, program), *(each for each in ways if each is not None))
     loads = replace(loads, swinging=tuple(dict.fromkeys(swinging)))
     traced = with_loads(plain, loads)
+    gauss = GaussCycle.of(traced, loads, PIECES[0]) if turns else timed_cycle(traced, loads, analysis)
     nominal = {address: np.array([mechanism.dimension(address)]) for address in addresses}
-    coarsest = None
-    for pieces in PIECES:
-        gauss = GaussCycle.of(traced, loads, pieces)
-        found = MetricCycle(traced, gauss, terms, analysis, loads)
+    return None if gauss is None else _met(MetricCycle(traced, gauss, terms, analysis, loads), nominal)
+
+
+def _met(first: MetricCycle, nominal: Mapping[str, Floats]) -> MetricCycle | None:
+    """The same with the pieces that the machine itself needs; terms that are met by no polynomials left out."""
+    coarsest, finest, found = None, first, first
+    while found is not None:
         sure, running = found.met(nominal)
         if running.all():
             return found
         coarsest = coarsest or (found if sure.all() else None)
-    return coarsest
+        finest, found = found, found.finer
+    met = () if coarsest else finest.terms_met(nominal)
+    if not met or len(met) == len(first.terms):
+        return coarsest
+    return _met(MetricCycle(first.traced, first.gauss, met, first.analysis, first.loads), nominal)
 
 
 _cycles: Recent[Mechanism, MetricCycle | None] = Recent(16)
@@ -126,7 +139,7 @@ class MetricCycle:
     def __init__(
         self,
         traced: Traced,
-        gauss: GaussCycle,
+        gauss: GaussCycle | TimedCycle,
         terms: Sequence[Term],
         analysis: Analysis,
         loads: AlongInput,
@@ -134,8 +147,8 @@ class MetricCycle:
         self.analysis, self.loads = analysis, loads
         self.traced, self.gauss, self.terms = traced, gauss, tuple(terms)
         texts = all_parts(terms)
-        on_strokes = _strokes(texts)
-        self.least = _least(map(one, texts), on_strokes)
+        on_strokes = stroke_parts(texts)
+        self.least = least_of(map(one, texts), on_strokes)
         self.one_way = tuple(dict.fromkeys(output for each in terms for output in each.passed_over))
         self.parts = {
             text: Summary(text, "min") if text in on_strokes else one(text)
@@ -143,23 +156,23 @@ class MetricCycle:
             if text not in self.least
         }
         plain = {text: part for text, part in self.parts.items() if text not in on_strokes}
-        named = {text: analysis.output(p.output) for text, p in plain.items() if p.kind in _AT_LIMITS}
+        named = {text: analysis.output(p.output) for text, p in plain.items() if p.kind in AT_LIMITS}
         own = {text: output for text, output in named.items() if output is not None}
-        places = [output for text, output in own.items() if plain[text].kind in _PLACES]
+        places = [output for text, output in own.items() if plain[text].kind in PLACES]
         self.outputs = tuple(dict.fromkeys([*loads.outputs, *loads.moving, *loads.swinging, *places]))
         own = {
             text: output
             for text, output in own.items()
             if output in self.outputs and len(analysis.limits(output)) == 2
         }
-        self.shown = {output for text, output in own.items() if plain[text].kind not in _PLACES}
+        self.shown = {output for text, output in own.items() if plain[text].kind not in PLACES}
         self.limited: dict[str, tuple[str, ...]] = {
             text: tuple(name(output, side) for side in sides)
             for text, output in own.items()
-            for name, sides in [_AT_LIMITS[plain[text].kind]]
+            for name, sides in [AT_LIMITS[plain[text].kind]]
         }
         found_apart = {*self.limited, *on_strokes}
-        outputs = _outputs(part for text, part in self.parts.items() if text not in found_apart)
+        outputs = outputs_of(part for text, part in self.parts.items() if text not in found_apart)
         self.courses = {name: each.value for name, each in traced.quantities(outputs).items()}
         self.courses |= {text: self._half_on_stroke(part) for text, part in on_strokes.items()}
         self.halves = tuple(on_strokes)
@@ -223,14 +236,21 @@ class MetricCycle:
         found = np.isfinite(rows).all(axis=0)
         return seen.certain & (found | ~seen.running), seen.sure & found
 
+    def terms_met(self, columns: Mapping[str, Floats]) -> tuple[Term, ...]:
+        """The terms that are certain of all designs, each for itself."""
+        seen, unmet = self._seen(columns, "auto"), set[str]()
+        for text, part in self.parts.items():
+            if text not in self.limited:
+                seen.certain, seen.running = seen.passed.copy(), np.ones_like(seen.passed)
+                found = seen.summary(part)
+                unmet |= set() if (seen.sure & np.isfinite(found)).all() else {text}
+        return tuple(each for each in self.terms if unmet.isdisjoint(each.parts))
+
     @cached_property
     def finer(self) -> MetricCycle | None:
         """The same with the next number of pieces."""
-        following = [pieces for pieces in PIECES if pieces > self.gauss.wanted]
-        if not following:
-            return None
-        gauss = replace(self.gauss, wanted=following[0])
-        return MetricCycle(self.traced, gauss, self.terms, self.analysis, self.loads)
+        gauss = self.gauss.finer
+        return gauss and MetricCycle(self.traced, gauss, self.terms, self.analysis, self.loads)
 
     def _block(self, columns: Mapping[str, Floats], backend: Backend) -> tuple[Floats, Flags]:
         """Rows (terms, designs), and which are certain; designs that pass, but are not met, with finer pieces."""
@@ -256,7 +276,7 @@ class MetricCycle:
     @cached_property
     def followed(self) -> FollowedPoints | None:
         """What finds groups without closed form at the Gauss points."""
-        return followed_points(self.traced, self.gauss)
+        return followed_points(self.traced, self.gauss) if isinstance(self.gauss, GaussCycle) else None
 
     def _seen(self, columns: Mapping[str, Floats], backend: Backend) -> Seen:
         states = {} if self.followed is None else self.followed.at_positions(columns, backend)
@@ -280,9 +300,8 @@ class MetricCycle:
                 passed &= np.isfinite(rough)
             for output in self.outputs:
                 passed &= results[f"doubt:{output}"] == 0.0
-        (driver,) = self.traced.mechanism.drivers
-        speed = self.gauss.constants[f"{driver}.speed"]
-        steady = SteadyDesigns(self._signals.program, known, run, self.gauss.pieces, speed, self.gauss.way)
+        gauss = self.gauss
+        steady = SteadyDesigns(self._signals.program, known, run, gauss.pieces, gauss.speed, gauss.way)
         seen = Seen(results, found, steady, self.gauss.pieces, passed, known.fields)
         seen.certain &= kept
         return seen
@@ -446,54 +465,12 @@ class MetricCycle:
             return self.gauss.way * absolute(
                 t.parameter(f"{text} mean") * t.parameter(f"{text} all") - t.parameter(text)
             )
-        return _of_sides(part.kind, [t.parameter(f"{part.output} {side}") for side in SIDES[part.kind]])
+        return of_sides(part.kind, [t.parameter(f"{part.output} {side}") for side in SIDES[part.kind]])
 
     def _whole(self, t: Trace, part: Callable[[str], Scalar]) -> dict[str, Scalar]:
         """All parts: from the signals, from values at limits and those that no position changes, and from others."""
         found = {text: part(text) for text in self.parts if text not in self.limited}
         found |= {text: 2.0 * atan(found[text]) for text in self.halves}
         for text, names in self.limited.items():
-            found[text] = _of_sides(self.parts[text].kind, [t.parameter(name) for name in names])
+            found[text] = of_sides(self.parts[text].kind, [t.parameter(name) for name in names])
         return found | {text: minimum(*(found[each] for each in of)) for text, of in self.least.items()}
-
-
-def _of_sides(kind: str, sides: Sequence[Scalar]) -> Scalar:
-    """A summary from the sides on which it lies, of one design or of many."""
-    if kind == "range":
-        return sides[0] - sides[1]
-    return maximum(absolute(sides[0]), absolute(sides[1])) if kind == "peak" else sides[0]
-
-
-def _least(parts: Iterable[Summary], on_strokes: Mapping[str, Summary]) -> dict[str, tuple[str, str]]:
-    """Smallest values over the cycle that are those of the two strokes of some output."""
-    ways: dict[tuple[str, str], list[str]] = {}
-    for text, part in on_strokes.items():
-        ways.setdefault((strokes.signal_of(part), strokes.output_of(part)), []).append(text)
-    both = {signal: (texts[0], texts[1]) for (signal, _), texts in ways.items() if len(texts) == 2}
-    return {f"{p.output} {p.kind}": both[p.output] for p in parts if p.kind == "min" and p.output in both}
-
-
-def _outputs(parts: Iterable[Summary]) -> Iterator[str]:
-    """The outputs that summaries are found from, but for the places of limits."""
-    for part in parts:
-        if part.kind in true_speed.KINDS:
-            yield from (true_speed.EFFORT, true_speed.INERTIA)
-        elif part.kind in strokes.WAYS:
-            yield strokes.signal_of(part)
-        elif part.kind not in _PLACES:
-            yield part.output
-
-
-def _strokes(texts: Iterable[str]) -> dict[str, Summary]:
-    """The parts over the strokes of an output."""
-    return {text: part for text in texts if (part := one(text)).kind in strokes.WAYS}
-
-
-def _without_more_limits(each: Term, analysis: Analysis) -> bool:
-    """Whether the outputs whose limits a term takes have no others than two, and rest nowhere."""
-    parts = [one(text) for text in each.parts]
-    words = [part.output for part in parts if part.kind in _PLACES]
-    words += [strokes.output_of(part) for part in _strokes(each.parts).values()]
-    outputs = [output for output in map(analysis.output, words) if output is not None]
-    moving = (output for output in outputs if not rests(analysis.motion, output))
-    return len(outputs) == sum(len(analysis.limits(output)) == 2 for output in moving)

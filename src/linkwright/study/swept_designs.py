@@ -9,7 +9,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.outputs import Output
-from linkwright.core.piecewise import POINTS
+from linkwright.core.piecewise import POINTS, tails
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.cycle_gradient import CycleGradient, cycle_gradient
 from linkwright.engine.program import Program
@@ -19,6 +19,7 @@ from linkwright.engine.trace import Scalar
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinetostatics.traced_loads import AlongInput
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.metrics import Analysis
 from linkwright.metrics.cycle_grid import PIECES
 from linkwright.metrics.swept_area import points
 from linkwright.metrics.swept_hull import Curves, SweptHull
@@ -26,10 +27,13 @@ from linkwright.study.followed_points import followed_points
 from linkwright.study.gauss_cycle import GaussCycle, side_by_side
 from linkwright.study.metric_cycle import Found
 from linkwright.study.terms import Term, chosen_subjects, metric_of
+from linkwright.study.timed_cycle import TimedCycle, follows_times, timed_cycle
 from linkwright.study.traced import VALID, Traced, design_table
 
 #: Designs whose curves are kept at the same time.
 BLOCK = 256
+#: Share of the largest extent up to which polynomials meet the curves.
+MET = 1e-7
 _PASSED, _TOTAL = "passed", "total"
 
 
@@ -48,20 +52,26 @@ def swept_designs(mechanism: Mechanism, varied: Iterable[str], names: Iterable[s
     if not asked:
         return None
     traced = Traced(mechanism, addresses, over_cycle(mechanism, 360))
-    return SweptDesigns(traced, asked) if side_by_side(traced, addresses) else None
+    loads = AlongInput(frozenset())
+    if side_by_side(traced, addresses):
+        return SweptDesigns(traced, GaussCycle.of(traced, loads, PIECES), asked)
+    if not follows_times(traced, addresses):
+        return None
+    gauss = timed_cycle(traced, loads, Analysis.of(traced.nominal))
+    return None if gauss is None else SweptDesigns(traced, gauss, asked)
 
 
 class SweptDesigns:
     """Areas of hulls of one mechanism's designs; of several links the largest. Made by :func:`swept_designs`."""
 
-    def __init__(self, traced: Traced, names: Iterable[str]) -> None:
+    def __init__(self, traced: Traced, gauss: GaussCycle | TimedCycle, names: Iterable[str]) -> None:
         self.traced, self._keys = traced, points(traced.mechanism)
         self.terms = tuple(Term(name, (), "area", "lower") for name in names)
         number = {key: k for k, key in enumerate(self._keys)}
         groups = [swept(each.name, traced.mechanism).values() for each in self.terms]
         self._chosen = [[[number[key] for key in own] for own in subjects] for subjects in groups]
-        self._gauss = GaussCycle.of(traced, AlongInput(frozenset()), PIECES)
-        self._followed = followed_points(traced, self._gauss)
+        self._gauss = gauss
+        self._followed = followed_points(traced, gauss) if isinstance(gauss, GaussCycle) else None
         places = self._places()
         self._rows = tuple(places)
         self._trace, self._signals = self._gauss.signals(places)
@@ -149,6 +159,8 @@ class SweptDesigns:
             rows = np.stack([known.fields[name] for name in self._rows], axis=1)
             for k in np.flatnonzero(np.isfinite(known.values[_PASSED])).tolist():
                 curves = self._curves(rows[k])
+                if tails(curves.values).max() > MET * np.ptp(curves.values, axis=(2, 3)).max():
+                    continue
                 for number, chosen in enumerate(self._chosen):
                     hull = max((SweptHull(curves, own) for own in chosen), key=lambda each: each.area)
                     values[number, first + k] = hull.area
@@ -176,10 +188,15 @@ class SweptDesigns:
         """The curves of a design's points, (rows, n)."""
         pieces = self._gauss.pieces
         values = rows.reshape(len(self._keys), 2, POINTS, pieces).swapaxes(2, 3)
-        never = np.zeros(pieces, dtype=bool)
+        opened, piece = not self.traced.positions.closed, np.arange(pieces)
         still = (values == values[:, :, :1, :1]).all(axis=(1, 2, 3))
         last = np.where(still, 1, self._gauss.count)
-        return Curves(values, never, never, np.stack([np.zeros_like(last), last], axis=1))
+        return Curves(
+            values,
+            (piece == 0) & opened,
+            (piece == pieces - 1) & opened,
+            np.stack([np.zeros_like(last), last], axis=1),
+        )
 
     def _table(self, cycle: CycleProgram, columns: Mapping[str, Floats]) -> Floats:
         return design_table(cycle.dimensions, self._known, columns)

@@ -110,9 +110,10 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
     "objective_loads": "{name!r} has friction in more than 16 pairs of one group, or (for design numbers) on a guide "
     "that is pressed from both sides or beside teeth and chains that pull both ways, "
     "loads that divide by an output, follow a link that turns through or act against the "
-    "rotation of two moving links, or phases or design numbers over other cycles than whole turns at constant "
-    "speed, so no gradient of many designs is found; for outputs "
-    "use sensitivity, which takes one design at a time, for design numbers study",
+    "rotation of two moving links, or, over other cycles than whole turns at constant speed, phases by limits, "
+    "friction that reverses, groups without closed form, or dimensions that move the inputs, "
+    "so no gradient of many designs is found; for outputs use sensitivity, which takes one design at a time, for "
+    "design numbers study",
     "objective_reverses": "{name!r}: the load {load!r} has the sign of the rate of {output}, which changes it "
     "{count} times in a turn, where gradients of design numbers take two changes; for outputs use sensitivity, for "
     "design numbers study",
@@ -127,8 +128,9 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
     "sweep_metric": "{names} of {name!r} does not apply to it; choose another one",
     "objective_metric": "{names} of {name!r} is no number over the cycle that has a gradient, or does not apply to "
     "it; choose another one",
-    "objective_swept": "{names} of {name!r} has a gradient where one driver turns at constant speed through whole "
-    "turns and no change point is passed; for its value use sweep",
+    "objective_swept": "{names} of {name!r} has a gradient where no change point is passed and, over other cycles "
+    "than whole turns at constant speed, groups have closed forms and no dimension moves the inputs; for its value "
+    "use sweep",
     "objective_idle": "{names} has no influence on what is asked; leave it out",
     "place_without_slope": "{name!r} is a place, which has no derivative here; ask for its extreme",
     "fixed_by_wheels": "{address} cannot change alone: {why}; give the pair by its teeth, or by its ratio, alone, or "

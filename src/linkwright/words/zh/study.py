@@ -97,7 +97,7 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
     "objective_loads": "{name!r} 的一个杆组中摩擦副多于 16 个，或（求设计指标时）有摩擦的导路两侧交替受压、"
     "有摩擦时轮齿或链条受力交替换向，"
     "或载荷以输出为除数、取决于整转构件的转角、与两个活动构件的相对转动反向，"
-    "或在原动件并非匀速转整数周的循环上用到载荷的阶段或设计指标，"
+    "或在原动件并非匀速转整数周的循环上有按极限划分的阶段、换向的摩擦、没有闭式解的杆组或改变输入的尺寸，"
     "因此不能成批求梯度；输出的梯度请用 sensitivity（逐个方案计算），设计指标请用 study",
     "objective_reverses": "{name!r}：载荷“{load}”的符号取自 {output} 的变化率，它在一转中变号 {count} 次，"
     "而设计指标的梯度只容许两次；输出的梯度请用 sensitivity，设计指标请用 study",
@@ -109,8 +109,8 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
     "而其整圈数逐位置累计，不能成批求梯度；输出的梯度请用 sensitivity，设计指标请用 study",
     "sweep_metric": "“{name}”没有 {names} 这个指标；请另选指标",
     "objective_metric": "“{name}”的 {names} 不是可求梯度的循环指标，或不适用于该机构；请另选指标",
-    "objective_swept": "“{name}”的 {names} 只在单一驱动件匀速转过整圈且不经过变点时有梯度；"
-    "只求数值请用 sweep",
+    "objective_swept": "“{name}”的 {names} 在不经过变点时有梯度；循环并非匀速转过整圈时，"
+    "杆组还须有闭式解，且所变尺寸不改变输入；只求数值请用 sweep",
     "objective_idle": "{names} 对所求的量没有影响；请去掉",
     "place_without_slope": "“{name}”是位置，此处没有导数；请改求其极值",
     "fixed_by_wheels": "{address} 不能单独改变：{why}；请只用齿数或只用传动比给定该副，"
