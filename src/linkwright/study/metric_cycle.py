@@ -108,13 +108,15 @@ def _metric_cycle(
 
 def _met(first: MetricCycle, nominal: Mapping[str, Floats]) -> MetricCycle | None:
     """The same with the pieces that the machine itself needs; terms that are met by no polynomials left out."""
-    coarsest, finest, found = None, first, first
-    while found is not None:
-        sure, running = found.met(nominal)
+    coarsest: MetricCycle | None = None
+    following: MetricCycle | None = first
+    while following is not None:
+        finest = following
+        sure, running = finest.met(nominal)
         if running.all():
-            return found
-        coarsest = coarsest or (found if sure.all() else None)
-        finest, found = found, found.finer
+            return finest
+        coarsest = coarsest or (finest if sure.all() else None)
+        following = finest.finer
     met = () if coarsest else finest.terms_met(nominal)
     if not met or len(met) == len(first.terms):
         return coarsest
@@ -250,7 +252,9 @@ class MetricCycle:
     def finer(self) -> MetricCycle | None:
         """The same with the next number of pieces."""
         gauss = self.gauss.finer
-        return gauss and MetricCycle(self.traced, gauss, self.terms, self.analysis, self.loads)
+        if gauss is None:
+            return None
+        return MetricCycle(self.traced, gauss, self.terms, self.analysis, self.loads)
 
     def _block(self, columns: Mapping[str, Floats], backend: Backend) -> tuple[Floats, Flags]:
         """Rows (terms, designs), and which are certain; designs that pass, but are not met, with finer pieces."""

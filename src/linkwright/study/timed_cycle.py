@@ -92,7 +92,7 @@ class TimedCycle:
         """The trace of the motion with the outputs, whether they are valid, and the share of the time."""
         trace = self.traced.solver.motion.trace
         found = {**outputs, VALID: certain(self.traced, one_way), SHARE: trace.position(SHARE)}
-        return trace, found  # type: ignore[return-value]
+        return trace, found
 
 
 def follows_times(traced: Traced, varied: Iterable[str]) -> bool:
