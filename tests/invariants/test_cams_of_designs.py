@@ -1,9 +1,11 @@
 """Design numbers of many machines with a cam: those of the cam by itself, and of each machine alone."""
 
 import math
+from itertools import pairwise
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 import linkwright as lw
 from linkwright.core.arrays import Floats
@@ -40,6 +42,37 @@ joints:
 driver: {turn: motor, about: M, speed: -180 rpm}
 gravity: [0, -9.81 m/s²]
 loads: {spring: {kind: force, on: slide, at: P, direction: -90 deg, magnitude: 60 N}}
+"""
+UNEVEN = """
+format: 1
+name: cam on the driven crank of a double crank
+frame: {points: {M: [-30 mm, 0 mm], O: [0 mm, 0 mm], G: [0 mm, 0 mm]}}
+links:
+  shaft: {points: [M, A], length: 100 mm}
+  coupler: {points: [A, B], length: 110 mm}
+  cam: {points: {O: [0 mm, 0 mm], B: [90 mm, 0 mm]}}
+  slide: {points: {P: [0 mm, 0 mm]}, mass: 0.5 kg}
+joints:
+  guide: {kind: prismatic, guide: frame, through: G, direction: 90 deg, block: slide, at: P}
+  lobe:
+    kind: cam
+    cam: cam
+    follower: slide
+    at: P
+    touch: roller
+    roller_radius: 10 mm
+    base_radius: 50 mm
+    phase: 20 deg
+    program:
+      - {rise: 18 mm, over: 110 deg, law: double_harmonic}
+      - {dwell: 60 deg}
+      - {fall: 18 mm, over: 100 deg, law: {kind: modified_sine, crossover: 0.45}}
+      - {dwell: 90 deg}
+assembly: {B: right}
+driver: {turn: shaft, about: M, speed: 180 rpm}
+loads:
+  spring: {kind: force, on: slide, at: P, direction: -90 deg, magnitude: 60 N}
+  press: {kind: force, on: slide, at: P, direction: -90 deg, magnitude: 40 N, phase: {input: [70 deg, 200 deg]}}
 """
 BY = ("lobe.phase", "lobe.base_radius", "slide.mass")
 #: Which limit of a cycle is the first changes with the phase.
@@ -103,3 +136,73 @@ def test_the_cuts_move_with_the_cam() -> None:
     for row, slope, mass in zip(values[0], slopes[0, :, 1], given["slide.mass"], strict=True):
         near = [rms_torque(mechanism, mass + side * step) for side in (1.0, -1.0)]
         assert slope == pytest.approx((near[0] - near[1]) / (2.0 * step), rel=1e-6), row
+
+
+def turned(x: Floats, length: float) -> tuple[Floats, Floats, Floats]:
+    """Angle of the driven crank about O with its first and second derivatives by the driver's, over inputs x, rad."""
+    tip = -0.03 + 0.1 * np.exp(1j * x)
+    reach, first, second = np.abs(tip), 0.1j * np.exp(1j * x) / tip, -0.1 * np.exp(1j * x) / tip
+    towards, away = first.imag, (second - first**2).imag
+    radial = first.real * reach
+    radial2 = (second - first**2).real * reach + first.real * radial
+    cosine = (reach**2 + 0.09**2 - length**2) / (0.18 * reach)
+    slope = 1.0 / 0.09 - cosine / reach
+    cosine1 = slope * radial
+    cosine2 = slope * radial2 - (cosine1 / reach - cosine * radial / reach**2) * radial
+    sine = np.sqrt(1.0 - cosine**2)
+    side = -cosine1 / sine
+    side2 = -cosine2 / sine - cosine * cosine1**2 / sine**3
+    return np.angle(tip) + np.arccos(cosine), towards + side, away + side2
+
+
+def torque_of(mechanism: lw.Mechanism, length: float, mass: float, phase: float) -> tuple[float, float]:
+    """Root mean square and largest size of the shaft's torque, from power over pieces between the lift's bends."""
+    program, speed = mechanism.joints["lobe"].program, 6.0 * math.pi  # type: ignore[attr-defined]
+    inputs = np.linspace(0.0, 2.0 * math.pi, 4001)
+    angle = np.unwrap(turned(inputs, length)[0])
+    whole = [each + phase + 2.0 * math.pi * lap for each in program.breaks[:-1] for lap in range(-2, 3)]
+    bends = [
+        brentq(
+            lambda x, to=to: math.remainder(float(turned(x, length)[0]) - to, math.tau), x - 0.01, x + 0.01
+        )
+        for to in whole
+        if angle[0] < to < angle[-1]
+        for x in [float(np.interp(to, angle, inputs))]
+    ]
+    edges = np.array(sorted([0.0, *np.radians([70.0, 200.0]), *bends, 2.0 * math.pi]))
+    nodes, weights = np.polynomial.legendre.leggauss(40)
+    total, largest = 0.0, 0.0
+    for low, high in pairwise(edges):
+        x = 0.5 * (low + high) + 0.5 * (high - low) * np.append(nodes, np.linspace(-1.0, 1.0, 3001))
+        phi, first, second = turned(x, length)
+        lift = program.curves(np.mod(phi - phase, 2.0 * math.pi))
+        force = 60.0 + (40.0 if np.radians(70.0) < x[0] < np.radians(200.0) else 0.0)
+        force = force + mass * speed**2 * (lift[2] * first**2 + lift[1] * second)
+        torque = force * lift[1] * first
+        total += 0.5 * (high - low) * float(weights @ torque[:40] ** 2)
+        largest = max(largest, float(np.abs(torque[40:]).max()))
+    return math.sqrt(total / (2.0 * math.pi)), largest
+
+
+def test_cams_that_turn_unevenly_are_cut_where_their_lifts_bend() -> None:
+    """The cam is on the driven crank of a double crank, whose bends every design passes at inputs of its own."""
+    mechanism = lw.loads(UNEVEN)
+    asked = ["rms_input_torque", "peak_input_torque"]
+    by = ("coupler.length", "slide.mass", "lobe.phase")
+    cycle = metric_cycle(mechanism, by, asked)
+    assert cycle is not None
+    given = {"coupler.length": np.array([0.11, 0.112, 0.1]), "slide.mass": np.array([0.5, 0.9, 0.4])}
+    given["lobe.phase"] = np.radians([20.0, 75.0, -12.0])
+    found, designs = cycle.evaluate(given), np.stack([given[name] for name in by], axis=1)
+    assert found.certain.all()
+    known = np.array([torque_of(mechanism, *design) for design in designs])
+    assert found.values["rms_input_torque"] == pytest.approx(known[:, 0], rel=1e-9)
+    assert found.values["peak_input_torque"] == pytest.approx(known[:, 1], rel=1e-6)
+    values, slopes = cycle.gradients([{"rms_input_torque": 1.0}], given, by)
+    assert values[0] == pytest.approx(known[:, 0], rel=1e-9)
+    for design, slope in zip(designs, slopes[0], strict=True):
+        for number, step in enumerate((1e-6, 1e-5, 1e-5)):
+            sides = [
+                torque_of(mechanism, *(design + side * step * np.eye(3)[number]))[0] for side in (1.0, -1.0)
+            ]
+            assert slope[number] == pytest.approx((sides[0] - sides[1]) / (2.0 * step), rel=1e-6, abs=1e-6)

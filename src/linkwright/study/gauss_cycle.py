@@ -34,6 +34,7 @@ from linkwright.study.joint_bends import FIRST, bend_names, bend_stage
 from linkwright.study.limit_stages import edge_name, part_edge, part_edge_beside, rates, whole_turns
 from linkwright.study.loaded_cycle import friction_doubt
 from linkwright.study.traced import VALID, Traced
+from linkwright.study.uneven_bends import MOST, UnevenBends, uneven_bends
 
 #: Numbers of pieces of the whole turn to try one after another, and the share of them that a stretch between two cuts
 #: has at least.
@@ -67,12 +68,14 @@ class GaussCycle:
     """The stages that lead to signals at the Gauss points of every design.
 
     ``cuts``: names of what gives the inputs, rad, of the cuts, cycle values and dimensions, with the turns after
-    which they come again, none where they do once; ``wanted``: pieces of a turn.
+    which they come again, none where they do once; ``wanted``: pieces of a turn; ``bends``: places at which the cycle
+    is cut as well, from the first of which it then runs.
     """
 
     traced: Traced
     cuts: tuple[tuple[str, int], ...]
     wanted: int
+    bends: UnevenBends | None = None
 
     @classmethod
     def of(cls, traced: Traced, loads: AlongInput, wanted: int) -> GaussCycle:
@@ -83,12 +86,19 @@ class GaussCycle:
         for term in loads.swinging:
             found |= dict.fromkeys((limit_name(term, kind), 0) for kind in ("max", "min"))
         found |= dict.fromkeys((name, 0) for name in bend_names(traced))
-        return cls(traced, tuple(found), wanted)
+        cycle = cls(traced, tuple(found), wanted)
+        return replace(cycle, bends=uneven_bends(traced)) if cycle._moving <= MOST else cycle
 
     @property
     def stretches(self) -> int:
         """Number of stretches between cuts."""
-        return max(1, sum(len(self._laps(every)) for _, every in self.cuts))
+        between = 0 if self.bends is None else self.bends.stretches
+        return max(1, self._moving + between)
+
+    @property
+    def _moving(self) -> int:
+        """Number of cuts, each as often as it comes."""
+        return sum(len(self._laps(every)) for _, every in self.cuts)
 
     def _laps(self, every: int) -> range:
         """Turns after which a cut comes again within the cycle."""
@@ -101,7 +111,8 @@ class GaussCycle:
 
     @property
     def _each(self) -> int:
-        return math.ceil(self.wanted * self.turns * max(LEAST, 1.0 / self.stretches))
+        longest = max(LEAST, 1.0 / self.stretches) if self.bends is None else self.bends.longest
+        return math.ceil(self.wanted * self.turns * longest)
 
     @cached_property
     def turns(self) -> int:
@@ -163,6 +174,8 @@ class GaussCycle:
         inside = (np.arange(self._each) + 0.5 + 0.5 * NODES[:, None]) / self._each
         inside = np.tile(inside, self.stretches).ravel()
         width = np.repeat(0.5 * WEIGHTS / self._each, self.pieces)
+        if self.bends is not None:
+            return {"inside": inside, "width": width, **self.bends.around(stretch, self._moving)}
         found = {}
         for k in range(self.stretches):
             begins, ends = stretch == k, (stretch + 1) % self.stretches == k
@@ -225,17 +238,32 @@ class GaussCycle:
     def point(self, t: Trace) -> tuple[dict[str, Scalar], Scalar]:
         """Input, rad, and time, s, of the Gauss points, and their shares of the time."""
         (driver,) = self.traced.mechanism.drivers
-        place: Scalar = t.position("place after")
-        width: Scalar = t.position("width after")
-        if self.cuts:
-            for k in range(self.stretches):
-                cut = t.parameter(f"cut {k}")
-                place = place + t.position(f"place {k}") * cut
-                width = width + t.position(f"width {k}") * cut
-        share = place - floor(place)
-        way = sign(t.parameter(f"{driver}.speed")) * self.way * share
+        whole = sign(t.parameter(f"{driver}.speed")) * self.way
+        cuts: list[Scalar] = [t.parameter(f"cut {k}") for k in range(self._moving)]
+        place, width = (
+            self._between_cuts(t, cuts) if self.bends is None else self._between_bends(t, cuts, whole)
+        )
+        way = whole * (place - floor(place))
         time = t.parameter("first time") + way / t.parameter(f"{driver}.speed")
         return {"input": t.parameter(FIRST) + way, "time": time}, width
+
+    def _between_cuts(self, t: Trace, cuts: list[Scalar]) -> tuple[Scalar, Scalar]:
+        """Place and share of a Gauss point, as shares of the cycle."""
+        place: Scalar = t.position("place after")
+        width: Scalar = t.position("width after")
+        for k, cut in enumerate(cuts):
+            place = place + t.position(f"place {k}") * cut
+            width = width + t.position(f"width {k}") * cut
+        return place, width
+
+    def _between_bends(self, t: Trace, cuts: list[Scalar], whole: Scalar) -> tuple[Scalar, Scalar]:
+        """The same where the cycle begins with a bend."""
+        assert self.bends is not None
+        first = self.bends.first(self.traced, t)
+        begin = (first - t.parameter(FIRST)) / whole
+        later = [cut - begin - floor(cut - begin) for cut in cuts]
+        low, high = self.bends.bounds(self.traced, t, first, whole, later)
+        return begin + low + t.position("inside") * (high - low), t.position("width") * (high - low)
 
 
 def certain(traced: Traced, one_way: Iterable[Output]) -> Mask:

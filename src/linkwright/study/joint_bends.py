@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.engine.program import Program
@@ -22,7 +23,7 @@ from linkwright.study.traced import Traced
 #: The constant that is the input where the cycle begins.
 FIRST = "first input"
 #: Change of a ratio of speeds over the cycle, as share of it, up to which it is fixed.
-_FIXED = 1e-9
+FIXED = 1e-9
 
 
 @dataclass(frozen=True)
@@ -42,17 +43,22 @@ class _Turning:
                 yield f"bend:{self.joint}:{k}:{lap}", angle + TURN * lap
 
 
-def _turning(traced: Traced) -> Iterator[_Turning]:
+def bending(traced: Traced) -> Iterator[tuple[str, Bends, Floats, int]]:
+    """Joints with bends: their names, how fast their links turn about their carriers, as ratios to the driver's speed
+    over the positions, and how often in the cycle."""
     rate = next(iter(traced.positions.coordinates.values()))[1]
     for name, joint in traced.mechanism.joints.items():
-        bends = joint.bends
-        if bends is None:
-            continue
-        link, carrier = traced.nominal.link(bends.link), traced.nominal.link(bends.carrier)
-        ratios = (link.angular_velocity - carrier.angular_velocity) / rate
-        turns = abs(float(ratios[0])) * whole_turns(traced)
-        if round(turns) >= 1 and np.ptp(ratios) <= _FIXED * np.abs(ratios).max():
-            yield _Turning(name, bends, round(turns), float(link.angle[0] - carrier.angle[0]))
+        if (bends := joint.bends) is not None:
+            link, carrier = traced.nominal.link(bends.link), traced.nominal.link(bends.carrier)
+            ratios = (link.angular_velocity - carrier.angular_velocity) / rate
+            yield name, bends, ratios, round(abs(float(ratios.mean())) * whole_turns(traced))
+
+
+def _turning(traced: Traced) -> Iterator[_Turning]:
+    for name, bends, ratios, turns in bending(traced):
+        if turns >= 1 and np.ptp(ratios) <= FIXED * np.abs(ratios).max():
+            link, carrier = traced.nominal.link(bends.link), traced.nominal.link(bends.carrier)
+            yield _Turning(name, bends, turns, float(link.angle[0] - carrier.angle[0]))
 
 
 def bend_names(traced: Traced) -> tuple[str, ...]:
@@ -87,5 +93,5 @@ def bend_stage(traced: Traced) -> Stage | None:
 def rests(motion: Motion, output: Output) -> bool:
     """Whether an output stands still for a part of the cycle, so that no position alone is its limit."""
     rate = np.abs(MotionSignals(motion).output(output)[1])
-    still = rate <= _FIXED * np.nanmax(rate, initial=0.0)
+    still = rate <= FIXED * np.nanmax(rate, initial=0.0)
     return bool((still[1:] & still[:-1]).any())
