@@ -29,6 +29,7 @@ from linkwright.synthesis.free_curve.nodes import (
 )
 from linkwright.synthesis.free_curve.search import Search, polished
 from linkwright.synthesis.free_curve.target import (
+    FINE,
     MIDDLE,
     Target,
     curve_distance,
@@ -58,7 +59,7 @@ def _some(joints: int, draw: Draw) -> Whole:
 def test_gradients_are_slopes(closed: bool, rest: int) -> None:
     draw = np.random.default_rng(4)
     target = Target(FOUR, closed, math.radians(50), 3.0)
-    points, near = target._tables[MIDDLE.points, False]
+    points = target._points[MIDDLE.points, False]
     room, options, checked = np.zeros(60000), np.array([math.sin(math.radians(50)) ** 2, 3.0, 1.0, 4e-6]), 0
     while checked < 10:
         nodes = _some(8, draw)
@@ -68,7 +69,7 @@ def test_gradients_are_slopes(closed: bool, rest: int) -> None:
         def value(
             at: np.ndarray, slope: np.ndarray, nodes: np.ndarray = nodes, joints: int = joints
         ) -> float:
-            arrays = [each.ctypes.data for each in (near, options, room, slope)]
+            arrays = [each.ctypes.data for each in (options, room, slope)]
             found = kernels()("deviation", nodes.ctypes.data, joints, 96, 96 + rest, int(closed), at.ctypes.data,
                               points.ctypes.data, MIDDLE.points, *arrays)  # fmt: skip
             return float(found)
@@ -157,18 +158,35 @@ def _distances(design: Design, points: np.ndarray, crank: np.ndarray) -> tuple[n
     return np.concatenate([apart(z, points), apart(points, z)]), share
 
 
+def test_the_objective_is_the_distance_of_the_two_lines() -> None:
+    draw, target, seen = np.random.default_rng(3), Target(FOUR, False, math.radians(20), 6.0), 0
+    while seen < 12:
+        nodes = random_structure(2, 8, draw)
+        x = np.concatenate([draw.normal(0.6, 0.7, len(nodes) // 2 - 4), [*draw.uniform(0, 6, 2), 4.0]])
+        for fineness in (MIDDLE, FINE):
+            found = target.descend(Design(nodes, x, False), 0, fineness, weight=0.0).value
+            if found > 1e3:
+                break
+            crank = np.linspace(x[-2], x[-2] + x[-1], fineness.drawn)
+            marks = even_points(target.points, fineness.points, False)
+            far, share = _distances(Design(nodes, x, False), marks, crank)
+            weight = np.append(share, np.full(len(marks), 1 / len(marks)))
+            assert found == pytest.approx(weight @ np.hypot(far, fineness.soft), rel=1e-9)
+            seen += 1
+
+
 def test_the_curvature_of_a_descent_is_that_of_the_distances() -> None:
     nodes = flat([*FOUR_BAR, (POINT, 1, 3, 1)])
     x = np.array([3.2, 0.3, math.log(2.6), math.log(2.4), 0.5, 0.8, 0.4, 0.7, 4.5])
     crank = np.linspace(x[-2], x[-2] + x[-1], MIDDLE.drawn)
     drawn = node_paths(nodes, x + np.array([0.3, 0, 0.1, 0, 0.1, 0, 0, 0, 0]), crank)[0][-1]
     target = Target(drawn * np.exp(0.6j), False, math.radians(20), 6.0)
-    points, near = target._tables[MIDDLE.points, False]
-    marks = points[: MIDDLE.points] + 1j * points[MIDDLE.points :]
+    points = target._points[MIDDLE.points, False]
+    marks = points[: MIDDLE.points] + 1j * points[MIDDLE.points : 2 * MIDDLE.points]
     inverse, room, soft = np.zeros((9, 9)), np.zeros(60000), 4e-4
     arrays = [each.ctypes.data for each in (x, points)]
-    assert kernels()("curvature", nodes.ctypes.data, 5, MIDDLE.drawn, 0, *arrays, MIDDLE.points, near.ctypes.data,
-                     soft, inverse.ctypes.data, 9, room.ctypes.data) == 1.0  # fmt: skip
+    assert kernels()("curvature", nodes.ctypes.data, 5, MIDDLE.drawn, 0, *arrays, MIDDLE.points, soft,
+                     inverse.ctypes.data, 9, room.ctypes.data) == 1.0  # fmt: skip
 
     def moved(h: np.ndarray) -> np.ndarray:
         turned = x + h

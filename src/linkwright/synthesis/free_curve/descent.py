@@ -16,7 +16,6 @@ from linkwright.synthesis.free_curve.distances import (
     curve_to_target,
     middle,
     one_after,
-    one_before,
     target_to_curve,
     weigh,
 )
@@ -62,15 +61,15 @@ def column(n: int, closed: int, m: int, s: Reals, c: Reals) -> None:
         store(yx, t, dx)
         store(yy, t, dy)
     for j in range(m):
-        k = mark_of(work[12 * WIDE + j])
-        a, b = one_before(k, n, closed), one_after(k, n, closed)
-        ra, rk, rb = work[9 * WIDE + j], work[10 * WIDE + j], work[11 * WIDE + j]
-        dx_ = ra * yx[a] + rk * yx[k] + rb * yx[b]
-        dy_ = ra * yy[a] + rk * yy[k] + rb * yy[b]
+        a = mark_of(work[12 * WIDE + j])
+        b = one_after(a, n, closed)
+        ra, rb = work[9 * WIDE + j], work[10 * WIDE + j]
+        dx_ = ra * yx[a] + rb * yx[b]
+        dy_ = ra * yy[a] + rb * yy[b]
         c[n + j] = 0.0 - scale[n + j] * (work[6 * WIDE + j] * dx_ + work[7 * WIDE + j] * dy_) * (1.0 / STEP)
 
 
-def directions(n: int, closed: int, target: Reals, m: int, near: Wholes, soft: float, s: Reals) -> None:
+def directions(n: int, closed: int, target: Reals, m: int, soft: float, s: Reals) -> None:
     """Of a laid curve (blocks 0, 1 of s; shares of its length in 5) the ways from the target and the distances.
 
     Blocks 6, 7: unit vectors at the curve's points; 8: roots of the weights of all distances, of the curve's points,
@@ -84,14 +83,14 @@ def directions(n: int, closed: int, target: Reals, m: int, near: Wholes, soft: f
         s + 9 * WIDE,
         s + 11 * WIDE,
     )
-    curve_to_target(s, s + WIDE, w, n, closed, target, target + m, m, near, 0.0, work)
+    curve_to_target(s, s + WIDE, w, n, closed, target, m, 0.0, work)
     for t in range(0, n, 8):
         far = load(work, 8 * WIDE + t)
         store(ux, t, load(work, 6 * WIDE + t))
         store(uy, t, load(work, 7 * WIDE + t))
         store(scale, t, root(load(w, t) / root(far * far + soft)))
         store(rest, t, load(scale, t) * far)
-    target_to_curve(s, s + WIDE, n, closed, target, target + m, m, 0.0, work)
+    target_to_curve(s, s + WIDE, n, closed, target, m, 0.0, work)
     for j in range(0, m, 8):
         far = load(work, 8 * WIDE + j)
         store(scale, n + j, root((1.0 / m) / root(far * far + soft)))
@@ -127,7 +126,7 @@ def invert(H: Reals, d: int) -> None:
 
 
 def curvature(
-    nodes: Wholes, count: int, n: int, closed: int, x: Reals, target: Reals, m: int, near: Wholes, soft: float,
+    nodes: Wholes, count: int, n: int, closed: int, x: Reals, target: Reals, m: int, soft: float,
     H: Reals, d: int, room: Reals,
 ) -> float:  # fmt: skip
     """The inverse of the damped curvature of the distances; negative where the curve cannot be laid."""
@@ -135,7 +134,7 @@ def curvature(
     free = J + d * rows
     if lay(nodes, count, n, closed, x, free, s + 4 * WIDE, s + 5 * WIDE, s + 10 * WIDE, s, s + WIDE) < 0.0:
         return -1.0
-    directions(n, closed, target, m, near, soft, s)
+    directions(n, closed, target, m, soft, s)
     for p in range(d):
         one = J + p * rows
         for t in range(0, rows, 8):
@@ -202,8 +201,8 @@ def direction(H: Reals, g: Reals, d: int, closed: int, span: float, s: Reals) ->
 
 
 def descend(
-    nodes: Wholes, count: int, n: int, N: int, closed: int, x: Reals, target: Reals, m: int, near: Wholes,
-    options: Reals, room: Reals, iterations: int,
+    nodes: Wholes, count: int, n: int, N: int, closed: int, x: Reals, target: Reals, m: int, options: Reals,
+    room: Reals, iterations: int,
 ) -> float:  # fmt: skip
     """Quasi-Newton descent that begins again with Gauss and Newton's curvature every ``FRESH`` steps.
 
@@ -212,13 +211,13 @@ def descend(
     d = 2 * (count - 2) + 3
     H, g = room, room + d * d
     gn, s, xn, y, Hy, rest = g + d, g + 2 * d, g + 3 * d, g + 4 * d, g + 5 * d, g + 8 * d
-    f = deviation(nodes, count, n, N, closed, x, target, m, near, options, rest, g)
+    f = deviation(nodes, count, n, N, closed, x, target, m, options, rest, g)
     if f >= FAR:
         return f
     for iteration in range(iterations):
         if iteration % FRESH == 0:
             first = 0
-            if curvature(nodes, count, n, closed, x, target, m, near, options[3], H, d, rest) < 0.0:
+            if curvature(nodes, count, n, closed, x, target, m, options[3], H, d, rest) < 0.0:
                 restart(H, g, d, 0.02)
                 first = 1
         slope = direction(H, g, d, closed, x[d - 1], s)
@@ -232,7 +231,7 @@ def descend(
                     xn[a] = x[a] + t * s[a]
                 if closed == 0:
                     xn[d - 1] = min(max(xn[d - 1], LEAST), TURN)
-                fn = deviation(nodes, count, n, N, closed, xn, target, m, near, options, rest, gn)
+                fn = deviation(nodes, count, n, N, closed, xn, target, m, options, rest, gn)
                 accepted = 0
                 if fn > f + 1e-4 * t * slope:
                     hi = t

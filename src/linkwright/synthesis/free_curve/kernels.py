@@ -322,8 +322,8 @@ def range_back(n: int, N: int, closed: int, X: Reals, Y: Reals, gX: Reals, gY: R
 
 
 def deviation(
-    nodes: Wholes, count: int, n: int, N: int, closed: int, x: Reals, target: Reals, m: int, near: Wholes,
-    options: Reals, room: Reals, g: Reals,
+    nodes: Wholes, count: int, n: int, N: int, closed: int, x: Reals, target: Reals, m: int, options: Reals,
+    room: Reals, g: Reals,
 ) -> float:  # fmt: skip
     """The objective and its gradient g; ``options``: sin² μ₀, r₀, κ, ε². FAR where the linkage does not turn."""
     e = 2 * (count - 2)
@@ -342,12 +342,12 @@ def deviation(
     if at[2] < 1e-3:
         return FAR
     align(zx, zy, n, at, x[e], yx, yy)
-    found = curve_to_target(yx, yy, w, n, closed, target, target + m, m, near, options[3], work)
+    found = curve_to_target(yx, yy, w, n, closed, target, m, options[3], work)
     for t in range(0, n, 8):
         store(gx, t, load(w, t) * load(work, 6 * WIDE + t))
         store(gy, t, load(w, t) * load(work, 7 * WIDE + t))
         store(gw, t, load(work, 8 * WIDE + t))
-    found += target_to_curve(yx, yy, n, closed, target, target + m, m, options[3], work)
+    found += target_to_curve(yx, yy, n, closed, target, m, options[3], work)
     pulled(n, closed, m, work, gx, gy)
     found += too_large(X, Y, count * N, at, options[1], options[2] / (count * N), gX, gY, gat)
     g[e] = align_back(zx, zy, yx, yy, n, closed, at, w, steps, x[e], length, gx, gy, gw, gat, work)

@@ -206,8 +206,8 @@ def own_columns(nodes: Wholes, count: int, n: int, closed: int, x: Reals, m: int
 
 
 def promises(
-    nodes: Wholes, count: int, n: int, N: int, closed: int, x: Reals, target: Reals, m: int, near: Wholes,
-    options: Reals, room: Reals, draws: int, r: Reals, most: int, made: Wholes, numbers: Reals, counts: Wholes,
+    nodes: Wholes, count: int, n: int, N: int, closed: int, x: Reals, target: Reals, m: int, options: Reals,
+    room: Reals, draws: int, r: Reals, most: int, made: Wholes, numbers: Reals, counts: Wholes,
     gains: Reals,
 ) -> float:  # fmt: skip
     """Draws dyads and says what each promises, as a share of the residual; gives the residual's share outside J.
@@ -223,7 +223,7 @@ def promises(
         gains[k] = -1.0
     if lay(nodes, count, n, closed, x, free, s + 4 * WIDE, s + 5 * WIDE, at, s, s + WIDE) < 0.0:
         return -1.0
-    directions(n, closed, target, m, near, SOFT, s)
+    directions(n, closed, target, m, SOFT, s)
     whole = dot(rest, rest, rows)
     known = own_columns(nodes, count, n, closed, x, m, s, Q)
     for k in range(known):
@@ -253,7 +253,7 @@ def misses(
     s = room + 2 * count * n + 8
     yx, yy, steps, w, at, work = s, s + WIDE, s + 2 * WIDE, s + 3 * WIDE, s + 4 * WIDE, s + 5 * WIDE
     if lay(nodes, count, n, closed, x, room, steps, w, at, yx, yy) > 0.0:
-        target_to_curve(yx, yy, n, closed, target, target + m, m, 1e-12, work)
+        target_to_curve(yx, yy, n, closed, target, m, 1e-12, work)
         for j in range(0, m, 8):
             far = load(work, 8 * WIDE + j)
             store(out, j, far * load(work, 6 * WIDE + j))

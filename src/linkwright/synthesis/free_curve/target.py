@@ -8,8 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from linkwright.core.arrays import Complexes, Floats, Whole
-from linkwright.synthesis.free_curve.distances import GRID, HALF
+from linkwright.core.arrays import Complexes, Floats
 from linkwright.synthesis.free_curve.kernels import FAR, kernels
 from linkwright.synthesis.free_curve.nodes import Design, node_paths
 from linkwright.synthesis.free_curve.promise import NUMBERS, ROWS
@@ -59,19 +58,11 @@ class Target:
         self.centre = complex(even.mean())
         self.radius = float(np.sqrt(np.mean(np.abs(even - self.centre) ** 2)))
         self.points = (even - self.centre) / self.radius
-        self._tables: dict[tuple[int, bool], tuple[Floats, Whole]] = {}
-        for fineness in (COARSE, MIDDLE, FINE):
-            for mirror in (False, True):
-                self._tables[fineness.points, mirror] = self._table(fineness.points, mirror)
-
-    def _table(self, count: int, mirror: bool) -> tuple[Floats, Whole]:
-        from scipy.spatial import cKDTree
-
-        points = even_points(self.points.conj() if mirror else self.points, count, self.closed)
-        cell = (np.arange(GRID) + 0.5) * (2 * HALF / GRID) - HALF
-        cells = np.column_stack([np.tile(cell, GRID), np.repeat(cell, GRID)])
-        near = cKDTree(_columns(points)).query(cells)[1]
-        return np.concatenate([points.real, points.imag]), np.ascontiguousarray(near, dtype=np.int64)
+        self._points: dict[tuple[int, bool], Floats] = {}
+        for count in {each.points for each in (COARSE, MIDDLE, FINE)}:
+            some = even_points(self.points, count, closed)
+            for mirror, seen in ((False, some), (True, some.conj())):
+                self._points[count, mirror] = np.concatenate([seen.real, seen.imag, [0.0]])
 
     def descend(
         self, design: Design, iterations: int, fineness: Fineness = MIDDLE, *, weight: float = 1.0, more: float = 0.0,
@@ -80,11 +71,11 @@ class Target:
 
         ``weight``: of the penalties; ``more``: angle (rad) above the least one.
         """
-        points, near = self._tables[fineness.points, design.mirror]
+        points = self._points[fineness.points, design.mirror]
         x = design.x.copy()
         limits = [np.sin(self.least + more) ** 2, self.largest * (1 - 2 * more), weight, fineness.soft**2]
         options = np.array(limits)
-        arrays = [each.ctypes.data for each in (x, points, near, options, _ROOM.array)]
+        arrays = [each.ctypes.data for each in (x, points, options, _ROOM.array)]
         value = kernels()(
             "descend", design.nodes.ctypes.data, design.joints, fineness.drawn, self._poses(fineness),
             int(self.closed), *arrays[:2], fineness.points, *arrays[2:], iterations,
@@ -93,7 +84,7 @@ class Target:
 
     def misses(self, design: Design) -> Floats:
         """Where the curve misses the target, as a unit vector: designs that err alike have a product near 1."""
-        points, _ = self._tables[COARSE.points, design.mirror]
+        points = self._points[COARSE.points, design.mirror]
         found = np.zeros(2 * COARSE.points)
         arrays = [each.ctypes.data for each in (design.x, points)]
         kernels()(
@@ -106,11 +97,11 @@ class Target:
 
     def grown(self, design: Design, numbers: Floats, most: int) -> list[Design]:
         """Designs with one more dyad after rows of nine uniform numbers, the most promising first."""
-        draws, (points, near) = len(numbers), self._tables[COARSE.points, design.mirror]
+        draws, points = len(numbers), self._points[COARSE.points, design.mirror]
         options = np.array([np.sin(self.least) ** 2])
         made, x = np.zeros((draws, ROWS), np.int64), np.zeros((draws, NUMBERS))
         counts, gains, own = np.zeros(draws, np.int64), np.zeros(draws), design.x.copy()
-        arrays = [each.ctypes.data for each in (near, options, _ROOM.array)]
+        arrays = [each.ctypes.data for each in (options, _ROOM.array)]
         results = [each.ctypes.data for each in (made, x, counts, gains)]
         kernels()(
             "promises", design.nodes.ctypes.data, design.joints, MIDDLE.drawn, self._poses(MIDDLE), int(self.closed),
