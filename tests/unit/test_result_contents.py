@@ -148,3 +148,10 @@ def test_every_driver_has_its_panel() -> None:
         factor = 1e3 if "(kN)" in one.get_ylabel() else 1e6 if "(MN)" in one.get_ylabel() else 1.0
         drawn = np.asarray(line.get_ydata()) * factor
         assert drawn[: forces.steps] == pytest.approx(forces.driver_effort(name), rel=1e-12)
+
+
+def test_a_guide_turns_with_the_link_that_carries_it() -> None:
+    forces = lw.solve_forces(lw.load("gallery:dyad_rrp"), steps=7)
+    angle = forces.motion.link("disc").angle + math.radians(25.0)
+    expected = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    assert forces.guide_direction("slot") == pytest.approx(expected, abs=1e-12)

@@ -48,6 +48,31 @@ def test_the_smallest_transmission_angle_of_a_crank_rocker() -> None:
     assert found["transmission_angle B min"] == pytest.approx(acute, rel=1e-11)
 
 
+SWINGING = """
+format: 1
+name: rocker that swings about 180 degrees
+frame: {points: {O: [0 m, 0 m], C: [1.36808057330 m, 3.75877048314 m]}}
+links:
+  crank: {points: [O, A], length: 1 m}
+  coupler: {points: [A, B], length: 4 m}
+  rocker: {points: [C, B], length: 2.5 m}
+assembly: {B: left}
+driver: {turn: crank, about: O, speed: 60 rpm}
+"""
+
+
+def test_the_angles_of_a_rocker_that_swings_about_half_a_turn() -> None:
+    """Its limits by the law of cosines, in one swing however the angle is counted."""
+    crank = np.array([1.0, 0.9])
+    found = sweep(
+        lw.loads(SWINGING), {"crank.length": crank}, outputs=["rocker.angle max", "rocker.angle min"]
+    )
+    at_pivot = np.array([np.arccos((16 + 6.25 - (4 + side * crank) ** 2) / 20) for side in (1, -1)])
+    expected = np.radians(250 - 360) - at_pivot
+    assert found["rocker.angle min"] == pytest.approx(expected[0], abs=3e-5)
+    assert found["rocker.angle max"] == pytest.approx(expected[1], abs=3e-5)
+
+
 def test_designs_that_cannot_turn_are_those_that_grashof_excludes() -> None:
     mechanism = lw.load("gallery:crank_rocker")
     a, c, d = (mechanism.dimension(name) for name in ("crank.length", "rocker.length", "frame.O2.x"))
