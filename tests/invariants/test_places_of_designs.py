@@ -125,8 +125,28 @@ def test_cranks_that_cannot_turn_have_their_range() -> None:
     ends = np.arccos((cranks[1:] ** 2 + 4.0**2 - 6.0**2) / (2 * cranks[1:] * 4.0))
     assert found["range_of_motion"] == pytest.approx([2 * np.pi, *(2 * ends)], rel=1e-9)
     assert found["grashof"] == pytest.approx([1.0, -0.3, -0.4], rel=1e-12)
+    wide = mechanism.with_dimensions({"crank.length": 2.3})
+    turned = lw.sweep(wide, {"crank.length": cranks}, outputs="range_of_motion", partial=True)
+    assert turned["range_of_motion"] == pytest.approx([2 * np.pi, *(2 * ends)], rel=1e-12)
     whole = lw.sweep(mechanism, {"crank.length": cranks}, outputs=outputs)
     assert np.isnan(whole["grashof"]).tolist() == [False, True, True]
+
+
+def test_slopes_of_a_range() -> None:
+    """cos θ = (r² + d² - (c + b)²)/(2 r d) at both ends of a crank that cannot turn: 2 θ, by r and by c; where
+    the cycle itself begins at 0° it is half of that."""
+    machine = lw.load("gallery:crank_rocker").with_dimensions({"crank.length": 2.3})
+    r, d, reach = 2.3, 4.0, 6.0
+    sine = np.sqrt(1.0 - ((r**2 + d**2 - reach**2) / (2 * r * d)) ** 2)
+    by_crank = -2.0 / sine * (2 * r * r - (r**2 + d**2 - reach**2)) / (2 * r * r * d)
+    objective = lw.objective(machine, "range_of_motion", vary=["crank.length", "coupler.length"])
+    value, gradient = objective(objective.start)
+    assert value == pytest.approx(2 * np.arccos((r**2 + d**2 - reach**2) / (2 * r * d)), rel=1e-12)
+    assert gradient == pytest.approx([by_crank, 2.0 / sine * reach / (r * d)], rel=1e-10)
+    text = (Path(lw.__file__).parent / "gallery" / "crank_rocker.yaml").read_text("utf-8")
+    part = lw.loads(text + "\ncycle: {from: 0 deg, to: 170 deg}\n").with_dimensions({"crank.length": 2.3})
+    value, (slope,) = (half := lw.objective(part, "range_of_motion", vary=["crank.length"]))(half.start)
+    assert slope == pytest.approx(0.5 * by_crank, rel=1e-10)
 
 
 def test_both_change_points_of_a_parallelogram_are_dead_points() -> None:

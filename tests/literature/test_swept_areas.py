@@ -142,7 +142,7 @@ def test_machines_without_a_gradient_of_their_swept_area_say_so() -> None:
         (lw.load("gallery:stephenson_sixbar_triad"), "crank.length"),
     ):
         with pytest.raises(
-            lw.LinkwrightError, match=r"swept_area of .* has a gradient where one driver turns"
+            lw.LinkwrightError, match=r"swept_area of .* has a gradient where no change point"
         ):
             lw.objective(machine, "swept_area", vary=[address])
 

@@ -29,9 +29,7 @@ from linkwright.optimisation.problem import Problem
 from linkwright.study.alternatives import Alternative
 from linkwright.study.cluster import current, in_turn
 from linkwright.study.criteria import criterion
-from linkwright.study.design_numbers import side_by_side
-from linkwright.study.metric_cycle import MetricCycle
-from linkwright.study.swept_designs import SweptDesigns
+from linkwright.study.design_numbers import Numbers, side_by_side
 from linkwright.study.terms import OWN, Asked, Term, metric_of
 from linkwright.study.vary import refuse_moved_positions
 from linkwright.words.sentence import Sentence
@@ -114,7 +112,7 @@ class Measures:
         return False
 
     # many designs ------------------------------------------------------------------------------------
-    def _cycles(self) -> list[MetricCycle | SweptDesigns]:
+    def _cycles(self) -> list[Numbers]:
         """What finds all numbers of all designs at once; none where some are found one by one."""
         terms, problem = [self._term(name) for name in self.numbers], self.problem
         if not terms:
@@ -267,7 +265,7 @@ class Measures:
 
     def _numbers_with_slopes(
         self,
-        cycle: MetricCycle | SweptDesigns,
+        cycle: Numbers,
         names: list[str],
         columns: Mapping[str, Floats],
         by: tuple[str, ...],

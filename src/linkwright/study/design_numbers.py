@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from typing import TypeAlias
 
 import numpy as np
 
@@ -14,9 +15,13 @@ from linkwright.kinetostatics.forces import solve_forces
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import Analysis
 from linkwright.study.metric_cycle import MetricCycle, metric_cycle
+from linkwright.study.range_designs import RangeDesigns, range_designs
 from linkwright.study.swept_designs import SweptDesigns, swept_designs
 from linkwright.study.terms import Asked, Term, measured
 from linkwright.words.sentence import Sentence
+
+#: What finds design numbers of all designs at once.
+Numbers: TypeAlias = MetricCycle | SweptDesigns | RangeDesigns
 
 
 def side_by_side(
@@ -26,13 +31,14 @@ def side_by_side(
     asked: Asked | None = None,
     *,
     steps: int = 360,
-) -> list[MetricCycle | SweptDesigns]:
+) -> list[Numbers]:
     """What finds those design numbers that are found of all designs at once; ``asked``, ``steps``: see
     ``metric_cycle``."""
     by, plain = tuple(varied), [name for name in names if isinstance(name, str)]
     found = (
         metric_cycle(mechanism, by, names, steps=steps, asked=asked),
         swept_designs(mechanism, by, plain),
+        range_designs(mechanism, by, plain),
     )
     return [each for each in found if each is not None and each.terms]
 

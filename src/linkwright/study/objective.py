@@ -30,11 +30,13 @@ from linkwright.kinetostatics.named import Quantity
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.summary import KINDS, Summary, is_metric, reductions, wanted
+from linkwright.study.design_numbers import Numbers
 from linkwright.study.iterated_groups import Following, following, limits_beside
 from linkwright.study.limit_stages import constants, limit_stages
 from linkwright.study.loaded_cycle import along_input, friction_doubt, with_loads
-from linkwright.study.metric_cycle import MetricCycle, metric_cycle
-from linkwright.study.swept_designs import SweptDesigns, swept, swept_designs
+from linkwright.study.metric_cycle import metric_cycle
+from linkwright.study.range_designs import range_designs, ranged
+from linkwright.study.swept_designs import swept, swept_designs
 from linkwright.study.terms import refuse_obstacle
 from linkwright.study.traced import CLEAR, VALID, Traced, design_table
 from linkwright.study.vary import checked_addresses, positions_steps, refuse_moved_positions
@@ -122,7 +124,7 @@ class OverMetrics:
     """Registered design numbers with their weights."""
 
     names: tuple[str, ...]
-    cycle: MetricCycle | SweptDesigns
+    cycle: Numbers
     weights: Mapping[str, float]
     backend: Backend
 
@@ -222,9 +224,9 @@ def objective(
     compiled: Backend = "llvm" if backend == "auto" and available() else backend
     parts: list[Part] = []
     hulls = {name: weight for name, weight in numbers.items() if swept(name, mechanism)}
-    formulas = {name: weight for name, weight in numbers.items() if name not in hulls}
-    if hulls:
-        parts.append(of_metrics(mechanism, names, hulls, steps, compiled))
+    ranges = {name: weight for name, weight in numbers.items() if ranged(name)}
+    formulas = {name: weight for name, weight in numbers.items() if name not in {*hulls, *ranges}}
+    parts += [of_metrics(mechanism, names, each, steps, compiled) for each in (hulls, ranges) if each]
     if formulas or not given:
         parts.append(of_metrics(mechanism, names, formulas, steps, compiled))
     if others:
@@ -239,8 +241,10 @@ def objective(
 def of_metrics(
     mechanism: Mechanism, names: tuple[str, ...], weights: Mapping[str, float], steps: int, backend: Backend
 ) -> Part:
-    """The weighted sum of registered metrics, all of them areas of hulls or none; raises RequestError where it has no
-    gradient."""
+    """The weighted sum of registered metrics, all of them areas of hulls, or ranges of motion, or none; raises
+    RequestError where it has no gradient."""
+    if (ranges := range_designs(mechanism, names, weights)) is not None:
+        return OverMetrics(ranges.dimensions, ranges, weights, backend)
     if any(swept(name, mechanism) for name in weights):
         hulls = swept_designs(mechanism, names, weights)
         if hulls is None:

@@ -103,11 +103,11 @@ def follows_times(traced: Traced, varied: Iterable[str]) -> bool:
         return False
     steps = positions_steps(traced.positions)
     return traced.positions.count > 2 and not any(
-        _moves(traced.mechanism, address, steps) for address in varied
+        moves(traced.mechanism, address, steps) for address in varied
     )
 
 
-def _moves(mechanism: Mechanism, address: str, steps: int) -> bool:
+def moves(mechanism: Mechanism, address: str, steps: int) -> bool:
     """Whether times or inputs of the cycle follow from a dimension."""
     value = mechanism.dimension(address)
     for factor in (1.0 + _NUDGE, 1.0 - _NUDGE):
