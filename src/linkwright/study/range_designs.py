@@ -14,7 +14,7 @@ import numpy as np
 from linkwright.core.arrays import Flags, Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.cycle import CycleProgram
-from linkwright.engine.cycle_gradient import cycle_gradient
+from linkwright.engine.cycle_gradient import CycleGradient, cycle_gradient
 from linkwright.engine.numpy_backend import numpy_program
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import Reduction
@@ -137,6 +137,10 @@ class RangeDesigns:
         free = self.traced.solver.manner.free
         return tuple(name for name in self._cycle.dimensions if name in free)
 
+    @cached_property
+    def _backwards(self) -> CycleGradient:
+        return cycle_gradient(self._cycle, VALUE, self.dimensions)
+
     def evaluate(
         self, columns: Mapping[str, Floats], *, threads: int | None = None, backend: Backend = "auto"
     ) -> Found:
@@ -160,12 +164,14 @@ class RangeDesigns:
     ) -> tuple[Floats, Floats]:
         """Weighted sums of ranges (sums, designs) and their gradients (sums, designs, by); NaN where they are not
         certain."""
-        gradient = cycle_gradient(self._cycle, VALUE, by)
         certain = self.evaluate(columns, threads=threads, backend=backend).certain
-        values, slopes = gradient.evaluate(
-            self._table(gradient.cycle.dimensions, columns), self.traced.positions.arrays, threads=threads,
+        values, found = self._backwards.evaluate(
+            self._table(self._backwards.cycle.dimensions, columns),
+            self.traced.positions.arrays,
+            threads=threads,
             backend=backend,
-        )  # fmt: skip
+        )
+        slopes = found[:, [self._backwards.wrt.index(name) for name in by]]
         values, slopes = np.where(certain, values, np.nan), np.where(certain[:, None], slopes, np.nan)
         weights = np.array([sum(each.values()) for each in sums])
         return weights[:, None] * values, weights[:, None, None] * slopes
