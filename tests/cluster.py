@@ -1,4 +1,4 @@
-"""``python -m tests.cluster``: two workers against one; sweeps and searches survive kill -9 at random moments.
+"""``python -m tests.cluster``: two workers against one; sweeps, searches and studies survive kill -9 at random times.
 
 Every sweep and every search that was disturbed must end with the same bytes as one that was not.
 """
@@ -45,6 +45,12 @@ optimize:
   define: {a: small, b: large}
   evaluations: 600
 """
+#: Work whose finished parts are kept.
+LONG = {
+    "study": ["study", "gallery:jaw_crusher_sixbar", "--vary", *(f"{name}={text}" for name, text in VARY.items()),
+              "--sampling", "sobol", "--samples", "30000", "--output", "designs.csv"],
+    "tolerance run": ["tolerance", "gallery:pressed_pins", "--output", "curves.csv"],
+}  # fmt: skip
 OPTIONS = {"threads_per_worker": 1, "dashboard_address": None, "processes": True}
 
 
@@ -124,15 +130,19 @@ def run_dies(base: Path, samples: int, wanted: dict[str, bytes], rounds: int) ->
 
 def searched(words: list[str], folder: Path, most_kills: int) -> tuple[bytes, int]:
     """What a search printed and wrote, and how often it was killed at a random moment and started again."""
+    return stopped(["optimize", *words, "--output", "better.yaml"], folder, most_kills, 6.0)
+
+
+def stopped(words: list[str], folder: Path, most_kills: int, longest: float) -> tuple[bytes, int]:
+    """The same of any work that has a state; it is killed after at most ``longest`` seconds."""
     folder.mkdir()
-    words = [sys.executable, "-m", "linkwright", "optimize", *words, "--json", "--state", str(folder / "state.json"),
-             "--output", str(folder / "better.yaml"), "--force"]  # fmt: skip
+    words = [sys.executable, "-m", "linkwright", *words, "--json", "--state", "work.state", "--force"]
     kills, begin = 0, time.perf_counter()
     while True:
         with (folder / "printed").open("wb") as printed:
-            run = subprocess.Popen(words, stdout=printed)
+            run = subprocess.Popen(words, stdout=printed, cwd=folder)
             try:
-                wait = random.uniform(1.0, 6.0) if kills < most_kills else None
+                wait = random.uniform(longest / 6, longest) if kills < most_kills else None
                 assert run.wait(timeout=wait) == 0
                 break
             except subprocess.TimeoutExpired:
@@ -140,8 +150,19 @@ def searched(words: list[str], folder: Path, most_kills: int) -> tuple[bytes, in
                 run.wait()
                 kills += 1
     print(f"  {time.perf_counter() - begin:.1f} s", flush=True)
-    files = [folder / "printed", *sorted(folder.glob("better*.yaml"))]
+    files = [each for each in sorted(folder.iterdir()) if not each.name.startswith("work.state")]
     return b"".join(each.read_bytes() for each in files), kills
+
+
+def work_dies(base: Path, rounds: int) -> None:
+    """Studies and tolerance runs are killed and started again."""
+    for name, words in LONG.items():
+        wanted, _ = stopped(words, base / name, 0, 3.0)
+        for number in range(rounds):
+            found, kills = stopped(words, base / f"{name} {number}", 2, 3.0)
+            told = "equal to the bit" if found == wanted else "DIFFERENT"
+            print(f"{name} killed {kills} times: {told}", flush=True)
+            assert found == wanted
 
 
 def search_dies(base: Path, rounds: int) -> None:
@@ -164,17 +185,21 @@ def search_dies(base: Path, rounds: int) -> None:
 
 
 def main() -> int:
-    """Runs all four."""
+    """Runs all five."""
     parser = argparse.ArgumentParser(prog="python -m tests.cluster", description=__doc__)
     parser.add_argument("--samples", type=int, default=200_000)
     parser.add_argument("--rounds", type=int, default=10)
     parser.add_argument("--searches", action="store_true", help="searches alone")
+    parser.add_argument("--work", action="store_true", help="studies and tolerance runs alone")
     parser.add_argument("--speed", action="store_true", help="two workers against one alone")
     options = parser.parse_args()
     base = Path(tempfile.mkdtemp(prefix="linkwright-cluster-"))
     try:
         if options.speed:
             speed(base, options.samples)
+            return 0
+        work_dies(base, options.rounds)
+        if options.work:
             return 0
         search_dies(base, options.rounds)
         if options.searches:

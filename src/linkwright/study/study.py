@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import field
+from dataclasses import field, replace
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -16,7 +17,9 @@ from linkwright.core.html import columns_html
 from linkwright.core.outputs import Output
 from linkwright.core.plotted import Plotted
 from linkwright.engine.machine_code import available
+from linkwright.engine.threads import chunks
 from linkwright.errors import LinkwrightError, RequestError, with_remedy
+from linkwright.files.write import dump
 from linkwright.machine import flywheel_inertia
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.outputs import mechanism_outputs
@@ -29,6 +32,7 @@ from linkwright.study.criteria import Criterion, NoSuchSubject, criteria
 from linkwright.study.design_numbers import side_by_side
 from linkwright.study.designs import sweep
 from linkwright.study.failures import Failure
+from linkwright.study.kept import identity, once
 from linkwright.study.ranges import Range, parse_range
 from linkwright.study.sampling import grid, sobol
 from linkwright.study.terms import Asked
@@ -39,12 +43,16 @@ if TYPE_CHECKING:
     import pandas
 
     from linkwright.engine.sweep import Backend, Progress
+    from linkwright.study.metric_cycle import MetricCycle
+    from linkwright.study.swept_designs import SweptDesigns
 
 Sampling = Literal["grid", "sobol"]
 _Piece = tuple[dict[str, Floats], dict[str, str], dict[str, None], dict[int, str]]
 
 #: Fewer designs than this are solved one by one; designs that a worker of a cluster takes at a time.
 FEW, PIECE = 8, 512
+#: Designs whose numbers are found at once before they are kept.
+AT_ONCE = 8192
 #: What is measured when nobody says what, as far as it applies.
 USUAL = ("travel", "transmission_angle", "peak_input_torque", "rms_input_torque", "peak_reaction")
 
@@ -312,15 +320,37 @@ class _Work:
     def _together(self, asked: list[Criterion], designs: Indices, backend: Backend) -> dict[str, set[int]]:
         """Numbers of many designs at once; which designs' they are certain of, by name."""
         wanted = Asked(self.output, self.fluctuation)
-        part = {address: column[designs] for address, column in self.columns.items()}
         sure: dict[str, set[int]] = {}
+        if len(designs) > AT_ONCE and backend == "auto" and available():
+            backend = "llvm"  # for the last of them as well, however few
         for cycle in side_by_side(self.mechanism, self.columns, [each.name for each in asked], wanted):
-            found = cycle.evaluate(part, backend=backend)
-            for term in cycle.terms:
-                self.values[term.name][designs[found.certain]] = found.values[term.name][found.certain]
-                self.dimensions[term.name] = term.dimension
-                sure[term.name] = set(designs[found.certain].tolist())
+            for first, end in chunks(len(designs), AT_ONCE):
+                some = designs[first:end]
+                values, certain = self._at_once(cycle, some, backend)
+                for term in cycle.terms:
+                    self.values[term.name][some[certain]] = values[term.name][certain]
+                    self.dimensions[term.name] = term.dimension
+                    sure.setdefault(term.name, set()).update(some[certain].tolist())
         return sure
+
+    def _at_once(
+        self, cycle: MetricCycle | SweptDesigns, designs: Indices, backend: Backend
+    ) -> tuple[dict[str, Floats], Flags]:
+        """Values of a cycle's terms and which are certain, which are kept where parts are kept."""
+        part = {address: column[designs] for address, column in self.columns.items()}
+
+        def found() -> tuple[dict[str, Floats], Flags]:
+            seen = cycle.evaluate(part, backend=backend)
+            return dict(seen.values), seen.certain
+
+        return once(found, lambda: (self._own, [term.name for term in cycle.terms], backend, part))
+
+    @cached_property
+    def _own(self) -> str:
+        """What the numbers of all designs depend on."""
+        return identity(
+            dump(replace(self.mechanism, optimize={})), str(self.output), self.fluctuation, self.steps
+        )
 
     def _closed(self) -> bool:
         """Whether there is a group with a closed form."""
@@ -333,20 +363,38 @@ class _Work:
         return f"{list(self.mechanism.links)[-1]}.angular_velocity max"
 
     def _measure(self, index: int, asked: list[Criterion]) -> None:
+        """Numbers of one design, which are kept where parts are kept."""
         changes = {address: float(column[index]) for address, column in self.columns.items()}
-        design = self.mechanism.with_dimensions(changes)
+        names = [each.name for each in asked]
+        numbers, troubled, notes = once(
+            lambda: self._measured(changes, asked), lambda: (self._own, names, changes)
+        )
+        for name, (value, dimension) in numbers.items():
+            self.values[name][index], self.dimensions[name] = value, dimension
+        if troubled:
+            self.troubled[index] = troubled
+        self.notes |= dict.fromkeys(notes)
+
+    def _measured(
+        self, changes: dict[str, float], asked: list[Criterion]
+    ) -> tuple[dict[str, tuple[float, str]], str, list[str]]:
+        """Numbers with their dimensions, why others are missing, and notes."""
+        design, numbers, troubled = (
+            self.mechanism.with_dimensions(changes),
+            dict[str, tuple[float, str]](),
+            "",
+        )
         each = Alternative(design.name, design, self.output, self.steps, self.fluctuation)
         try:
             for criterion in asked:
                 found = criterion.measure(each)
                 if found is not None:
-                    self.values[criterion.name][index] = found.value
-                    self.dimensions[criterion.name] = found.dimension
+                    numbers[criterion.name] = found.value, found.dimension
         except NoSuchSubject:
             raise
         except LinkwrightError as error:
-            self.troubled[index] = error.sentence
-        self.notes |= dict.fromkeys(each.notes)
+            troubled = error.sentence
+        return numbers, troubled, [*each.notes]
 
     def _leave_out_idle(self, ok: Flags) -> None:
         """Leaves out what nobody asked for and none of the designs that move has."""

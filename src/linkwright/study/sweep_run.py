@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
@@ -18,12 +19,14 @@ from linkwright.engine.states import states_as_fields
 from linkwright.engine.sweep import Backend, Progress, Results
 from linkwright.engine.sweep import sweep as engine_sweep
 from linkwright.engine.threads import chunks, cores
+from linkwright.files.write import dump
 from linkwright.kinematics.cycle import Positions
 from linkwright.kinetostatics.named import Quantity
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.summary import Summary, finished, reductions
 from linkwright.study.change_points import ChangePoints, near_enough
 from linkwright.study.iterated_groups import MARGIN, following
+from linkwright.study.kept import identity, once, reporting
 from linkwright.study.loaded_cycle import LoadedCycle, loaded_cycle
 from linkwright.study.one_by_one import OneByOne
 from linkwright.study.traced import NEAREST, VALID, Traced
@@ -58,6 +61,7 @@ class SweepRun:
     ) -> None:
         self.mechanism, self.columns, self.asked = mechanism, columns, asked
         self.positions, self.manner = positions, manner
+        self.progress = manner.progress or reporting()
         self.designs = len(next(iter(columns.values())))
         self.traced = Traced(mechanism, columns, positions)
         names = [summary.output for summary in asked]
@@ -92,8 +96,8 @@ class SweepRun:
                 if not self.manner.partial:
                     found[results["valid.count"] != self.positions.count] = np.nan
                 into[first:end] = found
-            if self.manner.progress is not None:
-                self.manner.progress(end, self.designs)
+            if self.progress is not None:
+                self.progress(end, self.designs)
         for into in values.values():
             into[list(self.unloaded)] = np.nan
         return assembled, values
@@ -102,18 +106,28 @@ class SweepRun:
         """The outputs over the positions block by block, (designs, n) each; NaN for designs that do not pass."""
         for first, end in chunks(self.designs, CURVE_BLOCK):
             part = {address: column[first:end] for address, column in self.columns.items()}
-            passed = self._block(part, first)["valid.count"] == self.positions.count
-            flipping = np.array([k in self.through for k in range(first, end)])
-            if self.traced.nominal.modes:
-                flipping[:] = True
-            values = np.full((end - first, len(names), self.positions.count), np.nan)
-            for chosen, source in ((passed & ~flipping, None), (passed & flipping, self._flipping)):
-                if chosen.any():
-                    columns = {address: column[chosen] for address, column in part.items()}
-                    values[chosen] = self._values(names, columns, source)
-            yield slice(first, end), {name: values[:, k] for k, name in enumerate(names)}
-            if self.manner.progress is not None:
-                self.manner.progress(end, self.designs)
+            yield slice(first, end), self._curves(names, part, first)
+            if self.progress is not None:
+                self.progress(end, self.designs)
+
+    def _curves(self, names: Sequence[str], part: Mapping[str, Floats], first: int) -> dict[str, Floats]:
+        """The outputs of a block, (designs, n) each; kept where parts are kept."""
+        return once(lambda: self._curves_found(names, part, first), lambda: (self._own, part, *names))
+
+    def _curves_found(
+        self, names: Sequence[str], part: Mapping[str, Floats], first: int
+    ) -> dict[str, Floats]:
+        end = first + len(next(iter(part.values())))
+        passed = self._block(part, first)["valid.count"] == self.positions.count
+        flipping = np.array([k in self.through for k in range(first, end)])
+        if self.traced.nominal.modes:
+            flipping[:] = True
+        values = np.full((end - first, len(names), self.positions.count), np.nan)
+        for chosen, source in ((passed & ~flipping, None), (passed & flipping, self._flipping)):
+            if chosen.any():
+                columns = {address: column[chosen] for address, column in part.items()}
+                values[chosen] = self._values(names, columns, source)
+        return {name: values[:, k] for k, name in enumerate(names)}
 
     def _values(self, names: Sequence[str], part: Mapping[str, Floats], source: OneByOne | None) -> Floats:
         """Outputs (designs, names, n) of designs that pass the cycle."""
@@ -142,7 +156,27 @@ class SweepRun:
         rows = [rows[0] for rows in self.positions.coordinates.values()]
         return rows[0] if rows else np.zeros(1)
 
+    @cached_property
+    def _own(self) -> str:
+        """What all blocks depend on."""
+        known = self.reductions, self.positions.count, self.manner.partial, self.manner.backend
+        return identity(dump(replace(self.mechanism, optimize={})), *known)
+
     def _block(self, part: Mapping[str, Floats], first: int) -> Results:
+        """The results of a block, with what they have of single designs; kept where parts are kept."""
+
+        def found() -> tuple[Results, dict[int, str], list[int]]:
+            unloaded, through = dict(self.unloaded), set(self.through)
+            results = self._computed(part, first)
+            new = {k - first: why for k, why in self.unloaded.items() if k not in unloaded}
+            return results, new, [k - first for k in self.through - through]
+
+        results, unloaded, through = once(found, lambda: (self._own, part))
+        self.unloaded |= {first + k: why for k, why in unloaded.items()}
+        self.through |= {first + k for k in through}
+        return results
+
+    def _computed(self, part: Mapping[str, Floats], first: int) -> Results:
         numbers = np.arange(first, first + len(next(iter(part.values()))))
         if self.follow is not None:
             found = self.follow.block(part, self.reductions, self.manner.threads, self.manner.backend)

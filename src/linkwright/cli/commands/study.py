@@ -28,6 +28,7 @@ def arguments(option: Options) -> None:
     option.count("--steps", 360)
     option.count("--rows", 40)
     option("--cluster", "ADDRESS", words="sweep.cluster_help")
+    option("--state", "FILE")
     option("--output", "FILE")
     option("--plot", "FILE")
     option.force()
@@ -36,7 +37,9 @@ def arguments(option: Options) -> None:
 def run(options: argparse.Namespace, session: Session) -> int:
     """Studies the designs and prints or writes what came out."""
     from linkwright.cli.files import PICTURES, refuse_output
+    from linkwright.cli.kept import kept
     from linkwright.cli.source import read_model
+    from linkwright.files.write import dump
     from linkwright.study.cluster import on_cluster
     from linkwright.study.study import study
 
@@ -44,11 +47,13 @@ def run(options: argparse.Namespace, session: Session) -> int:
     refuse_output(options.plot, PICTURES, session.say, force=options.force)
     vary = ranges_of(options.vary, session.say)
     mechanism, _ = read_model(options.file, session)
-    with on_cluster(options.cluster):
-        found = study(
-            mechanism, vary, metrics=options.metrics, sampling=options.sampling, samples=options.samples,
-            seed=options.seed, output=options.of, fluctuation=options.fluctuation, steps=options.steps,
-        )  # fmt: skip
+    settings = {
+        "metrics": options.metrics, "sampling": options.sampling, "samples": options.samples, "seed": options.seed,
+        "output": options.of, "fluctuation": options.fluctuation, "steps": options.steps,
+    }  # fmt: skip
+    asked = dump(mechanism), vary, settings
+    with kept(options.state, mechanism.name, asked, session) as report, on_cluster(options.cluster):
+        found = study(mechanism, vary, progress=report, **settings)
     _show(found, options, session)
     return 0
 

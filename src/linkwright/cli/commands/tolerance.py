@@ -3,20 +3,39 @@
 from __future__ import annotations
 
 import argparse
+from dataclasses import fields
+from typing import TYPE_CHECKING, cast
 
 from linkwright.cli.parser import Options
-from linkwright.cli.part import part_arguments, run_part
+from linkwright.cli.part import part_arguments, read, refuse_outputs, show
 from linkwright.cli.session import Session
+
+if TYPE_CHECKING:
+    from linkwright.tolerance.problem import ToleranceStudy
 
 
 def arguments(option: Options) -> None:
     part_arguments(option)
     option("--cluster", "ADDRESS", words="sweep.cluster_help")
+    option("--state", "FILE", words="study.state_help")
 
 
 def run(options: argparse.Namespace, session: Session) -> int:
     """Solves the file's problem; its drawn machines are computed by threads or a cluster."""
+    from linkwright.cli.kept import kept
+    from linkwright.parts.file import solve
     from linkwright.study.cluster import on_cluster
 
-    with on_cluster(options.cluster):
-        return run_part(options, session, "tolerance")
+    refuse_outputs(options, session)
+    problem = cast("ToleranceStudy", read(options.file, "tolerance", session))
+    with kept(options.state, problem.name, asked(problem), session), on_cluster(options.cluster):
+        show(solve(problem, options.file), options, session)
+    return 0
+
+
+def asked(problem: ToleranceStudy) -> tuple[object, ...]:
+    """All that the numbers of a problem depend on."""
+    from linkwright.files.write import dump
+
+    names = {each.name for each in fields(problem)} - {"source", "mechanism"}
+    return dump(problem.mechanism), {name: getattr(problem, name) for name in sorted(names)}

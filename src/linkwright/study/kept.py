@@ -1,0 +1,208 @@
+"""Finished parts of long work in a file, from which the same work goes on after an interruption."""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import json
+import re
+import sqlite3
+import time
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from contextvars import ContextVar
+from itertools import count
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import numpy as np
+
+from linkwright.errors import RequestError
+from linkwright.whole_files import refuse_target, write_whole
+from linkwright.words.sentence import Sentence
+
+if TYPE_CHECKING:
+    from linkwright.engine.sweep import Progress
+
+T = TypeVar("T")
+#: Seconds between two times that finished parts are written.
+WRITTEN = 0.5
+#: Bytes of arrays for every second of computing that a part may have; what is found faster than read is not kept.
+WORTH = 1e7
+_current: ContextVar[Kept | None] = ContextVar("kept", default=None)
+
+
+class Interrupted(KeyboardInterrupt):
+    """Work was interrupted; ``state`` is the file from which it goes on."""
+
+    def __init__(self, state: Path) -> None:
+        super().__init__(str(state))
+        self.state = state
+
+
+@contextmanager
+def kept_in(
+    path: str | Path | None, name: str, *asked: object, progress: Progress | None = None
+) -> Iterator[None]:
+    """Within it the finished parts of studies and tolerance runs are kept in a file, and those that it has already
+    are not computed again: the results are equal to the bit.
+
+    Args:
+        path: the file; None: one named after ``name`` in the working directory, where the work is interrupted.
+        asked: all that the parts depend on, such as the machine's text and the ranges.
+        progress: called with (designs done, designs) of every sweep that the work consists of.
+
+    Raises:
+        Interrupted: a KeyboardInterrupt, with the file that has all finished parts.
+        RequestError: a file of other work, or one that cannot be read or written.
+    """
+    from linkwright import __version__
+
+    kept = Kept(None if path is None else Path(path), identity(__version__, *asked), progress)
+    token = _current.set(kept)
+    try:
+        yield
+    except KeyboardInterrupt:
+        raise Interrupted(kept.left(name)) from None
+    finally:
+        _current.reset(token)
+        kept.close()
+
+
+def once(work: Callable[[], T], key: Callable[[], tuple[object, ...]]) -> T:
+    """What ``work`` gives: taken from the surrounding ``kept_in`` where it has it, else computed and kept there.
+
+    ``key`` gives all that the result depends on. Results are numbers, texts, arrays, tuples, lists and mappings of
+    these; any others, and those that take longer to read than to find, are computed every time.
+    """
+    kept = _current.get()
+    return work() if kept is None else kept.once(work, identity(*key()))
+
+
+def reporting() -> Progress | None:
+    """What the surrounding ``kept_in`` tells progress to."""
+    kept = _current.get()
+    return None if kept is None else kept.progress
+
+
+def identity(*things: object) -> str:
+    """A digest of values and arrays, the same in every process."""
+    digest = hashlib.blake2b(digest_size=16)
+    for each in things:
+        if isinstance(each, Mapping):
+            digest.update(identity(*(part for pair in each.items() for part in pair)).encode())
+        elif isinstance(each, np.ndarray):
+            digest.update(f"{each.dtype.str}{each.shape}".encode() + each.tobytes())
+        else:
+            digest.update(repr(each).encode())
+        digest.update(b"\0")
+    return digest.hexdigest()
+
+
+class Kept:
+    """Parts by key in a database of one file, or of memory where there is none yet."""
+
+    def __init__(self, path: Path | None, digest: str, progress: Progress | None) -> None:
+        self.path, self.progress, self.written = path, progress, time.monotonic()
+        if path is not None:
+            refuse_target(path)
+        try:
+            self.parts = sqlite3.connect(":memory:" if path is None else path)
+            self.parts.execute("create table if not exists parts (key text primary key, content text)")
+            self.parts.execute("insert or ignore into parts values ('work', ?)", (digest,))
+            self.parts.commit()
+            found = self._content("work")
+        except (sqlite3.Error, OSError, ValueError) as problem:
+            raise self._bad(problem) from None
+        if found != digest:
+            self.parts.close()
+            raise RequestError(Sentence("optimize.other_state", path=path))
+
+    def once(self, work: Callable[[], T], key: str) -> T:
+        """What ``work`` gives, from the file where it is there."""
+        try:
+            content = self._content(key)
+            if content is not None:
+                kept: T = _made(json.loads(content))
+                return kept
+        except (sqlite3.Error, ValueError, KeyError, TypeError, AttributeError, RecursionError) as problem:
+            raise self._bad(problem) from None
+        begun = time.perf_counter()
+        found = work()
+        if _bytes(found) > WORTH * (time.perf_counter() - begun):
+            return found
+        try:
+            self.parts.execute("insert into parts values (?, ?)", (key, json.dumps(_plain(found))))
+        except TypeError:
+            return found
+        except sqlite3.Error as problem:
+            raise self._bad(problem) from None
+        if time.monotonic() - self.written > WRITTEN:
+            self._write()
+        return found
+
+    def left(self, name: str) -> Path:
+        """The file with all parts."""
+        self._write()
+        if self.path is None:
+            stem = re.sub(r"[^\w-]+", "_", name).strip("_") or "machine"
+            names = (Path(f"{stem}{'' if k == 1 else f'_{k}'}.state") for k in count(1))
+            self.path = write_whole(next(each for each in names if not each.exists()), self.parts.serialize())
+        return self.path
+
+    def close(self) -> None:
+        """Writes what is not written yet."""
+        self._write()
+        self.parts.close()
+
+    def _write(self) -> None:
+        self.parts.commit()
+        self.written = time.monotonic()
+
+    def _content(self, key: str) -> str | None:
+        row = self.parts.execute("select content from parts where key = ?", (key,)).fetchone()
+        return None if row is None else str(row[0])
+
+    def _bad(self, problem: Exception) -> RequestError:
+        return RequestError(Sentence("study.bad_state", path=self.path, reason=str(problem)[:200]))
+
+
+def _bytes(value: Any) -> int:
+    """What the arrays of a part take."""
+    if isinstance(value, np.ndarray):
+        return value.nbytes
+    items = value.values() if isinstance(value, Mapping) else value if isinstance(value, tuple | list) else ()
+    return sum(map(_bytes, items))
+
+
+def _plain(value: Any) -> Any:
+    """A value as JSON has it; TypeError for one that it cannot have."""
+    if value is None or type(value) in (bool, int, float, str):
+        return value
+    if isinstance(value, np.number | np.bool_):
+        return _plain(value.item())
+    if isinstance(value, Sentence):
+        return {"said": value.key, "with": _plain(value.values)}
+    if isinstance(value, np.ndarray) and not value.dtype.hasobject:
+        data = base64.b64encode(np.ascontiguousarray(value).tobytes()).decode()
+        return {"array": value.dtype.str, "shape": value.shape, "data": data}
+    if isinstance(value, Mapping):
+        return {"pairs": [[_plain(key), _plain(each)] for key, each in value.items()]}
+    if type(value) in (tuple, list):
+        return {type(value).__name__: [_plain(each) for each in value]}
+    raise TypeError(type(value))
+
+
+def _made(plain: Any) -> Any:
+    """The value that is meant."""
+    if not isinstance(plain, dict):
+        return plain
+    if "said" in plain:
+        return Sentence(plain["said"], **_made(plain["with"]))
+    if "array" in plain:
+        data = np.frombuffer(base64.b64decode(plain["data"]), np.dtype(plain["array"]))
+        return data.reshape(plain["shape"]).copy()
+    if "pairs" in plain:
+        return {_made(key): _made(each) for key, each in plain["pairs"]}
+    ((kind, items),) = plain.items()
+    return {"tuple": tuple, "list": list}[kind](map(_made, items))

@@ -1,0 +1,129 @@
+"""Studies and tolerance runs that are stopped at random moments go on from a file, with results equal to the bit."""
+
+from __future__ import annotations
+
+import random
+import signal
+import sqlite3
+import subprocess
+import sys
+import time
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import linkwright as lw
+from linkwright.cli import main
+from linkwright.core.arrays import Floats
+from linkwright.engine.sweep import Results
+from linkwright.study import kept
+from linkwright.study.criteria import Criterion
+from linkwright.study.kept import Interrupted, _made, _plain, kept_in
+from linkwright.study.study import _Work
+from linkwright.study.sweep_run import SweepRun
+from linkwright.words.sentence import Sentence
+
+CRANK = "gallery:crank_rocker"
+VARY = ["--vary", "coupler.length=3.2..3.8m:7"]  # so few that they are found one by one
+STUDY = ["study", CRANK, *VARY, "--metrics", "travel", "transmission_angle", "--json"]
+SPREAD = ["tolerance", "gallery:crank_rocker_tolerance", "--json"]
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_an_interrupted_study_goes_on_from_its_file_without_what_it_had(
+    seed: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    machine = lw.load(CRANK)
+    vary, metrics = {"coupler.length": np.linspace(3.2, 3.8, 7)}, ["travel", "transmission_angle"]
+    whole = lw.study(machine, vary, metrics=metrics)
+    stop, measured = random.Random(seed).randrange(1, 7), list[float]()
+    original = _Work._measured
+
+    def counted(self: _Work, changes: dict[str, float], asked: list[Criterion]) -> object:
+        measured.append(changes["coupler.length"])
+        return original(self, changes, asked)
+
+    def interrupt(done: int, _: int) -> None:
+        if done == stop:
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr(_Work, "_measured", counted)
+    with pytest.raises(Interrupted) as stopped, kept_in(None, machine.name, "asked"):
+        lw.study(machine, vary, metrics=metrics, progress=interrupt)
+    assert stopped.value.state.exists() and len(measured) == stop
+    with kept_in(stopped.value.state, machine.name, "asked"):
+        resumed = lw.study(machine, vary, metrics=metrics)
+    assert measured == vary["coupler.length"].tolist()  # each of them once, in both runs together
+    assert resumed.data() == whole.data() and resumed.text("zh") == whole.text("zh")
+
+
+def test_a_killed_process_goes_on_with_the_same_bytes(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(STUDY) == 0
+    whole, state = capsys.readouterr().out, tmp_path / "parts.state"
+    command = [sys.executable, "-m", "linkwright", *STUDY, "--state", str(state)]
+    run = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    while not state.exists() and run.poll() is None:
+        time.sleep(0.01)
+    time.sleep(random.uniform(0.0, 0.3))
+    run.kill()
+    assert run.wait() in (0, -signal.SIGKILL) and state.exists()
+    assert main([*STUDY, "--state", str(state)]) == 0
+    assert capsys.readouterr().out == whole
+
+
+def test_an_interrupted_tolerance_run_says_from_which_file_it_goes_on(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(kept, "WORTH", float("inf"))  # kept however fast it was found
+    assert main(SPREAD) == 0
+    whole = capsys.readouterr().out
+    original, calls = SweepRun._computed, list[bytes]()
+
+    def interrupt(self: SweepRun, part: Mapping[str, Floats], first: int) -> Results:
+        calls.append(b"".join(column.tobytes() for column in part.values()))
+        if len(calls) == 2:
+            raise KeyboardInterrupt
+        return original(self, part, first)
+
+    monkeypatch.setattr(SweepRun, "_computed", interrupt)
+    assert main(SPREAD) == 130
+    (left,) = tmp_path.iterdir()
+    assert f"--state {left.name}" in capsys.readouterr().err
+    assert main([*SPREAD, "--state", left.name]) == 0
+    assert capsys.readouterr().out == whole
+    assert len(calls) == len(set(calls)) + 1  # the sweep that was finished is not done again
+
+
+def test_states_of_other_work_and_files_that_are_none_are_refused(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    state = tmp_path / "parts.state"
+    assert main([*STUDY, "--state", str(state)]) == 0
+    assert main([*STUDY, "--steps", "180", "--state", str(state)]) == 2
+    assert main([*SPREAD, "--state", str(state)]) == 2
+    assert capsys.readouterr().err.count("belongs to another problem") == 2
+    with sqlite3.connect(state) as parts:
+        parts.execute("update parts set content = '[' where key <> 'work'")
+    parts.close()
+    assert main([*STUDY, "--state", str(state)]) == 2
+    state.write_text("no database, but a text of some length " * 9)
+    assert main([*SPREAD, "--state", str(state), "--lang", "zh"]) == 2
+    told = capsys.readouterr().err
+    assert "cannot be used" in told and "不能使用" in told and str(state) in told
+
+
+def test_values_that_are_kept_come_back_to_the_bit() -> None:
+    sentence = Sentence("study.fail", count=3, place="A", example=Sentence("study.leave_out"))
+    values = np.array([0.1, -0.0, np.inf, 5e-324])
+    given = {"a": (values, [1, 0.1, float("inf"), None, True, sentence]), 3: {"b": values > 0}}
+    back = _made(_plain(given))
+    assert back["a"][0].tobytes() == values.tobytes() and back["a"][1] == given["a"][1]  # type: ignore[index]
+    assert (back[3]["b"] == (values > 0)).all() and back["a"][1][5].say("zh") == sentence.say("zh")
+    with pytest.raises(TypeError):
+        _plain(object())
