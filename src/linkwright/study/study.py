@@ -43,8 +43,7 @@ if TYPE_CHECKING:
     import pandas
 
     from linkwright.engine.sweep import Backend, Progress
-    from linkwright.study.metric_cycle import MetricCycle
-    from linkwright.study.swept_designs import SweptDesigns
+    from linkwright.study.design_numbers import Numbers
 
 Sampling = Literal["grid", "sobol"]
 _Piece = tuple[dict[str, Floats], dict[str, str], dict[str, None], dict[int, str]]
@@ -333,9 +332,7 @@ class _Work:
                     sure.setdefault(term.name, set()).update(some[certain].tolist())
         return sure
 
-    def _at_once(
-        self, cycle: MetricCycle | SweptDesigns, designs: Indices, backend: Backend
-    ) -> tuple[dict[str, Floats], Flags]:
+    def _at_once(self, cycle: Numbers, designs: Indices, backend: Backend) -> tuple[dict[str, Floats], Flags]:
         """Values of a cycle's terms and which are certain, which are kept where parts are kept."""
         part = {address: column[designs] for address, column in self.columns.items()}
 
