@@ -21,6 +21,7 @@ from urllib.parse import parse_qs, urlsplit
 
 import numpy as np
 import pytest
+import yaml
 from tests.ui.browser import browser, needs_chromium
 
 import linkwright as lw
@@ -789,6 +790,7 @@ def test_names_are_text_on_the_page(tmp_path: Path) -> None:
 
 @needs_chromium
 def test_a_stroke_before_the_file_is_open_is_drawn_into_the_file(tmp_path: Path) -> None:
+    """The same for what is typed while the server carries a stroke out: both are in the text."""
     head = "# kept\nformat: 1\nname: Slow disk\n"
     (tmp_path / "slow.yaml").write_text(head)
     with serving(tmp_path, "slow.yaml") as studio, browser() as chromium:
@@ -809,6 +811,16 @@ def test_a_stroke_before_the_file_is_open_is_drawn_into_the_file(tmp_path: Path)
         held[0].continue_()
         tab.wait_for_function("() => document.querySelector('textarea').value.includes('points:')")
         assert tab.locator("textarea").input_value().startswith(head)
+        tab.route("**/api/edit", hold, times=1)
+        with tab.expect_request("**/api/edit"):
+            paper.click(position={"x": 400, "y": 300})
+        tab.locator("textarea").press("Control+Home")
+        tab.keyboard.insert_text("# typed\n")
+        held[1].continue_()
+        tab.wait_for_function("() => !desk.pending")
+        both = tab.evaluate("() => desk.text.value")
+        assert both.startswith("# typed\n" + head)
+        assert len(yaml.safe_load(both)["frame"]["points"]) == 2
 
 
 GEARED = """format: 1
@@ -851,7 +863,7 @@ def test_saving_asks_before_it_overwrites_and_a_drag_that_the_file_refuses_goes_
         assert tab.evaluate("() => linkwright.sessions[0].model.values['frame.O2.x']") == 0.18
         area.focus()
         tab.keyboard.press("Control+End")
-        tab.keyboard.type("# mine", delay=5)
+        tab.keyboard.insert_text("# mine")
         tab.keyboard.press("Control+z")
         assert area.input_value() == GEARED
         tab.keyboard.press("Control+y")
@@ -876,7 +888,16 @@ def test_saving_asks_before_it_overwrites_and_a_drag_that_the_file_refuses_goes_
         assert (tmp_path / "c.yaml").read_text() == GEARED + "# mine"
         assert not Files(tmp_path).open("a.yaml")["recovered"]
         (tmp_path / "c.yaml").write_bytes((GEARED + "# theirs").replace("\n", "\r\n").encode())
-        banner.get_by_role("button", name="Take its text").click()
+        take, coming = banner.get_by_role("button", name="Take its text"), list[Any]()
+        tab.route("**/api/disk", lambda route, _: coming.append(route), times=1)
+        with tab.expect_request("**/api/disk"):
+            take.click()
+        area.press("Control+End")
+        tab.keyboard.insert_text(" typed")
+        coming[0].continue_()
+        tab.locator(".said", has_text="while that of the disk came").wait_for()
+        assert area.input_value() == GEARED + "# mine typed"
+        take.click()
         tab.wait_for_function("() => desk.text.value.endsWith('# theirs')")
         tab.keyboard.press("Control+s")
         banner.wait_for(state="detached")

@@ -154,8 +154,9 @@ export class Desk {
 
   private async watch(): Promise<void> {
     if (!this.name.value || this.elsewhere.value !== null) return;
-    const state = await this.ask<{ serial: number; other: boolean; version: string }>("state", { name: this.name.value, window: this.window });
-    if (!state) return;
+    const name = this.name.value, { version } = this;
+    const state = await this.ask<{ serial: number; other: boolean; version: string }>("state", { name, window: this.window });
+    if (!state || name !== this.name.value) return;
     if (this.page.note.value === this.say("gone")) {
       this.page.note.value = "";
       this.serial = state.serial;
@@ -167,8 +168,9 @@ export class Desk {
       if (opened && plain(opened.text) !== this.text.value) this.elsewhere.value = opened.text;
       this.serial = state.serial;
     }
-    const { name } = this, known = this.onDisk.value;
-    if (!known || known.name === name.value) this.onDisk.value = state.version === this.version ? null : { name: name.value, version: state.version };
+    const known = this.onDisk.value;
+    if (version !== this.version || (known && known.name !== name)) return;
+    this.onDisk.value = state.version === version ? null : { name, version: state.version };
   }
 
   takeTheirs(): void {
@@ -229,10 +231,14 @@ export class Desk {
     if (there) await this.save(there.name, there.version);
   }
 
-  /** Goes on with the text of the open file as it is on the disk now. */
+  /** Goes on with the text of the open file as it is on the disk now; what is typed while it comes stays. */
   async takeDisk(): Promise<void> {
-    const there = await this.ask<{ text: string; version: string }>("disk", { name: this.name.value });
-    if (!there) return;
+    const name = this.name.value, text = this.text.value, there = await this.ask<{ text: string; version: string }>("disk", { name });
+    if (!there || name !== this.name.value) return;
+    if (text !== this.text.value) {
+      this.page.note.value = this.say("typed_meanwhile");
+      return;
+    }
     this.version = there.version;
     this.onDisk.value = null;
     this.change(there.text);
@@ -356,14 +362,17 @@ export class Desk {
     this.pending++;
     return (this.queue = this.queue.then(async () => {
       await this.ready;
-      let text = this.text.value;
-      for (const action of actions) {
-        const edited = await this.ask<{ text: string }>("edit", { text, action });
-        if (!edited) return;
-        text = edited.text;
+      for (let from: string | undefined, text: string; from !== this.text.value; ) {
+        from = text = this.text.value;
+        for (const action of actions) {
+          const edited = await this.ask<{ text: string }>("edit", { text, action });
+          if (!edited) return;
+          text = edited.text;
+        }
+        if (from !== this.text.value) continue;
+        this.page.note.value = "";
+        return this.change(text);
       }
-      this.page.note.value = "";
-      this.change(text);
     }).finally(() => this.pending--));
   };
 }

@@ -34,6 +34,8 @@ WORDS = {
     "keep_mine": "Keep mine",
     "on_disk": "The file on the disk has changed since it was opened; save under another name, or overwrite "
     "it.",
+    "typed_meanwhile": "The text was changed while that of the disk came, and is kept; take the disk's again to put "
+    "it in its place.",
     "there_already": "There is a file {name} already; save under another name, or overwrite it.",
     "overwrite": "Overwrite",
     "draw": "Draw",

@@ -31,6 +31,7 @@ WORDS = {
     "take_theirs": "采用其文本",
     "keep_mine": "保留本窗口的",
     "on_disk": "磁盘上的文件在打开后已被修改；请另存为其他名称，或覆盖。",
+    "typed_meanwhile": "读取磁盘文本期间您修改了文本，修改已保留；如要用磁盘上的文本替换，请再次采用。",
     "there_already": "已有文件 {name}；请另存为其他名称，或覆盖。",
     "overwrite": "覆盖",
     "draw": "绘制",
