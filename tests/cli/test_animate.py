@@ -134,9 +134,14 @@ def test_progress_shows_on_a_terminal_only(
         with progress("drawing") as report:
             assert report is not None
             report(5, 10)
+            report(10, 10)
+            assert capsys.readouterr().err.endswith(
+                "5/10\r\x1b[K"
+            )  # what is shown now has the line for itself
+            report(6, 10)
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
         interrupted()
     shown = capsys.readouterr().err
-    assert "5/10" in shown and shown.endswith("\r\x1b[K")
+    assert "6/10" in shown and shown.endswith("\r\x1b[K")

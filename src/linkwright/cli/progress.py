@@ -15,7 +15,7 @@ CLEAR = "\r\x1b[K"
 def progress(what: str) -> Iterator[Report | None]:
     """A function that is told (done, total) and shows a bar; None where nobody would see it.
 
-    The bar is wiped at the end, also where the work is interrupted.
+    The bar is wiped when all is done, also where the work is interrupted.
     """
     stream = sys.stderr
     if not stream.isatty():
@@ -24,7 +24,8 @@ def progress(what: str) -> Iterator[Report | None]:
 
     def report(done: int, total: int) -> None:
         full = BAR * done // max(total, 1)
-        stream.write(f"{CLEAR}{what} [{'#' * full}{' ' * (BAR - full)}] {done}/{total}")
+        bar = f"{what} [{'#' * full}{' ' * (BAR - full)}] {done}/{total}"
+        stream.write(CLEAR + (bar if done < total else ""))  # results may be shown at once
         stream.flush()
 
     try:

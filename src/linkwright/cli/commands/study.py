@@ -53,8 +53,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     }  # fmt: skip
     asked = dump(mechanism), vary, settings
     with kept(options.state, mechanism.name, asked, session) as report, on_cluster(options.cluster):
-        found = study(mechanism, vary, progress=report, **settings)
-    _show(found, options, session)
+        _show(study(mechanism, vary, progress=report, **settings), options, session)
     return 0
 
 
