@@ -16,7 +16,7 @@ from linkwright.synthesis.free_curve.drawn import drawing
 from linkwright.synthesis.free_curve.linkages import Placed, kind_of, linkage_of
 from linkwright.synthesis.free_curve.nodes import Design
 from linkwright.synthesis.free_curve.search import JOINTS, Search
-from linkwright.synthesis.free_curve.target import EVEN, Target, even_points, symmetric_distance
+from linkwright.synthesis.free_curve.target import EVERY, LINE, Target, even_points, symmetric_distance
 from linkwright.synthesis.path_generation.generate import complex_points
 from linkwright.synthesis.requirements.slider_crank import not_negative, positive
 from linkwright.synthesis.result import Candidate, Synthesis, note, refuse, whole
@@ -178,7 +178,7 @@ def _candidate(design: Design, target: Target) -> Candidate:
     linkage, (_, links, _, size) = linkage_of(placed), _facts(design, target)
     angle = placed.over_a_turn() if placed.turns() else placed.transmission_angle()
     given = target.centre + target.radius * target.points
-    mean, most = symmetric_distance(even_points(placed.curve(4 * EVEN), EVEN, target.closed), given)
+    mean, most = symmetric_distance(even_points(placed.curve(LINE), LINE, target.closed), given, EVERY)
     how, curve = drawing(placed), placed.curve(SHOWN)
     lengths = list(linkage.lengths().values())
     values = {

@@ -11,7 +11,7 @@ import numpy as np
 from linkwright.core.arrays import Complexes, Floats
 from linkwright.synthesis.free_curve.kernels import BLOCK, GUIDE, PIVOT, POINT, SLIDER
 from linkwright.synthesis.free_curve.nodes import Design, Node, node_paths, rods_of
-from linkwright.synthesis.free_curve.target import EVEN, Target, even_points
+from linkwright.synthesis.free_curve.target import LINE, Target, even_points
 from linkwright.synthesis.linkage import Guide, Linkage
 
 SLIDES = {SLIDER: "slider_crank", BLOCK: "crank_swinging_block"}
@@ -25,7 +25,7 @@ class Placed:
 
     def __init__(self, design: Design, target: Target) -> None:
         self.design, self.target = design, target
-        even = even_points(target.curve(design), EVEN, target.closed)
+        even = even_points(target.curve(design), LINE, target.closed)
         self.middle = complex(even.mean())
         rms = np.sqrt(np.mean(np.abs(even - self.middle) ** 2))
         self.factor = complex(target.radius / rms * np.exp(1j * design.x[-3]))

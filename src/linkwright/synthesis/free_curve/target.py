@@ -13,10 +13,13 @@ from linkwright.synthesis.free_curve.kernels import FAR, kernels
 from linkwright.synthesis.free_curve.nodes import Design, node_paths
 from linkwright.synthesis.free_curve.promise import NUMBERS, ROWS
 
-#: Positions of a turn at which a design is examined.
+#: Positions of a turn at which a design is examined; positions on the drawn part for each of a fine descent, how much
+#: longer the curve may be through them, and the greatest share of its length between two of them.
 TURN = 360
-#: Points of a curve where two are compared as the measure says.
-EVEN = 2000
+BETWEEN, LONGER, STEP = 8, 1.05, 0.1
+#: Points of a curve as the measure says; of a line, of which one in EVERY is compared with all of the other line.
+EVEN, EVERY = 2000, 4
+LINE = EVEN * EVERY
 
 
 class Fineness:
@@ -53,7 +56,7 @@ class Target:
     def __init__(
         self, curve: Complexes, closed: bool, least: float, largest: float, turning: bool = True
     ) -> None:
-        even = even_points(curve, EVEN, closed)
+        even = even_points(curve, LINE, closed)
         self.closed, self.least, self.largest, self.turning = closed, least, largest, turning or closed
         self.centre = complex(even.mean())
         self.radius = float(np.sqrt(np.mean(np.abs(even - self.centre) ** 2)))
@@ -114,16 +117,28 @@ class Target:
         ]
 
     def checked(self, design: Design, weight: float = 1.0) -> Design:
-        """The design with the objective at fine positions; FAR where it does not close well there."""
+        """The design with the objective at fine positions; FAR where it does not close well or jumps between them."""
         if design.value >= FAR:
             return design
         fine = self.descend(design, 0, FINE, weight=weight)
         nodes, x, room = (each.ctypes.data for each in (design.nodes, design.x, _ROOM.array))
         joints, whole = design.joints, int(self.turning)
         least = kernels()("place", nodes, joints, TURN, TURN, whole, x, room, room + 8 * TURN * joints)
-        if least < np.sin(self.least / 2) ** 2:
+        if least < np.sin(self.least / 2) ** 2 or not self._seen(design):
             return replace(fine, value=FAR)
         return replace(fine, misses=self.misses(design))
+
+    def _seen(self, design: Design) -> bool:
+        """Whether fine positions see the curve: a pin that passes a block's pivot closely turns it between two."""
+        count, room = BETWEEN * FINE.drawn, _ROOM.array
+        nodes, x, places = (each.ctypes.data for each in (design.nodes, design.x, room))
+        own, other = (design.joints - 1) * count, design.joints * count
+        kernels()(
+            "place", nodes, design.joints, count, count, int(self.closed), x, places, places + 8 * other
+        )
+        curve = room[own : own + count] + 1j * room[other + own : other + own + count]
+        steps, seen = np.abs(np.diff(curve)), np.abs(np.diff(curve[::BETWEEN])).sum()
+        return bool(steps.sum() < LONGER * seen and steps.max() < STEP * seen)
 
     def _poses(self, fineness: Fineness) -> int:
         """Positions at which the demands hold."""
@@ -134,7 +149,7 @@ class Target:
         first, span = (0.0, 2 * np.pi) if self.turning else design.x[-2:]
         return np.linspace(first, first + span, count)
 
-    def curve(self, design: Design, count: int = 4 * EVEN) -> Complexes:
+    def curve(self, design: Design, count: int = LINE) -> Complexes:
         """The drawn curve at even crank angles, in units of the crank."""
         paths, _ = node_paths(design.nodes, design.x, self.crank(design, count))
         return np.asarray(paths[-1])
@@ -146,11 +161,11 @@ class Target:
         return np.linspace(design.x[-2], design.x[-2] + design.x[-1], count)
 
     def deviation(self, design: Design) -> float:
-        """Mean symmetric nearest distance at the design's own turn, in rms radii."""
+        """Mean nearest distance of the lines, there and back, at the design's own turn, in rms radii."""
         if design.value >= FAR:
             return FAR
-        curve = normal(even_points(self.curve(design), EVEN, self.closed)) * np.exp(1j * design.x[-3])
-        return symmetric_distance(curve, self.points.conj() if design.mirror else self.points)[0]
+        curve = normal(even_points(self.curve(design), LINE, self.closed)) * np.exp(1j * design.x[-3])
+        return symmetric_distance(curve, self.points.conj() if design.mirror else self.points, EVERY)[0]
 
 
 def even_points(curve: Complexes, count: int, closed: bool) -> Complexes:
@@ -167,19 +182,21 @@ def normal(curve: Complexes) -> Complexes:
     return np.asarray(moved / np.sqrt(np.mean(np.abs(moved) ** 2)))
 
 
-def symmetric_distance(a: Complexes, b: Complexes) -> tuple[float, float]:
-    """Mean nearest distance from a to b plus that from b to a, and the greatest nearest distance."""
+def symmetric_distance(a: Complexes, b: Complexes, every: int = 1) -> tuple[float, float]:
+    """Mean nearest distance from every so manieth point of a to b plus that from b to a, and the greatest one."""
     from scipy.spatial import cKDTree
 
-    there = cKDTree(_columns(b)).query(_columns(a))[0]
-    back = cKDTree(_columns(a)).query(_columns(b))[0]
+    there = cKDTree(_columns(b)).query(_columns(a[::every]))[0]
+    back = cKDTree(_columns(a)).query(_columns(b[::every]))[0]
     return float(there.mean() + back.mean()), float(max(there.max(), back.max()))
 
 
 def curve_distance(a: Complexes, b: Complexes, closed: bool) -> float:
     """The measure: both curves even in arc length, laid on each other by centroid, rms radius and best turn.
 
-    Mean nearest distance from a to b plus that from b to a, in rms radii; mirror images are different curves. A turn
+    Mean nearest distance from a to b plus that from b to a, in rms radii; mirror images are different curves. It is
+    that of EVEN points, as others take it: a curve of n radii that is drawn exactly, but from other points, is up to
+    n / EVEN from itself, n / (2 EVEN) in the mean; :meth:`Target.deviation` is that of the lines. A turn
     by δ changes it by 2 δ at most (both mean radii are at most 1), so of the valleys among a turn's 360 degrees only
     those within that of the least can hold it.
     """
