@@ -314,12 +314,6 @@ def test_objectives_that_have_no_gradient_or_another_shape() -> None:
     objective = lw.objective(machine(), "rocker.angle range", vary=vary, steps=24, backend="numpy")
     for shape in ((3,), (2, 3), (2, 2, 2)):
         assert "coupler.length" in said(lambda s=shape: objective.values(np.ones(s)))
-    text = lw.dump(lw.load("gallery:shaper_quick_return")).replace(
-        "kind: prismatic,", "kind: prismatic, friction: 0.1,"
-    )
-    assert "pressed from both sides" in said(
-        lambda: lw.objective(lw.loads(text), "rms_input_torque", vary=["crank.length"], steps=24)
-    )
     assert "stroke" in said(lambda: lw.objective(machine(), "stroke", vary=["coupler.length"]))
     assert "rocker.mass has no influence" in said(
         lambda: lw.objective(machine(), "rocker.angle range", vary=["coupler.length", "rocker.mass"])

@@ -196,18 +196,26 @@ def test_gradients_through_friction_are_differences_of_single_designs(name: str,
     assert back.gradient("input_torque rms") == pytest.approx(gradient, rel=1e-9)
 
 
-def test_design_numbers_with_friction_go_side_by_side_with_gradients() -> None:
-    """Pins alone: their friction turns round where two links do."""
-    machine = rubbing(lw.load("gallery:jaw_crusher_sixbar"), 0.05)
-    by = ["toggle.length", "jaw.mass"]
-    names = ["rms_input_torque", "mean_power", "energy_fluctuation", "peak_reaction O5"]
+@pytest.mark.parametrize(
+    ("name", "by", "pin", "factors"),
+    [
+        ("jaw_crusher_sixbar", ["toggle.length", "jaw.mass"], "O5", [1.0, 0.995, 1.002]),
+        ("shaper_quick_return", ["crank.length", "ram.mass"], "O3", [1.0, 0.995]),
+    ],
+)
+def test_design_numbers_with_friction_go_side_by_side_with_gradients(
+    name: str, by: list[str], pin: str, factors: list[float]
+) -> None:
+    """Pins turn round where two links do, the shaper's four times; its guides are pressed from both sides."""
+    machine = rubbing(lw.load(f"gallery:{name}"), 0.05)
+    names = ["rms_input_torque", "mean_power", "energy_fluctuation", f"peak_reaction {pin}"]
     cycle = metric_cycle(machine, by, names)
     assert cycle is not None
-    lengths = machine.dimension("toggle.length") * np.array([1.0, 0.995, 1.002])
-    found = cycle.evaluate({"toggle.length": lengths, "jaw.mass": np.full(3, 900.0)})
+    lengths = machine.dimension(by[0]) * np.array(factors)
+    found = cycle.evaluate({by[0]: lengths, by[1]: np.full(len(lengths), machine.dimension(by[1]))})
     assert found.certain.all()
     for k, length in enumerate(lengths):
-        single = lw.solve_forces(machine.with_dimensions({"toggle.length": float(length)}))
+        single = lw.solve_forces(machine.with_dimensions({by[0]: float(length)}))
         alone = lw.metrics(single, [name.split()[0] for name in names])
         for name in names:
             assert found.values[name][k] == pytest.approx(alone.value(*name.split()), rel=1e-10)
@@ -302,3 +310,75 @@ def test_value_and_gradient_of_a_dry_yoke_are_those_of_statics(monkeypatch: pyte
     swept = lw.sweep(machine, columns, outputs=["input_torque rms"], steps=STEPS)
     expected = [np.sqrt(yoke_torque(*point).real) for point in points]
     assert swept["input_torque", "rms"] == pytest.approx(expected, rel=1e-13)
+
+
+#: Where the torque of the heavy yoke bends or jumps, rad: where the force on it is zero, m r ω² cos φ = 70 N, where
+#: the slot's die turns round and where the bed does.
+EDGES = np.sort(
+    [0.0, *(np.pi * np.array([0.5, 1.0, 1.5, 2.0])), *(np.array([1, -1]) * np.arccos(70 / 81) % (2 * np.pi))]
+)
+
+
+def yoke_numbers(slot: complex, bed: complex, mass: complex) -> np.ndarray:
+    """Root mean square torque, N·m, and mean power, W, of the yoke by quadrature between these places."""
+    nodes, weights = np.polynomial.legendre.leggauss(40)
+    half = 0.5 * np.diff(EDGES)
+    angle = (EDGES[:-1] + half * (1.0 + nodes[:, None])).ravel()
+    drive = mass * (-0.1 * 81.0 * np.cos(angle)) + 70.0
+    normal = drive / (1.0 - slot * bed * np.sign(-np.sin(angle)) * np.sign(drive.real))
+    rubbing = slot * normal * np.sign(normal.real) * np.abs(np.cos(angle))
+    torque, shares = (
+        0.1 * (rubbing - normal * np.sin(angle)),
+        (weights[:, None] * half).ravel() / (2.0 * np.pi),
+    )
+    return np.array([np.sqrt(shares @ torque**2), 9.0 * (shares @ torque)])
+
+
+def test_numbers_of_a_yoke_pressed_from_both_sides_are_those_of_statics(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    machine = lw.loads(YOKE.replace("mass: 3 kg", "mass: 10 kg"))
+    names, by = ["rms_input_torque", "mean_power"], ["slot.friction", "bed.friction", "yoke.mass"]
+    refuse_single(monkeypatch)
+    points = [(0.2, 0.3, 10.0), (0.5, 0.4, 10.0), (0.01, 0.7, 10.0)]
+    swept = lw.sweep(machine, dict(zip(by, np.array(points).T, strict=True)), outputs=names)
+    for k, point in enumerate(points):
+        numbers = yoke_numbers(*point).real
+        assert [swept[name][k] for name in names] == pytest.approx(numbers, rel=1e-12)
+        for number, name in zip(numbers, names, strict=True):
+            value, gradient = lw.objective(machine, name, vary=by)(point)
+            assert value == pytest.approx(number, rel=1e-12)
+            shifted = [
+                yoke_numbers(*(x + 1e-30j * (i == j) for i, x in enumerate(point)))[names.index(name)].imag
+                for j in range(3)
+            ]
+            assert gradient == pytest.approx(np.array(shifted) / 1e-30, rel=1e-10)
+
+
+PAIR = """
+format: 1
+name: wheels one above the other
+frame: {points: {O: [0 m, 0 m], Q: [0 m, -0.3 m]}}
+links:
+  pinion: {points: [O]}
+  wheel: {points: [Q], mass: 5 kg}
+joints: {mesh: {kind: gear, links: [pinion, wheel], teeth: [20, 40], pressure_angle: 20 deg}}
+driver: {turn: pinion, about: O, speed: 6 rad/s}
+gravity: [0, -9.81 m/s²]
+loads: {work: {kind: torque, on: wheel, magnitude: 8 N·m + 20 N·m * sin(input)}}
+"""
+
+
+def test_a_wheel_whose_teeth_change_flanks_has_the_reaction_of_statics() -> None:
+    """The tooth force F = T/r goes sideways, |F| tan α pushes the wheel down; with T = a + b sin φ the mean of |T| is
+    2/π (√(b² - a²) + a asin(a/b))."""
+    machine = lw.loads(PAIR)
+    masses = np.array([5.0, 1.0, 20.0])
+    cycle = metric_cycle(machine, ["wheel.mass"], ["rms_reaction Q"])
+    assert cycle is not None
+    found = cycle.evaluate({"wheel.mass": masses})
+    assert found.certain.all()
+    a, b, r, slope, weight = 8.0, 20.0, 0.2, np.tan(np.radians(20.0)), masses * 9.81
+    square, size = a * a + 0.5 * b * b, 2.0 / np.pi * (np.sqrt(b * b - a * a) + a * np.arcsin(a / b))
+    expected = square / r**2 * (1.0 + slope**2) + weight**2 + 2.0 * weight * slope * size / r
+    assert found.values["rms_reaction Q"] == pytest.approx(np.sqrt(expected), rel=1e-12)

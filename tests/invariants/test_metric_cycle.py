@@ -157,7 +157,7 @@ def test_a_metric_of_another_package_goes_the_same_way() -> None:
 
 
 def test_sweeps_and_sensitivities_take_design_numbers() -> None:
-    """A mechanism whose designs go side by side, and one with friction, whose designs are found one by one."""
+    """A mechanism whose designs go side by side, and one with friction."""
     crusher = lw.load("gallery:jaw_crusher_sixbar")
     toggles = crusher.dimension("toggle.length") * np.array([1.0, 1.002, 40.0])
     found = lw.sweep(crusher, {"toggle.length": toggles}, outputs=["peak_reaction O5", "driver.effort max"])
@@ -203,7 +203,7 @@ def test_gradients_of_several_numbers_from_one_evaluation_are_those_of_each() ->
         assert slopes[k, :, 0] == pytest.approx(rate, rel=1e-5)
 
 
-def test_designs_that_go_one_by_one_have_the_same_numbers() -> None:
+def test_a_slider_that_its_guide_presses_from_both_sides_has_the_numbers_of_the_machine_alone() -> None:
     rubbing = lw.loads(
         """
 format: 1
@@ -220,7 +220,7 @@ driver: {turn: crank, about: O, speed: 120 rpm}
     found = lw.sweep(rubbing, {"rod.length": [0.7, 0.71]}, outputs=["rms_input_torque", "stroke"])
     alone = metrics(lw.solve_forces(rubbing.with_dimensions({"rod.length": 0.71})))
     for name in ("rms_input_torque", "stroke"):
-        assert found[name][1] == alone.value(name)
+        assert found[name][1] == pytest.approx(alone.value(name), rel=1e-12)
 
 
 @pytest.mark.parametrize("name", ["stephenson_sixbar", "whitworth", "double_slider"])

@@ -78,7 +78,8 @@ class CycleProgram:
         ValueError for unknown back ends, missing inputs and wrong shapes.
         """
         parts: list[Results] = []
-        size = _UNREPORTED if progress is None else _REPORT
+        plain = _UNREPORTED if progress is None else _REPORT
+        size = None if any(stage.keep for stage in self.stages) else plain
         for end, known, _ in self.blocks(
             table, positions, fields, tables=tables, threads=threads, backend=backend, size=size
         ):
@@ -102,7 +103,7 @@ class CycleProgram:
     ) -> Iterator[tuple[int, Known, Run]]:
         """What is found of some designs after another: (number after the last design, numbers, manner).
 
-        ``size``: most configurations of one block; fewer where stages keep fields.
+        ``size``: most configurations of one block; by default fewer where stages keep fields.
         """
         if backend not in BACKENDS:
             raise ValueError(f"there is no back end '{backend}': use auto, numpy or llvm")
@@ -113,7 +114,7 @@ class CycleProgram:
         given = {name: np.ascontiguousarray(a, dtype=np.float64) for name, a in (fields or {}).items()}
         n = self._length(positions or {}, given)
         run = Run(positions or {}, n, tables, cores() if threads is None else threads, backend)
-        most = _WITH_FIELDS if any(stage.keep for stage in self.stages) else size or _REPORT
+        most = size or (_WITH_FIELDS if any(stage.keep for stage in self.stages) else _REPORT)
         for first, end in chunks(len(numbers), max(1, most // max(n, 1))) if len(numbers) else [(0, 0)]:
             rows = {name: array[first:end] for name, array in given.items()}
             yield end, self._block(numbers[first:end], rows, run), run

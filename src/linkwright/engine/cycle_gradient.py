@@ -71,7 +71,9 @@ def cycle_gradient(
         stage = stages[number]
         asked = tuple(name for name in stage.results if name in wanted and name in active)
         if asked:
-            own = tuple(name for name in stage.parameters if name in active)
+            # a solution does not depend on where its search starts
+            taken = stage.accumulation.parameters if stage.roots else stage.parameters
+            own = tuple(name for name in taken if name in active)
             backwards.append(Backwards(number, stage, asked, own))
             wanted |= set(own)
     recorded = list(stages)

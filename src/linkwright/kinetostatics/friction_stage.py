@@ -144,19 +144,19 @@ def _block(
     plain = forces_of(friction.wrenches(held), size=none)
     fields = {term.field: trace.field_input(term.field) for term in terms}
     rubbing = forces_of(friction.wrenches({**held, **fields}), size=given)
-    pressing = [_pressing(rubbing, term) for term in terms]
+    forces = [pressing(rubbing, term) for term in terms]
     by = list(zip(fields.values(), factors, strict=True))
     pairs = [
         _Teeth(
             free[name],
             [slope(force, {each: 1.0}) * factor for each, factor in by],
-            [_slope(press, inputs[name]) for press in pressing],
+            [_slope(press, inputs[name]) for press in forces],
         )
         for name, force in teeth.items()
     ]
     return _Block(
-        [_pressing(plain, term) for term in terms],
-        [[_slope(press, each) * factor for each, factor in by] for press in pressing],
+        [pressing(plain, term) for term in terms],
+        [[_slope(press, each) * factor for each, factor in by] for press in forces],
         [pair for pair in pairs if any(press != ZERO for press in pair.presses)],
     )
 
@@ -164,7 +164,7 @@ def _block(
 def caused(friction: FrictionTerms, forces: ForceTrace, field: str) -> Scalar:
     """The friction, by the name of its field, that joint forces cause."""
     (term,) = (each for each in friction.terms if each.field == field)
-    return _length(_pressing(forces, term)) * _factor(friction, term)
+    return _length(pressing(forces, term)) * _factor(friction, term)
 
 
 def _factor(friction: FrictionTerms, term: FrictionTerm) -> Scalar:
@@ -180,7 +180,7 @@ def _factor(friction: FrictionTerms, term: FrictionTerm) -> Scalar:
     return select(rate > still, -arm, select(rate < -still, arm, 0.0))
 
 
-def _pressing(forces: ForceTrace, term: FrictionTerm) -> Vec:
+def pressing(forces: ForceTrace, term: FrictionTerm) -> Vec:
     """The force that presses the two parts together, of a guide across it as (force, 0)."""
     force = forces.reaction(term.joint, term.b)
     return Vec(guide_state(forces.motion, term.joint)[0].cross(force), 0.0) if term.slides else force

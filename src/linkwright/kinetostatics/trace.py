@@ -53,13 +53,15 @@ class JointForce:
 
 @dataclass
 class ForceTrace:
-    """Reactions and efforts as traced values."""
+    """Reactions and efforts as traced values; ``between``: the forces between teeth or in strands whose sizes press
+    on pins, by the names of the joints."""
 
     motion: MotionTrace
     joints: list[JointForce] = field(default_factory=list)
     efforts: dict[str, Scalar] = field(default_factory=dict)
     own: dict[str, Demand] = field(default_factory=dict)
     wrenches: dict[str, list[Wrench]] = field(default_factory=dict)
+    between: dict[str, Scalar] = field(default_factory=dict)
 
     def reaction(self, joint: str, on: str) -> Vec:
         """Force that a joint exerts on a link."""
@@ -172,7 +174,7 @@ class _Reverse:
         found: dict[Connection, Vec] = {}
         poses = self.motion.poses
         for cut, own in _shares(placed, multipliers):
-            force = cut.pressing(own, poses, partial(self.size, cut.connection))
+            force = cut.pressing(own, poses, partial(self._size, cut.connection))
             if force is None:
                 continue
             found[cut.connection] = force
@@ -181,6 +183,10 @@ class _Reverse:
                 arm = cut.arm(link, poses)
                 self.demands[link] = self.demands[link] + Demand(-push, -arm.cross(push))
         return found
+
+    def _size(self, connection: Connection, force: Scalar) -> Scalar:
+        self.forces.between[connection.joint] = force
+        return self.size(connection, force)
 
     def _wanted(self, placed: Placed) -> list[Scalar]:
         """Demand on every unknown chain coordinate, with the chains open."""

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
-from dataclasses import replace
+from dataclasses import field, replace
 from functools import cached_property
 
 import numpy as np
@@ -25,13 +25,23 @@ from linkwright.engine.reductions import Reduction
 from linkwright.engine.stage import Stage
 from linkwright.engine.trace import Mask, Scalar, Trace, floor, maximum, minimum, select, sign
 from linkwright.fields.signals import InputPhase, MovingPhase, SwingPhase, Table
+from linkwright.kinetostatics.friction import Swinging
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.kinetostatics.site import limit_name
 from linkwright.kinetostatics.traced_loads import AlongInput
 from linkwright.loads.base import Load
 from linkwright.loads.phases import TURN
+from linkwright.study.corners import Corner, Signed, corner_stages, corners_of, signed_values
 from linkwright.study.joint_bends import FIRST, bend_names, bend_stage
-from linkwright.study.limit_stages import edge_name, part_edge, part_edge_beside, rates, whole_turns
+from linkwright.study.limit_stages import (
+    constants,
+    edge_name,
+    limit_stages,
+    part_edge,
+    part_edge_beside,
+    rates,
+    whole_turns,
+)
 from linkwright.study.loaded_cycle import friction_doubt
 from linkwright.study.traced import VALID, Traced
 from linkwright.study.uneven_bends import MOST, UnevenBends, uneven_bends
@@ -58,6 +68,11 @@ def iterated(traced: Traced) -> tuple[str, ...]:
     return tuple(name for placed in traced.solver.motion.placed.values() for name in placed.next_states)
 
 
+def can_have_corners(traced: Traced) -> bool:
+    """Whether the cycle can be cut where friction bends: all groups have a closed form, and no joint has bends."""
+    return not iterated(traced) and uneven_bends(traced) is None and not bend_names(traced)
+
+
 def at_point(state: str) -> str:
     """The field that is a chain coordinate at the Gauss points."""
     return f"at:{state}"
@@ -69,13 +84,16 @@ class GaussCycle:
 
     ``cuts``: names of what gives the inputs, rad, of the cuts, cycle values and dimensions, with the turns after
     which they come again, none where they do once; ``wanted``: pieces of a turn; ``bends``: places at which the cycle
-    is cut as well, from the first of which it then runs.
+    is cut as well, from the first of which it then runs; ``corners``: those of the cuts where ``signed`` values are
+    zero.
     """
 
     traced: Traced
     cuts: tuple[tuple[str, int], ...]
     wanted: int
     bends: UnevenBends | None = None
+    corners: tuple[Corner, ...] = ()
+    signed: Mapping[str, Signed] = field(default_factory=dict)
 
     @classmethod
     def of(cls, traced: Traced, loads: AlongInput, wanted: int) -> GaussCycle:
@@ -88,6 +106,24 @@ class GaussCycle:
         found |= dict.fromkeys((name, 0) for name in bend_names(traced))
         cycle = cls(traced, tuple(found), wanted)
         return replace(cycle, bends=uneven_bends(traced)) if cycle._moving <= MOST else cycle
+
+    def cornered(
+        self, loads: AlongInput, signals: Iterable[Scalar], rubbing: Iterable[Swinging]
+    ) -> GaussCycle:
+        """The same with cuts where friction and the forces of teeth in ``signals`` bend and what is ``rubbing``
+        turns round, in the machine as it is; pieces are shorter near all cuts, where such forces are small."""
+        if not can_have_corners(self.traced):
+            return self
+        signed = signed_values(self.traced, signals, rubbing)
+        limits = limit_stages(
+            self.traced, [*loads.outputs, *loads.moving, *loads.swinging], valued=loads.valued, judged=False
+        )
+        known = {**self.traced.solver.nominal.parameters, **self.constants, **loads.constants}
+        known |= constants(self.traced, self.count)
+        before = [*limits, *self.cut_stages()]
+        corners = corners_of(self.traced, signed, before, known, self.positions, loads.tables)
+        cuts = (*self.cuts, *((corner.name, 0) for corner in corners))
+        return replace(self, cuts=cuts, corners=corners, signed=signed)
 
     @property
     def stretches(self) -> int:
@@ -171,9 +207,12 @@ class GaussCycle:
         """Weights of every cut's share in a node's share of the turn and in its width; the first nodes of all pieces
         come first, so that a function's values are (POINTS, pieces)."""
         stretch = np.tile(np.repeat(np.arange(self.stretches), self._each), POINTS)
-        inside = (np.arange(self._each) + 0.5 + 0.5 * NODES[:, None]) / self._each
-        inside = np.tile(inside, self.stretches).ravel()
-        width = np.repeat(0.5 * WEIGHTS / self._each, self.pieces)
+        edges = np.arange(self._each + 1) / self._each
+        if self.corners:
+            edges = np.sin(0.5 * np.pi * edges) ** 2
+        half = 0.5 * np.diff(edges)
+        inside = np.tile(edges[:-1] + half * (1.0 + NODES[:, None]), self.stretches).ravel()
+        width = np.tile(WEIGHTS[:, None] * half, self.stretches).ravel()
         if self.bends is not None:
             return {"inside": inside, "width": width, **self.bends.around(stretch, self._moving)}
         found = {}
@@ -202,6 +241,7 @@ class GaussCycle:
                         if beside is None
                         else part_edge_beside(beside, load, phase, k)
                     )
+        found += corner_stages(self.traced, self.signed, self.corners)
         return [*found, self._cutting()] if self.cuts else found
 
     def _cutting(self) -> Stage:

@@ -28,7 +28,7 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import Analysis, strokes, true_speed
 from linkwright.metrics.summary import Summary, one
 from linkwright.study.followed_points import FollowedPoints, followed_points
-from linkwright.study.gauss_cycle import PIECES, SHARE, GaussCycle, reversing, side_by_side
+from linkwright.study.gauss_cycle import PIECES, SHARE, GaussCycle, can_have_corners, reversing, side_by_side
 from linkwright.study.iterated_groups import limits_beside
 from linkwright.study.limit_stages import constants, limit_stages, rates
 from linkwright.study.loaded_cycle import along_input, with_loads
@@ -53,6 +53,8 @@ from linkwright.study.traced import VALID, Traced, design_table
 BLOCK = 2048
 #: Designs whose weights of Gauss points are kept at the same time, and whose signals, for the true speed.
 WEIGHED, RUNNING = 256, 512
+#: More configurations than there are: signals are wanted at once.
+_WHOLE = 1 << 62
 VALUE = "value"
 
 
@@ -93,16 +95,22 @@ def _metric_cycle(
     offered = (each if isinstance(each, Term) else term(each, analysis, asked) for each in given)
     fitting = without_more_limits if turns else without_limits
     terms = [each for each in offered if each is not None and fitting(each, analysis)]
-    program = plain.program(plain.quantities(outputs_of(map(one, all_parts(terms)))))
+    outputs = tuple(outputs_of(map(one, all_parts(terms))))
+    program = plain.program(plain.quantities(outputs))
     loads = along_input(plain, addresses, program.fields)
     if loads is None:
         return None
     ways = (analysis.output(strokes.output_of(part)) for part in stroke_parts(all_parts(terms)).values())
-    swinging = (*loads.swinging, *reversing(plain, program), *(each for each in ways if each is not None))
+    others = (*reversing(plain, program), *(each for each in ways if each is not None))
+    rubbing = loads.swinging if turns and can_have_corners(plain) else ()
+    swinging = others if rubbing else (*loads.swinging, *others)
     loads = replace(loads, swinging=tuple(dict.fromkeys(swinging)))
     traced = with_loads(plain, loads)
     gauss = GaussCycle.of(traced, loads, PIECES[0]) if turns else timed_cycle(traced, loads, analysis)
     nominal = {address: np.array([mechanism.dimension(address)]) for address in addresses}
+    if isinstance(gauss, GaussCycle):
+        signals = [each.value for each in traced.quantities(outputs).values()]
+        gauss = gauss.cornered(loads, signals, rubbing)
     return None if gauss is None else _met(MetricCycle(traced, gauss, terms, analysis, loads), nominal)
 
 
@@ -291,6 +299,7 @@ class MetricCycle:
             tables=self.loads.tables,
             threads=1,
             backend=backend,
+            size=_WHOLE,
         )
         kept: Flags | bool = True
         if self.followed is not None:

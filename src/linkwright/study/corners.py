@@ -1,0 +1,185 @@
+"""Where in the cycle of many designs friction and the forces of teeth bend or jump: where a signed value is zero.
+
+Friction goes with the size of a guide's normal force and against the joint's rate, the forces of wheels on their pins
+with the size of that between the teeth. Sign changes between neighbouring positions bracket these places.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+import numpy as np
+
+from linkwright.core.arrays import Floats
+from linkwright.core.dataclass import dataclass
+from linkwright.engine.cycle import CycleProgram
+from linkwright.engine.program import Program
+from linkwright.engine.reductions import Reduction
+from linkwright.engine.stage import Stage
+from linkwright.engine.table import Tables
+from linkwright.engine.trace import Scalar, Trace, absolute, floor, select, sign
+from linkwright.kinetostatics.friction import Swinging
+from linkwright.kinetostatics.friction_stage import pressing
+from linkwright.kinetostatics.site import LAP
+from linkwright.study.joint_bends import FIRST
+from linkwright.study.limit_stages import CONVERGED, STEP, rates
+from linkwright.study.traced import Traced
+
+#: Share of all joint forces below which a force is none.
+NONE = 1e-11
+#: Steps of the search for one place, and the most places of a machine.
+STEPS, MOST = 9, 24
+_BRACKET = ("x", "a", "b", "at a", "at b")
+
+
+@dataclass(frozen=True)
+class Corner:
+    """The ``number``-th change of sign in the cycle of a value, by its name."""
+
+    of: str
+    number: int
+
+    @property
+    def name(self) -> str:
+        """The cycle value that is its input, rad."""
+        return f"corner:{self.of}:{self.number}"
+
+
+@dataclass(frozen=True)
+class Signed:
+    """A traced value whose sign matters, and what it is rounding ``beside``."""
+
+    value: Scalar
+    beside: Scalar
+
+
+def signed_values(
+    traced: Traced, outputs: Iterable[Scalar], swinging: Iterable[Swinging]
+) -> dict[str, Signed]:
+    """What the ``outputs`` bend or jump at, by names: forces, N, that press guides with friction, those between teeth
+    or in strands, and the rates of what is ``swinging`` with friction."""
+    programs, trace = traced.forces.programs, traced.solver.motion.trace
+    joints = programs.forces.joints
+    total = sum((absolute(each.force.x) + absolute(each.force.y) for each in joints), start=0.0)
+    terms = traced.forces.friction.terms if programs.rubbing else ()
+    found = {term.field: Signed(pressing(programs.forces, term).x, total) for term in terms if term.slides}
+    needed = set(trace.needed([trace.lift(value) for value in outputs]))
+    for name, force in programs.forces.between.items():
+        if programs.friction is not None or trace.lift(force) in needed:
+            found[name] = Signed(force, total)
+    return found | {f"rate {each}": Signed(rates(traced, each)[0], 0.0) for each in swinging}
+
+
+def corner_stages(traced: Traced, values: Mapping[str, Signed], corners: Iterable[Corner]) -> list[Stage]:
+    """The stages that find these places of some values by name; those that a design lacks are put evenly over its
+    cycle, where nothing bends."""
+    asked = tuple(corners)
+    found = [_values_there(traced, values)] if asked else []
+    for name in dict.fromkeys(corner.of for corner in asked):
+        own = [corner for corner in asked if corner.of == name]
+        found.append(_crossings(traced, name, len(own)))
+        found += [_place(traced, corner, values[name].value, len(own)) for corner in own]
+    return found
+
+
+def corners_of(
+    traced: Traced,
+    values: Mapping[str, Signed],
+    before: Iterable[Stage],
+    known: Mapping[str, float],
+    positions: Mapping[str, Floats],
+    tables: Tables | None,
+) -> tuple[Corner, ...]:
+    """The corners of the machine as it is; none of those that have too many. ``before``: the stages that find what
+    its loads take; ``known``: its numbers."""
+    if not values:
+        return ()
+    counting = (_crossings(traced, name, 0) for name in values)
+    cycle = CycleProgram((*before, _values_there(traced, values), *counting))
+    table = np.array([[known[name] for name in cycle.dimensions]])
+    results = cycle.evaluate(table, positions, tables=tables, threads=1, backend="numpy")
+    counts = {name: int(np.nan_to_num(results[f"changes:{name}"][0])) for name in values}
+    if sum(counts.values()) > MOST:
+        return ()
+    return tuple(Corner(name, number) for name, count in counts.items() for number in range(count))
+
+
+def _field(name: str) -> str:
+    return f"signed {name}"
+
+
+def _values_there(traced: Traced, values: Mapping[str, Signed]) -> Stage:
+    """The values at all positions, zero where they are rounding."""
+    found = {
+        _field(name): select(absolute(each.value) > NONE * each.beside, each.value, 0.0)
+        for name, each in values.items()
+    }
+    t = Trace()
+    program = Program.of(traced.solver.motion.trace, found)
+    there = _at(traced, program, t, t.position("input"), t.position("time"))
+    return Stage(Program.of(t, there), keep=tuple(found))
+
+
+def _at(traced: Traced, program: Program, t: Trace, x: Scalar, time: Scalar) -> dict[str, Any]:
+    return traced.at_input(program, t, x, {"input": x, "time": time})
+
+
+def _crossings(traced: Traced, name: str, count: int) -> Stage:
+    """How often a value changes its sign, and what brackets the first ``count`` places; the change from
+    the last position to the first is the last one."""
+    t = Trace()
+    (driver,) = traced.mechanism.drivers
+    x, value = t.position("input"), t.field_input(_field(name))
+    last, at, first, start, changes = (t.state(name) for name in ("last", "at", "first", "start", "changes"))
+    step = t.parameter(STEP) * sign(t.parameter(f"{driver}.speed"))
+    lap = t.parameter(LAP) * sign(t.parameter(f"{driver}.speed"))
+    decided = absolute(value) > 0.0
+    now, place = select(decided, value, last), select(decided, x, at)
+    began, beginning = select(absolute(first) > 0.0, first, value), select(absolute(first) > 0.0, start, x)
+    changed = select(value * last < 0.0, 1.0, 0.0)
+    ends = absolute(x + step - t.parameter(FIRST) - lap) < 0.5 * absolute(step)
+    around = select(ends, select(now * began < 0.0, 1.0 - changed, 0.0), 0.0)
+    ordinary = changed > 0.5
+    a, b = select(ordinary, at, place), select(ordinary, x, beginning + lap)
+    at_a, at_b = select(ordinary, last, now), select(ordinary, value, began)
+    outputs = {"a": a, "b": b, "at a": at_a, "at b": at_b, "x": a - at_a * (b - a) / (at_b - at_a)}
+    wanted = {f"changes:{name}": Reduction("changes", "last")}
+    total = changes + changed + around
+    for k in range(count):
+        outputs[f"mark {k}"] = select(
+            absolute(changes - float(k)) < 0.5, select(changed + around > 0.5, 1.0, 0.0), 0.0
+        )
+        wanted |= {f"{each}:{name}:{k}": Reduction(each, "at_max", f"mark {k}") for each in _BRACKET}
+        wanted[f"marked:{name}:{k}"] = Reduction(f"mark {k}", "max")
+    following = {"last": now, "at": place, "first": began, "start": beginning, "changes": total}
+    program = Program.of(t, {**outputs, "changes": total}, following)
+    return Stage(program, wanted, starts=dict.fromkeys(following, 0.0))
+
+
+def _place(traced: Traced, corner: Corner, value: Scalar, count: int) -> Stage:
+    """One place by secants within a bracket (Dowell & Jarratt 1972, "Pegasus"); a jump through zero is none."""
+    t = Trace()
+    (driver,) = traced.mechanism.drivers
+    x, a, b, at_a, at_b = (t.state(name) for name in _BRACKET)
+    marked, speed, first = t.state("marked"), t.parameter(f"{driver}.speed"), t.parameter(FIRST)
+    way = t.parameter(LAP) * sign(speed)
+    share = (x - first) / way
+    inside = first + (share - floor(share)) * way
+    time = t.parameter("first time") + (inside - first) / speed
+    there = _at(traced, Program.of(traced.solver.motion.trace, {"value": value}), t, inside, time)["value"]
+    changed, zero = there * at_b < 0.0, absolute(there) <= 0.0
+    less = select(zero, at_a, at_a * at_b / select(zero, 1.0, at_b + there))
+    a1, at_a1 = select(changed, b, a), select(changed, at_b, less)
+    x1 = x - there * (x - a1) / (there - at_a1)
+    parked = first + (corner.number + 0.5) / count * way
+    met = select(absolute(x1 - x) <= CONVERGED, marked, 0.0) > 0.5
+    program = Program.of(
+        t,
+        {"place": select(met, x, parked), "gap": select(met, there, x - parked)},
+        {"x": x1, "a": a1, "b": x, "at a": at_a1, "at b": there, "marked": marked},
+    )
+    begins = {each: f"{each}:{corner.of}:{corner.number}" for each in (*_BRACKET, "marked")}
+    return Stage(
+        program, {corner.name: Reduction("place", "last")}, steps=STEPS, starts=begins, roots={"x": "gap"}
+    )
