@@ -61,7 +61,7 @@ def free_curve(
             drawn by an input that swings, and they hold while it draws.
         error: an error that is good enough: linkages within it come with the fewest links first; 0: the least
             error first.
-        seconds: time of the search on all cores; more time finds better linkages.
+        seconds: time of the search on all cores; more time finds better linkages, as a rule: draws depend on it.
         count: candidates wanted; seed: of the search. Where the clock ends the search depends on the machine, so
             two runs may differ.
         progress: called with the share of the time that is over and the least objective so far.

@@ -13,10 +13,10 @@ from linkwright.synthesis.free_curve.kernels import FAR, kernels
 from linkwright.synthesis.free_curve.nodes import Design, node_paths
 from linkwright.synthesis.free_curve.promise import NUMBERS, ROWS
 
-#: Positions of a turn at which a design is examined; positions on the drawn part for each of a fine descent, how much
-#: longer the curve may be through them, and the greatest share of its length between two of them.
+#: Positions of a turn at which a design is examined; positions on the drawn part for each of a fine descent, points
+#: of the curve where it is so much longer through them, and the greatest share of it between two of them.
 TURN = 360
-BETWEEN, LONGER, STEP = 8, 1.05, 0.1
+BETWEEN, SOME, LONGER, STEP = 8, 400, 1.05, 0.1
 #: Points of a curve as the measure says; of a line, of which one in EVERY is compared with all of the other line.
 EVEN, EVERY = 2000, 4
 LINE = EVEN * EVERY
@@ -117,19 +117,23 @@ class Target:
         ]
 
     def checked(self, design: Design, weight: float = 1.0) -> Design:
-        """The design with the objective at fine positions; FAR where it does not close well or jumps between them."""
+        """The design with the objective at fine positions; FAR where it does not close well there."""
         if design.value >= FAR:
             return design
         fine = self.descend(design, 0, FINE, weight=weight)
         nodes, x, room = (each.ctypes.data for each in (design.nodes, design.x, _ROOM.array))
         joints, whole = design.joints, int(self.turning)
         least = kernels()("place", nodes, joints, TURN, TURN, whole, x, room, room + 8 * TURN * joints)
-        if least < np.sin(self.least / 2) ** 2 or not self._seen(design):
+        if least < np.sin(self.least / 2) ** 2:
             return replace(fine, value=FAR)
+        fine = replace(fine, value=max(fine.value, self._unseen(design)))
         return replace(fine, misses=self.misses(design))
 
-    def _seen(self, design: Design) -> bool:
-        """Whether fine positions see the curve: a pin that passes a block's pivot closely turns it between two."""
+    def _unseen(self, design: Design) -> float:
+        """The deviation where fine positions do not see the curve, FAR where nothing does, else 0.
+
+        A pin that passes a block's pivot closely turns it between two of them.
+        """
         count, room = BETWEEN * FINE.drawn, _ROOM.array
         nodes, x, places = (each.ctypes.data for each in (design.nodes, design.x, room))
         own, other = (design.joints - 1) * count, design.joints * count
@@ -137,8 +141,14 @@ class Target:
             "place", nodes, design.joints, count, count, int(self.closed), x, places, places + 8 * other
         )
         curve = room[own : own + count] + 1j * room[other + own : other + own + count]
-        steps, seen = np.abs(np.diff(curve)), np.abs(np.diff(curve[::BETWEEN])).sum()
-        return bool(steps.sum() < LONGER * seen and steps.max() < STEP * seen)
+        steps = np.abs(np.diff(curve))
+        if steps.max() > STEP * steps.sum():
+            return FAR
+        if steps.sum() < LONGER * np.abs(np.diff(curve[::BETWEEN])).sum():
+            return 0.0
+        drawn = normal(even_points(curve, SOME, self.closed)) * np.exp(1j * design.x[-3])
+        points = self.points[:: LINE // SOME]
+        return symmetric_distance(drawn, points.conj() if design.mirror else points)[0]
 
     def _poses(self, fineness: Fineness) -> int:
         """Positions at which the demands hold."""
