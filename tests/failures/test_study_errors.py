@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import pytest
@@ -14,6 +14,7 @@ from linkwright.study import sensitivity, sweep
 from linkwright.study.compare import compare
 from linkwright.study.ranges import parse_range
 from linkwright.study.study import study
+from linkwright.study.vary import varied_ranges
 
 SIX, FOUR = "gallery:jaw_crusher_sixbar", "gallery:jaw_crusher_fourbar"
 
@@ -103,6 +104,31 @@ def test_a_pin_s_radius_is_a_length_and_its_friction_a_number() -> None:
     assert "it has the unit mm; write it without a unit" in said(
         lambda: parse_range(rubbing, "B.friction", "1 mm")
     )
+
+
+@pytest.mark.parametrize(
+    ("model", "address", "given", "sampling", "written"),
+    [
+        ("external_gear_pair", "mesh.teeth.0", "18..40", "grid", "18..40:23"),
+        ("external_gear_pair", "mesh.teeth.1", "17.5..20.5:4", "grid", "18..20:3"),
+        ("external_gear_pair", "mesh.teeth.0", "18..40:23", "sobol", "18..40:23"),
+    ],
+)
+def test_a_wheel_has_whole_teeth(
+    model: str, address: str, given: str, sampling: Literal["grid", "sobol"], written: str
+) -> None:
+    """Eleven values from 18 to 40 would be 18, 20.2, …; a sampled value lies between the whole ones."""
+    wheels = lw.load(f"gallery:{model}")
+    text = said(lambda: study(wheels, {address: given}, metrics=["travel"], sampling=sampling))
+    assert text.startswith(f"{address} gives numbers of teeth, which are whole; write {address}={written},")
+    (taken,) = varied_ranges(wheels, {address: written}, sampled=False)
+    low, high = (int(each) for each in written.partition(":")[0].split(".."))
+    assert taken.values.tolist() == list(range(low, high + 1))
+
+
+def test_a_length_below_zero_is_told_with_its_unit() -> None:
+    text = said(lambda: study(machine(), {"crank.length": "-10..50 mm"}, metrics=["travel"]))
+    assert text == "crank.length is set to -0.01 m; give a length above zero"
 
 
 def test_bounds_that_make_no_design_movable() -> None:

@@ -20,8 +20,8 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.summary import wanted
 from linkwright.study.cluster import connected, current, in_turn
 from linkwright.study.designs import sweep
-from linkwright.study.ranges import Range, parse_range
-from linkwright.study.vary import checked_addresses
+from linkwright.study.ranges import Range
+from linkwright.study.vary import varied_ranges
 from linkwright.whole_files import make_folder, write_whole
 from linkwright.words.sentence import Sentence
 
@@ -213,12 +213,9 @@ def _plan(
     mechanism: Mechanism, vary: Mapping[str, str | ArrayLike], outputs: Iterable[str | tuple[str, str]],
     sampling: Sampling, samples: int, seed: int, steps: int, part: int,
 ) -> Plan:  # fmt: skip
-    checked_addresses(mechanism, vary)
-    ranges = tuple(parse_range(mechanism, address, given) for address, given in vary.items())
-    if not ranges:
-        raise RequestError(Sentence("study.nothing_varies"))
     if sampling not in ("grid", "sobol"):
         raise RequestError(Sentence("study.no_sampling", sampling=sampling))
+    ranges = varied_ranges(mechanism, vary, sampled=sampling == "sobol")
     count = samples if sampling == "sobol" else int(np.prod([float(len(each.values)) for each in ranges]))
     if seed < 0:
         raise RequestError(Sentence("study.bad_seed", seed=seed))

@@ -25,7 +25,7 @@ from linkwright.mechanism.geometry import (
     second_point_address,
 )
 from linkwright.registry import nearest, no_such
-from linkwright.units import LARGEST_OF_ALL, Dimension
+from linkwright.units import LARGEST_OF_ALL, SI_UNITS, Dimension
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
@@ -397,7 +397,9 @@ class Mechanism(Frozen):
         else:
             limit = None if (field := self.declared(address)) is None else field.limit(value)
         if limit is not None:
-            raise RequestError(Sentence("model.set_outside", address=address, value=value, limit=limit))
+            unit = SI_UNITS.get(getattr(self.declared(address), "dimension", ""), "")
+            told = f"{value:g} {unit}".rstrip()
+            raise RequestError(Sentence("model.set_outside", address=address, value=told, limit=limit))
         return value
 
     def __repr__(self) -> str:

@@ -14,13 +14,12 @@ from linkwright import units
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, LinkwrightError, ModelError, RequestError
-from linkwright.joints.toothed import Numbers, whole
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.optimisation.paths import path_error
 from linkwright.registry import offered
 from linkwright.study.objective import PathError
 from linkwright.study.ranges import Range, parse_range
-from linkwright.study.vary import checked_addresses
+from linkwright.study.vary import between, checked_addresses, gives_part_of_tooth
 from linkwright.words.sentence import Sentence
 
 Robust = Literal["", "worst", "yield"]
@@ -134,6 +133,9 @@ class _Reading:
         ]
         if not goals:
             self._wrong("minimize", Sentence("optimize.no_goal"))
+        sought = [goal.text.strip() for goal in goals]
+        for text in sorted({each for each in sought if sought.count(each) > 1}):
+            self._wrong("maximize", Sentence("optimize.goal_twice", text=text))
         demands = self._demands()
         tolerances = self._tolerances()
         robust = str(self.given.get("robust") or "")
@@ -251,21 +253,10 @@ class _Reading:
         _rising(found)
         if not found.low < found.high:
             raise RequestError(Sentence("optimize.bounds", address=address))
-        if self._gives_teeth(address, found):
+        if gives_part_of_tooth(self.mechanism, address, between(found)):
             low, high = math.ceil(found.low), math.floor(found.high)
             raise RequestError(Sentence("optimize.whole_teeth", address=address, low=low, high=high))
         return Variable(address, found.low, found.high, None, found.unit)
-
-    def _gives_teeth(self, address: str, bounds: Range) -> bool:
-        """Whether some value between the bounds makes a number of teeth that is not whole."""
-        try:
-            changed = self.mechanism.with_dimensions(
-                {address: bounds.low + (bounds.high - bounds.low) / math.pi}
-            )
-        except LinkwrightError:
-            return False
-        given = ((changed.declared(name), value) for name, value in changed.dimensions().items())
-        return any(isinstance(declared, Numbers) and not whole(value) for declared, value in given)
 
     def _demands(self) -> list[Demand]:
         found = []

@@ -33,10 +33,10 @@ from linkwright.study.design_numbers import side_by_side
 from linkwright.study.designs import sweep
 from linkwright.study.failures import Failure
 from linkwright.study.kept import identity, once
-from linkwright.study.ranges import Range, parse_range
+from linkwright.study.ranges import Range
 from linkwright.study.sampling import grid, sobol
 from linkwright.study.terms import Asked
-from linkwright.study.vary import checked_addresses
+from linkwright.study.vary import varied_ranges
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
@@ -215,11 +215,8 @@ def study(
         LinkwrightError: an unknown parameter or metric (nearest ones offered), a text that is no range, or none of
             the designs can move (how many fail, at which group, why).
     """
-    checked_addresses(mechanism, vary)
     flywheel_inertia(1.0, 1.0, fluctuation)
-    ranges = tuple(parse_range(mechanism, address, given) for address, given in vary.items())
-    if not ranges:
-        raise RequestError(Sentence("study.nothing_varies"))
+    ranges = varied_ranges(mechanism, vary, sampled=sampling != "grid")
     columns = grid(ranges) if sampling == "grid" else sobol(ranges, samples, seed, sampling)
     work = _Work(mechanism, columns, _criteria(mechanism, metrics), output, fluctuation, steps, progress)
     return work.study(ranges, sampling, usual=metrics is None)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping
 
 import numpy as np
@@ -9,11 +10,13 @@ from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Floats
 from linkwright.errors import LinkwrightError, RequestError
+from linkwright.joints.toothed import Numbers, whole
 from linkwright.kinematics.assembly import AssemblyError
 from linkwright.kinematics.cycle import Positions, over_cycle
 from linkwright.mechanism.geometry import mechanism_size
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
+from linkwright.study.ranges import Range, parse_range
 from linkwright.words.sentence import Sentence
 
 #: The change of a dimension with which it is tried, as share of its value or of the mechanism's size.
@@ -31,6 +34,45 @@ def checked_addresses(mechanism: Mechanism, addresses: Iterable[str]) -> tuple[s
                 Sentence("study.no_dimension", address=address, name=mechanism.name, hint=hint)
             )
     return wanted
+
+
+def varied_ranges(
+    mechanism: Mechanism, vary: Mapping[str, str | ArrayLike], *, sampled: bool
+) -> tuple[Range, ...]:
+    """What varies, each a text or values (SI); ``sampled``: any value between the bounds may be taken.
+
+    Raises:
+        LinkwrightError: nothing varies, an unknown address, a text that is no range, fractions of teeth.
+    """
+    checked_addresses(mechanism, vary)
+    ranges = tuple(parse_range(mechanism, address, given) for address, given in vary.items())
+    if not ranges:
+        raise RequestError(Sentence("study.nothing_varies"))
+    for each in ranges:
+        if gives_part_of_tooth(mechanism, each.address, between(each)) and (
+            sampled or any(gives_part_of_tooth(mechanism, each.address, value) for value in each.values)
+        ):
+            low, high = math.ceil(each.low), math.floor(each.high)
+            count = max(1, high - low + 1)
+            raise RequestError(
+                Sentence("study.whole_teeth", address=each.address, low=low, high=high, count=count)
+            )
+    return ranges
+
+
+def between(bounds: Range) -> float:
+    """A value between the bounds that no range written by hand hits."""
+    return bounds.low + (bounds.high - bounds.low) / math.pi
+
+
+def gives_part_of_tooth(mechanism: Mechanism, address: str, value: float) -> bool:
+    """Whether a value makes a number of teeth that is not whole."""
+    try:
+        changed = mechanism.with_dimensions({address: float(value)})
+    except LinkwrightError:
+        return False
+    given = ((changed.declared(name), number) for name, number in changed.dimensions().items())
+    return any(isinstance(declared, Numbers) and not whole(number) for declared, number in given)
 
 
 def design_values(mechanism: Mechanism, vary: Mapping[str, ArrayLike]) -> dict[str, Floats]:

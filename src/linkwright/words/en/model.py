@@ -79,7 +79,7 @@ WORDS = {
     "see_addresses": "see the addresses in dimensions()",
     "no_dimension": 'the mechanism has no dimension "{address}"; {hint}',
     "set_not_finite": "{address} is set to {value}; give a finite number",
-    "set_outside": "{address} is set to {value:g} (SI); give {limit}",
+    "set_outside": "{address} is set to {value}; give {limit}",
     "a_mapping": "a mapping (key: value)",
     "a_value": "a single value",
     "where_mapping": "{node} stands where a mapping (key: value) is needed",

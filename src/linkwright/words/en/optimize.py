@@ -64,6 +64,7 @@ linkwright optimize crusher.yaml --minimize peak_input_torque flywheel --plot fr
     "no_section": '{name} has no section "optimize"; add one with vary: and minimize:, or give them here',
     "unknown": '"{key_}" is no setting of an optimisation; {hint}',
     "target": "target: {given} is no list of places; write [[30 mm, 40 mm], [32 mm, 41 mm], …], one a position",
+    "goal_twice": "{text} is sought twice; give it once, under minimize: or under maximize:",
     "no_goal": "nothing is made least or greatest; give minimize: or maximize: with a number such as "
     "peak_input_torque",
     "robust": 'robust: "{given}" is neither worst nor yield; write one of them, or leave it out',

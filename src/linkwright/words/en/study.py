@@ -85,6 +85,8 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
     "no_quantity": '{address}={text}: "{part}" is no quantity; write a range as 1.2..1.3 m:11, or values as '
     "1.2, 1.25, 1.3 m",
     "value_not_finite": "{address}={text}: a value is not finite",
+    "whole_teeth": "{address} gives numbers of teeth, which are whole; write {address}={low}..{high}:{count}, every "
+    "whole number of a grid",
     "no_count": '{address}={whole}: "{text}" is no number of values; end a range in a whole number, such as '
     ":11",
     "count_large": "{address}={whole}: {count} values are too many; give a million or fewer",

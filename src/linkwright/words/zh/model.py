@@ -78,7 +78,7 @@ WORDS = {
     "see_addresses": "地址见 dimensions()",
     "no_dimension": "机构没有尺寸“{address}”；{hint}",
     "set_not_finite": "{address} 设为 {value}；请给出有限的数",
-    "set_outside": "{address} 设为 {value:g}（SI）；请给出{limit}",
+    "set_outside": "{address} 设为 {value}；请给出{limit}",
     "a_mapping": "映射（键: 值）",
     "a_value": "单个值",
     "where_mapping": "此处为{node}，而需要映射（键: 值）",

@@ -59,6 +59,7 @@ linkwright optimize crusher.yaml --minimize peak_input_torque flywheel --plot fr
     "no_section": '{name} 没有 "optimize" 一节；请加上 vary: 与 minimize:，或在此给出',
     "unknown": '"{key_}" 不是优化的设定；{hint}',
     "target": "target：{given} 不是一列位置；请写 [[30 mm, 40 mm], [32 mm, 41 mm], …]，每个位置一个",
+    "goal_twice": "{text} 作为目标给了两次；请只在 minimize: 或 maximize: 下给一次",
     "no_goal": "没有使之最小或最大的数；请给 minimize: 或 maximize:，如 peak_input_torque",
     "robust": 'robust："{given}" 既非 worst 也非 yield；请写其一，或略去',
     "no_tolerance": "robust: 需要 tolerance: 给出尺寸的 ±，如 crank.length: 0.1 mm",

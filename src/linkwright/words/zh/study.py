@@ -75,6 +75,7 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
     "no_quantity": "{address}={text}：“{part}”不是带单位的量；范围请写成 1.2..1.3 m:11，各值请写成 1.2, "
     "1.25, 1.3 m",
     "value_not_finite": "{address}={text}：有一个值不是有限的数",
+    "whole_teeth": "{address} 决定齿数，齿数须为整数；请写 {address}={low}..{high}:{count}，即网格取每个整数",
     "no_count": "{address}={whole}：“{text}”不是值的个数；范围请以整数结尾，如 :11",
     "count_large": "{address}={whole}：{count} 个值太多；请给出一百万或更少",
     "has_unit": "其单位为 {unit}",
