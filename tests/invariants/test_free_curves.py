@@ -175,7 +175,7 @@ def test_the_objective_is_the_distance_of_the_two_lines() -> None:
             seen += 1
 
 
-@pytest.mark.parametrize(("apart", "hidden"), [(1.5, False), (1.006, True), (0.994, True), (1.0001, True)])
+@pytest.mark.parametrize(("apart", "hidden"), [(1.5, False), (1.006, True), (0.994, False), (1.0001, True)])
 def test_a_curve_is_judged_where_no_position_of_a_descent_sees_it(apart: float, hidden: bool) -> None:
     nodes, pivot = flat([*ONE_DYAD[2]]), apart * np.exp(1.7j)  # the crank's pin passes 1.7 rad at distance 1
     x = np.array([pivot.real, pivot.imag, 0.0, 0.0, 2.0, 0.1, 0.0, 0.4, 4.0])
@@ -184,8 +184,9 @@ def test_a_curve_is_judged_where_no_position_of_a_descent_sees_it(apart: float, 
     design = target.descend(Design(nodes, x, False), 0, FINE, weight=0.0)
     true = symmetric_distance(normal(even_points(whole, 4000, False)), target.points)[0]
     found = target.checked(design, 0.0).value
-    assert found == pytest.approx(true, rel=0.15, abs=0.01) or (found > 1e3 and abs(apart - 1) < 1e-3)
-    assert (true > design.value + 0.1) == hidden
+    assert found > 0.85 * true
+    assert found < 1.2 * true or abs(apart - 1) < 1e-3
+    assert (design.value < 0.75 * true) == hidden
 
 
 def test_the_curvature_of_a_descent_is_that_of_the_distances() -> None:
