@@ -130,7 +130,8 @@ class Metric(ABC):
     SI; ``source``: where definition and limit are from; ``needs_forces``: whether joint forces must be solved;
     ``rank``: what matters first stands first in tables (output 1, transmission 2, torque 3, reactions 4, shaking 5);
     ``on_request``: only where it is asked for by name; ``own_values``: one machine's ``values`` are found in a way of
-    their own, beside the ``numbers`` of many designs.
+    their own, beside the ``numbers`` of many designs; ``input_ranges``: it is the extent of the input's ranges in
+    which the mechanism can be assembled.
     """
 
     name: ClassVar[str]
@@ -142,6 +143,7 @@ class Metric(ABC):
     rank: ClassVar[float] = 9.0
     on_request: ClassVar[bool] = False
     own_values: ClassVar[bool] = False
+    input_ranges: ClassVar[bool] = False
 
     @property
     def unit(self) -> str:

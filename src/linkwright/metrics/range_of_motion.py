@@ -93,6 +93,7 @@ class RangeOfMotion(Metric):
 
     dimension = "angle"
     source = "assembly of the Assur groups; ends by halving"
+    input_ranges = True
 
     def suits(self, analysis: Analysis) -> bool:
         return super().suits(analysis) and analysis.motion.steps > 1 and analysis.resolver.possible

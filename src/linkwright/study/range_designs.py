@@ -24,7 +24,7 @@ from linkwright.kinematics.assembly import modal_groups
 from linkwright.kinematics.cycle import at_times, over_cycle
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import Analysis
-from linkwright.metrics.range_of_motion import RangeOfMotion, edges, intervals
+from linkwright.metrics.range_of_motion import edges, intervals
 from linkwright.study.metric_cycle import Found
 from linkwright.study.terms import Term, chosen_subjects, metric_of
 from linkwright.study.timed_cycle import moves
@@ -53,7 +53,8 @@ class End:
 
 def ranged(name: str) -> bool:
     """Whether a registered number is the range of motion."""
-    return (metric_of(name) or (None,))[0] is RangeOfMotion
+    found = metric_of(name)
+    return found is not None and found[0].input_ranges
 
 
 def range_designs(mechanism: Mechanism, varied: Iterable[str], names: Iterable[str]) -> RangeDesigns | None:
