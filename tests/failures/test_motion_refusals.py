@@ -195,3 +195,24 @@ def test_of_several_drivers_the_range_of_the_one_that_fails_is_told() -> None:
         lw.solve_motion(lw.loads(TWO_CYLINDERS))
     assert "with the other drivers at their start the rod2 can slide from 0.5 m to 1.5 m" in str(caught.value)
     assert "其余原动件停在起始位置时" in caught.value.say("zh")
+
+
+def test_a_point_of_links_welded_there_is_one_point() -> None:
+    """C needs no link before it, and both links' names of it mean the same place."""
+    text = """
+format: 1
+frame: {points: {O1: [0 mm, 0 mm], O2: [200 mm, 0 mm]}}
+links:
+  crank: {points: [O1, A], length: 50 mm}
+  rod: {points: [A, C], length: 180 mm}
+  arm: {points: {C: [0 mm, 0 mm], B: [40 mm, 30 mm]}}
+  rocker: {points: {O2: [0 mm, 0 mm], B: [150 mm, 0 mm]}}
+joints:
+  held: {kind: weld, links: [rod, arm], at: C}
+driver: {turn: crank, about: O1, speed: 60 rpm}
+"""
+    motion = lw.solve_motion(lw.loads(text), steps=8)
+    place = motion.point("C").position
+    assert np.array_equal(place, motion.point("rod.C").position)
+    assert place == pytest.approx(motion.point("arm.C").position, abs=1e-15)
+    assert np.hypot(*(place - motion.point("A").position).T) == pytest.approx(0.18, rel=1e-12)

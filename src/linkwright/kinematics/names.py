@@ -41,7 +41,8 @@ def find_point(mechanism: Mechanism, name: str) -> tuple[str, str]:
             hint = offered(point, points)
             raise RequestError(Sentence("names.no_such_point", link=link, name=point, hint=hint))
         return link, point
-    found = owners(mechanism, name)
+    welded = {weld.links[1] for weld in mechanism.welds.values() if weld.at == name}
+    found = [link for link in owners(mechanism, name) if link not in welded]
     if not found:
         everything = [p for link in [mechanism.frame, *mechanism.links.values()] for p in link.points]
         raise _unknown("point", name, everything)
