@@ -53,18 +53,23 @@ def test_closed_errors_do_not_matter() -> None:
 
 
 @pytest.mark.parametrize("wait", [0.15, 0.3, 0.6])
-def test_an_interrupt_at_any_time_ends_quietly(wait: float) -> None:
+def test_an_interrupt_at_any_time_ends_quietly(tmp_path: Path, wait: float) -> None:
     """From the moment Python itself is up, whether modules are being imported or the work is under way."""
     program = "print('up', flush=True); from linkwright.cli import main; raise SystemExit(main())"
     command = [sys.executable, "-c", program, "study", "gallery:jaw_crusher_sixbar"]
     command += ["--vary", "crank.length=90..100 mm:400000", "--metrics", "peak_jerk"]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+    streams = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
+    with subprocess.Popen(command, text=True, cwd=tmp_path, **streams) as process:
         assert process.stdout is not None
         assert process.stdout.readline() == "up\n"
         time.sleep(wait)
         process.send_signal(signal.SIGINT)
         _, said = process.communicate(timeout=60)
-    assert said in ("", "interrupted\n")
+    kept = [
+        f"Interrupted; run the same command with --state {left.name} to go on.\n"
+        for left in tmp_path.iterdir()
+    ]
+    assert said in ("", "interrupted\n", "".join([*kept, "interrupted\n"]))
     assert process.returncode == 130
 
 
