@@ -857,7 +857,8 @@ def test_saving_asks_before_it_overwrites_and_a_drag_that_the_file_refuses_goes_
             tab.wait_for_function(
                 """() => document.querySelector('[aria-label="Value of c1.length"]').value === '50'"""
             )
-            assert ("must stay above zero" in tab.locator(".status").first.inner_text()) == limit
+            told = "limit => document.querySelector('.status').textContent.includes('above zero') === limit"
+            tab.wait_for_function(told, arg=limit)
         area = tab.locator("textarea")
         assert area.input_value() == GEARED
         assert tab.evaluate("() => linkwright.sessions[0].model.values['frame.O2.x']") == 0.18
