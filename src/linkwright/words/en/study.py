@@ -113,9 +113,9 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
     "objective_count": "{points} target points do not belong to {positions} positions; give as many inputs (at)",
     "objective_speed": "the true speed of {name!r}, or the torque that it follows from, changes too suddenly for a "
     "gradient, as where it almost stands still; find its numbers without one, by sweep or study",
-    "objective_loads": "{name!r} has friction in more than 16 pairs of one group, or (for design numbers) on a guide "
-    "that is pressed from both sides or beside teeth and chains that pull both ways, "
-    "loads that divide by an output, follow a link that turns through or act against the "
+    "objective_loads": "{name!r} has friction in more than 16 pairs of one group, or (for design numbers) beside "
+    "cams or groups without closed form, on a guide that is pressed from both sides or teeth and chains that pull "
+    "both ways, loads that divide by an output, follow a link that turns through or act against the "
     "rotation of two moving links, or, over other cycles than whole turns at constant speed, phases by limits, "
     "friction that reverses, groups without closed form, or dimensions that move the inputs, "
     "so no gradient of many designs is found; for outputs use sensitivity, which takes one design at a time, for "

@@ -99,8 +99,8 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
     "objective_count": "目标有 {points} 个点，而位置有 {positions} 个；请给出同样多的输入（at）",
     "objective_speed": "“{name}”的真实速度或决定它的力矩变化过于突然（如几乎停转处），不能求梯度；"
     "请用 sweep 或 study 求其数值",
-    "objective_loads": "{name!r} 的一个杆组中摩擦副多于 16 个，或（求设计指标时）有摩擦的导路两侧交替受压、"
-    "有摩擦时轮齿或链条受力交替换向，"
+    "objective_loads": "{name!r} 的一个杆组中摩擦副多于 16 个，或（求设计指标时）在有凸轮或没有闭式解的杆组的机构中"
+    "有摩擦的导路两侧交替受压、有摩擦时轮齿或链条受力交替换向，"
     "或载荷以输出为除数、取决于整转构件的转角、与两个活动构件的相对转动反向，"
     "或在原动件并非匀速转整数周的循环上有按极限划分的阶段、换向的摩擦、没有闭式解的杆组或改变输入的尺寸，"
     "因此不能成批求梯度；输出的梯度请用 sensitivity（逐个方案计算），设计指标请用 study",
