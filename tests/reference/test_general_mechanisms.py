@@ -33,10 +33,10 @@ def test_no_wrong_number_no_jump_no_unjustified_refusal(batch: int) -> None:
     assert sum(r.notes.get("ok", 0) for r in results) > 100
 
 
-@pytest.mark.parametrize("steps", [1, 60])
-def test_a_torsion_spring_is_wound_as_at_the_beginning_up_to_a_limit(steps: int) -> None:
+@pytest.mark.parametrize(("name", "steps"), [("before", 1), ("before", 60), ("beside", 7)])
+def test_a_torsion_spring_is_wound_as_at_the_beginning_up_to_a_limit(name: str, steps: int) -> None:
     """The rest of the cycle is out of reach, so no whole turn of the spring can be read from it."""
-    text = Path(__file__).with_name("faults").joinpath("spring_before_a_limit.yaml").read_text("utf-8")
+    text = Path(__file__).with_name("faults").joinpath(f"spring_{name}_a_limit.yaml").read_text("utf-8")
     verdict = judged(text, steps)
     assert verdict.kind == (LIMIT if steps > 1 else AGREES), verdict.lines
 

@@ -142,7 +142,8 @@ class MotionSignals:
         return self.angle_between(a, b, near)
 
     def _anchored(self, angle: Floats, on_cycle: Floats) -> Floats:
-        """The same angle, moved by whole turns next to what it is at that time of the cycle."""
+        """The same angle, moved by whole turns next to what it is at that time of the cycle, of which a part may not
+        be reached."""
         positions = self.cycle.positions
         time, values, laps, gain = positions.time, on_cycle, np.zeros(len(angle)), 0.0
         if positions.period is not None:
@@ -150,11 +151,11 @@ class MotionSignals:
             time, values = np.append(time, time[0] + positions.period), np.append(values, values[0] + gain)
             laps = np.floor((self.time - time[0]) / positions.period)
         order = np.argsort(time)
-        near = (
-            np.interp(self.time - laps * (positions.period or 0.0), time[order], values[order]) + laps * gain
-        )
-        near = np.where(np.isfinite(near), near, angle)
-        return np.asarray(angle + TURN * np.round((near - angle) / TURN))
+        order = order[np.isfinite(values[order])]
+        if not len(order):
+            return angle
+        there = np.interp(self.time - laps * (positions.period or 0.0), time[order], values[order])
+        return np.asarray(angle + TURN * np.round((there + laps * gain - angle) / TURN))
 
     def _input_at(self, time: float) -> float:
         return next(iter(self.mechanism.drivers.values())).law.at(time)
