@@ -51,10 +51,6 @@ class CamDesign(Result):
     area: ClassVar[str] = "cams"
     cam: Cam
 
-    @property
-    def title(self) -> str:
-        return self.cam.name
-
     @cached_property
     def angles(self) -> Floats:
         """Angles of the curves, rad: equal steps, and every edge of the program."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import field
 
 import numpy as np
@@ -18,7 +19,7 @@ from linkwright.machine.speed import SpeedCurve
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.quantities import shown
 from linkwright.metrics.true_speed import steady_cycle
-from linkwright.words import say
+from linkwright.words import Say, speaker
 from linkwright.words.sentence import Sentence
 
 DIMENSIONS = {
@@ -79,13 +80,15 @@ class SteadyRunning(Plotted):
 
     def text(self, language: str = "en") -> str:
         """The numbers with labels and units, one per line."""
-        lines = []
-        for key, value in self.data().items():
-            label = say(f"metrics.running.{key}", language)
-            lines.append(f"{label}: {shown(value, DIMENSIONS[key])}")
+        lines = [f"{label}: {shown(value, kind)}" for label, value, kind in self.labelled(speaker(language))]
         if self.driven is not None:
             lines.append(self.driven.say(language))
         return "\n".join(lines)
+
+    def labelled(self, say: Say) -> Iterator[tuple[str, float, str]]:
+        """The numbers of :meth:`data` with their names in words, each with its dimension."""
+        for key, value in self.data().items():
+            yield say(f"machine.{key.removeprefix('equivalent_')}").strip(), value, DIMENSIONS[key]
 
     @property
     def driven(self) -> Sentence | None:

@@ -15,11 +15,17 @@ from linkwright.core.outputs import Output
 from linkwright.engine.trace import Scalar
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis, Extreme, Result
-from linkwright.metrics.quantities import shown, si_unit
+from linkwright.metrics.quantities import number as in_unit
+from linkwright.metrics.quantities import shown, shown_unit, si_unit
 from linkwright.registry import Registry
 from linkwright.words import has, say
+from linkwright.words.sentence import in_words
 
 Better = Literal["higher", "lower"]
+#: What :meth:`MetricValue.cells` gives.
+CELLS = ("metric", "subject", "value", "unit", "at", "limit")
+#: A place (rad or m) smaller than this is rounding.
+NO_PLACE = 1e-9
 
 
 @dataclass(frozen=True)
@@ -68,6 +74,16 @@ class MetricValue:
     def sentence(self) -> str:
         """All remarks in English."""
         return "; ".join(remark.text() for remark in self.remarks)
+
+    def cells(self, language: str = "en") -> tuple[str, ...]:
+        """What tables write of it, in the order of ``CELLS``; the last is the recommended limit."""
+        metric, at, limit = METRICS[self.metric](), "", ""
+        if self.at is not None:
+            at = shown(self.at if abs(self.at) >= NO_PLACE else 0.0, self.at_dimension)
+        if metric.limit is not None:
+            limit = f"{'≥' if metric.better == 'higher' else '≤'} {shown(metric.limit, metric.dimension)}"
+        label, subject = metric.label_in(language, self.dimension), in_words(self.subject, language)
+        return label, subject, in_unit(self.value, self.dimension), shown_unit(self.dimension), at, limit
 
     def data(self) -> dict[str, Any]:
         """Plain data."""

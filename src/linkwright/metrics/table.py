@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Any
 from linkwright.core.html import html_table
 from linkwright.core.plotted import Plotted
 from linkwright.errors import RequestError
-from linkwright.metrics.base import METRICS, MetricValue
-from linkwright.metrics.quantities import number, shown, shown_unit
+from linkwright.metrics.base import CELLS, METRICS, MetricValue
 from linkwright.registry import offered
 from linkwright.words import say
 from linkwright.words.characters import aligned
@@ -93,19 +92,14 @@ class MetricsTable(Plotted, Sequence[MetricValue]):
 
     def text(self, language: str = "en") -> str:
         """The table with aligned columns: name, subject, value, unit, where; then the sentences."""
-        head = [
-            say(f"metrics.column.{name}", language) for name in ("metric", "subject", "value", "unit", "at")
-        ]
-        lines = [head, *(self._cells(row, language) for row in self.rows)]
-        text = aligned(lines, "<<><>")
+        text = aligned(self._written(language), "<<><>")
         warnings = [f"! {warning}" for warning in self.warnings_in(language)]
         return "\n".join([self.title, "", *text, *([""] if warnings else []), *warnings])
 
-    def _cells(self, row: MetricValue, language: str) -> list[str]:
-        label = METRICS[row.metric]().label_in(language, row.dimension)
-        at = "" if row.at is None else shown(row.at, row.at_dimension)
-        value = number(row.value, row.dimension)
-        return [label, row.subject, value, shown_unit(row.dimension), at]
+    def _written(self, language: str) -> list[Sequence[str]]:
+        """Head and rows, without the limits."""
+        head = [say(f"metrics.column.{name}", language) for name in CELLS[:-1]]
+        return [head, *(row.cells(language)[:-1] for row in self.rows)]
 
     def data(self) -> list[dict[str, Any]]:
         """Plain data, SI, one mapping per row."""
@@ -121,9 +115,7 @@ class MetricsTable(Plotted, Sequence[MetricValue]):
 
     def _repr_html_(self) -> str:
         """The table as notebooks show it."""
-        keys = ("metric", "subject", "value", "unit", "at")
-        head = [say(f"metrics.column.{key}") for key in keys]
-        rows = [self._cells(row, "en") for row in self.rows]
+        head, *rows = self._written("en")
         return html_table(self.title, head, rows, [f"! {warning}" for warning in self.warnings])
 
     def __repr__(self) -> str:

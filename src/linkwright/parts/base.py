@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
+from dataclasses import fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -26,7 +27,6 @@ if TYPE_CHECKING:
     from typing import Self
 
     from linkwright.fields.base import Field
-    from linkwright.worked.page import Step
 
 
 #: Dimensions that only these results have, with their SI units.
@@ -159,12 +159,11 @@ class Result(Plotted, ABC):
     """What was found: its numbers in blocks, the way to them in steps."""
 
     area: ClassVar[str]
-    problem: Problem
 
     @property
     def title(self) -> str:
-        """Name of the problem."""
-        return self.problem.name
+        """Name of the problem, which is the result's first field."""
+        return str(getattr(self, fields(self)[0].name).name)  # type: ignore[arg-type]
 
     @abstractmethod
     def blocks(self, say: Say) -> list[Block]:

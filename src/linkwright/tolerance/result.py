@@ -56,10 +56,6 @@ class Spread(Result):
     area: ClassVar[str] = "tolerance"
     study: ToleranceStudy
 
-    @property
-    def title(self) -> str:
-        return self.study.name
-
     def check(self) -> None:
         """Solves what everything rests on; raises LinkwrightError where it cannot be."""
         for text in self.study.of:

@@ -119,11 +119,12 @@ def _report(table: MetricsTable, session: Session) -> list[str]:
 
 def _lines(table: MetricsTable, session: Session) -> list[str]:
     """Lines of the table; where it is too wide, each remark on a line of its own beneath its number."""
+    from linkwright.metrics.base import CELLS
     from linkwright.words.characters import aligned, cells
 
-    keys = ("metric", "subject", "value", "unit", "at", "limit", "remark")
+    keys = (*CELLS, "remark")
     rows = [[session.say(f"metrics.column.{key}") for key in keys]]
-    rows += [_cells(row, session.language) for row in table]
+    rows += [[*row.cells(session.language), _remarks(row, session.language)] for row in table]
     kept = [i for i in range(len(keys)) if i < 5 or any(row[i] for row in rows[1:])]
     align = "".join("<<><>><"[i] for i in kept)
     lines = aligned([[row[i] for i in kept] for row in rows], align)
@@ -136,28 +137,10 @@ def _lines(table: MetricsTable, session: Session) -> list[str]:
     return found
 
 
-def _cells(row: MetricValue, language: str) -> list[str]:
-    """Cells of a row; its warnings stand beneath the table, and are marked here."""
-    from linkwright.metrics.base import METRICS
-    from linkwright.metrics.quantities import number, shown, shown_unit
-
-    metric = METRICS[row.metric]()
-    at = "" if row.at is None else shown(row.at, row.at_dimension)
-    limit = ""
-    if metric.limit is not None:
-        limit = f"{'≥' if metric.better == 'higher' else '≤'} {shown(metric.limit, metric.dimension)}"
-    remarks = ["!"] if row.warnings else []
-    remarks += [remark.text(language) for remark in row.remarks if not remark.warning]
-    value = number(row.value, row.dimension)
-    return [
-        metric.label_in(language, row.dimension),
-        in_words(row.subject, language),
-        value,
-        shown_unit(row.dimension),
-        at,
-        limit,
-        " ".join(remarks),
-    ]
+def _remarks(row: MetricValue, language: str) -> str:
+    """Remarks of a row; its warnings stand beneath the table, and are marked here."""
+    said = [remark.text(language) for remark in row.remarks if not remark.warning]
+    return " ".join(["!", *said] if row.warnings else said)
 
 
 def _data(table: MetricsTable, trouble: LinkwrightError | None, language: str) -> dict[str, Any]:

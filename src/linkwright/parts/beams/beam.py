@@ -250,10 +250,6 @@ class BeamLine(Result):
     line: ElasticLine
     sections: tuple[tuple[float, Section], ...]
 
-    @property
-    def title(self) -> str:
-        return self.beam.name
-
     def shear(self, x: ArrayLike, side: str = "right") -> Floats:
         """Shear force V, N: the sum of all forces left of x."""
         return self.line.value("shear", x, side)

@@ -260,10 +260,6 @@ class Optimum(Result):
     combinations: int = 0
 
     @property
-    def title(self) -> str:
-        return self.program.name
-
-    @property
     def x(self) -> dict[str, float]:
         """The variables, SI."""
         return dict(zip(self.program.variables, self.values.tolist(), strict=True))

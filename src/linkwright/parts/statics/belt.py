@@ -103,10 +103,6 @@ class BeltTensions(Result):
     slack: float
 
     @property
-    def title(self) -> str:
-        return self.belt.name
-
-    @property
     def pull(self) -> float:
         """T1 − T2, the largest force that friction passes on, N."""
         return self.tight - self.slack

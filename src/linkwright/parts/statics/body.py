@@ -184,10 +184,6 @@ class Reactions(Result):
     area: ClassVar[str] = "statics"
     body: RigidBody
 
-    @property
-    def title(self) -> str:
-        return self.body.name
-
     @cached_property
     def values(self) -> dict[str, float]:
         """Reactions by name."""

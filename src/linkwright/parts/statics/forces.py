@@ -149,10 +149,6 @@ class Resultant(Result):
     area: ClassVar[str] = "statics"
     system: ForceSystem
 
-    @property
-    def title(self) -> str:
-        return self.system.name
-
     @cached_property
     def force(self) -> Floats:
         """R, (3,) N; a sum that is zero but for rounding is zero."""

@@ -82,10 +82,6 @@ class WedgeForces(Result):
     wedge: Wedge
 
     @property
-    def title(self) -> str:
-        return self.wedge.name
-
-    @property
     def raising(self) -> float:
         """Push that raises the load, N."""
         return self.wedge.push(1)

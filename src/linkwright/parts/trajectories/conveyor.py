@@ -118,10 +118,6 @@ class Transport(Result):
     motion: Transported
 
     @property
-    def title(self) -> str:
-        return self.conveyor.name
-
-    @property
     def speed(self) -> float:
         """Mean speed of transport, m/s, positive along +x."""
         return self.motion.displacement / self.conveyor.trough.period

@@ -130,10 +130,6 @@ class Flight(Result):
     particle: Particle
 
     @property
-    def title(self) -> str:
-        return self.particle.name
-
-    @property
     def first(self) -> tuple[float, float]:
         """Velocity at the start, m/s."""
         speed, angle = self.particle.speed or 0.0, self.particle.angle or 0.0

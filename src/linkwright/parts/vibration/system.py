@@ -266,10 +266,6 @@ class Vibration(Result):
     system: VibratingSystem
 
     @property
-    def title(self) -> str:
-        return self.system.name
-
-    @property
     def linear(self) -> Linear:
         """The matrices M, C, K."""
         return self.system.linear

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from linkwright.machine.running import DIMENSIONS
 from linkwright.metrics.quantities import number, shown_unit
 from linkwright.report.case import Case
 from linkwright.report.document import Block, Formula, Paragraph, Table, literal
@@ -28,12 +27,8 @@ def blocks(case: Case) -> Iterator[Block]:
     if not running.flywheel:
         yield Paragraph(say("report.flywheel_none", most=f"{running.required:g}"))
     rows = tuple(
-        (
-            literal(say(f"metrics.running.{key}")),
-            number(value, DIMENSIONS[key]),
-            shown_unit(DIMENSIONS[key]),
-        )
-        for key, value in running.data().items()
+        (literal(label), number(value, dimension), shown_unit(dimension))
+        for label, value, dimension in running.labelled(say)
     )
     head = (say("report.number"), say("report.value"), say("report.unit"))
     yield Table(say("report.flywheel_table"), head, rows, "<><", "flywheel")

@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from linkwright.metrics.base import METRICS, MetricValue
-from linkwright.metrics.quantities import number, shown, shown_unit
+from linkwright.metrics.quantities import number
 from linkwright.report.case import Case, Missing
 from linkwright.report.document import Block, Formula, Paragraph, Table, literal
-from linkwright.report.numbers import faded
 from linkwright.report.section import section
-from linkwright.words.sentence import Sentence, in_words
+from linkwright.words.sentence import Sentence
 
 #: Numbers that other sections print.
 ELSEWHERE = ("peak_reaction", "rms_reaction", "flywheel")
@@ -45,24 +44,10 @@ def _rows(case: Case, rows: list[MetricValue]) -> Iterator[tuple[str, ...]]:
         found.setdefault((row.metric, row.subject), []).append(row)
     for same in found.values():
         for row in same[:REPEATED]:
-            yield _cells(row, case.language)
+            yield tuple(map(literal, row.cells(case.language)))
         if len(same) > REPEATED:
             more = case.say("report.more_of_this", count=len(same) - REPEATED)
             yield (literal(METRICS[same[0].metric]().label_in(case.language)), literal(more), "", "", "", "")
-
-
-def _cells(row: MetricValue, language: str) -> tuple[str, ...]:
-    metric = METRICS[row.metric]()
-    value = faded(row.value) if row.dimension == "angle" else row.value
-    at = "" if row.at is None else shown(faded(row.at), row.at_dimension)
-    limit = ""
-    if metric.limit is not None:
-        limit = f"{'≥' if metric.better == 'higher' else '≤'} {shown(metric.limit, metric.dimension)}"
-    cells = (
-        metric.label_in(language, row.dimension), in_words(row.subject, language), number(value, row.dimension),
-        shown_unit(row.dimension), at, limit,
-    )  # fmt: skip
-    return tuple(literal(cell) for cell in cells)
 
 
 def _quick_return(case: Case, rows: list[MetricValue]) -> Iterator[Block]:
