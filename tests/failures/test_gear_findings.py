@@ -5,7 +5,9 @@ from __future__ import annotations
 import pytest
 
 import linkwright as lw
+from linkwright.errors import LinkwrightError
 from linkwright.kinematics.analysed import analysed
+from linkwright.machine import steady_running
 from linkwright.words.sentence import in_language
 
 HEAD = """format: 1
@@ -483,3 +485,26 @@ def test_the_radius_that_is_none_is_named(kind: str, radii: str, key: str, shown
         lw.loads(two_wheels(f"kind: {kind}, radii: {radii}"))
     (finding,) = caught.value.findings
     assert (finding.key, finding.message, finding.remedy) == (key, shown, "give a length above zero")
+
+
+def test_wheels_that_are_never_back_run_no_flywheel() -> None:
+    """No cycle of 1009 and 2003 teeth is short enough; other teeth are, as told."""
+    text = """
+format: 1
+name: Hunting teeth
+frame: {points: {O: [0 mm, 0 mm], P: [100 mm, 0 mm]}}
+links:
+  a: {points: [O], inertia: 1 kg·m²}
+  b: {points: [P]}
+joints: {mesh: {kind: gear, links: [a, b], teeth: [1009, 2003]}}
+driver: {turn: a, about: O, speed: 60 rpm}
+loads: {m: {kind: torque, on: b, magnitude: 5 N·m}}
+"""
+    for cycle in ("", "cycle: {turns: 3}\n"):
+        with pytest.raises(
+            LinkwrightError, match=r"within 1000 turns, .* ratio of smaller whole numbers"
+        ) as refused:
+            steady_running(lw.solve_forces(lw.loads(text + cycle), steps=36), fluctuation=0.05)
+        assert "1000 圈内" in in_language(refused.value.args[0], "zh")
+    whole = lw.solve_forces(lw.loads(text.replace("[1009, 2003]", "[20, 40]")), steps=36)
+    assert steady_running(whole, fluctuation=0.05).mean_torque == pytest.approx(2.5)  # 5 N·m · 20/40

@@ -263,6 +263,22 @@ def test_phase_of_a_link_that_only_slides(phase: str) -> None:
     assert "只作移动" in in_language(found.message, "zh")
 
 
+def test_table_over_a_block_in_lengths() -> None:
+    """The block's angle is not meant: the finding names its guide instead of asking for angles."""
+    text = PRESS.replace(
+        "magnitude: 100 N, phase: {PHASE}", "table: {over: ram, x: [0 mm, 300 mm], y: [1 N, 2 N]}"
+    )
+    (found,) = read_text(text, "<text>")[1]
+    assert found.key == "loads.work.table.over" and ":13:" in found.where
+    assert found.message == '"ram" is the angle of that link, and x are lengths'
+    assert found.remedy.endswith("over: slide") and "导路的名称：over: slide" in in_language(
+        found.remedy, "zh"
+    )
+    assert read_text(text.replace("over: ram", "over: slide"), "<text>")[1] == []
+    (found,) = read_text(text.replace("over: ram", "over: rod"), "<text>")[1]
+    assert found.remedy == "name a guide or a point's coordinate, such as C.x"
+
+
 @pytest.mark.parametrize(
     ("phase", "output"), [("of: crank, from: min, to: max", "crank"), ("of: B.y, from: min, to: max", "B.y")]
 )

@@ -34,9 +34,34 @@ cycle: {duration: 3 s}
 """
 
 
+def test_words_left_from_another_driver_name_the_drawing() -> None:
+    """Driven at its last link, a Stephenson linkage is a triad, which takes no word but a drawing."""
+    text = """
+format: 1
+name: Stephenson
+frame: {points: {A: [0 mm, 0 mm], D: [100 mm, 0 mm], G: [180 mm, 0 mm]}}
+links:
+  l2: {points: [A, B], length: 30 mm}
+  l3: {points: {B: [0 mm, 0 mm], C: [90 mm, 0 mm], E: [60 mm, 50 mm]}}
+  l4: {points: [D, C], length: 60 mm}
+  l5: {points: [E, F], length: 70 mm}
+  l6: {points: [G, F], length: 80 mm}
+assembly: {C: left}
+driver: {turn: l2, about: A, speed: 10 rpm}
+"""
+    lw.solve_motion(lw.loads(text.replace("length: 70 mm", "length: 120 mm")))
+    with pytest.raises(AssemblyError) as refused:
+        lw.solve_motion(lw.loads(text.replace("l2, about: A", "l6, about: G")))
+    assert "assembly.C: as the machine is driven now" in str(refused.value)
+    assert "drawing: {B: [x, y], C: [x, y], E: [x, y]}" in str(refused.value)
+
+
 def test_a_group_without_closed_form_needs_its_points_drawn() -> None:
     text = re.sub("drawing:.*\n", "", TRIAD).replace("START", "160").replace("SPEED", "1")
-    with pytest.raises(AssemblyError, match=r"crank, coupler, rocker, bar.* class 3 .*drawing: \{A, B, C:"):
+    with pytest.raises(
+        AssemblyError,
+        match=r"crank, coupler, rocker, bar.* class 3 .*drawing: \{A: \[x, y\], B: \[x, y\], C:",
+    ):
         lw.solve_motion(lw.loads(text))
 
 

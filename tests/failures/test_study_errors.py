@@ -126,6 +126,27 @@ def test_a_wheel_has_whole_teeth(
     assert taken.values.tolist() == list(range(low, high + 1))
 
 
+def test_teeth_that_change_the_cycle_are_told_to_have_one() -> None:
+    """What is advised serves: the torque on the pinion is the wheel's 40 N·m over its 40 teeth, times its own. Teeth
+    with a module that are off the distance of their centres are told as such."""
+    text = lw.dump(lw.load("gallery:external_gear_pair"))
+    vary = {"mesh.teeth.0": "20..22:3"}
+    refused = said(lambda: study(lw.loads(text), vary, metrics=["peak_input_torque"]))
+    assert "how many turns all wheels are back" in refused and "cycle: {turns: 1}" in refused
+    text += "\ncycle: {turns: 1}\n"
+    free = lw.loads(text.replace(", module: 0.002 m", ""))
+    found = study(free, vary, metrics=["peak_input_torque"])
+    assert found["peak_input_torque"] == pytest.approx([20.0, 21.0, 22.0])
+    fixed = study(lw.loads(text), vary, metrics=["peak_input_torque"])
+    assert np.isfinite(fixed["peak_input_torque"]).tolist() == [True, False, False]
+    (failure,) = fixed.failures
+    assert failure.kind == "unfit" and failure.designs.tolist() == [1, 2]
+    assert (
+        "2 at wheels off their distance; the first: the centres O, Q on 'frame' are 0.06 m apart"
+        in fixed.text()
+    )
+
+
 def test_a_length_below_zero_is_told_with_its_unit() -> None:
     text = said(lambda: study(machine(), {"crank.length": "-10..50 mm"}, metrics=["travel"]))
     assert text == "crank.length is set to -0.01 m; give a length above zero"

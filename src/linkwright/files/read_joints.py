@@ -25,6 +25,7 @@ def scan_joints(reader: Reader, node: Node | None) -> None:
         kind = _word(value, "kind")
         if kind in JOINTS and kind != IMPLIED:
             reader.names.joints[key] = kind
+            reader.names.blocks.setdefault(_word(value, "block"), key)
 
 
 def _word(node: MappingNode, key: str) -> str:

@@ -16,7 +16,7 @@ from linkwright.core.expressions import Expression
 from linkwright.core.outputs import Output
 from linkwright.errors import QuantityError
 from linkwright.fields.nodes import Mapping as MappingNode
-from linkwright.fields.nodes import Node, Scalar, noun
+from linkwright.fields.nodes import Node, Scalar, Sequence, noun
 from linkwright.fields.references import LinkPoint
 from linkwright.fields.signals import resolve_output
 from linkwright.files.plain_reader import NUMBER, Place, PlainReader
@@ -33,14 +33,14 @@ class Names:
     """The names in a model, known before its values are read.
 
     ``links`` maps every link, the frame among them, to its points; ``joints`` every joint, the implied pins
-    among them, to its kind; ``pins`` every implied pin to its links. ``incomplete`` where the points of a
-    link
-    cannot be read, so that pins may be missing.
+    among them, to its kind; ``pins`` every implied pin to its links, ``blocks`` every block to its guide.
+    ``incomplete`` where the points of a link cannot be read, so that pins may be missing.
     """
 
     links: dict[str, tuple[str, ...]] = field(default_factory=lambda: {"frame": ()})
     joints: dict[str, str] = field(default_factory=dict)
     pins: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    blocks: dict[str, str] = field(default_factory=dict)
     incomplete: bool = False
 
     @property
@@ -311,4 +311,16 @@ class Reader(PlainReader):
         if text == "time":
             return "time", "time"
         found = self.output(value, place.child("over"), text)
+        x = node.get("x")
+        first = x.items[0] if isinstance(x, Sequence) and x.items else None
+        if (
+            found
+            and found.kind == "angle"
+            and isinstance(first, Scalar)
+            and units.unit_fits(first.text, "length")
+        ):
+            guide = self.names.blocks.get(text)
+            remedy = Sentence("model.over_guide", guide=guide) if guide else Sentence("model.over_point")
+            self.error(value, place.child("over"), Sentence("model.over_angle", link=text), remedy, "unit")
+            return None, "length"
         return found, found.dimension if found else self.input_dimension()

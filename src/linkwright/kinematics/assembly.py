@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from functools import cached_property
 
 from linkwright.core.dataclass import dataclass
@@ -95,7 +96,7 @@ def _from_words(mechanism: Mechanism, structure: Structure) -> dict[str, float]:
             of_joint.setdefault(connection.joint, entry)
     for joint, word in mechanism.assembly.items():
         if joint not in of_joint:
-            problems[joint] = _no_such_joint(joint, groups)
+            problems[joint] = _no_such_joint(joint, groups, _without_closed_form(structure))
             continue
         group, words = of_joint[joint]
         if word not in words:
@@ -118,10 +119,20 @@ def _from_words(mechanism: Mechanism, structure: Structure) -> dict[str, float]:
     return modes
 
 
-def _no_such_joint(joint: str, groups: dict[str, tuple[Group, tuple[str, str]]]) -> str:
+def _no_such_joint(
+    joint: str, groups: dict[str, tuple[Group, tuple[str, str]]], open_groups: Iterable[Group]
+) -> Sentence:
+    for group in open_groups:
+        if any(connection.joint == joint for connection in group.inner_joints):
+            drawn = _to_draw(group)
+            return Sentence("motion.word_in_open", joint=joint, links=tuple(group.links), drawn=drawn)
     inner = [c.joint for group, _ in groups.values() for c in group.inner_joints]
     hint = offered(joint, inner, "motion.inner_joints")
     return Sentence("motion.not_inner", joint=joint, hint=hint)
+
+
+def _to_draw(group: Group) -> str:
+    return ", ".join(f"{joint}: [x, y]" for joint in dict.fromkeys(c.joint for c in group.inner_joints))
 
 
 def _drawn_states(mechanism: Mechanism, structure: Structure, drawing: Drawing) -> dict[str, float]:
@@ -134,7 +145,7 @@ def _drawn_states(mechanism: Mechanism, structure: Structure, drawing: Drawing) 
                     "motion.needs_drawing",
                     links=tuple(group.links),
                     level=group.assur_class,
-                    points=tuple(dict.fromkeys(c.joint for c in group.inner_joints)),
+                    drawn=_to_draw(group),
                 )
             )
         for step in group.unknowns:

@@ -13,7 +13,9 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import row_names
 from linkwright.core.piecewise import POINTS, Integral, Piecewise, at_nodes, tails
 from linkwright.errors import LinkwrightError
+from linkwright.kinematics.cycle import not_back
 from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.whole_turns import MOST
 from linkwright.kinetostatics.forces import Forces
 from linkwright.machine.energy import EnergyFluctuation, of_energy
 from linkwright.machine.torque_curve import TURN, TorqueCurve
@@ -188,10 +190,16 @@ def steady_rate(motion: Motion) -> float:
         raise LinkwrightError(Sentence("running.not_constant", name=name))
     turned = abs(rate[0]) * (motion.positions.period or 0.0)
     if not motion.positions.closed or not turned or abs(turned / TURN - round(turned / TURN)) > 1e-9:
-        raise LinkwrightError(Sentence("running.not_whole_turns", name=name))
+        raise LinkwrightError(_not_whole_turns(motion.mechanism))
     if not motion.ok.all():
         raise LinkwrightError(Sentence("running.not_all_reached", name=name))
     return float(rate[0])
+
+
+def _not_whole_turns(mechanism: Mechanism) -> Sentence:
+    if mechanism.higher and not_back(mechanism):
+        return Sentence("running.never_back", name=mechanism.name, most=MOST)
+    return Sentence("running.not_whole_turns", name=mechanism.name)
 
 
 def _rates(motion: Motion) -> tuple[Floats, Floats]:

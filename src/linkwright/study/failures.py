@@ -24,8 +24,8 @@ class Failure:
     """Designs that fail for one reason.
 
     ``group``: the first group that fails (None where it is a load, or cannot be told); ``kind``: ``unreachable``,
-    ``singular``, ``barred`` (between two positions), ``load`` or ``followed``; ``designs``: their numbers;
-    ``example``: what happens to the first one.
+    ``singular``, ``barred`` (between two positions), ``unfit`` (wheels off their distance), ``load`` or
+    ``followed``; ``designs``: their numbers; ``example``: what happens to the first one.
     """
 
     group: str | None
@@ -40,10 +40,11 @@ class Failure:
 
     @property
     def place(self) -> Sentence:
-        """Where they fail: at a group, between two positions, or by what is asked of them."""
+        """Where they fail: at a group, between two positions, at wheels, or by what is asked of them."""
         if self.group is not None:
             return Sentence("study.at_group", group=tuple(self.group.split("+")))
-        return Sentence("study.between_positions" if self.kind == "barred" else "study.by_loads")
+        places = {"barred": "between_positions", "unfit": "at_wheels"}
+        return Sentence(f"study.{places.get(self.kind, 'by_loads')}")
 
 
 def explained(
@@ -62,9 +63,28 @@ def explained(
         numbers = np.array(sorted(unloaded), dtype=np.intp)
         found.append(Failure(None, "load", numbers, unloaded[int(numbers[0])]))
     if len(failing):
+        unfit = _misfits(mechanism, {address: column[failing] for address, column in varied.items()})
+        if unfit:
+            first = min(unfit)
+            found.append(Failure(None, "unfit", failing[sorted(unfit)], unfit[first]))
+            failing = np.delete(failing, sorted(unfit))
+    if len(failing):
         columns = {address: column[failing] for address, column in varied.items()}
         found += _by_group(mechanism, columns, failing, positions)
     return tuple(sorted(found, key=lambda failure: -failure.count))
+
+
+def _misfits(mechanism: Mechanism, columns: Mapping[str, Floats]) -> dict[int, Sentence]:
+    """What does not fit of pairs of wheels, by the number of the design."""
+    if not mechanism.higher:
+        return {}
+    found: dict[int, Sentence] = {}
+    for design in range(len(next(iter(columns.values())))):
+        changed = mechanism.with_dimensions(changes_of(columns, design))
+        for joint in changed.joints.values():
+            if (why := joint.misfit(changed)) is not None:
+                found.setdefault(design, why)
+    return found
 
 
 def _by_group(
@@ -83,7 +103,9 @@ def _by_group(
     wanted = [Reduction(name, "sum") for name in program.output_names]
     table = traced.table(program, columns)
     results = engine_sweep(program, table, traced.positions.arrays, wanted, valid=None)
-    sums = np.stack([np.asarray(results[reduction.name], dtype=float) for reduction in wanted])
+    sums = np.array(
+        [results[reduction.name] for reduction in wanted] or [np.zeros(len(numbers))], dtype=float
+    )
     worst = np.argmax(sums, axis=0)
     found = []
     between = np.flatnonzero(sums.max(axis=0) == 0)

@@ -148,7 +148,10 @@ def refuse_moved_positions(mechanism: Mechanism, positions: Positions, columns: 
             except AssemblyError:  # no position of its own; the design fails where all designs are solved
                 continue
             if not _same(mechanism, positions, moved):
-                raise RequestError(Sentence("study.moves_positions", address=address))
+                wheels = mechanism.cycle is None and changed.drivers == mechanism.drivers
+                raise RequestError(
+                    Sentence(f"study.moves_{'cycle' if wheels else 'positions'}", address=address)
+                )
 
 
 def positions_steps(positions: Positions) -> int:

@@ -5,8 +5,11 @@ WORDS = {
     "write_mode": "write {first} or {second}",
     "inner_joints": "inner joints are: {names}",
     "not_inner": "assembly.{joint}: this is not the inner joint of a group with two assembly modes; {hint}",
+    "word_in_open": "assembly.{joint}: as the machine is driven now, this is a joint of the group ({links}), which "
+    "has no closed form and so takes no word; remove it and give the coordinates of the group's points in a drawing "
+    "of the assembled mechanism: drawing: {{{drawn}}}",
     "needs_drawing": "the group ({links}) of class {level} has no closed form; give the coordinates of its "
-    "points in a drawing of the assembled mechanism: drawing: {{{points}: [x, y]}}",
+    "points in a drawing of the assembled mechanism: drawing: {{{drawn}}}",
     "bad_time": "a time is not a finite number; give times in seconds",
     "no_inputs": "no input is given; give the coordinates of a driver, as in at={{{driver!r}: [0.5]}}",
     "no_input_to_set": "{name!r} has no driver, so there is no input to set; leave the input out",

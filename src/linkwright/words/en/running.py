@@ -11,6 +11,8 @@ WORDS = {
     "kind or number",
     "not_constant": "the driver of {name!r} does not turn at constant speed; give it speed: … instead of a law",
     "not_whole_turns": "the cycle of {name!r} is not whole turns of its driver; leave cycle out, or give turns",
+    "never_back": "the wheels or racks of {name!r} do not come back to where they began within {most} turns, so no "
+    "cycle of it repeats; give teeth or radii in a ratio of smaller whole numbers",
     "not_all_reached": "{name!r} does not reach all positions of its cycle, so it cannot run steadily",
     "bad_inertia": "the moment of inertia is {inertia:g} kg·m²; give a value above zero",
     "bad_ratio": "the speed ratio of the flywheel's shaft to the crank is zero; give another number",

@@ -151,6 +151,7 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
     "does_not_apply": "{name!r} does not apply to {mechanism!r}",
     "none_passes": "none of the {count} designs can pass its cycle: {told}; widen or move the ranges",
     "at_group": "at the group ({group})",
+    "at_wheels": "at wheels off their distance",
     "between_positions": "between two positions",
     "by_loads": "by loads or metrics",
     "no_summary": "{output!r}: there is no summary {kind!r}; {hint}",
@@ -164,6 +165,8 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
     "uneven": "the dimensions have different numbers of values ({told}); give one per design each",
     "no_values": "{address} has no values",
     "bad_value": "value {place} of {address} is {value}; give finite numbers",
+    "moves_cycle": "{address} changes after how many turns all wheels are back, so that the cycles differ from "
+    "design to design; write one for all into the file, such as cycle: {{turns: 1}}",
     "moves_positions": "{address} changes the drive's law or the cycle, so that the positions of the input "
     "differ from design to design; solve such designs one by one",
     "leave_out": "leave it out",

@@ -5,8 +5,10 @@ WORDS = {
     "write_mode": "请写 {first} 或 {second}",
     "inner_joints": "内副有：{names}",
     "not_inner": "assembly.{joint}：这不是有两种装配模式的杆组的内副；{hint}",
+    "word_in_open": "assembly.{joint}：在现有驱动下，这是杆组（{links}）的运动副，该杆组没有闭式解，不用装配词；"
+    "请去掉它，并在图中给出装配后各点的坐标：drawing: {{{drawn}}}",
     "needs_drawing": "杆组（{links}，{level} 级）没有闭式解；请在图中给出装配后各点的坐标：drawing: "
-    "{{{points}: [x, y]}}",
+    "{{{drawn}}}",
     "bad_time": "有一个时刻不是有限的数；请以秒给出时刻",
     "no_inputs": "没有给出输入；请给出某个驱动的坐标，例如 at={{{driver!r}: [0.5]}}",
     "no_input_to_set": "“{name}”没有驱动，因此没有可设的输入；请去掉输入",

@@ -8,6 +8,8 @@ WORDS = {
     "one_driver": "飞轮与循环内的转速需要一个转动的驱动；“{name}”的驱动类型或个数不同",
     "not_constant": "“{name}”的驱动不是匀速转动；请给出 speed: … 而不是其他规律",
     "not_whole_turns": "“{name}”的循环不是驱动的整圈数；请去掉 cycle，或给出 turns",
+    "never_back": "“{name}”的轮或齿条在 {most} 圈内不回到起始位置，因而没有重复的循环；"
+    "请使齿数或半径之比为较小整数之比",
     "not_all_reached": "“{name}”不能到达其循环的全部位置，因而不能稳定运转",
     "bad_inertia": "转动惯量为 {inertia:g} kg·m²；请给出大于零的值",
     "bad_ratio": "飞轮轴与曲柄的转速比为零；请给出别的数",

@@ -129,6 +129,7 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
     "does_not_apply": "“{name}”不适用于“{mechanism}”",
     "none_passes": "{count} 个方案中没有一个能转过其循环：{told}；请放宽或移动范围",
     "at_group": "在杆组（{group}）处",
+    "at_wheels": "因轮的中心距不符",
     "between_positions": "在两个位置之间",
     "by_loads": "因载荷或指标",
     "no_summary": "“{output}”：没有汇总方式“{kind}”；{hint}",
@@ -140,6 +141,8 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
     "uneven": "各尺寸的值的个数不同（{told}）；请都按每个方案一个给出",
     "no_values": "{address} 没有值",
     "bad_value": "{address} 的第 {place} 个值为 {value}；请给出有限的数",
+    "moves_cycle": "{address} 改变各轮回到起始位置所需的圈数，使各方案的循环不同；请在文件中写出共同的循环，例如 "
+    "cycle: {{turns: 1}}",
     "moves_positions": "{address} 改变驱动规律或循环，使各方案的输入位置不同；请逐个求解这些方案",
     "leave_out": "请去掉它",
     "fails": "{count} 个{place}失败，例如：{example}",
