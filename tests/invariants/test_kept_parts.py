@@ -20,8 +20,9 @@ from linkwright.core.arrays import Floats
 from linkwright.engine.sweep import Results
 from linkwright.study import kept
 from linkwright.study.criteria import Criterion
+from linkwright.study.designs import sweep_curves
 from linkwright.study.kept import Interrupted, _made, _plain, kept_in
-from linkwright.study.study import _Work
+from linkwright.study.study import PIECE, _Work
 from linkwright.study.sweep_run import SweepRun
 from linkwright.words.sentence import Sentence
 
@@ -98,6 +99,53 @@ def test_an_interrupted_tolerance_run_says_from_which_file_it_goes_on(
     assert main([*SPREAD, "--state", left.name]) == 0
     assert capsys.readouterr().out == whole
     assert len(calls) == len(set(calls)) + 1  # the sweep that was finished is not done again
+
+
+def test_what_a_cluster_finds_is_kept_piece_by_piece(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    distributed = pytest.importorskip("distributed")
+    monkeypatch.setattr(kept, "WORTH", float("inf"))  # kept however fast it was found
+    crank, draw, given = lw.load(CRANK), np.random.default_rng(2), list[str]()
+    columns = {"coupler.length": draw.uniform(3.2, 4, 4100), "rocker.length": draw.uniform(2, 2.8, 4100)}
+    ranges = {"coupler.length": "3.2..4 m:100", "rocker.length": "2..2.8 m:42"}
+    asked = {"vary": ranges, "metrics": ["transmission_angle", "rocker.angle range"], "steps": 24}
+    curves = {"outputs": ["rocker.angle"], "steps": 24}
+    whole, lines = lw.study(crank, **asked), [*sweep_curves(crank, columns, **curves)]
+
+    def interrupt(done: int, _: int) -> None:
+        if done == 3:
+            raise KeyboardInterrupt
+
+    options = {"n_workers": 1, "threads_per_worker": 1, "dashboard_address": ":0", "processes": False}
+    with (
+        distributed.LocalCluster(**options) as cluster,
+        distributed.Client(cluster, set_as_default=False) as client,
+    ):
+        original = client.submit
+
+        def counted(timed: object, work: object, *task: object, pure: bool) -> object:
+            given.append(str(work))
+            return original(timed, work, *task, pure=pure)
+
+        monkeypatch.setattr(client, "submit", counted)
+        state = tmp_path / "cluster.state"
+        with pytest.raises(Interrupted), kept_in(state, "crank", 1), lw.on_cluster(client):
+            lw.study(crank, **asked, progress=interrupt)
+        given.clear()
+        with kept_in(state, "crank", 1), lw.on_cluster(client):
+            resumed, spread = lw.study(crank, **asked), [*sweep_curves(crank, columns, **curves)]
+        pieces = -(-int(whole.ok.sum()) // PIECE)
+        assert (
+            len(given) == pieces - 3 + 2
+        )  # three of the study and both of its sweep were there; two of curves
+        given.clear()
+        with kept_in(state, "crank", 1), lw.on_cluster(client):
+            again = lw.study(crank, **asked)
+        assert given == []
+    for name, column in whole.metrics.items():
+        assert column.tobytes() == resumed.metrics[name].tobytes() == again.metrics[name].tobytes()
+    assert whole.text("zh") == resumed.text("zh") == again.text("zh")
+    for (_, one), (_, other) in zip(lines, spread, strict=True):
+        assert one["rocker.angle"].tobytes() == other["rocker.angle"].tobytes()
 
 
 def test_states_of_other_work_and_files_that_are_none_are_refused(

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+import time
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from importlib import import_module
 from typing import Any
 
 from linkwright.errors import LinkwrightError
+from linkwright.study.kept import identity, surrounding
 from linkwright.words.sentence import Sentence
 
 #: Parts that wait on the cluster for every thread of a worker, so that memory stays the same however many there are.
@@ -68,20 +70,43 @@ def current() -> Any:
 
 
 def in_turn(
-    client: Any, work: Callable[..., Any], tasks: Sequence[tuple[Any, ...]]
+    client: Any,
+    work: Callable[..., Any],
+    tasks: Sequence[tuple[Any, ...]],
+    keys: Iterable[tuple[object, ...]] = (),
 ) -> Iterator[tuple[int, Any]]:
     """Results of ``work(*task)`` with the tasks' numbers, as they come; a few are on the cluster at a time.
 
-    A task whose workers died is given out again; an error of the work itself is raised.
+    A task whose workers died is given out again; an error of the work itself is raised. ``keys``: all that each
+    result depends on; the surrounding ``kept_in`` then keeps them, and those that it has are not computed again.
     """
+    kept = surrounding()
+    names = [] if kept is None else [identity(*key) for key in keys]
+    missing = [*range(len(tasks))]
+    for number, name in enumerate(names):
+        if kept is not None and (there := kept.part(name)) is not None:
+            missing.remove(number)
+            yield number, there[0]
+    for number, found, seconds in _computed(client, work, tasks, missing):
+        if kept is not None and names:
+            kept.add(names[number], found, seconds)
+        yield number, found
+
+
+def _computed(
+    client: Any, work: Callable[..., Any], tasks: Sequence[tuple[Any, ...]], missing: list[int]
+) -> Iterator[tuple[int, Any, float]]:
+    """Results of some tasks with their numbers and seconds, as they come."""
+    if not missing:
+        return
     dask = _dask()
-    left, tried = iter(range(len(tasks))), [0] * len(tasks)
+    left, tried = iter(missing), dict.fromkeys(missing, 0)
     numbers: dict[Any, int] = {}
     room = WAITING * max(1, sum(client.nthreads().values()))
 
     def given(number: int) -> Any:
         tried[number] += 1
-        future = client.submit(work, *tasks[number], pure=False)
+        future = client.submit(_timed, work, *tasks[number], pure=False)
         numbers[future] = number
         return future
 
@@ -93,7 +118,7 @@ def in_turn(
             if future.status == "error" and _died(future) and tried[number] < AGAIN:
                 waiting.add(given(number))
                 continue
-            yield number, future.result()
+            yield number, *future.result()
             future.release()
             for onward in left:
                 waiting.add(given(onward))
@@ -102,12 +127,23 @@ def in_turn(
         client.cancel(list(numbers))
 
 
-def in_order(client: Any, work: Callable[..., Any], tasks: Sequence[tuple[Any, ...]]) -> Iterator[Any]:
+def in_order(
+    client: Any,
+    work: Callable[..., Any],
+    tasks: Sequence[tuple[Any, ...]],
+    keys: Sequence[tuple[object, ...]] = (),
+) -> Iterator[Any]:
     """Results in the order of the tasks; at most ``HELD`` wait for those before them, so that memory stays fixed."""
     for first in range(0, len(tasks), HELD):
-        some = tasks[first : first + HELD]
-        found = dict(in_turn(client, work, some))
-        yield from (found[number] for number in range(len(some)))
+        some = slice(first, first + HELD)
+        found = dict(in_turn(client, work, tasks[some], keys[some]))
+        yield from (found[number] for number in range(len(found)))
+
+
+def _timed(work: Callable[..., Any], *task: Any) -> tuple[Any, float]:
+    """A result and the seconds that it took, on a worker."""
+    begun = time.perf_counter()
+    return work(*task), time.perf_counter() - begun
 
 
 def _died(future: Any) -> bool:

@@ -35,6 +35,8 @@ if TYPE_CHECKING:
 
 #: Designs of a piece that goes to a cluster; fewer stay on this machine.
 SHARED = 4096
+#: What a piece finds: positions assembled, summaries, sentences of designs, margins, dimensions of numbers.
+_Piece = tuple[Whole, list[Floats], dict[int, str], Floats | None, dict[str, str]]
 
 
 @dataclass(eq=False)
@@ -165,12 +167,10 @@ def sweep(
     refuse_moved_positions(mechanism, positions, columns)
     asked = wanted(outputs)
     client, backend = current(), _of_all(backend, columns)
-    if client is not None and len(next(iter(columns.values()))) > SHARED:
-        return _shared(
-            client, mechanism, columns, [each.name.strip() for each in asked], steps, partial, backend
-        )
     over_positions = tuple(each for each in asked if each.kind)
     run = SweepRun(mechanism, columns, over_positions, positions, Manner(partial, threads, backend, progress))
+    if client is not None and run.designs > SHARED:
+        return _shared(client, run, asked, steps)
     assembled, values = run.swept()
     numbers = [each.output for each in asked if not each.kind]
     dimensions: dict[str, str] = {}
@@ -201,26 +201,20 @@ def _of_all(backend: Backend, columns: Mapping[str, Floats]) -> Backend:
     return "llvm" if backend == "auto" and many and available() else backend
 
 
-def _shared(
-    client: Any, mechanism: Mechanism, columns: Mapping[str, Floats], outputs: list[str], steps: int, partial: bool,
-    backend: Backend,
-) -> Sweep:  # fmt: skip
+def _shared(client: Any, run: SweepRun, asked: Sequence[Summary], steps: int) -> Sweep:
     """The same sweep in pieces on a cluster."""
-    count = len(next(iter(columns.values())))
-    firsts = range(0, count, SHARED)
-    rest = outputs, steps, partial, backend
-    pieces_of = ({a: np.array(c[k : k + SHARED]) for a, c in columns.items()} for k in firsts)
-    tasks = [(mechanism, each, *rest) for each in pieces_of]
-    found: dict[int, Sweep] = dict(in_turn(client, _piece, tasks))
-    pieces = [found[number] for number in range(len(tasks))]
-    head = pieces[0]
-    margins = [each.branch_margin for each in pieces if each.branch_margin is not None]
+    places = [slice(*ends) for ends in chunks(run.designs, SHARED)]
+    rest = [each.name.strip() for each in asked], steps, run.manner.partial, run.manner.backend
+    parts = [{a: np.array(c[each]) for a, c in run.columns.items()} for each in places]
+    tasks, keys = [(run.mechanism, each, *rest) for each in parts], [(run.own, each, *rest) for each in parts]
+    found: dict[int, _Piece] = dict(in_turn(client, _piece, tasks, keys))
+    assembled, summaries, unloaded, margins, dimensions = zip(*map(found.get, range(len(tasks))), strict=True)
     return Sweep(
-        mechanism, columns, head.positions, np.concatenate([each.assembled for each in pieces]),
-        {key: np.concatenate([each.summaries[key] for each in pieces]) for key in head.summaries}, head.quantities,
-        {first + k: why for first, each in zip(firsts, pieces, strict=True) for k, why in each.unloaded.items()},
-        head.notes, np.concatenate(margins) if margins else None,
-        {name: kind for each in pieces for name, kind in each.dimensions.items()},
+        run.mechanism, run.columns, run.positions.count, np.concatenate(assembled),
+        dict(zip(asked, map(np.concatenate, zip(*summaries, strict=True)), strict=True)), run.quantities,
+        {each.start + k: why for each, some in zip(places, unloaded, strict=True) for k, why in some.items()},
+        run.traced.nominal.notes, None if margins[0] is None else np.concatenate(margins),
+        {name: kind for each in dimensions for name, kind in each.items()},
     )  # fmt: skip
 
 
@@ -231,10 +225,13 @@ def _piece(
     steps: int,
     partial: bool,
     backend: Backend,
-) -> Sweep:
-    return sweep(
+) -> _Piece:
+    """What a sweep of some designs finds, on a worker of a cluster."""
+    found = sweep(
         mechanism, columns, outputs=outputs, steps=steps, partial=partial, threads=1, backend=backend
     )
+    summaries = [*found.summaries.values()]
+    return found.assembled, summaries, dict(found.unloaded), found.branch_margin, dict(found.dimensions)
 
 
 def sweep_curves(
@@ -256,23 +253,21 @@ def sweep_curves(
     refuse_moved_positions(mechanism, positions, columns)
     asked = wanted([(output, "max") for output in outputs])
     client, backend = current(), _of_all(backend, columns)
-    if client is not None and len(next(iter(columns.values()))) > SHARED:
-        return _shared_curves(client, mechanism, columns, [*outputs], steps, backend)
     run = SweepRun(mechanism, columns, asked, positions, Manner(False, threads, backend, progress))
+    if client is not None and run.designs > SHARED:
+        return _shared_curves(client, run, [*outputs], steps)
     return run.curves(outputs)
 
 
 def _shared_curves(
-    client: Any, mechanism: Mechanism, columns: Mapping[str, Floats], outputs: list[str], steps: int,
-    backend: Backend,
-) -> Iterator[tuple[slice, dict[str, Floats]]]:  # fmt: skip
+    client: Any, run: SweepRun, outputs: list[str], steps: int
+) -> Iterator[tuple[slice, dict[str, Floats]]]:
     """The same curves in pieces on a cluster, in the designs' order."""
-    places = [slice(*ends) for ends in chunks(len(next(iter(columns.values()))), SHARED)]
-    tasks = [
-        (mechanism, {a: np.array(c[each]) for a, c in columns.items()}, outputs, steps, backend)
-        for each in places
-    ]
-    yield from zip(places, in_order(client, _curves, tasks), strict=True)
+    places = [slice(*ends) for ends in chunks(run.designs, SHARED)]
+    rest = outputs, steps, run.manner.backend
+    parts = [{a: np.array(c[each]) for a, c in run.columns.items()} for each in places]
+    tasks, keys = [(run.mechanism, each, *rest) for each in parts], [(run.own, each, *rest) for each in parts]
+    yield from zip(places, in_order(client, _curves, tasks, keys), strict=True)
 
 
 def _curves(

@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import hashlib
 import json
+import math
 import re
 import sqlite3
 import time
@@ -76,7 +77,21 @@ def once(work: Callable[[], T], key: Callable[[], tuple[object, ...]]) -> T:
     these; any others, and those that take longer to read than to find, are computed every time.
     """
     kept = _current.get()
-    return work() if kept is None else kept.once(work, identity(*key()))
+    if kept is None:
+        return work()
+    name = identity(*key())
+    found = kept.part(name)
+    if found is not None:
+        return found[0]  # type: ignore[no-any-return]
+    begun = time.perf_counter()
+    made = work()
+    kept.add(name, made, time.perf_counter() - begun)
+    return made
+
+
+def surrounding() -> Kept | None:
+    """The parts of the surrounding ``kept_in``; None: nothing is kept."""
+    return _current.get()
 
 
 def reporting() -> Progress | None:
@@ -118,28 +133,28 @@ class Kept:
             self.parts.close()
             raise RequestError(Sentence("optimize.other_state", path=path))
 
-    def once(self, work: Callable[[], T], key: str) -> T:
-        """What ``work`` gives, from the file where it is there."""
+    def part(self, key: str) -> tuple[Any] | None:
+        """What is kept under a key, alone in a tuple; None: nothing."""
         try:
             content = self._content(key)
-            if content is not None:
-                kept: T = _made(json.loads(content))
-                return kept
+            return None if content is None else (_made(json.loads(content)),)
         except (sqlite3.Error, ValueError, KeyError, TypeError, AttributeError, RecursionError) as problem:
             raise self._bad(problem) from None
-        begun = time.perf_counter()
-        found = work()
-        if _bytes(found) > WORTH * (time.perf_counter() - begun):
-            return found
+
+    def add(self, key: str, found: Any, seconds: float = math.inf) -> None:
+        """Keeps what was found in so many seconds, in place of what was there."""
+        if _bytes(found) > WORTH * seconds:
+            return
         try:
-            self.parts.execute("insert into parts values (?, ?)", (key, json.dumps(_plain(found))))
+            content = json.dumps(_plain(found))
         except TypeError:
-            return found
+            return
+        try:
+            self.parts.execute("insert or replace into parts values (?, ?)", (key, content))
         except sqlite3.Error as problem:
             raise self._bad(problem) from None
         if time.monotonic() - self.written > WRITTEN:
             self._write()
-        return found
 
     def left(self, name: str) -> Path:
         """The file with all parts."""

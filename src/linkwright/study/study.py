@@ -295,19 +295,18 @@ class _Work:
     def _shared(self, client: Any, asked: list[Criterion], designs: Indices) -> None:
         """The same in pieces on a cluster."""
         parts = [designs[first : first + PIECE] for first in range(0, len(designs), PIECE)]
-        names = [each.name for each in asked]
-        tasks = [
-            (self.mechanism, {a: c[part] for a, c in self.columns.items()}, names, str(self.output), self.fluctuation,
-             self.steps) for part in parts
-        ]  # fmt: skip
+        columns = [{a: c[part] for a, c in self.columns.items()} for part in parts]
+        rest = [each.name for each in asked], str(self.output), self.fluctuation, self.steps
+        tasks = [(self.mechanism, each, *rest) for each in columns]
+        keys = [(self._own, each, *rest) for each in columns]
         pieces: dict[int, _Piece] = {}
-        for done, (number, piece) in enumerate(in_turn(client, _piece, tasks), 1):
+        for done, (number, piece) in enumerate(in_turn(client, _piece, tasks, keys), 1):
             pieces[number] = piece
             if self.progress is not None:
                 self.progress(done, len(parts))
         for number, part in enumerate(parts):
             values, dimensions, notes, troubled = pieces[number]
-            for name in names:
+            for name in rest[0]:
                 self.values[name][part] = values[name]
             self.dimensions |= {name: kind for name, kind in dimensions.items() if kind != "dimensionless"}
             self.notes |= notes

@@ -112,7 +112,7 @@ class SweepRun:
 
     def _curves(self, names: Sequence[str], part: Mapping[str, Floats], first: int) -> dict[str, Floats]:
         """The outputs of a block, (designs, n) each; kept where parts are kept."""
-        return once(lambda: self._curves_found(names, part, first), lambda: (self._own, part, *names))
+        return once(lambda: self._curves_found(names, part, first), lambda: (self.own, part, *names))
 
     def _curves_found(
         self, names: Sequence[str], part: Mapping[str, Floats], first: int
@@ -157,7 +157,7 @@ class SweepRun:
         return rows[0] if rows else np.zeros(1)
 
     @cached_property
-    def _own(self) -> str:
+    def own(self) -> str:
         """What all blocks depend on."""
         known = self.reductions, self.positions.count, self.manner.partial, self.manner.backend
         return identity(dump(replace(self.mechanism, optimize={})), *known)
@@ -171,7 +171,7 @@ class SweepRun:
             new = {k - first: why for k, why in self.unloaded.items() if k not in unloaded}
             return results, new, [k - first for k in self.through - through]
 
-        results, unloaded, through = once(found, lambda: (self._own, part))
+        results, unloaded, through = once(found, lambda: (self.own, part))
         self.unloaded |= {first + k: why for k, why in unloaded.items()}
         self.through |= {first + k for k in through}
         return results
