@@ -8,6 +8,7 @@ import pytest
 from tests.reference.random_mechanisms import random_mechanism
 
 import linkwright as lw
+from linkwright.metrics import Analysis
 from linkwright.study.metric_cycle import metric_cycle
 from linkwright.study.one_by_one import OneByOne
 from linkwright.study.prepared import Prepared
@@ -382,3 +383,53 @@ def test_a_wheel_whose_teeth_change_flanks_has_the_reaction_of_statics() -> None
     square, size = a * a + 0.5 * b * b, 2.0 / np.pi * (np.sqrt(b * b - a * a) + a * np.arcsin(a / b))
     expected = square / r**2 * (1.0 + slope**2) + weight**2 + 2.0 * weight * slope * size / r
     assert found.values["rms_reaction Q"] == pytest.approx(np.sqrt(expected), rel=1e-12)
+
+
+def test_numbers_of_one_machine_with_friction_are_those_of_a_dense_quadrature() -> None:
+    """Panels that are halved until rules of 13 places with their ends agree: the ends see jumps beside them."""
+    machine = rubbing(lw.load("gallery:shaper_quick_return"), 0.05)
+    machine = machine.with_dimensions({"crank.length": 1.002 * machine.dimension("crank.length")})
+    places = -np.cos(np.pi * np.arange(13) / 12)
+    weights = np.linalg.solve(np.polynomial.legendre.legvander(places, 12).T, np.eye(13)[0] * 2.0)
+
+    def integrals(low: np.ndarray, high: np.ndarray) -> np.ndarray:
+        half = 0.5 * (high - low)
+        time = low[:, None] + half[:, None] * (1.0 + places)
+        torque = lw.solve_forces(lw.solve_motion(machine, times=time.ravel())).input_torque
+        torque = torque.reshape(time.shape)
+        return np.stack([(torque @ weights) * half, (torque**2 @ weights) * half])
+
+    period = 2.0 * np.pi / machine.dimension("driver.speed")
+    low = np.linspace(0.0, period, 361)
+    low, high = low[:-1], low[1:]
+    known, total = integrals(low, high), np.zeros(2)
+    limit = 1e-14 * np.abs(known).sum(axis=1)[:, None]
+    for _ in range(44):
+        middle = 0.5 * (low + high)
+        first, second = integrals(low, middle), integrals(middle, high)
+        rough = (np.abs(first + second - known) > limit).any(axis=0)
+        total += (first + second)[:, ~rough].sum(axis=1)
+        low, high = np.append(low[rough], middle[rough]), np.append(middle[rough], high[rough])
+        known = np.concatenate([first[:, rough], second[:, rough]], axis=1)
+        if not len(low):
+            break
+    mean, square = (total + known.sum(axis=1)) / period
+    names = ["mean_power", "rms_input_torque"]
+    alone = lw.metrics(lw.solve_forces(machine), names)
+    expected = [mean * machine.dimension("driver.speed"), np.sqrt(square)]
+    assert [alone.value(name) for name in names] == pytest.approx(expected, rel=1e-12)
+    cycle = metric_cycle(machine, ["crank.length"], names)
+    assert cycle is not None
+    found = cycle.evaluate({"crank.length": np.array([machine.dimension("crank.length")])})
+    assert [found.values[name][0] for name in names] == pytest.approx(expected, rel=1e-12)
+
+
+def test_numbers_of_one_yoke_pressed_from_both_sides_are_those_of_statics() -> None:
+    machine = lw.loads(YOKE.replace("mass: 3 kg", "mass: 10 kg"))
+    for point in [(0.2, 0.3, 10.0), (0.5, 0.4, 10.0), (0.01, 0.7, 10.0)]:
+        by = ["slot.friction", "bed.friction", "yoke.mass"]
+        analysis = Analysis.of(lw.solve_forces(machine.with_dimensions(dict(zip(by, point, strict=True)))))
+        found = [analysis.part(part).value for part in ("driver.effort rms", "power mean")]
+        assert found == pytest.approx(yoke_numbers(*point).real, rel=1e-12)
+        assert analysis.grid is not None
+        assert len(analysis.grid.edges) < 40  # cut where it bends, nothing halved

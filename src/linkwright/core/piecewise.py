@@ -24,8 +24,9 @@ _ORDERS = np.arange(POINTS)
 #: From values at the nodes to coefficients of Legendre polynomials, (nodes, orders); to the slope at the nodes.
 TO_LEGENDRE = ((_ORDERS[:, None] + 0.5) * np.polynomial.legendre.legvander(NODES, POINTS - 1).T * WEIGHTS).T
 TO_SLOPE = TO_LEGENDRE @ np.polynomial.legendre.legval(NODES, np.polynomial.legendre.legder(np.eye(POINTS)))
-#: To the last three of these coefficients.
+#: To the last three of these coefficients, and to the values at both ends.
 TO_LAST = TO_LEGENDRE[:, -3:]
+TO_ENDS = TO_LEGENDRE @ np.polynomial.legendre.legvander(np.array([-1.0, 1.0]), POINTS - 1).T
 #: Weights of the barycentric formula (Berrut and Trefethen, SIAM Review 46(3), 2004).
 _BARYCENTRIC = (-1.0) ** _ORDERS * np.sqrt((1.0 - NODES**2) * WEIGHTS)
 #: Added to distances from nodes, so that none is zero; it changes no other.
@@ -217,6 +218,21 @@ def tails(values: Floats) -> Floats:
     return np.asarray(last.max(axis=0).reshape(values.shape[:-1]))
 
 
+def joined(edges: Floats, knots: Floats) -> Flags:
+    """At which of the inner edges a function meets itself, as it may jump or kink at ``knots`` alone."""
+    return np.asarray(~np.isin(edges[1:-1], knots))
+
+
+def misses(values: Floats, meeting: Flags) -> Floats:
+    """How far polynomials through values (..., m, POINTS) are from meeting a function, (..., m): the last orders, and
+    how far neighbours are apart at the inner edges (m - 1,) where they are ``meeting``."""
+    found, sides = tails(values), values @ TO_ENDS
+    gap = np.abs(sides[..., 1:, 0] - sides[..., :-1, 1]) * meeting
+    for side in (found[..., 1:], found[..., :-1]):
+        np.maximum(side, gap, out=side)
+    return found
+
+
 Peak = tuple[Indices, Floats, Floats, Floats]
 
 
@@ -303,9 +319,7 @@ def _halved(
     size = float(np.abs(values).max(initial=0.0))
     scale = float(np.diff(edges) @ np.abs(values).mean(axis=1))
     for _ in range(_HALVINGS):
-        gap = np.abs(values[1:] @ TO_PLACES[:, 0] - values[:-1] @ TO_PLACES[:, -1])
-        gap[np.isin(edges[1:-1], knots)] = 0.0
-        off = np.maximum(tails(values), np.maximum(np.append(0.0, gap), np.append(gap, 0.0)))
+        off = misses(values, joined(edges, knots))
         rough = (off > tolerance * size) & (np.diff(edges) * off > _FINE * scale)
         if not 0 < rough.sum() <= _NOISE:
             break

@@ -27,6 +27,8 @@ if TYPE_CHECKING:
 _WORDS = "words:"
 #: Before the field of a friction that is not taken but found.
 _CAUSED = "caused:"
+#: Before the name of a force whose size matters.
+_SIGNED = "signed:"
 
 
 def words_name(words: str) -> str:
@@ -37,6 +39,11 @@ def words_name(words: str) -> str:
 def caused_name(field: str) -> str:
     """The name under which programs know the friction that the joint forces cause, by its field."""
     return _CAUSED + field
+
+
+def signed_name(name: str) -> str:
+    """The name under which programs know a force whose size matters, see :attr:`ForcePrograms.signed`."""
+    return _SIGNED + name
 
 
 def _no_angle(link: str) -> float:
@@ -72,6 +79,18 @@ class ForcePrograms:
 
         with self.motion.lock:
             return solved_friction(self._terms, self._under)
+
+    @cached_property
+    def signed(self) -> dict[str, Scalar]:
+        """Forces, N, by name, with whose sizes others go, which so bend where these are zero: those that press guides
+        with friction, and those between teeth or in strands that press on pins."""
+        if not any(term.slides for term in self._terms.terms):
+            return self.forces.between
+        from linkwright.kinetostatics.friction_stage import pressing
+
+        with self.motion.lock:
+            sliding = (term for term in self._terms.terms if term.slides)
+            return {term.field: pressing(self.forces, term).x for term in sliding} | self.forces.between
 
     @cached_property
     def _terms(self) -> FrictionTerms:
@@ -130,6 +149,8 @@ class ForcePrograms:
             from linkwright.kinetostatics.friction_stage import caused
 
             return caused(self._terms, self.forces, name.removeprefix(_CAUSED))
+        if name.startswith(_SIGNED):
+            return self.signed[name.removeprefix(_SIGNED)]
         output = Output.of_row(name)
         if output.kind == "magnitude":
             return traced_magnitude(self.motion.motion, output.owner)

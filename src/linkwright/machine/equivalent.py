@@ -11,7 +11,7 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import row_names
-from linkwright.core.piecewise import POINTS, Integral, Piecewise, at_nodes, tails
+from linkwright.core.piecewise import POINTS, Integral, Piecewise, at_nodes
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.cycle import not_back
 from linkwright.kinematics.motion import Motion
@@ -166,7 +166,7 @@ def equivalent(forces: Forces) -> Equivalent:
     torque = _torque(grid.forces, between, slope)
     load = Piecewise(edges, direction * torque.reshape(-1, POINTS))
     size = np.abs(grid.forces.input_torque).max()
-    if tails(load.values).max() > grid.tolerance * size:  # as where friction turns round
+    if not grid.met(load.values, size):
         halved = grid.curve(equivalent_torque, "forces", halve=True)
         load = Piecewise(abs(rate) * (halved.edges - begin), direction * halved.values)
     return Equivalent(

@@ -15,20 +15,24 @@ from linkwright.core.outputs import kind_of
 from linkwright.core.piecewise import (
     POINTS,
     SMOOTH,
+    TO_ENDS,
     WEIGHTS,
     Extreme,
     Piecewise,
     edges_between,
     extremes_of,
     increasing,
+    joined,
+    misses,
     nodes,
-    tails,
 )
-from linkwright.core.search import ends
+from linkwright.core.search import ends, zeros
 from linkwright.engine.recent import Recent
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import Forces
+from linkwright.kinetostatics.friction import FrictionTerm, joint_rate
+from linkwright.kinetostatics.programs import signed_name
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.loads.base import Load
 from linkwright.loads.over_cycle import activity
@@ -53,6 +57,9 @@ _ALIKE = {
 AROUND, PASSED = 1.0 / 36.0, 1e-8
 #: More rough pieces than this are noise.
 _NOISE = 96
+#: Share of the largest value up to which another is rounding, share of a bracket over which its slope is taken, and
+#: the most changes of sign of what is no rounding.
+_NOTHING, _BESIDE, _MOST = 1e-11, 1e-6, 24
 _NONE: Floats = np.empty(0)
 
 
@@ -93,6 +100,15 @@ class CycleGrid:
         """Ends of the pieces, s."""
         return self._solved[0]
 
+    @cached_property
+    def _meeting(self) -> Flags:
+        """At which inner edges nothing jumps or bends."""
+        return joined(self.edges, self._solved[3])
+
+    def met(self, values: Floats, sizes: Floats | float) -> Flags:
+        """Whether polynomials meet signals (..., pieces, POINTS) of some ``sizes`` (...) everywhere."""
+        return np.asarray(misses(values, self._meeting).max(axis=-1) <= self.tolerance * sizes)
+
     @property
     def tolerance(self) -> float:
         """Share of a signal's size to which polynomials meet it."""
@@ -112,17 +128,24 @@ class CycleGrid:
         ends = np.clip(np.stack([changes - way, changes + way], axis=1), self.start, self.end)
         return np.asarray(ends[ends[:, 1] > ends[:, 0]])
 
-    def _edges(self, switches: Floats) -> Floats:
-        """Those of the first pieces. Switches that coincide are one: between them a load of a phase that ends would
-        act beside one of a phase that has not begun."""
+    def _first_edges(self, knots: Floats) -> Floats:
+        """Those of the first pieces."""
         edges = edges_between(self.start, self.end, PIECES, _NONE)
         for low, high in self.around:
             edges = edges[(edges <= low) | (edges >= high)]
-        near = 2.0 * NEAR * (self.end - self.start)
-        inner = switches[(switches > self.start + near) & (switches < self.end - near)]
-        inner = inner[np.diff(inner, prepend=self.start) > near]
-        edges = edges[(np.abs(edges[:, None] - inner) > near).all(axis=1)]
-        return increasing(np.concatenate([edges, self.around.ravel(), inner]))
+        edges = edges[(np.abs(edges[:, None] - knots) > self._near).all(axis=1)]
+        return increasing(np.concatenate([edges, self.around.ravel(), knots]))
+
+    def _apart(self, places: Floats) -> Floats:
+        """Times within the cycle in order. Such as coincide are one: between them a load of a phase that ends would
+        act beside one of a phase that has not begun."""
+        near = self._near
+        inner = np.sort(places[(places > self.start + near) & (places < self.end - near)])
+        return inner[np.diff(inner, prepend=self.start) > near]
+
+    @property
+    def _near(self) -> float:
+        return 2.0 * NEAR * (self.end - self.start)
 
     def _passing(self, edges: Floats) -> Flags:
         """Which pieces belong to change points."""
@@ -138,16 +161,16 @@ class CycleGrid:
         values = np.asarray(signal(self.forces if of == "forces" else self.motion), dtype=float)
         pieces, tolerance = values.reshape(-1, POINTS), self.tolerance
         found = Piecewise(self.edges, pieces, tolerance=tolerance)
-        if not halve or found.smooth.all():
+        if not halve or self.met(pieces, float(np.abs(values).max(initial=0.0))):
             return found
-        return Piecewise(self.edges, pieces, self.function(signal, of), self.edges, tolerance)
+        return Piecewise(self.edges, pieces, self.function(signal, of), self._solved[3], tolerance)
 
     def means(self, values: Floats, sizes: Floats) -> tuple[Floats, Flags]:
         """Means over the time of signals (k, pieces, POINTS), and which of them polynomials meet everywhere.
 
         ``sizes``: the largest of their sizes, (k,)."""
-        met = tails(values).max(axis=1) <= self.tolerance * sizes
-        return 0.5 * (values @ WEIGHTS) @ np.diff(self.edges) / (self.end - self.start), met
+        mean = 0.5 * (values @ WEIGHTS) @ np.diff(self.edges) / (self.end - self.start)
+        return mean, self.met(values, sizes)
 
     def extremes_between(
         self, kind: str, wanted: Sequence[tuple[Piecewise, tuple[float, float]]]
@@ -211,18 +234,24 @@ class CycleGrid:
         return found
 
     @cached_property
-    def _solved(self) -> tuple[Floats, Motion | Forces, float]:
-        """Edges, the result at all Gauss points between them, and the noise in it.
+    def _solved(self) -> tuple[Floats, Motion | Forces, float, Floats]:
+        """Edges, the result at all Gauss points between them, the noise in it, and at which edges something may jump
+        or bend.
 
         What halving does not make smoother is noise: as share of the size of an output, that of positions which are
         found by iteration, or near a singular one.
         """
-        of = "motion" if self._forces is None else "forces"
-        edges = self._edges(self._switches())
-        solved = self.resolver.at(nodes(edges).ravel(), of, self._asked)
+        knots = self._apart(self._switches())
+        edges = self._first_edges(knots)
+        solved = self._at(edges)
+        if len(corners := self._corners(edges, solved)):
+            knots = self._apart(np.append(knots, corners))
+            edges = self._first_edges(knots)
+            solved = self._at(edges)
+        knots = np.append(knots, self.around)
         before = np.inf
         for _ in range(HALVINGS):
-            tail = self._tails(solved, len(edges) - 1)
+            tail = self._tails(solved, joined(edges, knots))
             rough = (tail > SMOOTH) & (np.diff(edges) > 1e-12 * (self.end - self.start))
             rough &= ~self._passing(edges)
             level = float(np.median(tail[rough])) if rough.any() else 0.0
@@ -230,27 +259,31 @@ class CycleGrid:
                 break
             before = level
             edges = np.sort(np.append(edges, 0.5 * (edges[:-1] + edges[1:])[rough]))
-            solved = self.resolver.at(nodes(edges).ravel(), of, self._asked)
+            solved = self._at(edges)
         noisy = len(edges) > 2 and bool((tail > SMOOTH).mean() > 0.5)
-        return edges, solved, float(np.quantile(tail, 0.9)) if noisy else 0.0
+        return edges, solved, float(np.quantile(tail, 0.9)) if noisy else 0.0, knots
 
-    def _tails(self, solved: Any, pieces: int) -> Floats:
+    def _at(self, edges: Floats) -> Any:
+        """The result at the Gauss points between edges."""
+        of = "motion" if self._forces is None else "forces"
+        return self.resolver.at(nodes(edges).ravel(), of, self._asked)
+
+    def _tails(self, solved: Any, meeting: Flags) -> Floats:
         """How far polynomials are from meeting any stored output, (pieces,), as share of the outputs alike."""
-        found, all_rows = np.zeros(pieces), [solved.rows]
+        found, all_rows = np.zeros(len(meeting) + 1), [solved.rows]
         if self._forces and solved.motion.rows is not solved.rows:
             all_rows.append(solved.motion.rows)
         for rows in all_rows:
-            last, sizes = (
-                tails(rows.values.reshape(len(rows.values), -1, POINTS)),
-                np.abs(rows.values).max(axis=1),
-            )
+            last = misses(rows.values.reshape(len(rows.values), -1, POINTS), meeting)
+            sizes = np.abs(rows.values).max(axis=1)
             for places in _alike.get(rows.index, None, partial(_places_of, rows.index)):
                 found = np.maximum(found, last[places].max(axis=0) / (float(sizes[places].max()) or 1.0))
         return found
 
     # places where loads jump ------------------------------------------------------------------------
     def _switches(self) -> Floats:
-        """Times at which a load begins or ends to act, its table bends, or a velocity that it opposes reverses.
+        """Times at which a load begins or ends to act, its table bends, or a velocity that it or friction opposes
+        reverses.
 
         A phase that holds a little more than its ends ends there all the same.
         """
@@ -269,7 +302,34 @@ class CycleGrid:
             reversing = load.reverses(self._motion.mechanism)
             if reversing is not None:
                 found.append(np.array([each.time for each in signals.limits(reversing)]))
+        if terms := self._forces.solver.friction.terms:
+            found.append(self._reversals(terms))
         return self._wrapped(found)
+
+    def _reversals(self, terms: Iterable[FrictionTerm]) -> Floats:
+        """Times at which the parts of joints with friction turn round."""
+        motion = self._motion
+
+        def rates(solved: Motion) -> Floats:
+            return np.stack([joint_rate(solved, term) for term in terms])
+
+        time, known = motion.time, rates(motion)
+        if motion.positions.closed and motion.positions.period:
+            time = np.append(time, self.end if time[-1] > time[0] else self.start)
+            known = np.append(known, known[:, :1], axis=1)
+        return _changes(lambda at: rates(self.resolver.motion(at)), known, time)
+
+    def _corners(self, edges: Floats, solved: Motion | Forces) -> Floats:
+        """Times at which forces are zero with whose sizes others go."""
+        if isinstance(solved, Motion) or not solved.solver.programs.signed:
+            return _NONE
+        names = tuple(map(signed_name, solved.solver.programs.signed))
+        inside, between = solved.evaluate(names).reshape(len(names), -1, POINTS), nodes(edges)
+        ends = inside @ TO_ENDS
+        known = np.dstack([ends[..., :1], inside, ends[..., 1:]]).reshape(len(names), -1)
+        known[np.abs(known) <= 10.0 * solved.rounding] = 0.0
+        places = np.column_stack([edges[:-1], between, edges[1:]]).ravel()
+        return _changes(lambda at: self.resolver.at(at, "forces").evaluate(names), known, places)
 
     def _wrapped(self, found: Iterable[Floats]) -> Floats:
         times = np.concatenate([np.empty(0), *found])
@@ -297,6 +357,28 @@ def _places_of(index: Mapping[str, int]) -> list[list[int]]:
         if sort := _ALIKE.get(kind_of(name)):
             found.setdefault(sort, []).append(place)
     return list(found.values())
+
+
+def _changes(values: Callable[[Floats], Floats], known: Floats, places: Floats) -> Floats:
+    """Where values (k, n), ``known`` at some places (n,), change their signs; none of those that do so too often."""
+    found: list[tuple[int, int, int]] = []
+    for number, row in enumerate(known):
+        decided = np.flatnonzero(np.abs(row) > _NOTHING * np.abs(row).max())
+        before, after = decided[:-1], decided[1:]
+        turned = (row[before] * row[after] < 0.0) & (places[before] != places[after])
+        if turned.sum() <= _MOST:
+            found += [(number, a, b) for a, b in zip(before[turned], after[turned], strict=True)]
+    if not found:
+        return _NONE
+    rows, low, high = np.array(found).T
+    beside = _BESIDE * (places[high] - places[low])
+
+    def function(at: Floats) -> tuple[Floats, Floats]:
+        both = values(np.append(at, at + beside))[np.tile(rows, 2), np.arange(2 * len(at))]
+        value, following = both.reshape(2, -1)
+        return value, (following - value) / beside
+
+    return zeros(function, places[low], places[high], known[rows, low])
 
 
 _alike: Recent[Mapping[str, int], list[list[int]]] = Recent(64)

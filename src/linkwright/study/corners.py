@@ -20,7 +20,6 @@ from linkwright.engine.stage import Stage
 from linkwright.engine.table import Tables
 from linkwright.engine.trace import Scalar, Trace, absolute, floor, select, sign
 from linkwright.kinetostatics.friction import Swinging
-from linkwright.kinetostatics.friction_stage import pressing
 from linkwright.kinetostatics.site import LAP
 from linkwright.study.joint_bends import FIRST
 from linkwright.study.limit_stages import CONVERGED, STEP, rates
@@ -62,12 +61,12 @@ def signed_values(
     programs, trace = traced.forces.programs, traced.solver.motion.trace
     joints = programs.forces.joints
     total = sum((absolute(each.force.x) + absolute(each.force.y) for each in joints), start=0.0)
-    terms = traced.forces.friction.terms if programs.rubbing else ()
-    found = {term.field: Signed(pressing(programs.forces, term).x, total) for term in terms if term.slides}
     needed = set(trace.needed([trace.lift(value) for value in outputs]))
-    for name, force in programs.forces.between.items():
-        if programs.friction is not None or trace.lift(force) in needed:
-            found[name] = Signed(force, total)
+    found = {
+        name: Signed(force, total)
+        for name, force in programs.signed.items()
+        if programs.friction is not None or trace.lift(force) in needed
+    }
     return found | {f"rate {each}": Signed(rates(traced, each)[0], 0.0) for each in swinging}
 
 
