@@ -735,6 +735,52 @@ def test_a_hand_leaves_short_numbers_and_a_limit_a_machine_that_moves(tmp_path: 
         assert got == lw.loads(text).dimension("crank.length")
 
 
+@needs_chromium
+def test_what_is_typed_or_dragged_while_the_text_is_solved_stays(tmp_path: Path) -> None:
+    """The machine is solved again between the first letter of a number and Enter, and the text changes while a
+    dimension is written: both stay, beside what came between."""
+    text = lw.read_document("gallery:crank_rocker").text
+    (tmp_path / "a.yaml").write_text(text, encoding="utf-8")
+    with serving(tmp_path, "a.yaml") as studio, browser() as chromium:
+        tab = chromium.new_page(viewport={"width": 1360, "height": 900})
+        tab.set_default_timeout(20_000)
+        tab.goto(studio.url)
+        agreed = "() => desk.session.value?.data.text === desk.text.value"
+        tab.wait_for_function(agreed)
+        field = tab.locator('[data-address="rocker.length"] input[type=number]')
+        field.press("Control+a")
+        field.press_sequentially("3.2")
+        tab.evaluate("() => desk.change(desk.text.value.replace('length: 3.5 m', 'length: 3.6 m'))")
+        tab.wait_for_function("() => desk.solved.value.text === desk.text.value")
+        tab.evaluate("() => { desk.page.note.value = 'drawn again'; }")
+        tab.wait_for_timeout(200)
+        assert field.input_value() == "3.2"
+        field.press("Enter")
+        tab.wait_for_function("() => desk.text.value.includes('3.2')")
+        tab.wait_for_function(agreed)
+        both = lw.loads(tab.locator("textarea").input_value())
+        assert both.dimension("coupler.length") == 3.6 and both.dimension("rocker.length") == 3.2
+        tab.evaluate(
+            "() => { void desk.write({'rocker.length': 3.1}); desk.change(desk.text.value.replace('3.6', '3.7')); }"
+        )
+        tab.wait_for_function("() => desk.text.value.includes('3.1')")
+        both = lw.loads(tab.locator("textarea").input_value())
+        assert both.dimension("coupler.length") == 3.7 and both.dimension("rocker.length") == 3.1
+        tab.wait_for_function(agreed)
+        tab.locator('.handle[data-key="A"]').scroll_into_view_if_needed()
+        handle = tab.locator('.handle[data-key="A"]').bounding_box()
+        tab.mouse.move(handle["x"] + 13, handle["y"] + 13)
+        tab.mouse.down()
+        tab.evaluate("() => desk.change(desk.text.value.replace('3.7', '3.8'))")
+        tab.wait_for_function("() => desk.solved.value.text === desk.text.value")
+        tab.mouse.move(handle["x"] + 20, handle["y"] + 4, steps=3)
+        tab.mouse.up()
+        tab.wait_for_function("() => !desk.text.value.includes('crank: {points: [O1, A], length: 1 m')")
+        tab.wait_for_function(agreed)
+        both = lw.loads(tab.locator("textarea").input_value())
+        assert both.dimension("coupler.length") == 3.8 and both.dimension("crank.length") != 1.0
+
+
 def test_the_file_of_the_command_is_solved_while_the_browser_opens(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

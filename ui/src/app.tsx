@@ -82,7 +82,7 @@ function useShown(session: Session, what: () => unknown): void {
 }
 
 function Slider({ page, session, dimension }: { page: Page; session: Session; dimension: Dimension }) {
-  const { address, value, factor, unit } = dimension, { model } = session, field = useRef<HTMLInputElement>(null);
+  const { address, value, factor, unit } = dimension, { model } = session, field = useRef<HTMLInputElement>(null), typing = useRef(false);
   useShown(session, () => `${model.values[address]} ${model.locked.has(address)}`);
   const now = model.values[address], locked = model.locked.has(address);
   const reach = Math.abs(value) || (dimension.geometry ? (unit === "deg" || unit === "rad" ? 1 : model.size) : 1);
@@ -100,6 +100,8 @@ function Slider({ page, session, dimension }: { page: Page; session: Session; di
     session.end(roughly);
   };
   const changed = now !== value;
+  const hold = (held: boolean) => void (session.held = held);
+  const type = (begun: boolean) => hold((typing.current = begun));
   return (
     <div class={changed ? "dimension changed" : "dimension"} data-address={address}>
       <button
@@ -114,12 +116,15 @@ function Slider({ page, session, dimension }: { page: Page; session: Session; di
       <input
         type="range" min={shown(dimension.positive ? value * 0.3 : value - reach)} max={shown(dimension.positive ? value * 2 : value + reach)}
         step="any" value={now / factor} disabled={locked} aria-label={address} aria-valuetext={`${shown(now)} ${unit}`}
-        onPointerDown={() => session.begin()} onKeyDown={() => session.begin()}
+        onPointerDown={() => { session.begin(); hold(true); }} onKeyDown={() => session.begin()}
+        onPointerUp={() => hold(false)} onPointerCancel={() => hold(false)}
         onInput={(event) => to(Number(event.currentTarget.value))} onChange={() => done(true)}
       />
       <input
-        ref={field} type="number" step="any" value={shown(now)} disabled={locked} aria-label={page.say("value_of", { name: address })}
+        ref={field} type="number" step="any" value={typing.current ? field.current!.value : shown(now)} disabled={locked} aria-label={page.say("value_of", { name: address })}
+        onInput={() => type(true)} onBlur={() => type(false)}
         onChange={(event) => {
+          type(false);
           if (!event.currentTarget.value) return void (event.currentTarget.value = String(shown(now)));
           session.begin();
           to(Number(event.currentTarget.value));

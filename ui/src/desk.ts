@@ -29,7 +29,7 @@ export interface Solved {
 
 /** Rest after typing before a text is solved, ms. */
 export const WAIT = 250;
-const WATCH = 1500, LOOK = 400;
+const WATCH = 1500, LOOK = 400, HELD = 50;
 /** Letters typed within this time of each other are one step, ms. */
 const PAUSE = 700;
 /** Characters of a text that the server takes. */
@@ -278,6 +278,8 @@ export class Desk {
     this.solved.value = { ...solved, text };
     if (!solved.model?.module) return;
     const session = new Session(solved.model, await code(solved.model, 0), 0), old = this.session.value;
+    while (old?.held) await new Promise((go) => setTimeout(go, HELD));
+    if (text !== this.text.value) return;
     if (old) session.inherit(old);
     session.ended = () => void this.adopt(session);
     this.session.value = session;
@@ -288,9 +290,9 @@ export class Desk {
   private async adopt(session: Session): Promise<void> {
     const { dimensions } = session.data;
     const values = Object.fromEntries(dimensions.filter((d) => session.model.values[d.address] !== d.value).map((d) => [d.address, session.model.values[d.address]]));
-    if (!Object.keys(values).length || session.data.text !== this.text.value) return;
+    if (!Object.keys(values).length) return;
     const { text, missing } = session.text();
-    if (missing.length) {
+    if (missing.length || session.data.text !== this.text.value) {
       if (!(await this.write(values))) back(session);
       return;
     }
@@ -321,11 +323,16 @@ export class Desk {
     }
   }
 
-  /** Writes dimensions (SI) into the text; false where it does not admit them. */
+  /** Writes dimensions (SI) into the text as it is then; false where it does not admit them. */
   async write(values: Values): Promise<boolean> {
-    const text = this.text.value, set = await this.ask<{ text: string }>("set", { text, values });
-    if (set && text === this.text.value) this.change(set.text);
-    return set !== null;
+    for (;;) {
+      const text = this.text.value, set = await this.ask<{ text: string }>("set", { text, values });
+      if (!set) return false;
+      if (text !== this.text.value) continue;
+      this.moved = { before: text, text: plain(set.text) };
+      this.change(set.text);
+      return true;
+    }
   }
 
   /** Puts another machine beside the open one; none takes it away. */

@@ -92,6 +92,7 @@ function attach(page: Page, session: Session, view: View): void {
     const [dx, dy] = [Number(handle.getAttribute("cx")) - event.pageX / view.zoom, Number(handle.getAttribute("cy")) - event.pageY / view.zoom];
     dragged = { key: handle.dataset.key!, base: { ...session.model.values }, dx, dy };
     session.begin();
+    session.held = true;
     handle.focus();
   });
   view.svg.addEventListener("pointermove", (event) => {
@@ -103,6 +104,7 @@ function attach(page: Page, session: Session, view: View): void {
     if (!dragged) return;
     page.flush();
     dragged = null;
+    session.held = false;
     session.end(true);
   };
   view.svg.addEventListener("pointerup", stop);

@@ -47,6 +47,8 @@ export class Session {
   view: View | null = null;
   /** Between the beginning and the end of a change. */
   moving = false;
+  /** Between the first letter and the last of a number, or while a joint or a bar is held: it is not replaced. */
+  held = false;
   /** Called when a change has ended. */
   ended: (() => void) | null = null;
   readonly history = new History<Values>(() => ({ ...this.model.values }), (values) => this.go(values));
