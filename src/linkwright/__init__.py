@@ -6,10 +6,10 @@ TYPE_CHECKING = False  # type checkers take it for true
 
 if TYPE_CHECKING:
     from linkwright.cams.cam import Cam as Cam
-    from linkwright.cams.cam import CamConjugate as CamConjugate
-    from linkwright.cams.cam import CamElasticity as CamElasticity
-    from linkwright.cams.cam import CamLimits as CamLimits
     from linkwright.cams.compensation import compensating_lift as compensating_lift
+    from linkwright.cams.fields import CamConjugate as CamConjugate
+    from linkwright.cams.fields import CamElasticity as CamElasticity
+    from linkwright.cams.fields import CamLimits as CamLimits
     from linkwright.cams.follower import Follower as Follower
     from linkwright.cams.loading import CamLoading as CamLoading
     from linkwright.cams.loading import CamMaterial as CamMaterial

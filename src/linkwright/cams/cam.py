@@ -12,7 +12,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from linkwright.cams.curves import BarrelCurve, CamCurve, FlatCurve, RollerCurve
-from linkwright.cams.fields import CAM_FIELDS, program_of
+from linkwright.cams.fields import CAM_FIELDS, CamConjugate, CamElasticity, CamLimits, program_of
 from linkwright.cams.follower import Follower
 from linkwright.cams.loading import CamLoading, CamMaterial, leverage
 from linkwright.cams.result import CamDesign
@@ -21,46 +21,9 @@ from linkwright.cams.undercut import undercuts
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, ModelError
-from linkwright.fields.base import Field
+from linkwright.fields.base import GivenByFile
 from linkwright.laws.program import Program
 from linkwright.parts.base import Problem, fault
-
-
-@dataclass(frozen=True)
-class CamLimits:
-    """What a cam must keep: pressure angles (rad) while rising and falling, the profile's smallest radius (m).
-
-    Hertz's pressure (Pa), and the least effort (N or N·m along the follower's coordinate) that a spring must leave.
-    """
-
-    pressure_angle: float | None = None
-    pressure_angle_fall: float | None = None
-    curvature_radius: float | None = None
-    contact_pressure: float | None = None
-    contact_force: float = 0.0
-
-    @property
-    def angles(self) -> tuple[float, float]:
-        """Limits while rising and falling; a quarter turn where there is none."""
-        rise = math.pi / 2 if self.pressure_angle is None else self.pressure_angle
-        return rise, rise if self.pressure_angle_fall is None else self.pressure_angle_fall
-
-
-@dataclass(frozen=True)
-class CamConjugate:
-    """The second cam of a pair: its base circle (m), and the offset or arm of the second roller (m)."""
-
-    base_radius: float
-    offset: float = 0.0
-    arm: float | None = None
-
-
-@dataclass(frozen=True)
-class CamElasticity:
-    """Stiffness (N/m or N·m/rad) between cam and the follower's mass, and its damping ratio."""
-
-    stiffness: float
-    damping_ratio: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -99,7 +62,7 @@ class Cam(Problem):
     """
 
     kind: ClassVar[str] = "cam"
-    fields: ClassVar[Mapping[str, Field]] = CAM_FIELDS
+    fields = GivenByFile(CAM_FIELDS)
     program: Program
     follower: Follower = field(default_factory=Follower)
     base_radius: float | None = None

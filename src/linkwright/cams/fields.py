@@ -6,72 +6,30 @@ import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from linkwright.cams.follower import KINDS, MOTIONS, Follower
+from linkwright.cams.follower import Follower, LiftQuantity, lift_of
+from linkwright.cams.loading import CamLoading, CamMaterial, CamSpring
+from linkwright.cams.sizes import CamChoice
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import ModelError
-from linkwright.fields.base import Field, Quantities, Quantity, Schema, Word
+from linkwright.fields.base import Field, Quantity, Word, given
 from linkwright.fields.nodes import Node
 from linkwright.laws.program_fields import RATES, ProgramField
 from linkwright.laws.smoothest import ORDERS, FoundProgram, Window
 from linkwright.parts.base import fault
-from linkwright.parts.fields import Flag, Listed, Table, Whole
+from linkwright.parts.fields import Listed, Table, Whole
 
 if TYPE_CHECKING:
     from linkwright.files.plain_reader import Place
     from linkwright.files.reader import Reader
 
-_FOLLOWER: Mapping[str, Field] = {
-    "kind": Word(KINDS, required=True, doc="what touches the cam"),
-    "motion": Word(MOTIONS, doc="translating unless given"),
-    "roller_radius": Quantity("length", above=0.0, doc="radius of the roller"),
-    "offset": Quantity(
-        "length", doc="distance of a translating follower's line to the right of the centre, 0"
-    ),
-    "pivot_distance": Quantity("length", above=0.0, doc="from the cam's centre to the pivot"),
-    "arm": Quantity("length", above=0.0, doc="from the pivot to the roller's centre or the edge"),
-    "face_offset": Quantity("length", doc="of a flat oscillating face: from the pivot towards the cam, 0"),
-    "below": Flag(doc="the arm points under the cam"),
-}
-
-
-def _follower(**values: Any) -> Follower:
-    return Follower(**{key: value for key, value in values.items() if value is not None})
-
-
-def lift_of(given: Mapping[str, Any]) -> str:
-    """Dimension of the lift, by the follower that was read before."""
-    follower = given.get("follower")
-    return follower.lift_dimension if isinstance(follower, Follower) else "length"
-
 
 @dataclass(frozen=True)
-class LiftQuantity(Field):
-    """A quantity of one dimension for a translating follower and of another for an oscillating one."""
-
-    straight: str
-    turning: str
-    minimum: float | None = None
-
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
-        dimension = self.turning if lift_of(given) == "angle" else self.straight
-        return Quantity(dimension, minimum=self.minimum).read(reader, node, place, given)
-
-    def shape(self) -> Schema:
-        return {"anyOf": [Quantity(each).shape() for each in (self.straight, self.turning)]}
-
-
-@dataclass(frozen=True)
-class WithLift(Field):
+class WithLift(Table):
     """A table whose quantities depend on the follower of the table around it."""
-
-    fields: Mapping[str, Field]
 
     def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
         fields = {key: _settled(each, lift_of(given)) for key, each in self.fields.items()}
-        return Table(fields).read(reader, node, place, given)
-
-    def shape(self) -> Schema:
-        return Table(self.fields).shape()
+        return Table(fields, self.make).read(reader, node, place, given)
 
 
 def _settled(each: Field, lift: str) -> Field:
@@ -110,100 +68,94 @@ _FIND: Mapping[str, Field] = {
     "acceleration": LiftQuantity(RATES["length", "angle"][1], RATES["angle", "angle"][1], minimum=0.0, doc="limit"),
     "pieces": Whole(12, doc="pieces of the spline, 90 unless given"),
 }  # fmt: skip
-_LIMITS: Mapping[str, Field] = {
-    "pressure_angle": Quantity("angle", above=0.0, doc="largest pressure angle while the follower rises"),
-    "pressure_angle_fall": Quantity("angle", above=0.0, doc="while it falls (default: the same)"),
-    "curvature_radius": Quantity("length", minimum=0.0, doc="smallest radius of curvature of the profile"),
-    "contact_pressure": Quantity("pressure", above=0.0, doc="largest Hertzian pressure"),
-    "contact_force": LiftQuantity("force", "torque", minimum=0.0, doc="least effort that the spring leaves"),
-}
+
+
+@dataclass(frozen=True)
+class CamLimits:
+    """What a cam must keep: pressure angles (rad) while rising and falling, the profile's smallest radius (m).
+
+    Hertz's pressure (Pa), and the least effort (N or N·m along the follower's coordinate) that a spring must leave.
+    """
+
+    pressure_angle: float | None = given(
+        Quantity("angle", above=0.0, doc="largest pressure angle while the follower rises"), None
+    )
+    pressure_angle_fall: float | None = given(
+        Quantity("angle", above=0.0, doc="while it falls (default: the same)"), None
+    )
+    curvature_radius: float | None = given(
+        Quantity("length", minimum=0.0, doc="smallest radius of curvature of the profile"), None
+    )
+    contact_pressure: float | None = given(
+        Quantity("pressure", above=0.0, doc="largest Hertzian pressure"), None
+    )
+    contact_force: float = given(
+        LiftQuantity("force", "torque", minimum=0.0, doc="least effort that the spring leaves"), 0.0
+    )
+
+    @property
+    def angles(self) -> tuple[float, float]:
+        """Limits while rising and falling; a quarter turn where there is none."""
+        rise = math.pi / 2 if self.pressure_angle is None else self.pressure_angle
+        return rise, rise if self.pressure_angle_fall is None else self.pressure_angle_fall
+
+
+@dataclass(frozen=True)
+class CamConjugate:
+    """The second cam of a pair: its base circle (m), and the offset or arm of the second roller (m)."""
+
+    base_radius: float = given(Quantity("length", above=0.0, doc="base circle of the second cam"))
+    offset: float = given(Quantity("length", doc="offset of the second roller"), 0.0)
+    arm: float | None = given(Quantity("length", above=0.0, doc="arm of the second roller"), None)
+
+
+@dataclass(frozen=True)
+class CamElasticity:
+    """Stiffness (N/m or N·m/rad) between cam and the follower's mass, and its damping ratio."""
+
+    stiffness: float = given(
+        LiftQuantity("stiffness", "torsional_stiffness", minimum=0.0, doc="stiffness between cam and mass")
+    )
+    damping_ratio: float = given(Quantity("dimensionless", minimum=0.0, doc="damping ratio, 0"), 0.0)
+
+
 CAM_FIELDS: Mapping[str, Field] = {
-    "follower": Table(_FOLLOWER, _follower, required=True, doc="what rides on the cam"),
+    "follower": Table.of(Follower, required=True, doc="what rides on the cam"),
     "program": ProgramField(lift_of, "angle", doc="segments over one turn, one after the other"),
     "find": WithLift(_FIND, doc="a program to be found: the smoothest that meets points and windows"),
     "base_radius": Quantity("length", above=0.0, doc="radius of the base circle; chosen unless given"),
     "turn": Word(("counterclockwise", "clockwise"), doc="counterclockwise unless given"),
     "closure": Word(("force", "groove", "conjugate"), doc="what keeps the contact; force unless given"),
     "barrel_radius": Quantity("length", above=0.0, doc="radius of the cylinder of a barrel cam"),
-    "conjugate": Table(
-        {
-            "base_radius": Quantity("length", above=0.0, required=True, doc="base circle of the second cam"),
-            "offset": Quantity("length", doc="offset of the second roller"),
-            "arm": Quantity("length", above=0.0, doc="arm of the second roller"),
-        },
-        doc="the second cam of a pair",
-    ),
+    "conjugate": Table.of(CamConjugate, doc="the second cam of a pair"),
     "speed": Quantity("angular_velocity", minimum=0.0, doc="speed of the cam"),
     "mass": LiftQuantity("mass", "inertia", minimum=0.0, doc="mass (inertia) of what the follower moves"),
     "load": LiftQuantity("force", "torque", doc="constant load that presses the follower on the cam"),
-    "spring": WithLift(
-        {
-            "stiffness": LiftQuantity("stiffness", "torsional_stiffness", minimum=0.0, doc="chosen unless given"),
-            "preload": LiftQuantity("force", "torque", minimum=0.0, doc="at zero lift; chosen unless given"),
-        },
-        doc="the follower's spring; {} chooses it",
-    ),
+    "spring": WithLift.of(CamSpring, doc="the follower's spring; {} chooses it"),
     "width": Quantity("length", above=0.0, doc="width of the contact"),
-    "material": Table(
-        {
-            "modulus": Quantity("pressure", above=0.0, required=True, doc="Young's modulus of the cam"),
-            "poisson": Quantity("dimensionless", minimum=0.0, doc="Poisson's ratio, 0.3"),
-            "follower_modulus": Quantity("pressure", above=0.0, doc="of the follower (default: the same)"),
-            "follower_poisson": Quantity("dimensionless", minimum=0.0, doc="of the follower"),
-        },
-        doc="materials, steel on steel unless given",
-    ),
-    "elasticity": WithLift(
-        {
-            "stiffness": LiftQuantity("stiffness", "torsional_stiffness", minimum=0.0, required=True,
-                                      doc="stiffness between cam and mass"),
-            "damping_ratio": Quantity("dimensionless", minimum=0.0, doc="damping ratio, 0"),
-        },
-        doc="the follower as a mass on a spring, for its vibration",
-    ),
-    "limits": WithLift(_LIMITS, doc="what the cam must keep"),
-    "choose": Table(
-        {
-            "offset": Quantities("length", count=2, doc="offsets from and to"),
-            "roller_radii": Quantities("length", doc="radii of rollers that can be had"),
-        },
-        doc="what may be chosen with the base circle",
-    ),
+    "material": Table.of(CamMaterial, doc="materials, steel on steel unless given"),
+    "elasticity": WithLift.of(CamElasticity, doc="the follower as a mass on a spring, for its vibration"),
+    "limits": WithLift.of(CamLimits, doc="what the cam must keep"),
+    "choose": Table.of(CamChoice, doc="what may be chosen with the base circle"),
     "cutter_radius": Quantity("length", above=0.0, doc="radius of the milling cutter"),
 }  # fmt: skip
 
 
 def program_of(values: Mapping[str, Any]) -> dict[str, Any]:
     """What a :class:`Cam` takes, from a file's values."""
-    from linkwright.cams.cam import CamConjugate, CamElasticity, CamLimits
-    from linkwright.cams.loading import CamLoading, CamMaterial, CamSpring
-    from linkwright.cams.sizes import CamChoice
-
-    def some(key: str) -> dict[str, Any]:
-        return {name: value for name, value in (values.get(key) or {}).items() if value is not None}
-
-    found = {
-        key: values[key]
-        for key in ("follower", "base_radius", "barrel_radius", "width", "cutter_radius", "name", "source")
-        if values.get(key) is not None
+    own = set(CAM_FIELDS) - {"program", "find", "turn", "speed", "mass", "load", "spring"} | {
+        "name",
+        "source",
     }
+    found = {key: value for key, value in values.items() if key in own and value is not None}
     found["program"] = _program(values)
     found["turn"] = -1.0 if values.get("turn") == "clockwise" else 1.0
-    found["closure"] = values.get("closure") or "force"
-    kinds = {
-        "conjugate": CamConjugate,
-        "material": CamMaterial,
-        "elasticity": CamElasticity,
-        "limits": CamLimits,
-        "choose": CamChoice,
-    }
-    found |= {key: make(**some(key)) for key, make in kinds.items() if values.get(key) is not None}
     found["spring_wanted"] = values.get("spring") is not None
     found["loading"] = CamLoading(
         values.get("speed") or 0.0,
         values.get("mass") or 0.0,
         values.get("load") or 0.0,
-        CamSpring(**some("spring")),
+        values.get("spring") or CamSpring(),
     )
     return found
 

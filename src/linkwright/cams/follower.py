@@ -3,8 +3,17 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
 
 from linkwright.core.dataclass import dataclass
+from linkwright.fields.base import Field, Quantity, Schema, Word, given
+from linkwright.parts.fields import Flag
+
+if TYPE_CHECKING:
+    from linkwright.fields.nodes import Node
+    from linkwright.files.plain_reader import Place
+    from linkwright.files.reader import Reader
 
 KINDS = ("roller", "knife", "flat")
 MOTIONS = ("translating", "oscillating")
@@ -21,14 +30,22 @@ class Follower:
     from the pivot towards the cam.
     """
 
-    kind: str = "roller"
-    motion: str = "translating"
-    roller_radius: float = 0.0
-    offset: float = 0.0
-    pivot_distance: float | None = None
-    arm: float | None = None
-    face_offset: float = 0.0
-    below: bool = False
+    kind: str = given(Word(KINDS, required=True, doc="what touches the cam"), "roller")
+    motion: str = given(Word(MOTIONS, doc="translating unless given"), "translating")
+    roller_radius: float = given(Quantity("length", above=0.0, doc="radius of the roller"), 0.0)
+    offset: float = given(
+        Quantity("length", doc="distance of a translating follower's line to the right of the centre, 0"), 0.0
+    )
+    pivot_distance: float | None = given(
+        Quantity("length", above=0.0, doc="from the cam's centre to the pivot"), None
+    )
+    arm: float | None = given(
+        Quantity("length", above=0.0, doc="from the pivot to the roller's centre or the edge"), None
+    )
+    face_offset: float = given(
+        Quantity("length", doc="of a flat oscillating face: from the pivot towards the cam, 0"), 0.0
+    )
+    below: bool = given(Flag(doc="the arm points under the cam"), False)
 
     @property
     def oscillating(self) -> bool:
@@ -66,3 +83,25 @@ class Follower:
             return base_radius
         prime = base_radius + self.roller_radius
         return math.sqrt(prime**2 - self.offset**2) if prime > abs(self.offset) else None
+
+
+def lift_of(given: Mapping[str, Any]) -> str:
+    """Dimension of the lift, by the follower that was read before."""
+    follower = given.get("follower")
+    return follower.lift_dimension if isinstance(follower, Follower) else "length"
+
+
+@dataclass(frozen=True)
+class LiftQuantity(Field):
+    """A quantity of one dimension for a translating follower and of another for an oscillating one."""
+
+    straight: str
+    turning: str
+    minimum: float | None = None
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
+        dimension = self.turning if lift_of(given) == "angle" else self.straight
+        return Quantity(dimension, minimum=self.minimum).read(reader, node, place, given)
+
+    def shape(self) -> Schema:
+        return {"anyOf": [Quantity(each).shape() for each in (self.straight, self.turning)]}

@@ -8,9 +8,10 @@ from dataclasses import replace
 import numpy as np
 
 from linkwright.cams.curves import Contact
-from linkwright.cams.follower import Follower
+from linkwright.cams.follower import Follower, LiftQuantity
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.fields.base import Quantity, given
 from linkwright.laws.program import Program
 
 
@@ -18,18 +19,28 @@ from linkwright.laws.program import Program
 class CamSpring:
     """Presses the follower on the cam: ``stiffness`` (N/m or N·m/rad), ``preload`` (N or N·m) at zero lift."""
 
-    stiffness: float | None = None
-    preload: float | None = None
+    stiffness: float | None = given(
+        LiftQuantity("stiffness", "torsional_stiffness", minimum=0.0, doc="chosen unless given"), None
+    )
+    preload: float | None = given(
+        LiftQuantity("force", "torque", minimum=0.0, doc="at zero lift; chosen unless given"), None
+    )
 
 
 @dataclass(frozen=True)
 class CamMaterial:
     """Young's moduli (Pa) and Poisson's ratios of cam and follower."""
 
-    modulus: float = 210e9
-    poisson: float = 0.3
-    follower_modulus: float | None = None
-    follower_poisson: float | None = None
+    modulus: float = given(
+        Quantity("pressure", above=0.0, required=True, doc="Young's modulus of the cam"), 210e9
+    )
+    poisson: float = given(Quantity("dimensionless", minimum=0.0, doc="Poisson's ratio, 0.3"), 0.3)
+    follower_modulus: float | None = given(
+        Quantity("pressure", above=0.0, doc="of the follower (default: the same)"), None
+    )
+    follower_poisson: float | None = given(
+        Quantity("dimensionless", minimum=0.0, doc="of the follower"), None
+    )
 
     @property
     def contact_modulus(self) -> float:

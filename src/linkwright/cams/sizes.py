@@ -13,6 +13,7 @@ from linkwright.cams.loading import contact_pressure, leverage
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import ModelError
+from linkwright.fields.base import Quantities, given
 from linkwright.laws.program import Program
 from linkwright.parts.base import fault
 
@@ -30,8 +31,8 @@ _ROUGH, _OFFSET, _FINE = 1e-4, 1e-3, 1e-9
 class CamChoice:
     """What may be chosen: offsets between two bounds (m), roller radii of a list (m)."""
 
-    offset: tuple[float, float] | None = None
-    roller_radii: tuple[float, ...] = ()
+    offset: tuple[float, float] | None = given(Quantities("length", count=2, doc="offsets from and to"), None)
+    roller_radii: tuple[float, ...] = given(Quantities("length", doc="radii of rollers that can be had"), ())
 
 
 def chosen(cam: Cam) -> Cam:

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
-from dataclasses import field
+from dataclasses import field, fields, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -62,6 +62,37 @@ class Field(ABC):
     def written(self, value: Any) -> Any:
         """The value as plain data (texts, lists, mappings) for a file."""
         return value
+
+
+#: No default: the key must be there.
+REQUIRED: Any = object()
+
+
+def given(kind: Field, default: Any = REQUIRED) -> Any:
+    """An attribute of a dataclass that a file gives; without a default the file must have it.
+
+    A default that is a type, such as ``dict``, is called for every object.
+    """
+    if default is REQUIRED:
+        return field(metadata={"field": replace(kind, required=True)})
+    if isinstance(default, type):
+        return field(default_factory=default, metadata={"field": kind})
+    return field(default=default, metadata={"field": kind})
+
+
+def given_by_file(made: Any) -> dict[str, Field]:
+    """The attributes of a dataclass that :func:`given` declares."""
+    return {each.name: each.metadata["field"] for each in fields(made) if "field" in each.metadata}
+
+
+class GivenByFile:
+    """As attribute of a class: what :func:`given` declares in it or the dataclasses below it, and ``more`` keys."""
+
+    def __init__(self, more: Mapping[str, Field] | None = None) -> None:
+        self.more = more or {}
+
+    def __get__(self, instance: object, owner: type) -> Mapping[str, Field]:
+        return {**given_by_file(owner), **self.more}
 
 
 def quantity_schema(dimension: str) -> Schema:

@@ -3,19 +3,16 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
 from dataclasses import field
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.piecewise import Piecewise
+from linkwright.fields.base import GivenByFile
 from linkwright.registry import Registry
-
-if TYPE_CHECKING:
-    from linkwright.fields.base import Field
 
 #: Below this share of the largest value a velocity or acceleration at an end is zero.
 SMALL = 1e-9
@@ -58,7 +55,7 @@ class MotionLaw(ABC):
     """
 
     key: ClassVar[str]
-    fields: ClassVar[Mapping[str, Field]] = {}
+    fields = GivenByFile()
     source: ClassVar[str]
 
     @abstractmethod

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from functools import cached_property
 from math import pi
 from typing import Any, ClassVar
@@ -11,7 +11,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.fields.base import Field, Quantity
+from linkwright.fields.base import Quantity, given
 from linkwright.laws.base import MOTION_LAWS, MeetingLaw, MotionLaw
 
 
@@ -50,11 +50,8 @@ class Cycloidal(MotionLaw):
 class InclinedSine(MotionLaw):
     """s = u - (1 - v) sin(2πu)/(2π): the inclined sine of Bestehorn between equal velocities v, 0 unless given."""
 
-    fields: ClassVar[Mapping[str, Field]] = {
-        "velocity": Quantity("dimensionless", doc="velocity at both ends, 0")
-    }
     source: ClassVar[str] = "VDI 2143-1"
-    velocity: float = 0.0
+    velocity: float = given(Quantity("dimensionless", doc="velocity at both ends, 0"), 0.0)
 
     @property
     def formula(self) -> str:
@@ -111,13 +108,11 @@ class TripleHarmonic(MotionLaw):
     Unless given, A₁ = 9π/4 and A₂ = 0: the jerk is then zero at both ends and in the middle.
     """
 
-    fields: ClassVar[Mapping[str, Field]] = {
-        "first": Quantity("dimensionless", doc="amplitude A₁ of the acceleration, 9π/4 unless given"),
-        "second": Quantity("dimensionless", doc="amplitude A₂, 0 unless given; A₃ follows"),
-    }
     source: ClassVar[str] = "Reeve, Cams for Industry, 1995"
-    first: float = 9 * pi / 4
-    second: float = 0.0
+    first: float = given(
+        Quantity("dimensionless", doc="amplitude A₁ of the acceleration, 9π/4 unless given"), 9 * pi / 4
+    )
+    second: float = given(Quantity("dimensionless", doc="amplitude A₂, 0 unless given; A₃ follows"), 0.0)
 
     def curves(self, u: Any) -> tuple[Any, Any, Any, Any]:
         one, two = self.first / (2 * pi), self.second / (4 * pi)

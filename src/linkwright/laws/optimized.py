@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from functools import cached_property
 from math import pi
 from typing import Any, ClassVar
@@ -12,7 +11,7 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
-from linkwright.fields.base import Field, Quantities, Quantity, Word
+from linkwright.fields.base import Quantities, Quantity, Word, given
 from linkwright.laws.base import MOTION_LAWS, MotionLaw
 from linkwright.laws.pieces import Pieces
 from linkwright.words.sentence import Sentence
@@ -20,7 +19,10 @@ from linkwright.words.sentence import Sentence
 AIMS = {"velocity": 1, "acceleration": 2, "jerk": 3, "residual": 0}
 #: Pieces of the spline, places of the residual spectrum, directions in which its size is bounded.
 _PIECES, _RATIOS, _DIRECTIONS = 64, 25, 16
-_LIMIT = "largest {} allowed, for a rise of 1 over 1"
+
+
+def _limited(what: str) -> Quantity:
+    return Quantity("dimensionless", above=0.0, doc=f"largest {what} allowed, for a rise of 1 over 1")
 
 
 @MOTION_LAWS.register("optimized_spline")
@@ -33,19 +35,14 @@ class OptimizedSpline(MotionLaw):
     solved by HiGHS. Without limits of one's own the jerk is at most 200, for ``residual`` the acceleration at most 8.
     """
 
-    fields: ClassVar[Mapping[str, Field]] = {
-        "minimize": Word(tuple(AIMS), required=True, doc="what is made least"),
-        "velocity": Quantity("dimensionless", above=0.0, doc=_LIMIT.format("velocity")),
-        "acceleration": Quantity("dimensionless", above=0.0, doc=_LIMIT.format("acceleration")),
-        "jerk": Quantity("dimensionless", above=0.0, doc=_LIMIT.format("jerk")),
-        "ratios": Quantities("dimensionless", count=2, doc="rise time over natural period, from and to"),
-    }
     source: ClassVar[str] = "linear program over B-splines; bounds: de Boor, A Practical Guide to Splines"
-    minimize: str
-    velocity: float | None = None
-    acceleration: float | None = None
-    jerk: float | None = None
-    ratios: tuple[float, float] | None = None
+    minimize: str = given(Word(tuple(AIMS), doc="what is made least"))
+    velocity: float | None = given(_limited("velocity"), None)
+    acceleration: float | None = given(_limited("acceleration"), None)
+    jerk: float | None = given(_limited("jerk"), None)
+    ratios: tuple[float, float] | None = given(
+        Quantities("dimensionless", count=2, doc="rise time over natural period, from and to"), None
+    )
 
     def __post_init__(self) -> None:
         if self.minimize not in AIMS:
@@ -58,9 +55,9 @@ class OptimizedSpline(MotionLaw):
     @property
     def limits(self) -> dict[int, float]:
         """Limits by order of the derivative, those that hold unless given among them."""
-        given = {1: self.velocity, 2: self.acceleration, 3: self.jerk}
+        own = {1: self.velocity, 2: self.acceleration, 3: self.jerk}
         usual = {2: 8.0, 3: 200.0} if self.minimize == "residual" else {3: 200.0}
-        found = {order: value for order, value in given.items() if value is not None}
+        found = {order: value for order, value in own.items() if value is not None}
         return {**{k: v for k, v in usual.items() if k != AIMS[self.minimize]}, **found}
 
     @cached_property

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from functools import cached_property
 from math import perm
 from typing import Any, ClassVar
@@ -13,7 +13,7 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
-from linkwright.fields.base import Field, Quantities, Quantity
+from linkwright.fields.base import Quantities, Quantity, given
 from linkwright.laws.base import MOTION_LAWS, MeetingLaw, MotionLaw
 from linkwright.words.sentence import Sentence
 
@@ -123,12 +123,10 @@ class PolynomialOf(Polynomial):
     Without any it is s = u.
     """
 
-    fields: ClassVar[Mapping[str, Field]] = {
-        "start": Quantities("dimensionless", doc="v, a, j, … at u = 0, as many as are wanted"),
-        "end": Quantities("dimensionless", doc="v, a, j, … at u = 1"),
-    }
-    start: Coefficients = ()
-    end: Coefficients = ()
+    start: Coefficients = given(
+        Quantities("dimensionless", doc="v, a, j, … at u = 0, as many as are wanted"), ()
+    )
+    end: Coefficients = given(Quantities("dimensionless", doc="v, a, j, … at u = 1"), ())
 
     def __post_init__(self) -> None:
         if max(len(self.start), len(self.end)) > 8:
@@ -148,15 +146,11 @@ class Polydyne(Polynomial):
     damping: at the speed it is made for nothing is left vibrating (Stoddart 1953).
     """
 
-    fields: ClassVar[Mapping[str, Field]] = {
-        "ratio": Quantity(
-            "dimensionless", above=0.0, required=True, doc="time of the rise over natural period"
-        ),
-        "damping_ratio": Quantity("dimensionless", minimum=0.0, doc="damping ratio ζ of the follower, 0"),
-    }
     source: ClassVar[str] = "D. A. Stoddart, Polydyne cam design, Machine Design 25, 1953"
-    ratio: float
-    damping_ratio: float = 0.0
+    ratio: float = given(Quantity("dimensionless", above=0.0, doc="time of the rise over natural period"))
+    damping_ratio: float = given(
+        Quantity("dimensionless", minimum=0.0, doc="damping ratio ζ of the follower, 0"), 0.0
+    )
 
     def __post_init__(self) -> None:
         if self.ratio <= 0 or not 0 <= self.damping_ratio < 1:

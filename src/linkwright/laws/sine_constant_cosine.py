@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Mapping
 from functools import cached_property
 from math import pi
 from typing import Any, ClassVar
@@ -13,7 +12,7 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
-from linkwright.fields.base import Field, Quantity
+from linkwright.fields.base import Quantity, given
 from linkwright.laws.base import MOTION_LAWS, MotionLaw
 from linkwright.words.sentence import Sentence
 
@@ -92,14 +91,9 @@ class SineConstantCosine(Family):
     (0, 0, 1) simple harmonic, (0, 1, 0) constant acceleration.
     """
 
-    fields: ClassVar[Mapping[str, Field]] = {
-        "sine": Quantity(_SHARE, minimum=0.0, required=True, doc="share in which the acceleration builds up"),
-        "constant": Quantity(_SHARE, minimum=0.0, required=True, doc="share of constant acceleration"),
-        "cosine": Quantity(_SHARE, minimum=0.0, required=True, doc="share in which it fades"),
-    }
-    sine: float
-    constant: float
-    cosine: float
+    sine: float = given(Quantity(_SHARE, minimum=0.0, doc="share in which the acceleration builds up"))
+    constant: float = given(Quantity(_SHARE, minimum=0.0, doc="share of constant acceleration"))
+    cosine: float = given(Quantity(_SHARE, minimum=0.0, doc="share in which it fades"))
 
     def __post_init__(self) -> None:
         used = self.sine + self.constant + self.cosine

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from abc import abstractmethod
 from dataclasses import field
 from functools import cached_property
 from typing import Any, ClassVar
@@ -12,13 +12,11 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
-from linkwright.fields.base import Field, Quantities, Quantity
+from linkwright.fields.base import Quantities, Quantity, given
 from linkwright.laws.base import MOTION_LAWS, Ends, MotionLaw
 from linkwright.laws.pieces import Pieces
 from linkwright.words.sentence import Sentence
 
-_PLACES = Quantities("dimensionless", required=True, doc="places u between 0 and 1, increasing")
-_VALUES = Quantities("dimensionless", required=True, doc="displacements there, as shares of the lift")
 #: Share of u that the shortest way between two points may be, and how many points there may be.
 _NEAR, _MOST = 1e-6, 5000
 
@@ -36,22 +34,41 @@ def _checked(places: tuple[float, ...], values: tuple[float, ...]) -> tuple[Floa
     return u, np.array([0.0, *kept, 1.0])
 
 
+@dataclass(frozen=True)
+class Through(MotionLaw):
+    """What laws through points have in common."""
+
+    places: tuple[float, ...] = given(Quantities("dimensionless", doc="places u between 0 and 1, increasing"))
+    values: tuple[float, ...] = given(
+        Quantities("dimensionless", doc="displacements there, as shares of the lift")
+    )
+
+    def __post_init__(self) -> None:
+        _checked(self.places, self.values)
+
+    @property
+    @abstractmethod
+    def _pieces(self) -> Pieces:
+        """The polynomials between the breaks."""
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        return tuple(self._pieces.edges[1:-1].tolist())
+
+    def curves(self, u: Any) -> tuple[Any, Any, Any, Any]:
+        return self._pieces.curves(u)
+
+
 @MOTION_LAWS.register("spline")
 @dataclass(frozen=True)
-class SplineThrough(MotionLaw):
+class SplineThrough(Through):
     """The spline of order 5 through points, from 0 to 1 with given velocity and acceleration at the ends.
 
     Continuous up to the fourth derivative (de Boor, A Practical Guide to Splines).
     """
 
-    fields: ClassVar[Mapping[str, Field]] = {"places": _PLACES, "values": _VALUES}
     source: ClassVar[str] = "de Boor, A Practical Guide to Splines; Norton, ch. 5"
-    places: tuple[float, ...]
-    values: tuple[float, ...]
     demanded: Ends = field(default_factory=Ends)
-
-    def __post_init__(self) -> None:
-        _checked(self.places, self.values)
 
     @cached_property
     def _pieces(self) -> Pieces:
@@ -63,39 +80,19 @@ class SplineThrough(MotionLaw):
         found = make_interp_spline(u, s, k=5, bc_type=bounds)
         return Pieces.of_spline(found.t, found.c, 5)
 
-    @property
-    def breaks(self) -> tuple[float, ...]:
-        return tuple(self._pieces.edges[1:-1].tolist())
-
-    def curves(self, u: Any) -> tuple[Any, Any, Any, Any]:
-        return self._pieces.curves(u)
-
 
 @MOTION_LAWS.register("smoothed_table")
 @dataclass(frozen=True)
-class SmoothedTable(MotionLaw):
+class SmoothedTable(Through):
     """The smoothest rise from rest to rest that stays within ``tolerance`` (a share of the lift) of measured points.
 
     A spline of order 5 with the least ∫ j² du for the weight that just keeps the tolerance (Reinsch 1967).
     """
 
-    fields: ClassVar[Mapping[str, Field]] = {
-        "places": _PLACES,
-        "values": _VALUES,
-        "tolerance": Quantity(
-            "dimensionless",
-            above=0.0,
-            required=True,
-            doc="largest distance to the points, as a share of the lift",
-        ),
-    }
     source: ClassVar[str] = "C. H. Reinsch, Smoothing by spline functions, Numer. Math. 10, 1967"
-    places: tuple[float, ...]
-    values: tuple[float, ...]
-    tolerance: float
-
-    def __post_init__(self) -> None:
-        _checked(self.places, self.values)
+    tolerance: float = given(
+        Quantity("dimensionless", above=0.0, doc="largest distance to the points, as a share of the lift")
+    )
 
     @cached_property
     def _pieces(self) -> Pieces:
@@ -130,10 +127,3 @@ class SmoothedTable(MotionLaw):
             middle = 0.5 * (low + high)
             low, high = (middle, high) if far(fitted(middle)) <= self.tolerance else (low, middle)
         return space.pieces(fitted(low))
-
-    @property
-    def breaks(self) -> tuple[float, ...]:
-        return tuple(self._pieces.edges[1:-1].tolist())
-
-    def curves(self, u: Any) -> tuple[Any, Any, Any, Any]:
-        return self._pieces.curves(u)

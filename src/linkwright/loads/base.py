@@ -21,7 +21,17 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
-from linkwright.fields.base import Field, Quantities, Quantity, Schema, Word, table_schema
+from linkwright.fields.base import (
+    REQUIRED,
+    Field,
+    Quantities,
+    Quantity,
+    Schema,
+    Word,
+    given,
+    given_by_file,
+    table_schema,
+)
 from linkwright.fields.references import (
     LinkName,
     LinkNames,
@@ -78,7 +88,6 @@ __all__ = [
 
 #: Slower than this (m/s, rad/s) is at rest, where no direction is opposed.
 AT_REST = 1e-12
-_REQUIRED: Any = object()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -97,9 +106,7 @@ class Load:
     @classmethod
     def fields(cls) -> dict[str, Field]:
         """The declared fields by their attribute names."""
-        return {
-            each.name: each.metadata["field"] for each in dataclasses.fields(cls) if "field" in each.metadata
-        }
+        return given_by_file(cls)
 
     @classmethod
     def check(cls, values: Mapping[str, Any], report: Callable[[str, str, str], None]) -> None:
@@ -228,16 +235,10 @@ def _check_choices(reader: Reader, node: Node, place: Place, cls: type[Load], gi
             reader.error(node, place, *problem, "choice")
 
 
-def _declare(kind: Field, default: Any) -> Any:
-    if default is _REQUIRED:
-        return dataclasses.field(metadata={"field": dataclasses.replace(kind, required=True)})
-    return dataclasses.field(default=default, metadata={"field": kind})
-
-
 def quantity(
     dimension: str,
     *,
-    default: Any = _REQUIRED,
+    default: Any = REQUIRED,
     minimum: float | None = None,
     above: float | None = None,
     nonzero: bool = False,
@@ -246,7 +247,7 @@ def quantity(
 ) -> Any:
     """A quantity in SI of a dimension named in ``units.DIMENSIONS``; limits in SI. Without ``default`` it
     is required."""
-    return _declare(
+    return given(
         Quantity(dimension, minimum=minimum, above=above, nonzero=nonzero, doc=doc, key=key), default
     )
 
@@ -256,72 +257,72 @@ def values(
     *,
     names: tuple[str, ...] = (),
     count: int | None = None,
-    default: Any = _REQUIRED,
+    default: Any = REQUIRED,
     doc: str = "",
     key: str = "",
 ) -> Any:
     """A list of quantities of one dimension, by ``names`` (x, y) or of a fixed ``count``."""
-    return _declare(Quantities(dimension, names, count, doc=doc, key=key), default)
+    return given(Quantities(dimension, names, count, doc=doc, key=key), default)
 
 
-def link(*, moving: bool = False, default: Any = _REQUIRED, doc: str = "", key: str = "") -> Any:
+def link(*, moving: bool = False, default: Any = REQUIRED, doc: str = "", key: str = "") -> Any:
     """The name of a link; ``moving`` excludes the frame."""
-    return _declare(LinkName(moving=moving, doc=doc, key=key), default)
+    return given(LinkName(moving=moving, doc=doc, key=key), default)
 
 
-def links(*, default: Any = _REQUIRED, doc: str = "", key: str = "") -> Any:
+def links(*, default: Any = REQUIRED, doc: str = "", key: str = "") -> Any:
     """The names of two different links ``[a, b]``."""
-    return _declare(LinkNames(doc=doc, key=key), default)
+    return given(LinkNames(doc=doc, key=key), default)
 
 
-def point_of(of: str, *, default: Any = _REQUIRED, doc: str = "", key: str = "") -> Any:
+def point_of(of: str, *, default: Any = REQUIRED, doc: str = "", key: str = "") -> Any:
     """The name of a point of the link that the earlier field ``of`` names."""
-    return _declare(PointName(of, doc=doc, key=key), default)
+    return given(PointName(of, doc=doc, key=key), default)
 
 
-def ray(of: str, *, default: Any = _REQUIRED, doc: str = "", key: str = "") -> Any:
+def ray(of: str, *, default: Any = REQUIRED, doc: str = "", key: str = "") -> Any:
     """Two points ``[P, Q]`` of the link that the earlier field ``of`` names."""
-    return _declare(PointPair(of, doc=doc, key=key), default)
+    return given(PointPair(of, doc=doc, key=key), default)
 
 
-def point(*, default: Any = _REQUIRED, doc: str = "", key: str = "") -> Any:
+def point(*, default: Any = REQUIRED, doc: str = "", key: str = "") -> Any:
     """A point of the mechanism, a LinkPoint."""
-    return _declare(PointReference(doc=doc, key=key), default)
+    return given(PointReference(doc=doc, key=key), default)
 
 
-def points(*, default: Any = _REQUIRED, doc: str = "", key: str = "") -> Any:
+def points(*, default: Any = REQUIRED, doc: str = "", key: str = "") -> Any:
     """Two points of the mechanism, a pair of LinkPoints."""
-    return _declare(PointReferences(doc=doc, key=key), default)
+    return given(PointReferences(doc=doc, key=key), default)
 
 
-def joint(*coordinates: str, default: Any = _REQUIRED, doc: str = "", key: str = "") -> Any:
+def joint(*coordinates: str, default: Any = REQUIRED, doc: str = "", key: str = "") -> Any:
     """The name of a joint with one of the coordinates ``turn`` and ``slide`` (default: either)."""
-    return _declare(JointName(coordinates or ("turn", "slide"), doc=doc, key=key), default)
+    return given(JointName(coordinates or ("turn", "slide"), doc=doc, key=key), default)
 
 
-def word(*choices: str, default: Any = _REQUIRED, doc: str = "", key: str = "") -> Any:
+def word(*choices: str, default: Any = REQUIRED, doc: str = "", key: str = "") -> Any:
     """One of a few words."""
-    return _declare(Word(choices, doc=doc, key=key), default)
+    return given(Word(choices, doc=doc, key=key), default)
 
 
-def magnitude(dimension: str, *, default: Any = _REQUIRED, doc: str = "", key: str = "") -> Any:
+def magnitude(dimension: str, *, default: Any = REQUIRED, doc: str = "", key: str = "") -> Any:
     """A quantity (float) or an Expression of parameters, ``t``, ``input`` and outputs."""
-    return _declare(Magnitude(dimension, doc=doc, key=key), default)
+    return given(Magnitude(dimension, doc=doc, key=key), default)
 
 
-def output(*, default: Any = _REQUIRED, doc: str = "", key: str = "") -> Any:
+def output(*, default: Any = REQUIRED, doc: str = "", key: str = "") -> Any:
     """An Output of the mechanism."""
-    return _declare(OutputName(doc=doc, key=key), default)
+    return given(OutputName(doc=doc, key=key), default)
 
 
-def table(dimension: str, *, default: Any = _REQUIRED, doc: str = "", key: str = "") -> Any:
+def table(dimension: str, *, default: Any = REQUIRED, doc: str = "", key: str = "") -> Any:
     """A Table of values of a dimension over the input, the time or an output."""
-    return _declare(TableField(dimension, doc=doc, key=key), default)
+    return given(TableField(dimension, doc=doc, key=key), default)
 
 
 def phase(*, default: Any = None, doc: str = "when the load acts (default: always)", key: str = "") -> Any:
     """A Phase of the cycle: InputPhase, MovingPhase or SwingPhase; None for the whole cycle."""
-    return _declare(PhaseField(doc=doc, key=key), default)
+    return given(PhaseField(doc=doc, key=key), default)
 
 
 def check_ramp(values: Mapping[str, Any], report: Callable[[str, str, str], None]) -> None:

@@ -16,6 +16,7 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.plotted import Plotted
 from linkwright.errors import Finding, ModelError
+from linkwright.fields.base import GivenByFile
 from linkwright.metrics.quantities import FURTHER, SHOWN
 from linkwright.units import SI_UNITS
 from linkwright.words import Say, speaker
@@ -25,8 +26,6 @@ from linkwright.worked.page import Equation, Step
 
 if TYPE_CHECKING:
     from typing import Self
-
-    from linkwright.fields.base import Field
 
 
 #: Dimensions that only these results have, with their SI units.
@@ -84,11 +83,11 @@ def fault(code: str, key: str, **values: object) -> Finding:
 class Problem(ABC):
     """One calculation as the file or the code gave it; subclasses are frozen dataclasses in SI units.
 
-    ``kind`` is its name in files, ``fields`` the keys of its file beside the heading.
+    ``kind`` is its name in files, ``fields`` the keys of its file beside the heading: its own attributes.
     """
 
     kind: ClassVar[str]
-    fields: ClassVar[Mapping[str, Field]]
+    fields = GivenByFile()
     name: str
     source: str
 

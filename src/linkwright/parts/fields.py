@@ -9,7 +9,7 @@ from linkwright import units
 from linkwright.core import expressions
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import QuantityError
-from linkwright.fields.base import Field, Schema, table_schema
+from linkwright.fields.base import Field, Schema, given_by_file, table_schema
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar
 from linkwright.registry import nearest
@@ -28,6 +28,11 @@ class Table(Field):
 
     fields: Mapping[str, Field]
     make: Make = dict
+
+    @classmethod
+    def of(cls, made: type, **settings: Any) -> Table:
+        """The table of what :func:`linkwright.fields.base.given` declares in a dataclass."""
+        return cls(given_by_file(made), made, **settings)
 
     def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
         before = reader.error_count

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import field, replace
+from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -14,7 +14,7 @@ from linkwright import units
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, LinkwrightError, ModelError
-from linkwright.fields.base import Quantity, Text, Word
+from linkwright.fields.base import Quantity, Text, Word, given
 from linkwright.mechanism.mechanism import Link, Mechanism
 from linkwright.parts.base import fault
 from linkwright.parts.fields import AnyQuantity, ByAddress, Either, Listed, Named, Table, Whole
@@ -65,9 +65,12 @@ class Clearance:
     ``pressed`` — at every position the joint's own reaction presses the pin against the hole.
     """
 
-    clearance: float
-    on: str
-    kind: str = "free"
+    clearance: float = given(Quantity("length", above=0.0, doc="radius of the hole less that of the pin"))
+    on: str = given(Text(doc="the link with the hole"))
+    kind: str = given(
+        Word(("free", "pressed"), doc="free: the pin lies anywhere; pressed: where the reaction presses it"),
+        "free",
+    )
 
 
 @dataclass(frozen=True)
@@ -101,13 +104,6 @@ TOLERANCE = {
     "tolerance": AnyQuantity(required=True, doc="± about the nominal value"),
     "distribution": Word(tuple(DEVIATIONS), doc=", ".join(DEVIATIONS)),
 }
-CLEARANCE = {
-    "clearance": Quantity("length", required=True, above=0.0, doc="radius of the hole less that of the pin"),
-    "on": Text(required=True, doc="the link with the hole"),
-    "kind": Word(
-        ("free", "pressed"), doc="free: the pin lies anywhere; pressed: where the reaction presses it"
-    ),
-}
 LIMIT = {"lower": AnyQuantity(doc="lower limit"), "upper": AnyQuantity(doc="upper limit")}
 
 
@@ -120,30 +116,22 @@ class ToleranceStudy(OfMechanism):
     """
 
     kind: ClassVar[str] = "tolerance"
-    fields: ClassVar[Mapping[str, Any]] = {
-        "mechanism": MECHANISM,
-        "dimensions": ByAddress(
-            ToleranceField(AnyQuantity(), Table(TOLERANCE, _tolerance)),
-            doc="by dimension: crank.length: 0.05 mm, or {tolerance: 0.05 mm, distribution: uniform}",
-        ),
-        "clearances": Named(Table(CLEARANCE, Clearance), "pin",
-                            doc="clearances by pin: {clearance: 0.02 mm, on: rocker, kind: pressed}"),
-        "of": Listed(Text(), '["rocker.angle range"]', doc="summaries over the cycle"),
-        "curves": Listed(Text(), "[rocker.angle]", doc="outputs over the cycle"),
-        "limits": ByAddress(Table(LIMIT, _limit), doc="limits by summary: {lower: 59 deg, upper: 61 deg}"),
-        "samples": Whole(LEAST, doc="machines of the Monte Carlo study, 8192 unless given"),
-        "seed": Whole(0, doc="seed of the random numbers"),
-        "steps": Whole(4, doc="positions over the cycle, 360 unless given"),
-    }  # fmt: skip
-    mechanism: Mechanism
-    dimensions: Mapping[str, Tolerance] = field(default_factory=dict)
-    clearances: Mapping[str, Clearance] = field(default_factory=dict)
-    of: tuple[str, ...] = ()
-    curves: tuple[str, ...] = ()
-    limits: Mapping[str, Limit] = field(default_factory=dict)
-    samples: int = 8192
-    seed: int = 1
-    steps: int = 360
+    mechanism: Mechanism = given(MECHANISM)
+    dimensions: Mapping[str, Tolerance] = given(ByAddress(
+        ToleranceField(AnyQuantity(), Table(TOLERANCE, _tolerance)),
+        doc="by dimension: crank.length: 0.05 mm, or {tolerance: 0.05 mm, distribution: uniform}",
+    ), dict)  # fmt: skip
+    clearances: Mapping[str, Clearance] = given(Named(
+        Table.of(Clearance), "pin", doc="clearances by pin: {clearance: 0.02 mm, on: rocker, kind: pressed}",
+    ), dict)  # fmt: skip
+    of: tuple[str, ...] = given(Listed(Text(), '["rocker.angle range"]', doc="summaries over the cycle"), ())
+    curves: tuple[str, ...] = given(Listed(Text(), "[rocker.angle]", doc="outputs over the cycle"), ())
+    limits: Mapping[str, Limit] = given(
+        ByAddress(Table(LIMIT, _limit), doc="limits by summary: {lower: 59 deg, upper: 61 deg}"), dict
+    )
+    samples: int = given(Whole(LEAST, doc="machines of the Monte Carlo study, 8192 unless given"), 8192)
+    seed: int = given(Whole(0, doc="seed of the random numbers"), 1)
+    steps: int = given(Whole(4, doc="positions over the cycle, 360 unless given"), 360)
     name: str = ""
     source: str = ""
 

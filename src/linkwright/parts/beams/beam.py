@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import field
 from functools import cached_property
 from itertools import pairwise
 from typing import Any, ClassVar
@@ -15,7 +14,7 @@ from numpy.typing import ArrayLike
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding
-from linkwright.fields.base import Quantities, Quantity, Schema, Word, quantity_schema
+from linkwright.fields.base import Quantities, Quantity, Schema, Word, given, quantity_schema
 from linkwright.parts.base import Block, Problem, Result, Row, fault, number, put, shown
 from linkwright.parts.beams.elastic import ElasticLine, Hold, Point, Spread, free_motions, solve_line
 from linkwright.parts.beams.materials import MATERIAL, Material
@@ -40,11 +39,11 @@ class BeamSupport:
     ``settlement``: given deflection, m; ``stiffness`` N/m and ``torsional_stiffness`` N·m/rad of a spring.
     """
 
-    kind: str
-    at: float
-    settlement: float = 0.0
-    stiffness: float = 0.0
-    torsional_stiffness: float = 0.0
+    kind: str = given(Word(SUPPORTS, doc=", ".join(SUPPORTS)))
+    at: float = given(Quantity("length", minimum=0.0, doc="its place"))
+    settlement: float = given(Quantity("length", doc="given deflection, upwards positive"), 0.0)
+    stiffness: float = given(Quantity("stiffness", minimum=0.0, doc="of a spring"), 0.0)
+    torsional_stiffness: float = given(Quantity("torsional_stiffness", minimum=0.0, doc="of a spring"), 0.0)
 
     @property
     def hold(self) -> Hold:
@@ -53,30 +52,6 @@ class BeamSupport:
             self.at, self.kind in ("fixed", "pinned", "roller"), self.kind in ("fixed", "guided"),
             self.settlement, self.stiffness, self.torsional_stiffness,
         )  # fmt: skip
-
-
-@dataclass(frozen=True)
-class BeamLoad:
-    """One of: ``force`` (N, up) ``at`` a place, ``couple`` (N·m, counter-clockwise) ``at`` a place, ``line`` load.
-
-    A line load (N/m, up) lies from ``start`` to ``end``, to the beam's end unless given, constant or from its first
-    to its last value.
-    """
-
-    force: float | None = None
-    couple: float | None = None
-    line: tuple[float, ...] | None = None
-    at: float | None = None
-    start: float = 0.0
-    end: float | None = None
-
-
-@dataclass(frozen=True)
-class SectionStep:
-    """From ``start`` on (m) the beam has another ``section``."""
-
-    start: float
-    section: Section
 
 
 @dataclass(frozen=True)
@@ -95,19 +70,35 @@ class LineLoad(Quantities):
         return {"anyOf": [quantity_schema(self.dimension), super().shape()]}
 
 
-LOAD_FIELDS = {
-    "force": Quantity("force", doc="force, upwards positive, with at"),
-    "couple": Quantity("torque", doc="couple, counter-clockwise positive, with at"),
-    "line": LineLoad(
-        "line_load",
-        count=2,
-        form="[0 N/m, -2 kN/m]",
+@dataclass(frozen=True)
+class BeamLoad:
+    """One of: ``force`` (N, up) ``at`` a place, ``couple`` (N·m, counter-clockwise) ``at`` a place, ``line`` load.
+
+    A line load (N/m, up) lies from ``start`` to ``end``, to the beam's end unless given, constant or from its first
+    to its last value.
+    """
+
+    force: float | None = given(Quantity("force", doc="force, upwards positive, with at"), None)
+    couple: float | None = given(Quantity("torque", doc="couple, counter-clockwise positive, with at"), None)
+    line: tuple[float, ...] | None = given(LineLoad(
+        "line_load", count=2, form="[0 N/m, -2 kN/m]",
         doc="line load, upwards positive; [first, last] where it varies",
-    ),
-    "at": Quantity("length", minimum=0.0, doc="where the force or couple acts"),
-    "start": Quantity("length", minimum=0.0, key="from", doc="where the line load begins, 0 unless given"),
-    "end": Quantity("length", minimum=0.0, key="to", doc="where it ends, the beam's end unless given"),
-}
+    ), None)  # fmt: skip
+    at: float | None = given(Quantity("length", minimum=0.0, doc="where the force or couple acts"), None)
+    start: float = given(
+        Quantity("length", minimum=0.0, key="from", doc="where the line load begins, 0 unless given"), 0.0
+    )
+    end: float | None = given(
+        Quantity("length", minimum=0.0, key="to", doc="where it ends, the beam's end unless given"), None
+    )
+
+
+@dataclass(frozen=True)
+class SectionStep:
+    """From ``start`` on (m) the beam has another ``section``."""
+
+    start: float = given(Quantity("length", above=0.0, key="from", doc="from here on"))
+    section: Section = given(section_field())
 
 
 @dataclass(frozen=True)
@@ -119,44 +110,26 @@ class Beam(Problem):
     """
 
     kind: ClassVar[str] = "beam"
-    fields: ClassVar = {
-        "length": Quantity("length", required=True, above=0.0, doc="length of the beam"),
-        "material": MATERIAL,
-        "section": section_field("cross section: IPE 100, {rectangle: [b, h]}, {circle: [d]}, "
-                                 "{second_moment: 2e-5 m⁴}"),
-        "steps": Listed(
-            Table({"start": Quantity("length", required=True, above=0.0, key="from", doc="from here on"),
-                   "section": section_field()}, SectionStep),
-            "[{from: 1 m, section: …}]", doc="other sections from places on",
-        ),
-        "supports": Named(
-            Table({
-                "kind": Word(SUPPORTS, required=True, doc=", ".join(SUPPORTS)),
-                "at": Quantity("length", required=True, minimum=0.0, doc="its place"),
-                "settlement": Quantity("length", doc="given deflection, upwards positive"),
-                "stiffness": Quantity("stiffness", minimum=0.0, doc="of a spring"),
-                "torsional_stiffness": Quantity("torsional_stiffness", minimum=0.0, doc="of a spring"),
-            }, BeamSupport),
-            "support", required=True, doc="supports by name: {kind: pinned, at: 0 m}",
-        ),
-        "loads": Named(
-            Table(LOAD_FIELDS, BeamLoad),
-            "load",
-            doc="by name: {force: -2 kN, at: 1 m}, {line: -1 kN/m, from: 0 m}, {couple: …}",
-        ),
-        "hinges": Quantities("length", doc="places of hinges within the beam"),
-        "own_weight": Flag(doc="true: with the weight of the beam itself"),
-        "safety": Quantity("dimensionless", above=0.0, doc="safety against the strength, for the needed section"),
-    }  # fmt: skip
-    length: float
-    material: Material
-    section: Section
-    supports: Mapping[str, BeamSupport]
-    loads: Mapping[str, BeamLoad] = field(default_factory=dict)
-    steps: tuple[SectionStep, ...] = ()
-    hinges: tuple[float, ...] = ()
-    own_weight: bool = False
-    safety: float | None = None
+    length: float = given(Quantity("length", above=0.0, doc="length of the beam"))
+    material: Material = given(MATERIAL)
+    section: Section = given(
+        section_field("cross section: IPE 100, {rectangle: [b, h]}, {circle: [d]}, {second_moment: 2e-5 m⁴}")
+    )
+    supports: Mapping[str, BeamSupport] = given(
+        Named(Table.of(BeamSupport), "support", doc="supports by name: {kind: pinned, at: 0 m}")
+    )
+    loads: Mapping[str, BeamLoad] = given(Named(
+        Table.of(BeamLoad), "load",
+        doc="by name: {force: -2 kN, at: 1 m}, {line: -1 kN/m, from: 0 m}, {couple: …}",
+    ), dict)  # fmt: skip
+    steps: tuple[SectionStep, ...] = given(
+        Listed(Table.of(SectionStep), "[{from: 1 m, section: …}]", doc="other sections from places on"), ()
+    )
+    hinges: tuple[float, ...] = given(Quantities("length", doc="places of hinges within the beam"), ())
+    own_weight: bool = given(Flag(doc="true: with the weight of the beam itself"), False)
+    safety: float | None = given(
+        Quantity("dimensionless", above=0.0, doc="safety against the strength, for the needed section"), None
+    )
     name: str = ""
     source: str = ""
 

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from functools import cached_property
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 
@@ -13,7 +12,7 @@ from linkwright.core.arrays import Floats, Indices
 from linkwright.core.dataclass import dataclass
 from linkwright.core.plane import cross
 from linkwright.errors import Finding, LinkwrightError
-from linkwright.fields.base import Quantity, Text
+from linkwright.fields.base import Quantity, Text, given
 from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.kinetostatics.link_balance import applied_rows
 from linkwright.mechanism.mechanism import Link, Mechanism
@@ -39,26 +38,20 @@ class LinkBending(OfMechanism):
     """
 
     kind: ClassVar[str] = "link_bending"
-    fields: ClassVar[Mapping[str, Any]] = {
-        "mechanism": MECHANISM,
-        "link": Text(required=True, doc="name of the link"),
-        "axis": Listed(
+    mechanism: Mechanism = given(MECHANISM)
+    link: str = given(Text(doc="name of the link"))
+    material: Material = given(MATERIAL)
+    section: Section = given(section_field("cross section, bent in the plane of the mechanism"))
+    safety: float = given(
+        Quantity("dimensionless", above=0.0, doc="safety against the strength, for the needed section"), 1.0
+    )
+    steps: int = given(Whole(1, doc="positions over the cycle, 360 unless given"), 360)
+    axis: tuple[str, ...] = given(
+        Listed(
             Text(), "[A, B, C]", doc="points through which a bent link's axis runs, straight unless given"
         ),
-        "material": MATERIAL,
-        "section": section_field("cross section, bent in the plane of the mechanism"),
-        "safety": Quantity(
-            "dimensionless", above=0.0, doc="safety against the strength, for the needed section"
-        ),
-        "steps": Whole(1, doc="positions over the cycle, 360 unless given"),
-    }
-    mechanism: Mechanism
-    link: str
-    material: Material
-    section: Section
-    safety: float = 1.0
-    steps: int = 360
-    axis: tuple[str, ...] = ()
+        (),
+    )
     name: str = ""
     source: str = ""
 
@@ -195,15 +188,15 @@ class LinkStress(Result):
 
     def _seat(self, joint: str) -> Floats:
         """Where a joint's force acts, (n, 2) in the link's axes: the block's point where the link is the guide."""
-        given = self.problem.mechanism.joints[joint]
-        if given.couples or given.higher:
-            return self._local(given.acts_at(self.forces.motion))
-        return np.tile(self.link.points[given.point_on(self.problem.link)], (self.forces.steps, 1))
+        own = self.problem.mechanism.joints[joint]
+        if own.couples or own.higher:
+            return self._local(own.acts_at(self.forces.motion))
+        return np.tile(self.link.points[own.point_on(self.problem.link)], (self.forces.steps, 1))
 
     def _joint_forces(self) -> list[PointForce]:
         found, name = [], self.problem.link
-        for joint, given in self.problem.mechanism.joints.items():
-            if name in given.joined:
+        for joint, own in self.problem.mechanism.joints.items():
+            if name in own.joined:
                 force, seat = self._turned(self.forces.reaction(joint, on=name)), self._seat(joint)
                 couple = self.forces.couple(joint, on=name)
                 found.append(PointForce(joint, self.axis.nearest(seat)[0], force, seat, couple))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from linkwright.core.dataclass import dataclass
-from linkwright.fields.base import Field, Quantity, Text
+from linkwright.fields.base import Quantity, Text, given
 from linkwright.parts.fields import Known, Table
 
 
@@ -16,9 +16,9 @@ class Material:
     ``strength`` and ``density`` are None where they are not known.
     """
 
-    modulus: float
-    strength: float | None = None
-    density: float | None = None
+    modulus: float = given(Quantity("pressure", above=0.0, doc="Young's modulus E"))
+    strength: float | None = given(Quantity("pressure", above=0.0, doc="yield strength"), None)
+    density: float | None = given(Quantity("density", above=0.0, doc="density"), None)
     label: str = ""
     source: str = ""
 
@@ -35,12 +35,7 @@ TABLE: Mapping[str, Material] = {
         Material(110e9, 250e6, 7200, "EN-GJL-250", "EN 1561 (tensile strength)"),
     )
 }
-FIELDS: Mapping[str, Field] = {
-    "modulus": Quantity("pressure", required=True, above=0.0, doc="Young's modulus E"),
-    "strength": Quantity("pressure", above=0.0, doc="yield strength"),
-    "density": Quantity("density", above=0.0, doc="density"),
-}
 MATERIAL = Known(
-    Text(), Table(FIELDS, Material), TABLE, "beam.no_material", required=True,
+    Text(), Table.of(Material), TABLE, "beam.no_material", required=True,
     doc=f"material: {', '.join(TABLE)}, or {{modulus: 210 GPa, strength: 235 MPa}}",
 )  # fmt: skip

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -15,7 +14,7 @@ from linkwright.core import expressions
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, ModelError, QuantityError
-from linkwright.fields.base import Field
+from linkwright.fields.base import Field, given
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Scalar
 from linkwright.parts.base import UNITS, Block, Problem, Result, Row, fault, put, shown, si_unit
@@ -112,17 +111,13 @@ class Program(Problem):
     """``minimize`` or ``maximize`` a formula of ``variables`` subject to constraints; :meth:`of` reads texts."""
 
     kind: ClassVar[str] = "program"
-    fields: ClassVar[Mapping[str, Any]] = {
-        "variables": Named(Table(VARIABLE, _variable), "variable", required=True,
-                           doc="variables by name: {from: 0 mm, to: 40 mm}, with integer: true or choices: […]"),
-        "minimize": Objective(doc="what is to be small, an expression"),
-        "maximize": Objective(doc="or what is to be large"),
-        "subject_to": Conditions(doc="constraints by name: 2*x + y <= 100"),
-    }  # fmt: skip
-    variables: Mapping[str, Variable]
-    minimize: Formula | None = None
-    maximize: Formula | None = None
-    subject_to: tuple[Constraint, ...] = field(default_factory=tuple)
+    variables: Mapping[str, Variable] = given(Named(
+        Table(VARIABLE, _variable), "variable",
+        doc="variables by name: {from: 0 mm, to: 40 mm}, with integer: true or choices: […]",
+    ))  # fmt: skip
+    minimize: Formula | None = given(Objective(doc="what is to be small, an expression"), None)
+    maximize: Formula | None = given(Objective(doc="or what is to be large"), None)
+    subject_to: tuple[Constraint, ...] = given(Conditions(doc="constraints by name: 2*x + y <= 100"), ())
     name: str = ""
     source: str = ""
 

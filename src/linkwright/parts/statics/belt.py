@@ -10,7 +10,7 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding
-from linkwright.fields.base import Quantity
+from linkwright.fields.base import Quantity, given
 from linkwright.parts.base import Block, Problem, Result, Row, fault, put
 from linkwright.words import Say
 from linkwright.worked.page import Step
@@ -25,28 +25,17 @@ class Belt(Problem):
     """
 
     kind: ClassVar[str] = "belt"
-    fields: ClassVar = {
-        "friction": Quantity("dimensionless", required=True, above=0.0, doc="coefficient of friction"),
-        "wrap": Quantity(
-            "angle", required=True, above=0.0, doc="angle of contact; several turns are allowed"
-        ),
-        "groove": Quantity("angle", above=0.0, doc="full angle of a V groove; a flat belt unless given"),
-        "tight": Quantity("force", above=0.0, doc="tension of the tight side"),
-        "slack": Quantity("force", above=0.0, doc="tension of the slack side"),
-        "torque": Quantity("torque", above=0.0, doc="torque on the drum"),
-        "radius": Quantity("length", above=0.0, doc="radius of the drum"),
-        "mass": Quantity("linear_density", minimum=0.0, doc="mass per length"),
-        "speed": Quantity("velocity", minimum=0.0, doc="belt speed"),
-    }
-    friction: float
-    wrap: float
-    groove: float | None = None
-    tight: float | None = None
-    slack: float | None = None
-    torque: float | None = None
-    radius: float | None = None
-    mass: float = 0.0
-    speed: float = 0.0
+    friction: float = given(Quantity("dimensionless", above=0.0, doc="coefficient of friction"))
+    wrap: float = given(Quantity("angle", above=0.0, doc="angle of contact; several turns are allowed"))
+    groove: float | None = given(
+        Quantity("angle", above=0.0, doc="full angle of a V groove; a flat belt unless given"), None
+    )
+    tight: float | None = given(Quantity("force", above=0.0, doc="tension of the tight side"), None)
+    slack: float | None = given(Quantity("force", above=0.0, doc="tension of the slack side"), None)
+    torque: float | None = given(Quantity("torque", above=0.0, doc="torque on the drum"), None)
+    radius: float | None = given(Quantity("length", above=0.0, doc="radius of the drum"), None)
+    mass: float = given(Quantity("linear_density", minimum=0.0, doc="mass per length"), 0.0)
+    speed: float = given(Quantity("velocity", minimum=0.0, doc="belt speed"), 0.0)
     name: str = ""
     source: str = ""
 
@@ -67,9 +56,9 @@ class Belt(Problem):
 
     def findings(self) -> list[Finding]:
         found = []
-        given = [name for name in ("tight", "slack", "torque") if getattr(self, name) is not None]
-        if len(given) != 1:
-            found.append(fault("statics.belt_choice", given[1] if given else "", count=len(given)))
+        names = [name for name in ("tight", "slack", "torque") if getattr(self, name) is not None]
+        if len(names) != 1:
+            found.append(fault("statics.belt_choice", names[1] if names else "", count=len(names)))
         if self.torque is not None and self.radius is None:
             found.append(fault("statics.belt_radius", "radius"))
         if self.groove is not None and self.groove >= math.pi:

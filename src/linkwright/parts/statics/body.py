@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import field
 from functools import cached_property
 from typing import ClassVar
 
@@ -12,7 +11,7 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding
-from linkwright.fields.base import Word
+from linkwright.fields.base import Word, given
 from linkwright.parts.base import Block, Problem, Result, Row, fault, number, put
 from linkwright.parts.fields import Listed, Named, Table
 from linkwright.parts.motions import plain_motions
@@ -33,9 +32,13 @@ class Support:
     ``holds``: any of x, y, z, turn_x, turn_y, turn_z; ``along``: the direction of a rod, rope or roller.
     """
 
-    at: tuple[float, ...]
-    holds: tuple[str, ...] = ()
-    along: tuple[float, ...] = ()
+    at: tuple[float, ...] = given(Components("length", doc="where it holds the body"))
+    holds: tuple[str, ...] = given(
+        Listed(Word(HELD), "[x, y]", doc="what it holds: x, y, z, turn_x, turn_y, turn_z"), ()
+    )
+    along: tuple[float, ...] = given(
+        Components("dimensionless", doc="direction of a rod, rope or roller"), ()
+    )
 
     def columns(self, scale: float) -> list[tuple[str, Floats]]:
         """Names of its reactions, each with the force and moment (6,) of a unit; moments over ``scale``."""
@@ -57,28 +60,12 @@ class RigidBody(Problem):
     """A body under forces (N) and couples (N·m), held by supports."""
 
     kind: ClassVar[str] = "rigid_body"
-    fields: ClassVar = {
-        "supports": Named(
-            Table(
-                {
-                    "at": Components("length", required=True, doc="where it holds the body"),
-                    "holds": Listed(
-                        Word(HELD), "[x, y]", doc="what it holds: x, y, z, turn_x, turn_y, turn_z"
-                    ),
-                    "along": Components("dimensionless", doc="direction of a rod, rope or roller"),
-                },
-                Support,
-            ),
-            "support",
-            required=True,
-            doc="supports by name: {at: [0 m, 0 m], holds: [x, y]}, or {at: […], along: [0, 1]}",
-        ),
-        "forces": FORCES,
-        "couples": COUPLES,
-    }
-    supports: Mapping[str, Support]
-    forces: Mapping[str, Force] = field(default_factory=dict)
-    couples: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
+    supports: Mapping[str, Support] = given(Named(
+        Table.of(Support), "support",
+        doc="supports by name: {at: [0 m, 0 m], holds: [x, y]}, or {at: […], along: [0, 1]}",
+    ))  # fmt: skip
+    forces: Mapping[str, Force] = given(FORCES, dict)
+    couples: Mapping[str, tuple[float, ...]] = given(COUPLES, dict)
     name: str = ""
     source: str = ""
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -14,7 +13,7 @@ from numpy.typing import ArrayLike
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding
-from linkwright.fields.base import Quantities, Quantity
+from linkwright.fields.base import Quantities, Quantity, given
 from linkwright.parts.base import Block, Problem, Result, Row, fault, number, put
 from linkwright.parts.fields import Either, Named, Table
 from linkwright.words import Say
@@ -31,18 +30,30 @@ ZERO = 1e-12
 
 def spatial(vector: ArrayLike) -> Floats:
     """Three components of two or three."""
-    given = np.asarray(vector, dtype=float)
-    return np.concatenate([given, np.zeros(3 - len(given))])
+    found = np.asarray(vector, dtype=float)
+    return np.concatenate([found, np.zeros(3 - len(found))])
+
+
+@dataclass(frozen=True)
+class Components(Quantities):
+    """Two or three components."""
+
+    def shape(self) -> dict[str, object]:
+        return {**super().shape(), "minItems": 2, "maxItems": 3}
 
 
 @dataclass(frozen=True)
 class Force:
     """A force: its components ``force`` (2 or 3) N, or its ``size`` N ``along`` a direction; ``at`` (2 or 3) m."""
 
-    force: tuple[float, ...] = ()
-    size: float | None = None
-    along: tuple[float, ...] = ()
-    at: tuple[float, ...] = (0.0, 0.0)
+    force: tuple[float, ...] = given(Components("force", doc="components"), ())
+    size: float | None = given(Quantity("force", doc="magnitude, with along"), None)
+    along: tuple[float, ...] = given(
+        Components("dimensionless", doc="direction of the force, any length"), ()
+    )
+    at: tuple[float, ...] = given(
+        Components("length", doc="point of application, the origin unless given"), (0.0, 0.0)
+    )
 
     @property
     def vector(self) -> Floats:
@@ -64,18 +75,10 @@ class Force:
             found.append(fault("statics.force_form", key))
         elif self.along and not any(self.along):
             found.append(fault("statics.no_direction", f"{key}.along"))
-        for name, given in (("force", self.force), ("along", self.along), ("at", self.at)):
-            if given and len(given) not in (2, 3):
-                found.append(fault("statics.components", f"{key}.{name}", count=len(given)))
+        for name, vector in (("force", self.force), ("along", self.along), ("at", self.at)):
+            if vector and len(vector) not in (2, 3):
+                found.append(fault("statics.components", f"{key}.{name}", count=len(vector)))
         return found
-
-
-@dataclass(frozen=True)
-class Components(Quantities):
-    """Two or three components."""
-
-    def shape(self) -> dict[str, object]:
-        return {**super().shape(), "minItems": 2, "maxItems": 3}
 
 
 @dataclass(frozen=True)
@@ -87,14 +90,8 @@ class ForceField(Either):
         return Force(force=found) if isinstance(found, tuple) else found
 
 
-FORCE_TABLE = {
-    "force": Components("force", doc="components"),
-    "size": Quantity("force", doc="magnitude, with along"),
-    "along": Components("dimensionless", doc="direction of the force, any length"),
-    "at": Components("length", doc="point of application, the origin unless given"),
-}
 FORCES = Named(
-    ForceField(Components("force", form="[0 N, 40 N, 60 N]"), Table(FORCE_TABLE, Force)),
+    ForceField(Components("force", form="[0 N, 40 N, 60 N]"), Table.of(Force)),
     "force",
     doc="forces by name: [Fx, Fy, Fz], or {size: …, along: […], at: […]}",
 )
@@ -114,14 +111,12 @@ class ForceSystem(Problem):
     """Forces (N) at points (m) and couples (N·m); moments are taken ``about`` a point (m)."""
 
     kind: ClassVar[str] = "forces"
-    fields: ClassVar = {
-        "forces": FORCES,
-        "couples": COUPLES,
-        "about": Components("length", doc="point about which moments are taken, the origin unless given"),
-    }
-    forces: Mapping[str, Force] = field(default_factory=dict)
-    couples: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
-    about: tuple[float, ...] = (0.0, 0.0, 0.0)
+    forces: Mapping[str, Force] = given(FORCES, dict)
+    couples: Mapping[str, tuple[float, ...]] = given(COUPLES, dict)
+    about: tuple[float, ...] = given(
+        Components("length", doc="point about which moments are taken, the origin unless given"),
+        (0.0, 0.0, 0.0),
+    )
     name: str = ""
     source: str = ""
 

@@ -10,7 +10,7 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding
-from linkwright.fields.base import Quantity
+from linkwright.fields.base import Quantity, given
 from linkwright.parts.base import Block, Problem, Result, Row, fault, put
 from linkwright.words import Say
 from linkwright.worked.page import Step
@@ -25,22 +25,17 @@ class Wedge(Problem):
     """
 
     kind: ClassVar[str] = "wedge"
-    fields: ClassVar = {
-        "load": Quantity("force", required=True, above=0.0, doc="load to be raised"),
-        "angle": Quantity("angle", required=True, above=0.0, doc="angle of the wedge"),
-        "friction": Quantity(
-            "dimensionless", required=True, minimum=0.0, doc="coefficient of friction on the slope"
-        ),
-        "floor": Quantity("dimensionless", minimum=0.0, doc="on the floor, as on the slope unless given"),
-        "wall": Quantity(
-            "dimensionless", minimum=0.0, doc="on the guiding wall, as on the slope unless given"
-        ),
-    }
-    load: float
-    angle: float
-    friction: float
-    floor: float | None = None
-    wall: float | None = None
+    load: float = given(Quantity("force", above=0.0, doc="load to be raised"))
+    angle: float = given(Quantity("angle", above=0.0, doc="angle of the wedge"))
+    friction: float = given(
+        Quantity("dimensionless", minimum=0.0, doc="coefficient of friction on the slope")
+    )
+    floor: float | None = given(
+        Quantity("dimensionless", minimum=0.0, doc="on the floor, as on the slope unless given"), None
+    )
+    wall: float | None = given(
+        Quantity("dimensionless", minimum=0.0, doc="on the guiding wall, as on the slope unless given"), None
+    )
     name: str = ""
     source: str = ""
 

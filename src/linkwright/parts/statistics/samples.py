@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import field
 from functools import cached_property
 from typing import Any, ClassVar
 
@@ -13,7 +12,7 @@ from linkwright import units
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding
-from linkwright.fields.base import Quantity, Text, Word
+from linkwright.fields.base import Quantity, Text, Word, given
 from linkwright.parts.base import Block, Problem, Result, Row, Scale, fault, number, put
 from linkwright.parts.fields import AnyQuantity, Listed, Named, Numbers, Sample, Table, Whole
 from linkwright.parts.statistics.describe import (
@@ -54,9 +53,9 @@ class Asked:
 class Fitting:
     """The sample ``y`` as a polynomial of ``degree`` of one sample ``on``, or linear in several."""
 
-    y: str
-    on: tuple[str, ...]
-    degree: int = 1
+    y: str = given(Text(doc="the sample that is explained"))
+    on: tuple[str, ...] = given(Listed(Text(), "[x]", doc="the samples that explain it"))
+    degree: int = given(Whole(1, doc="degree of the polynomial of one sample, 1 unless given"), 1)
 
 
 @dataclass(frozen=True)
@@ -82,11 +81,6 @@ TEST_FIELDS = {
     "of": OF,
     "value": AnyQuantity(doc="mean, or standard deviation, that is compared with"),
 }
-REGRESSION_FIELDS = {
-    "y": Text(required=True, doc="the sample that is explained"),
-    "on": Listed(Text(), "[x]", required=True, doc="the samples that explain it"),
-    "degree": Whole(1, doc="degree of the polynomial of one sample, 1 unless given"),
-}
 LIMIT_FIELDS = {
     "lower": AnyQuantity(doc="lower limit"),
     "upper": AnyQuantity(doc="upper limit"),
@@ -99,23 +93,27 @@ class Samples(Problem):
     """Samples by name (SI with the unit in which they were given) and what is asked about them."""
 
     kind: ClassVar[str] = "statistics"
-    fields: ClassVar[Mapping[str, Any]] = {
-        "samples": Named(Sample(), "sample", required=True,
-                         doc="samples by name: {unit: mm, values: [20.1, 19.9]}, or [20.1 mm, 19.9 mm]"),
-        "confidence": Quantity("dimensionless", above=0.0, doc="level of intervals and tests, 0.95 unless given"),
-        "fit": Listed(Word(tuple(DISTRIBUTIONS)), "[normal, weibull]", doc=f"any of {', '.join(DISTRIBUTIONS)}"),
-        "tests": Named(Table(TEST_FIELDS, _asked), "test", doc="tests by name: {kind: mean, of: [a], value: 20 mm}"),
-        "regressions": Named(Table(REGRESSION_FIELDS, Fitting), "regression",
-                             doc="regressions by name: {y: force, on: [speed], degree: 2}"),
-        "capability": Named(Table(LIMIT_FIELDS, _limits), "sample",
-                            doc="limits by sample: {lower: 19.9 mm, upper: 20.1 mm, subgroup: 5}"),
-    }  # fmt: skip
-    samples: Mapping[str, Numbers]
-    confidence: float = 0.95
-    fit: tuple[str, ...] = ()
-    tests: Mapping[str, Asked] = field(default_factory=dict)
-    regressions: Mapping[str, Fitting] = field(default_factory=dict)
-    capability: Mapping[str, Limits] = field(default_factory=dict)
+    samples: Mapping[str, Numbers] = given(Named(
+        Sample(), "sample", doc="samples by name: {unit: mm, values: [20.1, 19.9]}, or [20.1 mm, 19.9 mm]",
+    ))  # fmt: skip
+    confidence: float = given(
+        Quantity("dimensionless", above=0.0, doc="level of intervals and tests, 0.95 unless given"), 0.95
+    )
+    fit: tuple[str, ...] = given(
+        Listed(Word(tuple(DISTRIBUTIONS)), "[normal, weibull]", doc=f"any of {', '.join(DISTRIBUTIONS)}"), ()
+    )
+    tests: Mapping[str, Asked] = given(
+        Named(Table(TEST_FIELDS, _asked), "test", doc="tests by name: {kind: mean, of: [a], value: 20 mm}"),
+        dict,
+    )
+    regressions: Mapping[str, Fitting] = given(
+        Named(Table.of(Fitting), "regression", doc="regressions by name: {y: force, on: [speed], degree: 2}"),
+        dict,
+    )
+    capability: Mapping[str, Limits] = given(Named(
+        Table(LIMIT_FIELDS, _limits), "sample",
+        doc="limits by sample: {lower: 19.9 mm, upper: 20.1 mm, subgroup: 5}",
+    ), dict)  # fmt: skip
     name: str = ""
     source: str = ""
 
@@ -298,16 +296,16 @@ class Statistics(Result):
         """By sample."""
         return {
             name: capability(
-                self.problem.values(name), given.lower, given.upper, given.subgroup, self.problem.confidence
+                self.problem.values(name), own.lower, own.upper, own.subgroup, self.problem.confidence
             )
-            for name, given in self.problem.capability.items()
+            for name, own in self.problem.capability.items()
         }
 
     def scale(self, name: str) -> Scale:
         """The unit of a sample."""
-        given = self.problem.samples[name]
-        si = units.si_symbol(given.dimension)
-        return Scale(given.unit, given.factor, si) if given.unit else Scale(si, 1.0, si)
+        own = self.problem.samples[name]
+        si = units.si_symbol(own.dimension)
+        return Scale(own.unit, own.factor, si) if own.unit else Scale(si, 1.0, si)
 
     def _in_unit(self, name: str, value: float) -> str:
         return f"{value / self.scale(name).factor:.6g}"

@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from functools import cached_property
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, LinkwrightError
-from linkwright.fields.base import Quantity, Text
+from linkwright.fields.base import Quantity, Text, given
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
@@ -32,22 +31,14 @@ class Conveyor(OfMechanism):
     """
 
     kind: ClassVar[str] = "throw"
-    fields: ClassVar[Mapping[str, Any]] = {
-        "mechanism": MECHANISM,
-        "link": Text(required=True, doc="the link that is the trough"),
-        "friction": Quantity(
-            "dimensionless", required=True, minimum=0.0, doc="coefficient of friction at rest"
-        ),
-        "sliding_friction": Quantity("dimensionless", minimum=0.0, doc="in motion, as at rest unless given"),
-        "incline": Quantity("angle", doc="how much the surface rises along +x, 0 unless given"),
-        "steps": Whole(36, doc="positions over the cycle, 720 unless given"),
-    }
-    mechanism: Mechanism
-    link: str
-    friction: float
-    sliding_friction: float | None = None
-    incline: float = 0.0
-    steps: int = 720
+    mechanism: Mechanism = given(MECHANISM)
+    link: str = given(Text(doc="the link that is the trough"))
+    friction: float = given(Quantity("dimensionless", minimum=0.0, doc="coefficient of friction at rest"))
+    sliding_friction: float | None = given(
+        Quantity("dimensionless", minimum=0.0, doc="in motion, as at rest unless given"), None
+    )
+    incline: float = given(Quantity("angle", doc="how much the surface rises along +x, 0 unless given"), 0.0)
+    steps: int = given(Whole(36, doc="positions over the cycle, 720 unless given"), 720)
     name: str = ""
     source: str = ""
 

@@ -13,7 +13,7 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, LinkwrightError, ModelError
-from linkwright.fields.base import Quantity, Text
+from linkwright.fields.base import GivenByFile, Quantity, Text, given
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.parts.base import Block, Problem, Result, Row, fault, put
@@ -35,62 +35,57 @@ class Particle(Problem):
     """
 
     kind: ClassVar[str] = "trajectory"
-    fields: ClassVar[Mapping[str, Any]] = {
-        "mass": Quantity("mass", above=0.0, doc="mass, needed with drag"),
-        "speed": Quantity("velocity", minimum=0.0, doc="speed at the start"),
-        "angle": Quantity("angle", doc="direction of the throw above the horizontal"),
-        "height": Quantity("length", minimum=0.0, doc="height of the start above the ground, 0 unless given"),
-        "linear": Quantity("damping", minimum=0.0, doc="linear drag b"),
-        "quadratic": Quantity("linear_density", minimum=0.0, doc="quadratic drag k"),
+    fields = GivenByFile({
         "drag_coefficient": Quantity("dimensionless", minimum=0.0, doc="c_w, for k = ½ ρ c_w A"),
         "area": Quantity("area", above=0.0, doc="cross section A"),
         "density": Quantity("density", above=0.0, doc="density of the medium, air unless given"),
-        "gravity": Quantity("acceleration", above=0.0, doc="9.80665 m/s² unless given"),
         "mechanism": Text(doc="model file of a mechanism that throws, in place of speed, angle and height"),
         "point": Text(doc="the point of the mechanism that lets go, such as bucket.P"),
         "at": Quantity("angle", doc="angle of the input at which it lets go"),
         "ground": Quantity("length", doc="height of the ground in the mechanism's axes, 0 unless given"),
-    }
-    speed: float | None = None
-    angle: float | None = None
-    height: float = 0.0
-    mass: float = 1.0
-    linear: float = 0.0
-    quadratic: float = 0.0
-    gravity: float = GRAVITY
+    })  # fmt: skip
+    speed: float | None = given(Quantity("velocity", minimum=0.0, doc="speed at the start"), None)
+    angle: float | None = given(Quantity("angle", doc="direction of the throw above the horizontal"), None)
+    height: float = given(
+        Quantity("length", minimum=0.0, doc="height of the start above the ground, 0 unless given"), 0.0
+    )
+    mass: float = given(Quantity("mass", above=0.0, doc="mass, needed with drag"), 1.0)
+    linear: float = given(Quantity("damping", minimum=0.0, doc="linear drag b"), 0.0)
+    quadratic: float = given(Quantity("linear_density", minimum=0.0, doc="quadratic drag k"), 0.0)
+    gravity: float = given(Quantity("acceleration", above=0.0, doc="9.80665 m/s² unless given"), GRAVITY)
     start: float = 0.0
     name: str = ""
     source: str = ""
 
     @classmethod
     def of_file(cls, values: Mapping[str, Any], folder: Path) -> Particle:
-        given = dict(values)
-        medium = {key: given.pop(key, None) for key in ("drag_coefficient", "area", "density")}
-        thrower = {key: given.pop(key, None) for key in ("mechanism", "point", "at", "ground")}
+        own = dict(values)
+        medium = {key: own.pop(key, None) for key in ("drag_coefficient", "area", "density")}
+        thrower = {key: own.pop(key, None) for key in ("mechanism", "point", "at", "ground")}
         found = []
         if any(v is not None for v in medium.values()):
             if (
                 medium["drag_coefficient"] is None
                 or medium["area"] is None
-                or given.get("quadratic") is not None
+                or own.get("quadratic") is not None
             ):
                 found.append(fault("trajectory.drag_form", "drag_coefficient"))
             else:
-                given["quadratic"] = (
+                own["quadratic"] = (
                     0.5 * (medium["density"] or 1.225) * medium["drag_coefficient"] * medium["area"]
                 )
-        if (given.get("quadratic") or given.get("linear")) and given.get("mass") is None:
+        if (own.get("quadratic") or own.get("linear")) and own.get("mass") is None:
             found.append(fault("trajectory.mass_needed", "mass"))
         if found:
             raise ModelError(found)
         if thrower["mechanism"] is None:
-            return cls(**given)
-        return cls.thrown(load_beside(thrower["mechanism"], folder), thrower, given)
+            return cls(**own)
+        return cls.thrown(load_beside(thrower["mechanism"], folder), thrower, own)
 
     @classmethod
-    def thrown(cls, mechanism: Mechanism, by: Mapping[str, Any], given: Mapping[str, Any]) -> Particle:
+    def thrown(cls, mechanism: Mechanism, by: Mapping[str, Any], own: Mapping[str, Any]) -> Particle:
         """Thrown by the ``point`` of a mechanism when its input is ``at`` an angle, above the ``ground``."""
-        if by.get("point") is None or by.get("at") is None or "speed" in given or "angle" in given:
+        if by.get("point") is None or by.get("at") is None or "speed" in own or "angle" in own:
             raise ModelError([fault("trajectory.thrower_form", "mechanism")])
         try:
             motion = solve_motion(mechanism, at=[by["at"]])
@@ -100,7 +95,7 @@ class Particle(Problem):
         speed = float(np.hypot(*velocity))
         angle = math.atan2(velocity[1], velocity[0]) if speed else 0.0
         height = float(place[1]) - (by.get("ground") or 0.0)
-        return cls(**{**given, "speed": speed, "angle": angle, "height": height, "start": float(place[0])})
+        return cls(**{**own, "speed": speed, "angle": angle, "height": height, "start": float(place[0])})
 
     def findings(self) -> list[Finding]:
         found = []

@@ -13,7 +13,7 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import Expression, parse
 from linkwright.errors import Finding, QuantityError, RequestError
-from linkwright.fields.base import Quantity
+from linkwright.fields.base import Quantity, given
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node
 from linkwright.laws.base import MOTION_LAWS, MotionLaw
@@ -67,20 +67,14 @@ class FollowerSpring(Problem):
     """
 
     kind: ClassVar[str] = "follower"
-    fields: ClassVar[Mapping[str, Any]] = {
-        "mass": Quantity("mass", required=True, above=0.0, doc="mass moved by the spring"),
-        "stiffness": Quantity("stiffness", required=True, above=0.0, doc="stiffness between cam and mass"),
-        "damping_ratio": Quantity("dimensionless", minimum=0.0, doc="damping ratio ζ, 0 unless given"),
-        "lift": Quantity("length", required=True, above=0.0, doc="lift of the rise"),
-        "rise_time": Quantity("time", required=True, above=0.0, doc="time of the rise"),
-        "law": LawOrExpression(required=True, doc="a motion law, or an expression of u from 0 to 1"),
-    }
-    mass: float
-    stiffness: float
-    lift: float
-    rise_time: float
-    law: MotionLaw | str
-    damping_ratio: float = 0.0
+    mass: float = given(Quantity("mass", above=0.0, doc="mass moved by the spring"))
+    stiffness: float = given(Quantity("stiffness", above=0.0, doc="stiffness between cam and mass"))
+    lift: float = given(Quantity("length", above=0.0, doc="lift of the rise"))
+    rise_time: float = given(Quantity("time", above=0.0, doc="time of the rise"))
+    law: MotionLaw | str = given(LawOrExpression(doc="a motion law, or an expression of u from 0 to 1"))
+    damping_ratio: float = given(
+        Quantity("dimensionless", minimum=0.0, doc="damping ratio ζ, 0 unless given"), 0.0
+    )
     name: str = ""
     source: str = ""
 
@@ -141,8 +135,8 @@ class FollowerVibration(Result):
 
     def residual(self, ratio: Floats | float | None = None) -> Floats:
         """Residual amplitude (m) without damping at ratios n (k,), at its own unless given."""
-        given = np.asarray(self.ratio if ratio is None else ratio, dtype=float)
-        return self.problem.lift * residual(self.problem.motion, given)
+        ratios = np.asarray(self.ratio if ratio is None else ratio, dtype=float)
+        return self.problem.lift * residual(self.problem.motion, ratios)
 
     def _law(self, order: int, u: Floats) -> Floats:
         return np.asarray(self.problem.motion.curves(u)[order], dtype=float)

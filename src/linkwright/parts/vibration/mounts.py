@@ -4,16 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import field
 from functools import cached_property
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 
 from linkwright.core.arrays import Complexes, Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, LinkwrightError, ModelError
-from linkwright.fields.base import Quantities, Quantity
+from linkwright.fields.base import Quantities, Quantity, given
 from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.parts.base import Block, Result, Row, fault, number, put, shown
@@ -45,16 +44,9 @@ SMALL = 1e-3
 class Mount:
     """A mount ``at`` a place of the frame, m, with its stiffnesses, N/m."""
 
-    at: tuple[float, float]
-    stiffness_x: float
-    stiffness_y: float
-
-
-MOUNT = {
-    "at": Quantities("length", ("x", "y"), required=True, doc="where it is", form="[0 m, 0 m]"),
-    "stiffness_x": Quantity("stiffness", required=True, above=0.0, doc="stiffness along x"),
-    "stiffness_y": Quantity("stiffness", required=True, above=0.0, doc="stiffness along y"),
-}
+    at: tuple[float, float] = given(Quantities("length", ("x", "y"), doc="where it is", form="[0 m, 0 m]"))
+    stiffness_x: float = given(Quantity("stiffness", above=0.0, doc="stiffness along x"))
+    stiffness_y: float = given(Quantity("stiffness", above=0.0, doc="stiffness along y"))
 
 
 @dataclass(frozen=True)
@@ -67,36 +59,28 @@ class Mounts(OfMechanism):
     """
 
     kind: ClassVar[str] = "mounts"
-    fields: ClassVar[Mapping[str, Any]] = {
-        "mechanism": MECHANISM,
-        "mass": Quantity("mass", required=True, above=0.0, doc="mass of the whole machine"),
-        "stiffness_x": Quantity(
-            "stiffness", above=0.0, doc="of all mounts along x, where the machine does not rock"
-        ),
-        "stiffness_y": Quantity(
-            "stiffness", above=0.0, doc="of all mounts along y, where the machine does not rock"
-        ),
-        "mounts": Named(
-            Table(MOUNT, Mount),
-            "mount",
-            doc="every mount by name: {at: [0 m, 0 m], stiffness_x: 1 MN/m, stiffness_y: 2 MN/m}",
-        ),
-        "inertia": Quantity("inertia", above=0.0, doc="of the whole machine about its mass centre"),
-        "mass_centre": Quantities(
-            "length", ("x", "y"), doc="of the whole machine, in the axes of the frame", form="[0.4 m, 0.3 m]"
-        ),
-        "damping_ratio": Quantity("dimensionless", minimum=0.0, doc="damping ratio ζ, 0 unless given"),
-        "steps": Whole(8, doc="positions over the cycle, 360 unless given"),
-    }
-    mechanism: Mechanism
-    mass: float
-    stiffness_x: float | None = None
-    stiffness_y: float | None = None
-    damping_ratio: float = 0.0
-    steps: int = 360
-    mounts: Mapping[str, Mount] = field(default_factory=dict)
-    inertia: float | None = None
-    mass_centre: tuple[float, float] | None = None
+    mechanism: Mechanism = given(MECHANISM)
+    mass: float = given(Quantity("mass", above=0.0, doc="mass of the whole machine"))
+    stiffness_x: float | None = given(
+        Quantity("stiffness", above=0.0, doc="of all mounts along x, where the machine does not rock"), None
+    )
+    stiffness_y: float | None = given(
+        Quantity("stiffness", above=0.0, doc="of all mounts along y, where the machine does not rock"), None
+    )
+    damping_ratio: float = given(
+        Quantity("dimensionless", minimum=0.0, doc="damping ratio ζ, 0 unless given"), 0.0
+    )
+    steps: int = given(Whole(8, doc="positions over the cycle, 360 unless given"), 360)
+    mounts: Mapping[str, Mount] = given(Named(
+        Table.of(Mount), "mount",
+        doc="every mount by name: {at: [0 m, 0 m], stiffness_x: 1 MN/m, stiffness_y: 2 MN/m}",
+    ), dict)  # fmt: skip
+    inertia: float | None = given(
+        Quantity("inertia", above=0.0, doc="of the whole machine about its mass centre"), None
+    )
+    mass_centre: tuple[float, float] | None = given(Quantities(
+        "length", ("x", "y"), doc="of the whole machine, in the axes of the frame", form="[0.4 m, 0.3 m]",
+    ), None)  # fmt: skip
     name: str = ""
     source: str = ""
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import field, replace
+from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any, ClassVar
@@ -14,7 +14,7 @@ import numpy as np
 from linkwright.core.arrays import Complexes, Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, ModelError
-from linkwright.fields.base import Quantities, Quantity, Text
+from linkwright.fields.base import GivenByFile, Quantities, Quantity, Text, given
 from linkwright.parts.base import Block, Problem, Result, Row, fault, number, put
 from linkwright.parts.fields import AnyQuantity, Listed, Named, Table
 from linkwright.parts.vibration.linear import Linear, tuned
@@ -41,8 +41,8 @@ class Tie:
 class Start:
     """Displacement (m, rad) and velocity (m/s, rad/s) of a mass at the time zero."""
 
-    displacement: float = 0.0
-    velocity: float = 0.0
+    displacement: float = given(Quantity("length", doc="at the time zero"), 0.0)
+    velocity: float = given(Quantity("velocity", doc="at the time zero"), 0.0)
 
 
 @dataclass(frozen=True)
@@ -94,10 +94,6 @@ EXCITATION = {
         doc="a measured force: {time: […], force: […]}",
     ),
 }
-START = {
-    "displacement": Quantity("length", doc="at the time zero"),
-    "velocity": Quantity("velocity", doc="at the time zero"),
-}
 
 
 @dataclass(frozen=True)
@@ -108,31 +104,30 @@ class VibratingSystem(Problem):
     """
 
     kind: ClassVar[str] = "vibration"
-    fields: ClassVar[Mapping[str, Any]] = {
-        "masses": Named(AnyQuantity(), "mass", required=True, doc="masses (kg) or inertias (kg·m²) by name"),
-        "springs": Named(
-            SPRING, "spring", doc="springs by name: {between: [ground, body], stiffness: 20 kN/m}"
-        ),
-        "dampers": Named(
-            DAMPER, "damper", doc="dampers by name: {between: [ground, body], damping: 300 N·s/m}"
-        ),
-        "excitation": Table(EXCITATION, _excitation, doc="what shakes it: force, unbalance, base or table"),
-        "start": Named(Table(START, Start), "mass", doc="start of the free vibration by mass"),
-        "duration": Quantity("time", above=0.0, doc="how long responses in time are shown"),
-        "absorber": Table(
-            {
-                "on": Text(required=True, doc="the mass that is to be quieted"),
-                "mass": Quantity("mass", required=True, above=0.0, doc="mass of the absorber"),
-            },
-            doc="adds the best damped absorber: {on: body, mass: 5 kg}",
-        ),
-    }
-    masses: Mapping[str, float]
-    springs: Mapping[str, Tie] = field(default_factory=dict)
-    dampers: Mapping[str, Tie] = field(default_factory=dict)
-    excitation: Excitation | None = None
-    start: Mapping[str, Start] = field(default_factory=dict)
-    duration: float | None = None
+    fields = GivenByFile({
+        "absorber": Table({
+            "on": Text(required=True, doc="the mass that is to be quieted"),
+            "mass": Quantity("mass", required=True, above=0.0, doc="mass of the absorber"),
+        }, doc="adds the best damped absorber: {on: body, mass: 5 kg}"),
+    })  # fmt: skip
+    masses: Mapping[str, float] = given(
+        Named(AnyQuantity(), "mass", doc="masses (kg) or inertias (kg·m²) by name")
+    )
+    springs: Mapping[str, Tie] = given(
+        Named(SPRING, "spring", doc="springs by name: {between: [ground, body], stiffness: 20 kN/m}"), dict
+    )
+    dampers: Mapping[str, Tie] = given(
+        Named(DAMPER, "damper", doc="dampers by name: {between: [ground, body], damping: 300 N·s/m}"), dict
+    )
+    excitation: Excitation | None = given(
+        Table(EXCITATION, _excitation, doc="what shakes it: force, unbalance, base or table"), None
+    )
+    start: Mapping[str, Start] = given(
+        Named(Table.of(Start), "mass", doc="start of the free vibration by mass"), dict
+    )
+    duration: float | None = given(
+        Quantity("time", above=0.0, doc="how long responses in time are shown"), None
+    )
     turning: bool = False
     name: str = ""
     source: str = ""
