@@ -203,6 +203,23 @@ def test_a_crank_whose_way_ends_where_coupler_and_rocker_are_stretched(speed: fl
     assert sorted(np.exp(1j * np.array(stops)).imag) == pytest.approx(expected, abs=1e-7)
     for name, limit in (("transmission_angle", 0.0), ("pressure_angle", 0.5 * np.pi), ("singularity", 0.0)):
         (row,) = table[name]
-        assert row.value == pytest.approx(limit, abs=1e-3) and row.warnings
-    swing = table["swing_angle", "rocker"]
-    assert not swing.exact and 2.1 < swing.value < 2.276
+        assert row.value == pytest.approx(limit, abs=1e-7) and row.warnings
+    for name in ("peak_acceleration", "velocity_ratio", "peak_jerk"):
+        assert all(np.isinf(row.value) and row.warnings for row in table[name])
+    stretched = np.arccos(
+        (frame**2 + 6.0**2 - 2.2**2) / (2 * frame * 6.0)
+    )  # of the rocker from the frame's direction
+    turned_back = np.arccos((frame**2 + 2.5**2 - 5.7**2) / (2 * frame * 2.5))  # crank and coupler in one line
+    assert table.value("swing_angle") == pytest.approx(stretched + turned_back, rel=1e-7)
+
+
+def test_loads_of_a_way_that_is_left_have_no_end_and_no_mean() -> None:
+    """Forces of masses grow as the accelerations, without bound; means would depend on the positions alone."""
+    mechanism = lw.loads(OUT_OF_REACH.replace("SPEED", "12 rad/s"))
+    table = metrics(lw.solve_forces(lw.solve_motion(mechanism, steps=96, failures="mark")))
+    for name in ("peak_input_torque", "peak_power", "peak_shaking_force"):
+        assert np.isinf(table.value(name))
+    assert all(np.isinf(row.value) for row in table["peak_reaction"])
+    assert table["mechanical_advantage"][0].value == 0.0
+    assert not {"mean_power", "rms_input_torque", "rms_reaction"} & set(table.names)
+    assert "means, are left out" in table.text() and "略" in table.text("zh")

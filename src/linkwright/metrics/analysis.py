@@ -28,6 +28,7 @@ from linkwright.loads.signals import Limit
 from linkwright.metrics import strokes, true_speed
 from linkwright.metrics.cycle_grid import PASSED, CycleGrid, cycle_grid
 from linkwright.metrics.outputs import mechanism_outputs
+from linkwright.metrics.passed import STEEPEST, limit
 from linkwright.metrics.resolve import Resolver
 from linkwright.metrics.summary import Summary, one
 
@@ -124,6 +125,11 @@ class Analysis:
         """Whether the positions are one closed cycle and all are reached."""
         return self.closed and bool(self.motion.ok.all())
 
+    @property
+    def partial(self) -> bool:
+        """Whether the positions are a closed cycle, of which not all is reached."""
+        return self.closed and not self.resolver.passed.all()
+
     def limits(self, output: Output) -> tuple[Limit, ...]:
         """Limit positions of an output, by increasing time; none where the positions follow no law in time."""
         if output not in self._limits:
@@ -211,7 +217,8 @@ class Analysis:
             return self._of_limits(output, kind)
         nothing, signal = Extreme(float("nan"), float("nan"), float("nan"), True), self.signal(summary.output)
         if kind in ("mean", "rms"):
-            return replace(nothing, value=(self.mean_of if kind == "mean" else self.rms_of)(signal))
+            value = (self.mean_of if kind == "mean" else self.rms_of)(signal)
+            return replace(nothing, value=value, exact=self.grid is not None)
         if kind == "excess":
             return replace(nothing, value=self._excess(signal))
         if kind in ("max", "min"):
@@ -318,13 +325,21 @@ class Analysis:
     def _of_limits(self, output: Output, kind: str) -> Extreme:
         """Place of an output's outermost limit position, or the way between them."""
         if kind == "range":
-            reached = self.motion.read(output)
-            ends = [limit.value for limit in self.limits(output)]
-            way = np.ptp(np.append(reached[np.isfinite(reached)], ends))
-            exact = self.resolver.possible and bool(self.motion.ok.all())
-            return Extreme(float(way), float("nan"), float("nan"), exact)
+            known = np.concatenate([self.motion.read(output), self._ends_of(output)])
+            known = np.append(known, [limit.value for limit in self.limits(output)])
+            way = np.ptp(known[np.isfinite(known)])
+            return Extreme(float(way), float("nan"), float("nan"), self.resolver.possible)
         end = next(each for each in self.outermost(output) if each.kind == kind.removeprefix("arg"))
         return Extreme(end.input, end.time, end.input, True)
+
+    def _ends_of(self, output: Output) -> Floats:
+        """Values of an output at the ends of what is reached, an angle's in the turn of the position beside each."""
+        ends = np.array(self._at_ends(lambda solved: solved.read(output), "motion"))
+        if output.kind != "angle" or not len(ends):
+            return ends
+        ok, times = self.motion.ok, np.array([[time] for time, _ in self.resolver.edges])
+        beside = self.motion.read(output)[ok][np.abs(self.motion.time[ok] - times).argmin(axis=1)]
+        return np.asarray(ends + 2 * np.pi * np.round((beside - ends) / (2 * np.pi)))
 
     @cached_property
     def grid(self) -> CycleGrid | None:
@@ -334,10 +349,12 @@ class Analysis:
     def mean_of(self, signal: Callable[..., Floats]) -> float:
         """Mean over the time of the cycle of what the forces (without them, the motion) give, (n,).
 
-        By integration between the positions, so that the jumps of loads fall where they are; of the positions that
-        are reached, where these are not all.
+        By integration between the positions, so that the jumps of loads fall where they are; NaN where not all of
+        a closed cycle is reached; of the positions that are reached where nothing can be solved between them.
         """
         of = "motion" if self.forces is None else "forces"
+        if self.partial:
+            return float("nan")
         if self.grid is None:
             return self.mean(signal(self.forces or self.motion))
         for _, *ends in self.grid.limits_at_changes(signal, of):
@@ -383,7 +400,20 @@ class Analysis:
         low, high = time[peaks] - step, time[peaks] + step
         if not self.closed:
             low, high = np.maximum(low, time.min()), np.minimum(high, time.max())
-        return self._narrowed(lambda t: sign * signal(self.resolver.at(t, of)), low, high, sign, sample)
+        best = self._narrowed(lambda t: sign * signal(self.resolver.at(t, of)), low, high, sign, sample)
+        for (end, _), value in zip(self.resolver.edges, self._at_ends(signal, of), strict=True):
+            if sign * value > sign * best.value:
+                best = Extreme(value, end, self.resolver.input_at(end), True)
+        return best
+
+    def _at_ends(self, signal: Callable[[Any], Floats], of: str) -> list[float]:
+        """Limits of a signal at the ends of what is reached, NaN where they are not known."""
+        if not (self.resolver.possible and self.resolver.edges):
+            return []
+        key, places = ("near_ends", of), self.resolver.near_edges
+        if key not in self.kept:
+            self.kept[key] = self.resolver.at(places.ravel(), of)
+        return [limit(row, STEEPEST) for row in np.reshape(signal(self.kept[key]), places.shape)]
 
     def _past_changes(
         self, grid: CycleGrid, signal: Callable[[Any], Floats], of: str, sign: float

@@ -233,11 +233,14 @@ class Metric(ABC):
         return ()
 
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:
-        """The values, from what several numbers share; none where no position is reached."""
+        """The values, from what several numbers share; none where no position is reached, nor of the whole cycle
+        where not all of it is."""
         if not analysis.motion.ok.any():
             return
         for number in self.asked(analysis):
             value, at, exact = number.measured(analysis)
+            if isnan(value) and analysis.partial:
+                continue
             remarks = (*self.remarks(value, at, analysis), *_unbounded(value, at, analysis))
             yield self.value(
                 analysis,

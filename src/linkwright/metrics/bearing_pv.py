@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
+from math import isnan
 from typing import ClassVar
 
 import numpy as np
@@ -39,9 +40,11 @@ class BearingPv(Metric):
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:
         for found, (joint, link) in zip(super().values(analysis), _bearings(analysis), strict=False):
             heat = analysis.signal(f"heat {joint.name} on {link}")
-            mean = shown(analysis.mean_of(lambda forces, heat=heat: np.abs(heat(forces))), "power")
-            said: dict[str, object] = {"mean": mean, "radius": shown(joint.pin_radius or 0.0, "length")}
-            yield replace(found, remarks=(Remark("bearing_pv.mean", said),))
+            mean = analysis.mean_of(lambda forces, heat=heat: np.abs(heat(forces)))
+            radius = shown(joint.pin_radius or 0.0, "length")
+            said: dict[str, object] = {"mean": shown(mean, "power"), "radius": radius}
+            known = () if isnan(mean) else (Remark("bearing_pv.mean", said),)
+            yield replace(found, remarks=(*known, *found.remarks))
 
 
 def _bearings(analysis: Analysis) -> Iterator[tuple[TurningJoint, str]]:

@@ -47,13 +47,17 @@ def metrics(result: Motion | Forces, names: Iterable[str] | str | None = None) -
             skipped.append(name)
         else:
             raise RequestError(_refusal(name, analysis))
-    title, reached = analysis.motion.mechanism.name, analysis.motion.ok.any()
-    return MetricsTable(
-        title,
-        _without_rounding(rows),
-        skipped,
-        () if reached else (Sentence("metrics.none_reached", name=title),),
-    )
+    return MetricsTable(analysis.motion.mechanism.name, _without_rounding(rows), skipped, _notes(analysis))
+
+
+def _notes(analysis: Analysis) -> tuple[Sentence, ...]:
+    """What is to be said where not all positions are reached."""
+    name, ok = analysis.motion.mechanism.name, analysis.motion.ok
+    if not ok.any():
+        return (Sentence("metrics.none_reached", name=name),)
+    if not analysis.partial:
+        return ()
+    return (Sentence("metrics.part_reached", name=name, reached=int(ok.sum()), count=len(ok)),)
 
 
 def _without_rounding(rows: Sequence[MetricValue]) -> list[MetricValue]:

@@ -1,8 +1,11 @@
-"""A signal around a change point that the motion passes, from values a little away from it.
+"""A signal at a change point that the motion passes, or at an end of its range, from values a little away from it.
 
 At a distance δ from the point the digits of a position are good for ε/δ only, those of an acceleration or a force
 for ε/δ³, so nothing is solved in the middle. What is smooth on a side of the point goes on to it as the polynomial
 through the values on that side; forces that the change point cannot carry grow as 1/δ.
+
+At an end of its range a mechanism turns back on another branch, so that what it does is smooth in √δ, of which rates
+grow as the first power of the inverse, accelerations and what they cause as the third, jerks as the fifth.
 """
 
 from __future__ import annotations
@@ -14,9 +17,13 @@ from linkwright.core.piecewise import NODES, POINTS
 
 #: Two polynomials, through all values of a side and through all but the outermost, agree to this share of the values.
 AGREE = 1e-6
-#: What grows as 1/δ or 1/δ² does so over the nearest places, and its product with δ or δ² has a limit that is this
-#: many times what is not sure of it.
+#: What grows does so over the nearest places, and its product with a power of δ has a limit that is this many times
+#: what is not sure of it.
 _GROWING, _SURE = 4, 1000.0
+#: Steepest growth towards an end of range: of a jerk against a rate.
+STEEPEST = 6
+#: Places near an end of range lie within this part, rad, of the half turn whose cosine runs through the stretch.
+_SLOWED = 0.2
 _HALF = POINTS // 2
 #: Distances of a side's places from the middle, the nearest first, as shares of the half width.
 _AWAY = NODES[_HALF:]
@@ -41,14 +48,20 @@ def sides(values: Floats) -> tuple[Floats, Floats]:
     return values[:_HALF][::-1], values[_HALF:]
 
 
-def limit(values: Floats) -> float:
-    """The limit of a signal at a change point from the values (k,) of one side; infinite where it grows as 1/δ or
-    1/δ², NaN where no polynomial tells."""
+def towards(length: Floats) -> Floats:
+    """Distances (..., k) from ends of range, the nearest first, of stretches of some lengths: squares, nearly, of
+    distances as :func:`limit` takes them."""
+    return 0.5 * np.asarray(length)[..., None] * (1.0 - np.cos(_SLOWED * _AWAY))
+
+
+def limit(values: Floats, steepest: int = 2) -> float:
+    """The limit of a signal at a change point from the values (k,) of one side; infinite where it grows as the
+    inverse of the distance or of a power of it up to ``steepest``, NaN where no polynomial tells."""
     found = float(_ALL @ values)
     if abs(found - float(_BUT_ONE @ values)) <= AGREE * float(np.abs(values).max()):
         return found
     if (np.diff(np.abs(values[:_GROWING])) < 0.0).all():
-        for order in (1, 2):
+        for order in range(1, steepest + 1):
             scaled = values * _AWAY**order
             found = float(_ALL @ scaled)
             unsure = max(abs(found - float(_BUT_ONE @ scaled)), AGREE * float(np.abs(scaled).max()))

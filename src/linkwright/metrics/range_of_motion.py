@@ -8,7 +8,7 @@ from itertools import chain
 
 import numpy as np
 
-from linkwright.core.search import ends, zeros
+from linkwright.core.search import zeros
 from linkwright.engine.trace import Scalar, floor
 from linkwright.kinetostatics.closure import dyads
 from linkwright.metrics.analysis import Analysis
@@ -21,46 +21,6 @@ from linkwright.metrics.quantities import shown
 DEAD = 1e-6
 #: Share of its largest rate below which a driver stands still.
 STILL = 1e-9
-
-
-def edges(analysis: Analysis) -> tuple[tuple[float, int], ...]:
-    """Times, s, at which the mechanism comes into (+1) or gets out of (-1) reach, found by halving."""
-    motion, passed = analysis.motion, analysis.resolver.passed
-    if passed.all():
-        return ()
-    change = np.diff(passed.astype(int))
-    where = np.flatnonzero(change)
-    inside = np.where(change[where] < 0, motion.time[where], motion.time[where + 1])
-    outside = np.where(change[where] < 0, motion.time[where + 1], motion.time[where])
-    if analysis.resolver.possible and len(where):
-        inside = ends(lambda time: analysis.resolver.motion(time).ok, inside, outside)
-    return tuple((float(t), int(s)) for t, s in zip(inside, change[where], strict=True))
-
-
-def intervals(analysis: Analysis) -> tuple[tuple[float, float], ...]:
-    """Stretches of time, s, in which all positions are reached; across the end of a closed cycle in one piece."""
-    found = edges(analysis)
-    start, end = _ends(analysis)
-    if not found:
-        return ((start, end),) if analysis.resolver.passed.all() else ()
-    times = [t for t, _ in found]
-    if found[0][1] < 0:
-        times.insert(0, start)
-    if len(times) % 2:
-        times.append(end)
-    pieces = list(zip(times[::2], times[1::2], strict=True))
-    if analysis.closed and len(pieces) > 1 and pieces[0][0] == start and pieces[-1][1] == end:
-        first = pieces.pop(0)
-        pieces[-1] = (pieces[-1][0], first[1] + end - start)
-    return tuple(pieces)
-
-
-def _ends(analysis: Analysis) -> tuple[float, float]:
-    positions = analysis.motion.positions
-    start, end = float(positions.time[0]), float(positions.time[-1])
-    if analysis.closed:
-        end = start + (positions.period or 0.0)
-    return start, end
 
 
 def _reached(analysis: Analysis, start: float, end: float) -> tuple[float, float]:
@@ -100,7 +60,7 @@ class RangeOfMotion(Metric):
 
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:
         subject, kind = next(iter(analysis.motion.mechanism.drivers)), analysis.input_dimension
-        for start, end in intervals(analysis):
+        for start, end in analysis.resolver.stretches:
             first, last = _reached(analysis, start, end)
             ends: dict[str, object] = {"start": shown(first, kind), "end": shown(last, kind)}
             remarks = (Remark("range_of_motion.from_to", ends),)
@@ -151,7 +111,7 @@ class DeadPoint(Metric):
     def _of_driver(self, analysis: Analysis) -> Iterator[float]:
         if not analysis.resolver.possible:
             return
-        for time in (*(time for time, _ in edges(analysis)), *analysis.resolver.changes.tolist()):
+        for time in (*(time for time, _ in analysis.resolver.edges), *analysis.resolver.changes.tolist()):
             yield analysis.resolver.input_at(time)
         for group in dyads(analysis.motion.structure):
             low = analysis.part(f"transmission_angle {group.name} min")

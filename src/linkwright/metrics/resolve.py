@@ -10,6 +10,7 @@ import numpy as np
 from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.once import cached_property
 from linkwright.core.outputs import Output
+from linkwright.core.search import ends
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.between import Between
 from linkwright.kinematics.cycle import at_times
@@ -19,6 +20,7 @@ from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.loads.base import Load
 from linkwright.loads.over_cycle import activity
 from linkwright.loads.signals import Limit, Whole
+from linkwright.metrics.passed import towards
 
 
 class _SameCycle(MotionSignals):
@@ -75,6 +77,50 @@ class Resolver:
         time = self._motion.time
         apart = np.abs(time[:, None] - self.changes).min(axis=1, initial=np.inf)
         return np.asarray(self._motion.ok | (apart < 1e-9 * (np.ptp(time) or 1.0)))
+
+    @cached_property
+    def edges(self) -> tuple[tuple[float, int], ...]:
+        """Times, s, at which the mechanism comes into (+1) or gets out of (-1) reach, found by halving."""
+        time, passed = self._motion.time, self.passed
+        if passed.all():
+            return ()
+        change = np.diff(passed.astype(int))
+        where = np.flatnonzero(change)
+        inside = np.where(change[where] < 0, time[where], time[where + 1])
+        outside = np.where(change[where] < 0, time[where + 1], time[where])
+        if self.possible and len(where):
+            inside = ends(lambda time: self.motion(time).ok, inside, outside)
+        return tuple((float(t), int(s)) for t, s in zip(inside, change[where], strict=True))
+
+    @property
+    def near_edges(self) -> Floats:
+        """Times, s, near each edge at which positions are reached, the nearest first, (edges, k)."""
+        time, positions = self._motion.time, self._motion.positions
+        period = positions.period if positions.closed else None
+        at, sense = np.array([edge[0] for edge in self.edges]), np.array([edge[1] for edge in self.edges])
+        ends = [at - period, at, at + period] if period else [at, time[[0, -1]]]
+        way = sense[:, None] * (np.concatenate(ends) - at[:, None])
+        length = np.where(way > 0.0, way, np.inf).min(axis=1)
+        return np.asarray(at[:, None] + sense[:, None] * towards(length))
+
+    @cached_property
+    def stretches(self) -> tuple[tuple[float, float], ...]:
+        """Stretches of time, s, in which all positions are reached; across the end of a closed cycle in one piece."""
+        time, positions = self._motion.time, self._motion.positions
+        period = positions.period if positions.closed else None
+        start, end = float(time[0]), float(time[-1] if period is None else time[0] + period)
+        if not self.edges:
+            return ((start, end),) if self.passed.all() else ()
+        times = [t for t, _ in self.edges]
+        if self.edges[0][1] < 0:
+            times.insert(0, start)
+        if len(times) % 2:
+            times.append(end)
+        pieces = list(zip(times[::2], times[1::2], strict=True))
+        if period is not None and len(pieces) > 1 and pieces[0][0] == start and pieces[-1][1] == end:
+            first = pieces.pop(0)
+            pieces[-1] = (pieces[-1][0], first[1] + end - start)
+        return tuple(pieces)
 
     def at(self, time: Floats, of: str = "motion", asked: tuple[str, ...] = ()) -> Any:
         """Motion, or Forces with ``of="forces"``, at some times, s; ``asked``: outputs beside the stored ones."""

@@ -22,7 +22,6 @@ from linkwright.metrics.base import METRICS, Better, Metric, MetricValue, Remark
 from linkwright.metrics.cycle_grid import PIECES
 from linkwright.metrics.outputs import output_link
 from linkwright.metrics.quantities import shown
-from linkwright.metrics.range_of_motion import intervals
 from linkwright.metrics.swept_hull import Curves, SweptHull
 
 
@@ -105,7 +104,7 @@ def _curves(analysis: Analysis) -> Curves | None:
         return Curves(values, (piece == 0) & opened, (piece == last) & opened, spans)
     if not analysis.resolver.possible or analysis.motion.steps < 2:
         return None
-    stretches = intervals(analysis)
+    stretches = analysis.resolver.stretches
     # by the cosine of a place, since points come to the ends of their range with infinite rates
     turn = np.cos(nodes(np.linspace(np.pi, 2.0 * np.pi, PIECES + 1)).ravel())
     times = [0.5 * (start + end) + 0.5 * (end - start) * turn for start, end in stretches]

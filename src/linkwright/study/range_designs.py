@@ -24,7 +24,6 @@ from linkwright.kinematics.assembly import modal_groups
 from linkwright.kinematics.cycle import at_times, over_cycle
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import Analysis
-from linkwright.metrics.range_of_motion import edges, intervals
 from linkwright.study.metric_cycle import Found
 from linkwright.study.terms import Term, chosen_subjects, metric_of
 from linkwright.study.timed_cycle import moves
@@ -69,9 +68,9 @@ def range_designs(mechanism: Mechanism, varied: Iterable[str], names: Iterable[s
     traced = Traced(mechanism, addresses, over_cycle(mechanism, 360))
     analysis = Analysis.of(traced.nominal)
     steps = positions_steps(traced.positions)
-    if traced.solver.motion.next_states or traced.nominal.modes or not edges(analysis):
+    if traced.solver.motion.next_states or traced.nominal.modes or not analysis.resolver.edges:
         return None
-    if not intervals(analysis) or any(moves(mechanism, address, steps) for address in addresses):
+    if not analysis.resolver.stretches or any(moves(mechanism, address, steps) for address in addresses):
         return None
     return RangeDesigns(traced, asked, analysis)
 
@@ -84,10 +83,10 @@ class RangeDesigns:
         self.terms = tuple(Term(name, (), "angle") for name in names)
         (driver,) = traced.mechanism.drivers.values()
         period = traced.positions.period or 0.0
-        known = np.array([time + lap for time, _ in edges(analysis) for lap in (0.0, period)])
+        known = np.array([time + lap for time, _ in analysis.resolver.edges for lap in (0.0, period)])
         slack = SAME * float(np.ptp(traced.positions.time))
         self._stretches: list[tuple[End, End]] = []
-        for stretch in intervals(analysis):
+        for stretch in analysis.resolver.stretches:
             reached = [np.abs(known - time).min() <= slack for time in stretch]
             begin, end = (
                 End(driver.law.at(time), self._stretched(time) if inner else None)

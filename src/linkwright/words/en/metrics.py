@@ -87,6 +87,8 @@ linkwright metrics crusher.yaml --output numbers.csv""",
     "fastest_speed.meaning": "Largest true speed of the driver under a constant motor torque, with the inertia that "
     "the machine has.",
     "none_reached": "{name!r} reaches none of the positions, so only numbers of its dimensions are known",
+    "part_reached": "{name!r} reaches {reached} of {count} positions; numbers of the whole cycle, such as means, are "
+    "left out",
     "mean_power.label": "mean power",
     "mean_power.meaning": "Work of the drivers per cycle over the time of the cycle.",
     "peak_reaction.label": "peak reaction",
