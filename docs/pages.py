@@ -20,10 +20,10 @@ from typing import Any
 
 import linkwright as lw
 from linkwright import gallery
-from linkwright.cli.source import gallery_title
 from linkwright.core.plotted import Plotted
 from linkwright.errors import LinkwrightError
 from linkwright.validation.validate import validate
+from linkwright.words.titles import title_said
 
 sys.path.insert(0, str(Path(__file__).parent))
 from chinese import FORMS, MEANINGS, NAMES
@@ -114,7 +114,7 @@ def gallery_index(language: str) -> Iterator[str]:
     yield "::::{grid} 1 2 3 3\n:gutter: 3\n"
     for name in gallery.names():
         model = lw.load(f"gallery:{name}")
-        title = gallery_title(name, model.name, language)
+        title = title_said(model.name, language)
         yield f":::{{grid-item-card}} {title}\n:link: {name}\n:link-type: doc\n:img-top: ../../pictures/{name}.svg\n"
         yield f"{first_sentence(purpose(name, model.purpose, language))}\n:::\n"
     yield "::::\n"
@@ -143,7 +143,7 @@ def chinese_purposes() -> dict[str, str]:
 def gallery_page(name: str, language: str) -> Iterator[str]:
     """One model: picture, purpose, source, commands, structure, file."""
     model, words = lw.load(f"gallery:{name}"), WORDS[language]
-    yield f"# {gallery_title(name, model.name, language)}\n"
+    yield f"# {title_said(model.name, language)}\n"
     yield f"{escaped(purpose(name, model.purpose, language))}\n"
     if (EXTRA / "living" / f"{name}.html").exists():
         yield f'```{{raw}} html\n<iframe class="living" src="../../../living/{name}.html#lang={language}"'

@@ -8,7 +8,9 @@ import pytest
 import linkwright as lw
 from linkwright import gallery, words
 from linkwright.cli import main
+from linkwright.cli.commands.gallery import _heading
 from linkwright.plot.diagrams.diagram_by_name import kinds
+from linkwright.words.titles import CHINESE
 
 #: Words that stay: identifiers of commands, options, files, units, symbols.
 LATIN = re.compile(r"[A-Za-z][A-Za-z']{2,}")
@@ -20,29 +22,17 @@ def shown(capsys: pytest.CaptureFixture[str], *arguments: str) -> str:
     return said.out + said.err
 
 
-def test_english_titles_are_those_of_the_files() -> None:
-    titles = words.catalogue("gallery_titles", "en")
-    assert dict(titles) == {name: lw.load(f"gallery:{name}").name for name in gallery.names()}
-
-
-def test_titles_of_calculations_are_chinese_and_english_ones_those_of_the_files(
-    capsys: pytest.CaptureFixture[str],
-) -> None:
-    english, chinese = (words.catalogue("calculation_titles", language) for language in ("en", "zh"))
-    own = {name: f"gallery:{name}" for name in english if name in gallery.calculations()}
-    assert {name: lw.parts.load(source).name for name, source in own.items()}.items() <= dict(english).items()
-    assert set(english) - set(own) <= set(gallery.tasks())
-    assert all(re.search("[一-鿿]", title) for title in chinese.values())
-    assert chinese["propped_cantilever"] in shown(capsys, "gallery", "list")
-    assert chinese["propped_cantilever"] in shown(capsys, "beam", "gallery:propped_cantilever")
-    main(["beam", "gallery:propped_cantilever"])
-    assert english["propped_cantilever"] in capsys.readouterr().out
-
-
-def test_titles_of_the_gallery_are_chinese(capsys: pytest.CaptureFixture[str]) -> None:
+def test_every_title_of_the_gallery_is_chinese(capsys: pytest.CaptureFixture[str]) -> None:
+    own = {name: lw.load(f"gallery:{name}").name for name in gallery.names()}
+    own |= {name: lw.parts.load(f"gallery:{name}").name for name in gallery.calculations()}
+    own |= {name: _heading(name)["title"] for name in gallery.tasks()}
+    assert set(own.values()) <= set(CHINESE)
+    assert all(re.search("[一-鿿]", title) for title in CHINESE.values())
     listed = shown(capsys, "gallery", "list")
-    for title in words.catalogue("gallery_titles", "zh").values():
-        assert re.search("[一-鿿]", title) and title in listed
+    assert all(CHINESE[title] in listed for title in own.values())
+    assert CHINESE[own["propped_cantilever"]] in shown(capsys, "beam", "gallery:propped_cantilever")
+    main(["beam", "gallery:propped_cantilever"])
+    assert own["propped_cantilever"] in capsys.readouterr().out
     assert "铰链式颚式破碎机，六杆" in shown(capsys, "solve", "gallery:jaw_crusher_sixbar", "--steps", "2")
     assert (
         "Hinged jaw crusher"
@@ -247,9 +237,7 @@ def test_missing_keys_are_said_in_chinese(
 def test_titles_of_published_cases_are_chinese(capsys: pytest.CaptureFixture[str]) -> None:
     from linkwright.validation.published import from_data
 
-    own = {english for area in ("gallery_titles", "calculation_titles", "published_titles")
-           for english in words.catalogue(area, "en").values()}  # fmt: skip
-    assert {each.case for each in from_data()} <= own
+    assert {each.case for each in from_data()} <= set(CHINESE)
     said = shown(capsys, "validate", "--case", "conveyor")
     assert (
         "摆动式输送机，外极限位置：rocker.angle：所印" in said and "反余弦" in said and "conveyor" not in said

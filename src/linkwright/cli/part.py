@@ -77,7 +77,7 @@ def refuse_outputs(options: argparse.Namespace, session: Session) -> None:
 def read(source: str, command: str, session: Session) -> Problem:
     """The problem of a file; UsageError where its kind belongs to another command."""
     from linkwright.parts.file import GALLERY, kind_of, load
-    from linkwright.words.titles import gallery_title
+    from linkwright.words.titles import title_said
 
     kind = kind_of(source)
     if kind in COMMANDS and COMMANDS[kind] != command:
@@ -85,7 +85,7 @@ def read(source: str, command: str, session: Session) -> Problem:
         raise UsageError(say("part.other_command", kind=kind, command=COMMANDS[kind], file=source))
     problem = load(source)
     if source.startswith(GALLERY) and not session.json:
-        title = gallery_title(source.removeprefix(GALLERY), problem.name, session.language)
+        title = title_said(problem.name, session.language)
         if title != problem.name:  # a copy finds again what the problem has found of itself
             return replace(problem, name=title)  # type: ignore[type-var]
     return problem

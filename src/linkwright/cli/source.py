@@ -9,7 +9,7 @@ from linkwright.errors import Finding, ModelError
 from linkwright.files.model_file import read_text
 from linkwright.files.source import GALLERY, read_source
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.words.titles import gallery_title
+from linkwright.words.titles import title_said
 
 
 def read_model(source: str, session: Session) -> tuple[Mechanism, list[Finding]]:
@@ -21,6 +21,6 @@ def read_model(source: str, session: Session) -> tuple[Mechanism, list[Finding]]
     if mechanism is None:
         raise ModelError(findings)
     if source.startswith(GALLERY) and not session.json:
-        title = gallery_title(source.removeprefix(GALLERY), mechanism.name, session.language)
+        title = title_said(mechanism.name, session.language)
         mechanism = replace(mechanism, name=title)
     return mechanism, findings

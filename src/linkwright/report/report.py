@@ -34,7 +34,7 @@ from linkwright.report.settings import settings
 from linkwright.whole_files import write_whole
 from linkwright.words import speaker
 from linkwright.words.sentence import Sentence, in_language
-from linkwright.words.titles import gallery_title
+from linkwright.words.titles import title_said
 
 #: Characters across a page in a table.
 WIDEST = 108
@@ -216,7 +216,7 @@ def _loaded(source: str, language: str) -> Mechanism:
     mechanism = load(source)
     if not source.startswith(GALLERY):
         return mechanism
-    return replace(mechanism, name=gallery_title(source.removeprefix(GALLERY), mechanism.name, language))
+    return replace(mechanism, name=title_said(mechanism.name, language))
 
 
 def _chosen(names: Iterable[str]) -> list[str]:

@@ -2,7 +2,8 @@
 
 A key begins with its area: ``solve.summary`` is in ``words/en/solve.py`` and ``words/zh/solve.py``, each
 with one mapping ``WORDS`` of keys without the area. A new area is one more file per language; both
-languages have the same keys and the same ``{names}`` in their texts.
+languages have the same keys and the same ``{names}`` in their texts. What is the same text in all of them stands in
+``words/alike.py``, by whole keys.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ from collections.abc import Callable, Mapping
 from functools import cache, partial
 
 from linkwright.core.installed import modules_within
+from linkwright.words.alike import WORDS as ALIKE
 
 LANGUAGES = ("en", "zh")
 Say = Callable[..., str]
@@ -57,8 +59,8 @@ def catalogue(area: str, language: str) -> Mapping[str, str]:
         if error.name != name:
             raise
         raise KeyError(area) from None
-    words: Mapping[str, str] = module.WORDS
-    return words
+    shared = {key.removeprefix(f"{area}."): text for key, text in ALIKE.items() if key.startswith(f"{area}.")}
+    return {**module.WORDS, **shared}
 
 
 def areas(language: str) -> tuple[str, ...]:

@@ -1,21 +1,117 @@
-"""Titles of the gallery in the reader's language."""
+"""Titles of the gallery and of published cases in the reader's language."""
 
 from __future__ import annotations
 
-from linkwright.words import catalogue, has, say
-
-
-def gallery_title(name: str, given: str, language: str) -> str:
-    """Title of a file of the gallery in a language; as it is given where the catalogue has none."""
-    own = name.removesuffix(".yaml")
-    keys = (f"gallery_titles.{own}", f"calculation_titles.{own}")
-    return next((say(key, language) for key in keys if language != "en" and has(key)), given)
+#: Chinese titles by the English ones, which stand in the files.
+CHINESE = {
+    "A motion that is found": "求得的运动规律",
+    "Band brake with lining": "带衬片的带式制动器",
+    "Barrel cam of a thread guide": "导线器的圆柱凸轮",
+    "Cam follower on a spring": "弹簧上的凸轮从动件",
+    "Cantilever with a force": "受集中力的悬臂梁",
+    "Chain drive of a slider-crank": "曲柄滑块机构的链传动",
+    "Chebyshev lambda linkage": "切比雪夫 λ 形机构",
+    "Class IV group": "Ⅳ级组",
+    "Conjugate pair with an oscillating follower": "带摆动从动件的共轭凸轮",
+    "Crank-rocker four-bar with a coupler point": "带连杆点的曲柄摇杆机构",
+    "Crank-rocker of the machine-part lectures": "机械零件课程中的曲柄摇杆机构",
+    "Cycloidal cam, rise and return over 60° each": "摆线凸轮，升程与回程各 60°",
+    "Diameters of turned shafts from two lathes": "两台车床所车轴的直径",
+    "Disc cam with a roller, sizes and spring chosen": "滚子从动件盘形凸轮，选定尺寸与弹簧",
+    "Double crank of a printing press's cylinder drive": "印刷机滚筒传动的双曲柄机构",
+    "Double slider driven by one of its blocks": "由一个滑块驱动的双滑块机构",
+    "Eighteen timed points": "十八个定时点",
+    "Elliptic trammel": "椭圆仪",
+    "Engine against a varying load": "发动机与变化的载荷",
+    "Engine against its mean torque": "发动机与平均力矩",
+    "Equilibrant of four forces in space": "空间四力的平衡力",
+    "Excavator arm": "挖掘机臂",
+    "External gear pair": "外啮合齿轮副",
+    "Five timed points, phase, pivot and direction given": "五个定时点，给定相位、铰点与转向",
+    "Flat-bed printing press, motor to bed and cylinder": "平台印刷机：从电机到版台与压印滚筒",
+    "Flat-faced follower, cycloidal": "平底从动件，摆线规律",
+    "Force along a line": "沿一直线的力",
+    "Four-bar for three pairs of angles": "满足三组对应角的四杆机构",
+    "Four-bar through five timed points": "通过五个定时点的四杆机构",
+    "Four-bar with a change point": "有变点的四杆机构",
+    "Fourth-order group (6 links, 9 joints)": "四阶杆组（6 个构件，9 个运动副）",
+    "Free decay of a damped mass": "有阻尼质量的自由衰减",
+    "Geared five-bar, ratio -1": "齿轮五杆机构，传动比 -1",
+    "Geared five-bar, ratio 1/3": "齿轮五杆机构，传动比 1/3",
+    "Geared five-bar, ratio 2": "齿轮五杆机构，传动比 2",
+    "Helical spring of least mass": "质量最小的螺旋弹簧",
+    "Hinged jaw crusher, four-bar": "铰链式颚式破碎机，四杆",
+    "Hinged jaw crusher, six-bar": "铰链式颚式破碎机，六杆",
+    "Hinged jaw crusher, six-bar, load as reported": "铰链式颚式破碎机，六杆，按报告所用载荷",
+    "Internal gear pair": "内啮合齿轮副",
+    "Involute function": "渐开线函数",
+    "Jaw crusher on rubber mounts": "橡胶支承上的颚式破碎机",
+    "Jaw crusher that rocks on its mounts": "在支承上摇摆的颚式破碎机",
+    "Jaw crusher, four-bar, first row": "颚式破碎机，四杆，第一行",
+    "Jaw crusher, six-bar, forces with the load as coded in the report": "颚式破碎机，六杆，按报告程序中载荷的力",
+    "Jaw crusher, six-bar, kinematics": "颚式破碎机，六杆，运动",
+    "Jaw of a crusher with worn pins": "销轴磨损的破碎机动颚",
+    "Kite linkage": "筝形机构",
+    "Levelling wedge of a machine bed": "机床的调整楔铁",
+    "Lightest rectangular beam section": "最轻的矩形梁截面",
+    "Load on the swinging conveyor": "摆动输送机上的物料",
+    "Machine with unbalance and the best damped absorber": "有不平衡的机器与最佳动力吸振器",
+    "Offset slider-crank of a flat-bed printing press": "平台印刷机的偏置曲柄滑块机构",
+    "Offset slider-crank of the flat-bed press": "平台印刷机的偏置曲柄滑块",
+    "Oldham coupling": "十字滑块联轴器",
+    "PRP dyad between two moving guides": "两移动导路之间的 PRP Ⅱ级组",
+    "Pair of shifted gears, m 3, z 12 and 24": "变位齿轮副，m 3，z 12 与 24",
+    "Pantograph": "缩放仪",
+    "Parallelogram linkage": "平行四边形机构",
+    "Peak factors of motion laws": "运动规律的特征值",
+    "Peaucellier straight-line linkage": "波塞利耶直线机构",
+    "Pinion rolling between two racks": "在两齿条间滚动的齿轮",
+    "Pitman of the jaw crusher in bending": "颚式破碎机连杆的弯曲",
+    "Planetary train with two inputs": "双输入行星轮系",
+    "Production mix of Wyndor Glass": "Wyndor 玻璃厂的生产配比",
+    "Production mix of doors and windows": "门与窗的生产配比",
+    "Propped cantilever of rolled steel": "型钢的一端固定一端简支梁",
+    "RPP dyad on a rotating guide": "转动导路上的 RPP Ⅱ级组",
+    "RPR dyad with offsets on both sides": "两侧有偏距的 RPR Ⅱ级组",
+    "RRP dyad on a rotating guide": "转动导路上的 RRP Ⅱ级组",
+    "RRR dyad between two driven cranks": "两原动曲柄之间的 RRR Ⅱ级组",
+    "Rack driven by a rocker": "摇杆驱动的齿条",
+    "Rate of a spring from a test": "由试验求弹簧刚度",
+    "Regression of the data set Norris": "数据集 Norris 的回归",
+    "Resultant of two forces in space": "空间两力的合力",
+    "Ring and pinion, m 3, z 16 and 24": "内齿轮副，m 3，z 16 与 24",
+    "Scotch yoke": "正弦机构",
+    "Shaper with crank and slotted lever": "带曲柄摆动导杆的牛头刨床",
+    "Simple beam with a line load and a couple": "受线载荷与力偶的简支梁",
+    "Slider-crank of the press from stroke, connecting-rod ratio and eccentricity": "由行程、连杆比与偏距比"
+    "求印刷机的曲柄滑块",
+    "Slider-crank, in line": "对心曲柄滑块机构",
+    "Spur gear pair of least centre distance": "中心距最小的直齿轮副",
+    "Spur-gear differential": "圆柱齿轮差动轮系",
+    "Stephenson III six-bar driven by its crank": "由曲柄驱动的斯蒂芬森Ⅲ型六杆机构",
+    "Stephenson III six-bar driven by its output rocker": "由输出摇杆驱动的斯蒂芬森Ⅲ型六杆机构",
+    "Swing of a crank-rocker within its tolerances": "公差范围内曲柄摇杆的摆角",
+    "Swinging conveyor, positions of the outer limit": "摆动式输送机，外极限位置",
+    "Swinging conveyor, six-bar": "六杆摆式输送机",
+    "Tangent mechanism": "正切机构",
+    "Theo Jansen's leg": "泰奥·扬森行走腿",
+    "Thrown ball with air drag": "有空气阻力的抛球",
+    "Toggle press": "肘杆压力机",
+    "Triad (class III group)": "三杆组（Ⅲ级组）",
+    "Triangular truss on a pin and a roller": "支承于铰支座与滚动支座的三角桁架",
+    "Turning moment diagram of six areas": "六块面积的力矩图",
+    "Two cables on one hook": "吊钩上的两根绳",
+    "Two heavy bars in equilibrium": "平衡的两根重杆",
+    "Two masses on three springs": "三根弹簧上的两个质量",
+    "Two-bar truss of least weight": "重量最小的两杆桁架",
+    "Wall bracket": "墙上托架",
+    "Wall bracket on a pin and a rope": "由销轴与拉索支承的墙上托架",
+    "Watt six-bar": "瓦特六杆机构",
+    "Wedge press": "楔块压力机",
+    "Whitworth quick-return mechanism": "惠氏急回机构",
+}
 
 
 def title_said(title: str, language: str) -> str:
     """An English title of a model or a published case in a language; others as they are."""
-    for area in ("gallery_titles", "calculation_titles", "published_titles") if language != "en" else ():
-        for key, english in catalogue(area, "en").items():
-            if english == title:
-                return say(f"{area}.{key}", language)
-    return title
+    return CHINESE.get(title, title) if language == "zh" else title

@@ -44,7 +44,7 @@ def _list(options: argparse.Namespace, session: Session) -> int:
     if session.json:
         session.show_data(entries)
         return 0
-    from linkwright.words.titles import gallery_title
+    from linkwright.words.titles import title_said
 
     wide = max((len(entry["name"]) for entry in entries), default=0)
     for entry in entries:
@@ -52,7 +52,7 @@ def _list(options: argparse.Namespace, session: Session) -> int:
             session.show(f"\n{session.say('gallery.calculations')}")
         if tasks and entry is tasks[0]:
             session.show(f"\n{session.say('gallery.tasks')}")
-        name, title = entry["name"], gallery_title(entry["name"], entry["title"], session.language)
+        name, title = entry["name"], title_said(entry["title"], session.language)
         session.show(f"{session.strong(name)}{' ' * (wide - len(name))}  {title}")
     session.show()
     session.show(session.say("gallery.hint"))

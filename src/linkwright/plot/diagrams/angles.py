@@ -45,11 +45,8 @@ class Angles(OverInput):
 
 
 def _curves(links: list[str], values: list[Floats]) -> tuple[Curve, ...]:
-    peak, found = "both" if len(links) == 1 else "", []
-    for number, (name, each) in enumerate(zip(links, values, strict=True)):
-        colour, dash = look(number)
-        found.append(Curve(name, each, peak, colour, dash))
-    return tuple(found)
+    peak, pairs = "both" if len(links) == 1 else "", enumerate(zip(links, values, strict=True))
+    return tuple(Curve(name, each, peak, *look(number)) for number, (name, each) in pairs)
 
 
 def _flat(angles: list[Floats]) -> bool:

@@ -103,11 +103,13 @@ def input_label(axis: InputAxis, say: Say) -> str:
     return f"{word} {symbols[axis.dimension]} ({axis.unit.name})"
 
 
-def framed(figure: Figure, title: str, request: Request) -> None:
-    """The title: the one asked for, or this one; none where an empty one is asked for."""
+def framed(figure: Figure, title: str, request: Request, legend: Legend | None = None) -> None:
+    """The title: the one asked for, or this one; none where an empty one is asked for. The legend goes below."""
     text = printable(title if request.title is None else request.title)
     if text:
         figure.suptitle(wrapped(text, figure.get_size_inches()[0]), x=0.02, ha="left", color=INK)
+    if legend is not None:
+        legend.put(figure)
 
 
 def wrapped(text: str, inches: float) -> str:

@@ -31,12 +31,14 @@ OPTIONS = ("of", "joint", "on", "axes", "at", "fluctuation", "static")
 class Request:
     """What is asked of a diagram.
 
-    ``of``: names of outputs, links or points; ``joint`` and ``on``: a joint, and the link on which it acts; ``axes``:
-    ``frame`` or a link; ``at``: coordinate of the first driver (rad or m; time in s where the driver follows a law)
-    of the one position of a polygon; ``fluctuation``: required δ of the flywheel; ``marks``: limit positions, peaks,
-    phases; ``title``: a title of one's own, or none where empty; ``size``: width and height in inches.
+    ``kind``: its name; ``of``: names of outputs, links or points; ``joint`` and ``on``: a joint, and the link on
+    which it acts; ``axes``: ``frame`` or a link; ``at``: coordinate of the first driver (rad or m; time in s where
+    the driver follows a law) of the one position of a polygon; ``fluctuation``: required δ of the flywheel;
+    ``marks``: limit positions, peaks, phases; ``title``: a title of one's own, or none where empty; ``size``: width
+    and height in inches.
     """
 
+    kind: str
     of: tuple[str, ...] = ()
     joint: str | None = None
     on: str | None = None
@@ -53,9 +55,10 @@ class Request:
         """Words of diagrams by key, in the language that is asked for."""
         return partial(_word, language=self.language)
 
-    def titled(self, name: str, subject: str) -> str:
-        """The title of a diagram: ``Crank-rocker: joint forces``."""
-        return self.say("titled", name=name, subject=subject)
+    def titled(self, name: str, subject: str = "") -> str:
+        """The title of a diagram, ``Crank-rocker: joint forces``: its subject is its kind unless given."""
+        told = subject or self.say(f"kind.{self.kind}")
+        return self.say("titled", name=name, subject=told) if name else told
 
 
 class Kind(ABC):

@@ -89,6 +89,7 @@ def plot(
     if size is not None and not all(1.0 <= each <= 100.0 for each in size):
         raise RequestError(Sentence("picture.bad_inches", wide=size[0], tall=size[1]))
     request = Request(
+        kind=name,
         of=(of,) if isinstance(of, str) else tuple(of),
         joint=joint,
         on=on,

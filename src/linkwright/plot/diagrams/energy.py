@@ -12,7 +12,7 @@ from linkwright.machine.speed import SpeedCurve
 from linkwright.metrics.true_speed import steady_cycle
 from linkwright.plot.diagrams.axes import significant, unit_of
 from linkwright.plot.diagrams.base import DIAGRAMS, Request
-from linkwright.plot.diagrams.panels import Curve, Level, OverInput, Panel
+from linkwright.plot.diagrams.panels import Curve, Level, OverInput, Panel, with_mean
 from linkwright.plot.diagrams.picture import COLOURS
 from linkwright.plot.diagrams.source import InputAxis, Source
 
@@ -37,13 +37,10 @@ class Energy(OverInput):
         steady = reduced.torque + 0.5 * reduced.slope * reduced.speed**2
         torque = reduced.direction * np.append(steady, steady[0])
         mean = reduced.direction * reduced.load.mean
-        curve = Curve("", torque, x=place)
-        title = f"{say('input_torque')} T"
-        unit = Panel(title, "torque", (curve,)).unit
-        level = Level(say("mean", value=unit.text(mean)), mean)
+        title, curve = f"{say('input_torque')} T", Curve("", torque, x=place)
         change = say("energy_fluctuation", value=unit_of("energy", [found.energy]).text(found.value))
         return [
-            Panel(title, "torque", (curve,), (level,), fill=True),
+            with_mean(title, "torque", curve, mean, request, fill=True),
             Panel(f"{say('energy')} E", "energy", (Curve(change, found.energy),)),
         ]
 

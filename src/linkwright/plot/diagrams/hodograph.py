@@ -43,8 +43,9 @@ class Hodograph(Kind):
         for place, view in zip(figure.subplots(1, len(views), squeeze=False)[0], views, strict=True):
             draw_hodograph(place, sources, (joint, link, view), request, legend)
         subject = request.say("hodograph_of", joint=joint, link=link)
-        framed(figure, request.titled(sources[0].label, subject) if len(sources) == 1 else subject, request)
-        legend.put(figure)
+        framed(
+            figure, request.titled(sources[0].label if len(sources) == 1 else "", subject), request, legend
+        )
         return figure
 
 
@@ -124,6 +125,5 @@ class Hodographs(Kind):
         for place in places[len(pairs) :]:
             place.set_axis_off()
         title = request.say("kind.hodographs")
-        framed(figure, request.titled(sources[0].label, title) if len(sources) == 1 else title, request)
-        legend.put(figure)
+        framed(figure, request.titled(sources[0].label if len(sources) == 1 else "", title), request, legend)
         return figure

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -68,6 +68,22 @@ class Panel:
         return unit_of(self.dimension, [curve.values for curve in self.curves])
 
 
+def with_mean(
+    title: str,
+    dimension: str,
+    curve: Curve,
+    mean: float,
+    request: Request,
+    whose: str = "",
+    *,
+    fill: bool = False,
+) -> Panel:
+    """A panel of one curve with the level of its mean, which the legend names with its value."""
+    value = Panel(title, dimension, (curve,)).unit.text(mean)
+    level = Level(f"{whose}{request.say('mean', value=value)}", mean)
+    return Panel(title, dimension, (curve,), (level,), fill)
+
+
 def look(number: int) -> tuple[str, str]:
     """Colour and dash of one of many curves."""
     return COLOURS[number % len(COLOURS)], DASHES[number // len(COLOURS) % len(DASHES)]
@@ -95,29 +111,34 @@ class OverInput(Kind):
     def draw(self, sources: Sequence[Source], request: Request) -> Figure:
         panels = _laid_over([(each, self.axis(each), self.panels(each, request)) for each in sources])
         axis = self.axis(sources[0])
-        figure, axes, legend = stacked(panels, axis, request)
-        if request.marks and len(sources) == 1 and sources[0].has_motion:
-            _draw_marks(axes, sources[0], self.output(sources[0], request), legend, request.say)
-        label_input(axes[-1], axis, request.say)
-        title = (
-            request.titled(sources[0].label, self.subject(sources, request))
-            if len(sources) == 1 and sources[0].label
-            else self.subject(sources, request)
-        )
-        framed(figure, title, request)
-        figure.align_ylabels(axes)
-        legend.put(figure)
-        return figure
+
+        def mark(axes: list[Axes], legend: Legend) -> None:
+            if request.marks and len(sources) == 1 and sources[0].has_motion:
+                _draw_marks(axes, sources[0], self.output(sources[0], request), legend, request.say)
+
+        title = request.titled(sources[0].label if len(sources) == 1 else "", self.subject(sources, request))
+        return stacked(panels, axis, request, title, mark)[0]
 
 
-def stacked(panels: Sequence[Panel], axis: InputAxis, request: Request) -> tuple[Figure, list[Axes], Legend]:
-    """A figure with panels one below the other over one axis, and the legend that is to be put below them."""
+def stacked(
+    panels: Sequence[Panel],
+    axis: InputAxis,
+    request: Request,
+    title: str,
+    mark: Callable[[list[Axes], Legend], None] | None = None,
+) -> tuple[Figure, list[Axes]]:
+    """A figure with panels one below the other over one axis; ``mark`` adds to them and to the legend below."""
     figure = new_figure(request.size or (7.2, 1.2 + 1.9 * max(len(panels), 1.45)))
     axes = list(figure.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0])
     legend = Legend()
     for one, panel in zip(axes, panels, strict=True):
         draw_panel(one, panel, axis, request, legend)
-    return figure, axes, legend
+    if mark is not None:
+        mark(axes, legend)
+    label_input(axes[-1], axis, request.say)
+    framed(figure, title, request, legend)
+    figure.align_ylabels(axes)
+    return figure, axes
 
 
 def _laid_over(parts: list[tuple[Source, InputAxis, list[Panel]]]) -> list[Panel]:

@@ -49,8 +49,7 @@ class Paths(Kind):
             one.set_xlabel("x (mm)")
             one.set_ylabel("y (mm)")
         title = request.say("kind.paths")
-        framed(figure, request.titled(sources[0].label, title) if single else title, request)
-        legend.put(figure)
+        framed(figure, request.titled(sources[0].label if single else "", title), request, legend)
         return figure
 
 

@@ -61,9 +61,8 @@ def _of_all(source: Source, request: Request) -> Panel:
     marked = max(sizes, key=lambda label: largest(sizes[label]))
     curves = []
     for number, (label, values) in enumerate(sizes.items()):
-        colour, dash = look(number)
         exact = source.extremes(signals[label], "forces")
-        curves.append(Curve(label, values, "max" if label == marked else "", colour, dash, extremes=exact))
+        curves.append(Curve(label, values, "max" if label == marked else "", *look(number), extremes=exact))
     return Panel(f"{request.say('joint_force')} F", "force", tuple(curves))
 
 

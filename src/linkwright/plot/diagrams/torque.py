@@ -11,7 +11,7 @@ from linkwright.kinetostatics.forces import Forces
 from linkwright.metrics.analysis import Analysis
 from linkwright.plot.diagrams.base import DIAGRAMS, Request
 from linkwright.plot.diagrams.outputs import main_output
-from linkwright.plot.diagrams.panels import Curve, Level, OverInput, Panel
+from linkwright.plot.diagrams.panels import Curve, OverInput, Panel, with_mean
 from linkwright.plot.diagrams.source import Source
 from linkwright.words.sentence import Sentence
 
@@ -37,10 +37,9 @@ class Torque(OverInput):
             exact = source.extremes(partial(Forces.driver_effort, name=name), "forces")
             dimension = "torque" if turning else "force"
             title = f"{say(f'input_{dimension}')} {'T' if turning else 'F'}{f' {name}' if several else ''}"
-            panel = Panel(title, dimension, (Curve("", source.closed(effort), extremes=exact),))
+            curve = Curve("", source.closed(effort), extremes=exact)
             mean = Analysis(motion, forces).mean_of(partial(Forces.driver_effort, name=name))
-            label = f"{f'{name}: ' if several else ''}{say('mean', value=panel.unit.text(mean))}"
-            found.append(Panel(title, dimension, panel.curves, (Level(label, mean),)))
+            found.append(with_mean(title, dimension, curve, mean, request, f"{name}: " if several else ""))
         return found
 
 
@@ -55,13 +54,9 @@ class Power(OverInput):
 
     def panels(self, source: Source, request: Request) -> list[Panel]:
         power = source.forces.power
-        title = f"{request.say('power')} P"
-        panel = Panel(
-            title, "power", (Curve("", source.closed(power), extremes=source.extremes(_total, "forces")),)
-        )
+        curve = Curve("", source.closed(power), extremes=source.extremes(_total, "forces"))
         mean = Analysis(source.motion, source.forces).mean_of(_total)
-        label = request.say("mean", value=panel.unit.text(mean))
-        return [Panel(title, "power", panel.curves, (Level(label, mean),))]
+        return [with_mean(f"{request.say('power')} P", "power", curve, mean, request)]
 
 
 def _total(forces: Forces) -> Floats:

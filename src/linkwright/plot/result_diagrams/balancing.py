@@ -44,16 +44,13 @@ def draw_balancing(result: Balancing, request: Request) -> Figure:
     places["moment"].set_xlabel("")
     places["moment"].tick_params(labelbottom=False)
     figure.align_ylabels([places["moment"], places["torque"]])
-    framed(figure, request.titled(before.label, request.say("kind.balancing")), request)
-    legend.put(figure)
+    framed(figure, request.titled(before.label), request, legend)
     return figure
 
 
 def _curves(names: tuple[str, str], values: list[Floats]) -> tuple[Curve, ...]:
-    return tuple(
-        Curve(name, each, "", colour, dash)
-        for name, each, colour, dash in zip(names, values, COLOURS, DASHES, strict=False)
-    )
+    pairs = enumerate(zip(names, values, strict=True))
+    return tuple(Curve(name, each, "", COLOURS[n], DASHES[n]) for n, (name, each) in pairs)
 
 
 def _hodograph(

@@ -37,8 +37,7 @@ def draw_cam_motion(result: CamDesign, request: Request) -> Figure:
         values = result.motion[order] * (speed**order if speed else 1.0)
         marks = tuple(sorted({int(values.argmax()), int(values.argmin())}))
         given.append(Pane(symbol, kinds[order], (Line(result.angles, values, marks=marks),)))
-    title = request.titled(result.title, request.say("kind.cam_motion"))
-    return panes(title, (request.say("cam_angle"), "angle"), given, request)
+    return panes(result.title, (request.say("cam_angle"), "angle"), given, request)
 
 
 @result_diagram("cam_checks", CamDesign, usual=False)
@@ -55,8 +54,7 @@ def draw_cam_checks(result: CamDesign, request: Request) -> Figure:
         if result.pressure is not None:
             given.append(Pane("p", "pressure", (Line(phi, result.pressure),)))
         given.append(Pane("T", "torque", (Line(phi, result.torque),)))
-    title = request.titled(result.title, request.say("kind.cam_checks"))
-    return panes(title, (request.say("cam_angle"), "angle"), given, request)
+    return panes(result.title, (request.say("cam_angle"), "angle"), given, request)
 
 
 @result_diagram("cam_profile", CamDesign, usual=False)
@@ -64,8 +62,7 @@ def draw_cam_profile(result: CamDesign, request: Request) -> Figure:
     """The profile at true shape; its colour is Hertz's pressure, else the contact force, else the pressure angle."""
     from matplotlib.collections import LineCollection
 
-    title = request.titled(result.title, request.say("kind.cam_profile"))
-    figure, (axes,) = plane(title, request)
+    figure, (axes,) = plane(result.title, request)
     values, label = _coloured(result, request)
     places = 1e3 * np.stack([result.contact.point.real, result.contact.point.imag], axis=1)
     pieces = np.stack([places[:-1], places[1:]], axis=1)
@@ -113,5 +110,4 @@ def draw_cam_vibration(result: CamDesign, request: Request) -> Figure:
         Pane("z", kind, (Line(speeds, result.steady_deviation(speeds)),)),
         Pane("A", kind, tuple(Line(speeds, column) for column in left.T)),
     ]
-    title = request.titled(result.title, request.say("kind.cam_vibration"))
-    return panes(title, (request.say("cam_speed"), "angular_velocity"), given, request)
+    return panes(result.title, (request.say("cam_speed"), "angular_velocity"), given, request)

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from linkwright.errors import RequestError
-from linkwright.plot.diagrams.axes import Legend, equal, framed, label_input, unit_of
+from linkwright.plot.diagrams.axes import Legend, equal, framed, unit_of
 from linkwright.plot.diagrams.base import Request, result_diagram
-from linkwright.plot.diagrams.panels import DASHES, Curve, Panel, stacked
-from linkwright.plot.diagrams.picture import COLOURS, INK, new_figure
+from linkwright.plot.diagrams.panels import Curve, Panel, look, stacked
+from linkwright.plot.diagrams.picture import INK, new_figure
 from linkwright.plot.diagrams.source import InputAxis
 from linkwright.registry import offered
 from linkwright.study.compare import Comparison
@@ -45,13 +45,9 @@ def draw_comparison(result: Comparison, request: Request) -> Figure:
     """
     axis = _axis(result)
     panels = [panel for overlay in _chosen(result, request.of) for panel in _panels(result, overlay, request)]
-    figure, axes, legend = stacked(panels, axis, request)
-    label_input(axes[-1], axis, request.say)
+    figure, axes = stacked(panels, axis, request, " – ".join(result.labels))
     passed = say("compare.curve.input", request.language)
     axes[-1].set_xlabel(axis.unit.label(f"{passed} {'φ' if axis.dimension == 'angle' else 's'}"))
-    framed(figure, " – ".join(result.labels), request)
-    figure.align_ylabels(axes)
-    legend.put(figure)
     return figure
 
 
@@ -65,16 +61,15 @@ def draw_pivot_hodograph(result: Comparison, request: Request) -> Figure:
     figure = new_figure(request.size or (6.4, 5.4))
     axes, legend = figure.subplots(), Legend()
     for number, (label, (x, y)) in enumerate(overlay.lines.items()):
-        (line,) = axes.plot(x * unit.factor, y * unit.factor, color=COLOURS[number % len(COLOURS)],
-                            linestyle=_dash(number))  # fmt: skip
+        colour, dash = look(number)
+        (line,) = axes.plot(x * unit.factor, y * unit.factor, color=colour, linestyle=dash)
         legend.add(label, line)
     axes.set_xlabel(unit.label("Fx"))
     axes.set_ylabel(unit.label("Fy"))
     equal(axes)
     axes.plot([0], [0], "+", color=INK, markersize=9, zorder=4)
     axes.margins(0.1)
-    framed(figure, request.say("kind.pivot_hodograph"), request)
-    legend.put(figure)
+    framed(figure, request.titled(""), request, legend)
     return figure
 
 
@@ -100,31 +95,26 @@ def _axis(result: Comparison) -> InputAxis:
 
 def _panels(result: Comparison, overlay: Overlay, request: Request) -> list[Panel]:
     """One panel for a quantity; two where some outputs turn and others slide."""
-    colours = {label: (COLOURS[n % len(COLOURS)], _dash(n)) for n, label in enumerate(result.labels)}
+    looks = {label: look(n) for n, label in enumerate(result.labels)}
     kinds = _MOTION.get(overlay.name)
     if kinds is None:
         return [_panel(overlay, say(f"compare.curve.{overlay.name}", request.language), overlay.dimension,
-                       result.labels, colours)]  # fmt: skip
+                       result.labels, looks)]  # fmt: skip
     found = []
     for kind, (word, symbol, dimension) in kinds.items():
         labels = [
             each.label for each in result.alternatives if (each.output.kind == "angle") == (kind == "angle")
         ]
         if labels:
-            found.append(_panel(overlay, f"{request.say(word)} {symbol}", dimension, labels, colours))
+            found.append(_panel(overlay, f"{request.say(word)} {symbol}", dimension, labels, looks))
     return found
 
 
 def _panel(
-    overlay: Overlay, title: str, dimension: str, labels: Sequence[str], colours: dict[str, tuple[str, str]]
+    overlay: Overlay, title: str, dimension: str, labels: Sequence[str], looks: dict[str, tuple[str, str]]
 ) -> Panel:
     curves = []
     for label in labels:
         x, values = overlay.lines[label]
-        colour, dash = colours[label]
-        curves.append(Curve(label, values, "", colour, dash, x))
+        curves.append(Curve(label, values, "", *looks[label], x))
     return Panel(title, dimension, tuple(curves))
-
-
-def _dash(number: int) -> str:
-    return DASHES[number // len(COLOURS) % len(DASHES)]

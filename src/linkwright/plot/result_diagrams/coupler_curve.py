@@ -36,6 +36,5 @@ def draw_coupler_curve(result: CouplerCurve, request: Request) -> Figure:
     axes.set_xlabel(unit.label("x"))
     axes.set_ylabel(unit.label("y"))
     length, area = unit.text(result.length, 6), unit_of("area").text(result.area, 6)
-    framed(figure, request.say("curve_of", point=result.point, length=length, area=area), request)
-    legend.put(figure)
+    framed(figure, request.say("curve_of", point=result.point, length=length, area=area), request, legend)
     return figure

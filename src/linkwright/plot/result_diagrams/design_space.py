@@ -41,8 +41,7 @@ def draw_designs(table: DesignTable, request: Request) -> Figure:
         figure = _over_two(table, request, legend)
     else:
         figure = _clouds(table, request, legend)
-    framed(figure, table.title, request)
-    legend.put(figure)
+    framed(figure, request.titled(table.title), request, legend)
     return figure
 
 

@@ -37,8 +37,7 @@ def draw_metrics(result: MetricsTable, request: Request) -> Figure:
     legend = Legend()
     for axes, (name, rows) in zip(places, groups, strict=True):
         _draw(axes, name, rows, request, legend)
-    framed(figure, request.titled(result.title, request.say("kind.metrics")), request)
-    legend.put(figure)
+    framed(figure, request.titled(result.title), request, legend)
     return figure
 
 

@@ -55,9 +55,9 @@ def unit_for(dimension: str, lines: Sequence[Line] = ()) -> Unit:
 
 
 def panes(
-    title: str, across: tuple[str, str], given: Sequence[Pane], request: Request, *, logx: bool = False
+    name: str, across: tuple[str, str], given: Sequence[Pane], request: Request, *, logx: bool = False
 ) -> Figure:
-    """Panels one below the other over one axis, which has a name and a dimension."""
+    """Panels of what has a name, one below the other over one axis, which has a name and a dimension."""
     figure = new_figure(request.size or (7.2, 1.2 + 1.9 * max(len(given), 1.45)))
     axes = list(figure.subplots(len(given), 1, sharex=True, squeeze=False)[:, 0])
     legend = Legend()
@@ -70,9 +70,8 @@ def panes(
     if across[1] == "angle":
         angle_ticks(axes[-1], float(np.ptp(axes[-1].get_xlim())))
     axes[-1].set_xlabel(below.label(across[0]))
-    framed(figure, title, request)
+    framed(figure, request.titled(name), request, legend)
     figure.align_ylabels(axes)
-    legend.put(figure)
     return figure
 
 
@@ -111,14 +110,14 @@ def _plain_ticks(axis: Axis, limits: tuple[float, float]) -> None:
     axis.set_minor_formatter(NullFormatter())
 
 
-def plane(title: str, request: Request, count: int = 1) -> tuple[Figure, list[Axes]]:
+def plane(name: str, request: Request, count: int = 1) -> tuple[Figure, list[Axes]]:
     """Axes of equal scale side by side."""
     figure = new_figure(request.size or (4.2 * count + 1.2, 4.6))
     found = list(figure.subplots(1, count, squeeze=False)[0])
     for axes in found:
         axes.set_aspect("equal", adjustable="datalim")
         axes.margins(0.15)
-    framed(figure, title, request)
+    framed(figure, request.titled(name), request)
     return figure, found
 
 

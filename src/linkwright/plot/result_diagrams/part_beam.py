@@ -28,8 +28,7 @@ def draw_beam_line(result: BeamLine, request: Request) -> Figure:
         y = columns[name]
         line = Line(x, y, marks=tuple({int(y.argmin()), int(y.argmax())}))
         given.append(Pane(symbol, dimension, (line,), fill=symbol in "VM"))
-    title = request.titled(result.title, request.say("kind.beam_line"))
-    return panes(title, ("x", "length"), given, request)
+    return panes(result.title, ("x", "length"), given, request)
 
 
 @result_diagram("link_stress", LinkStress)
@@ -42,5 +41,4 @@ def draw_link_stress(result: LinkStress, request: Request) -> Figure:
         Pane("max σ", "pressure", (Line(result.stations, np.asarray(result.stress.max(axis=0))),)),
         Pane("w", "length", (Line(result.stations, result.deflection[i, :, 1]),), fill=True),
     ]
-    title = request.titled(result.title, request.say("kind.link_stress"))
-    return panes(title, ("s", "length"), given, request)
+    return panes(result.title, ("s", "length"), given, request)

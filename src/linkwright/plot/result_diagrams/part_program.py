@@ -30,7 +30,7 @@ def draw_optimum(result: Optimum, request: Request) -> Figure:
         _region(axes, result)
     else:
         _bars(axes, result)
-    framed(figure, request.titled(result.title, request.say("kind.optimum")), request)
+    framed(figure, request.titled(result.title), request)
     return figure
 
 

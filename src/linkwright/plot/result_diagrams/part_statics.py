@@ -32,7 +32,7 @@ def draw_resultant(result: Resultant, request: Request) -> Figure:
     vectors = {name: each.vector for name, each in result.system.forces.items()}
     spread = any(vector[2] for vector in vectors.values())
     planes = [(0, 1), (0, 2)] if spread else [(0, 1)]
-    figure, axes = plane(request.titled(result.title, request.say("kind.resultant")), request, len(planes))
+    figure, axes = plane(result.title, request, len(planes))
     for one, (a, b) in zip(axes, planes, strict=True):
         place, whole = np.zeros(2), result.force[[a, b]]
         for name, vector in vectors.items():
@@ -55,7 +55,7 @@ def draw_resultant(result: Resultant, request: Request) -> Figure:
 def draw_body_reactions(result: Reactions, request: Request) -> Figure:
     """A body's forces and reactions at their places, in the plane x, y."""
     body = result.body
-    figure, (axes,) = plane(request.titled(result.title, request.say("kind.body_reactions")), request)
+    figure, (axes,) = plane(result.title, request)
     arrows = [(f.place[:2], f.vector[:2], COLOURS[1], name) for name, f in body.forces.items()]
     for name, support in body.supports.items():
         point(axes, spatial(support.at)[:2], name)
@@ -68,7 +68,7 @@ def draw_body_reactions(result: Reactions, request: Request) -> Figure:
 def draw_structure_reactions(result: StructureForces, request: Request) -> Figure:
     """A structure's links with the forces that joints exert on them."""
     motion = result.forces.motion
-    figure, (axes,) = plane(request.titled(result.title, request.say("kind.structure_reactions")), request)
+    figure, (axes,) = plane(result.title, request)
     for name, link in motion.mechanism.links.items():
         places = np.array([motion.point(f"{name}.{p}").position[0] for p in link.points])
         line_of(axes, places)
@@ -89,8 +89,7 @@ def draw_belt_tension(result: BeltTensions, request: Request) -> Figure:
     """Tension along the contact."""
     angle, tension = result.columns().values()
     pane = Pane(request.say("tension"), "force", (Line(angle, tension, marks=(0, len(angle) - 1)),))
-    title = request.titled(result.title, request.say("kind.belt_tension"))
-    return panes(title, (request.say("wrap"), "angle"), [pane], request)
+    return panes(result.title, (request.say("wrap"), "angle"), [pane], request)
 
 
 @result_diagram("wedge_push", WedgeForces)
@@ -98,8 +97,7 @@ def draw_wedge_push(result: WedgeForces, request: Request) -> Figure:
     """Push over the wedge's angle."""
     angle, up, down = result.columns().values()
     lines = (Line(angle, up, request.say("raising")), Line(angle, down, request.say("lowering")))
-    title = request.titled(result.title, request.say("kind.wedge_push"))
-    return panes(title, (request.say("wedge_angle"), "angle"), [Pane("P", "force", lines)], request)
+    return panes(result.title, (request.say("wedge_angle"), "angle"), [Pane("P", "force", lines)], request)
 
 
 def _outside(place: Floats, vector: Floats, whole: Floats) -> float:

@@ -33,7 +33,7 @@ def draw_samples(result: Statistics, request: Request) -> Figure:
         _histogram(one, result, name)
     for one, name in zip(axes[len(names) :], lines, strict=False):
         _regression(one, result, name)
-    framed(figure, request.titled(result.title, request.say("kind.samples")), request)
+    framed(figure, request.titled(result.title), request)
     return figure
 
 

@@ -28,7 +28,7 @@ def draw_tolerance(result: Spread, request: Request) -> Figure:
         _histogram(one, result, text, request)
     for one, output in zip(axes[len(texts) :], result.study.curves, strict=False):
         _band(one, result, output)
-    framed(figure, request.titled(result.title, request.say("kind.tolerance")), request)
+    framed(figure, request.titled(result.title), request)
     return figure
 
 

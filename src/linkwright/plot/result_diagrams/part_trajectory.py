@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 def draw_flight(result: Flight, request: Request) -> Figure:
     """The path, to one scale."""
     columns = result.columns()
-    figure, (axes,) = plane(request.titled(result.title, request.say("kind.flight")), request)
+    figure, (axes,) = plane(result.title, request)
     axes.plot(columns["x [m]"], columns["y [m]"], color=COLOURS[0])
     axes.axhline(0.0, color="#555555", linewidth=0.9)
     axes.set_xlabel("x (m)")
@@ -36,5 +36,4 @@ def draw_transport(result: Transport, request: Request) -> Figure:
     ]
     if height.any():
         given.append(Pane("n", "length", (Line(time, height),)))
-    title = request.titled(result.title, request.say("kind.transport"))
-    return panes(title, (request.say("time"), "time"), given, request)
+    return panes(result.title, (request.say("time"), "time"), given, request)

@@ -21,12 +21,11 @@ if TYPE_CHECKING:
 def draw_vibration_response(result: Vibration, request: Request) -> Figure:
     """Amplitudes over frequency, displacements over time, or the modes."""
     names = list(result.system.masses)
-    title = request.titled(result.title, request.say("kind.vibration_response"))
     length = "angle" if result.system.turning else "length"
     if result.in_time:
         time, moved = result.response()
         lines = tuple(Line(time, moved[:, i], name) for i, name in enumerate(names))
-        return panes(title, (request.say("time"), "time"), [Pane("x", length, lines)], request)
+        return panes(result.title, (request.say("time"), "time"), [Pane("x", length, lines)], request)
     if result.harmonic:
         frequency, amplitudes = result.sweep()
         hertz = frequency / (2 * math.pi)
@@ -38,13 +37,13 @@ def draw_vibration_response(result: Vibration, request: Request) -> Figure:
             Pane("∠X", "angle", turn),
             Pane("T", "", passed, log=True),
         ]
-        return panes(title, (request.say("frequency"), "frequency"), given, request, logx=True)
+        return panes(result.title, (request.say("frequency"), "frequency"), given, request, logx=True)
     place = np.arange(1.0, len(names) + 1)
     shapes = tuple(
         Line(place, result.shapes[:, i], f"{f / (2 * math.pi):.4g} Hz")
         for i, f in enumerate(result.frequencies)
     )
-    return panes(title, (", ".join(names), ""), [Pane("φ", "", shapes)], request)
+    return panes(result.title, (", ".join(names), ""), [Pane("φ", "", shapes)], request)
 
 
 @result_diagram("follower_vibration", FollowerVibration)
@@ -55,8 +54,7 @@ def draw_follower_vibration(result: FollowerVibration, request: Request) -> Figu
         Pane("s, x", "length", (Line(time, cam, "s"), Line(time, follower, "x", dash="--"))),
         Pane("x − s", "length", (Line(time, follower - cam),)),
     ]
-    title = request.titled(result.title, request.say("kind.follower_vibration"))
-    return panes(title, (request.say("time"), "time"), given, request)
+    return panes(result.title, (request.say("time"), "time"), given, request)
 
 
 @result_diagram("residual_spectrum", FollowerVibration, usual=False)
@@ -64,8 +62,7 @@ def draw_residual_spectrum(result: FollowerVibration, request: Request) -> Figur
     """Residual amplitude over the ratio of rise time and natural period."""
     n = np.linspace(0.2, max(6.0, 1.3 * result.ratio), 1200)
     pane = Pane("A", "length", (Line(n, result.residual(n)),), log=True)
-    title = request.titled(result.title, request.say("kind.residual_spectrum"))
-    return panes(title, ("n = T/Tₙ", ""), [pane], request)
+    return panes(result.title, ("n = T/Tₙ", ""), [pane], request)
 
 
 @result_diagram("mounts", Shaken)
@@ -83,5 +80,4 @@ def draw_mounts(result: Shaken, request: Request) -> Figure:
     ]
     for symbol, (name, dimension) in zip("MθG", TITLES["turn"], strict=True) if "turn" in result.axes else ():
         given.append(Pane(symbol, dimension, (Line(time, columns[name]),)))
-    title = request.titled(result.title, request.say("kind.mounts"))
-    return panes(title, (request.say("time"), "time"), given, request)
+    return panes(result.title, (request.say("time"), "time"), given, request)

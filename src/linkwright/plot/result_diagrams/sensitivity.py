@@ -11,9 +11,9 @@ from linkwright import units
 from linkwright.core.arrays import Floats
 from linkwright.errors import RequestError
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.plot.diagrams.axes import Legend, framed, label_input
+from linkwright.plot.diagrams.axes import Legend, framed
 from linkwright.plot.diagrams.base import Request, result_diagram
-from linkwright.plot.diagrams.panels import DASHES, Curve, Panel, stacked
+from linkwright.plot.diagrams.panels import Curve, Panel, look, stacked
 from linkwright.plot.diagrams.picture import COLOURS, new_figure
 from linkwright.plot.diagrams.source import InputAxis
 from linkwright.plot.result_diagrams.design_table import chosen
@@ -51,8 +51,7 @@ def draw_sensitivity(result: Sensitivity, request: Request) -> Figure:
     axes.set_ylim(len(result.by) - 0.4, -0.6)
     axes.margins(x=0.06)
     axes.set_xlabel(request.say("relative_change"))
-    framed(figure, request.titled(result.mechanism.name, request.say("kind.sensitivity")), request)
-    legend.put(figure)
+    framed(figure, request.titled(result.mechanism.name), request, legend)
     return figure
 
 
@@ -64,12 +63,7 @@ def draw_sensitivity_curves(result: Sensitivity, request: Request) -> Figure:
     """
     axis = _axis(result)
     panels = [_panel(result, name, request) for name in chosen(request.of, result.curves)]
-    figure, axes, legend = stacked(panels, axis, request)
-    label_input(axes[-1], axis, request.say)
-    framed(figure, request.titled(result.mechanism.name, request.say("kind.sensitivity_curves")), request)
-    figure.align_ylabels(axes)
-    legend.put(figure)
-    return figure
+    return stacked(panels, axis, request, request.titled(result.mechanism.name))[0]
 
 
 def _axis(result: Sensitivity) -> InputAxis:
@@ -87,8 +81,7 @@ def _panel(result: Sensitivity, name: str, request: Request) -> Panel:
         step, text = _step(result.mechanism, by)
         label = request.say("step", dimension=by, step=text)
         values: Floats = step * result.slope(name, by)
-        curves.append(Curve(label, values, "", COLOURS[number % len(COLOURS)],
-                            DASHES[number // len(COLOURS) % len(DASHES)]))  # fmt: skip
+        curves.append(Curve(label, values, "", *look(number)))
     return Panel(request.say("change_by", output=name), result.quantities[name].dimension, tuple(curves))
 
 

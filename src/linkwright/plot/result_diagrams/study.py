@@ -34,8 +34,7 @@ def draw_study(result: Study, request: Request) -> Figure:
         )
         for name in chosen(request.of, result.metrics)
     )
-    title = request.titled(result.mechanism.name, request.say("kind.study"))
-    return draw_designs(DesignTable(title, over, measures, result.ok), request)
+    return draw_designs(DesignTable(result.mechanism.name, over, measures, result.ok), request)
 
 
 @result_diagram("sweep", Sweep, options=("of",))
@@ -51,5 +50,4 @@ def draw_sweep(result: Sweep, request: Request) -> Figure:
         measure(name, result.summaries[known[name]], result.dimension(known[name]))
         for name in chosen(request.of, known)
     )
-    title = request.titled(result.mechanism.name, request.say("kind.sweep"))
-    return draw_designs(DesignTable(title, over, measures, result.ok), request)
+    return draw_designs(DesignTable(result.mechanism.name, over, measures, result.ok), request)

@@ -8,9 +8,8 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.machine.torque_curve import TorqueCurve
-from linkwright.plot.diagrams.axes import framed, label_input
 from linkwright.plot.diagrams.base import Request, result_diagram
-from linkwright.plot.diagrams.panels import Curve, Level, Panel, stacked
+from linkwright.plot.diagrams.panels import Curve, stacked, with_mean
 from linkwright.plot.diagrams.source import InputAxis
 
 if TYPE_CHECKING:
@@ -25,15 +24,8 @@ BEFORE = 1e-9
 def draw_torque_curve(result: TorqueCurve, request: Request) -> Figure:
     """T(φ) over one period; jumps are drawn upright."""
     angle = _angles(result)
-    curve, mean = Curve("", result(angle)), result.mean
-    panel = Panel(f"{request.say('torque')} T", "torque", (curve,))
-    level = Level(request.say("mean", value=panel.unit.text(mean)), mean)
-    axis = InputAxis("", "angle", angle)
-    figure, axes, legend = stacked([Panel(panel.title, "torque", (curve,), (level,))], axis, request)
-    label_input(axes[-1], axis, request.say)
-    framed(figure, request.say("kind.torque_curve"), request)
-    legend.put(figure)
-    return figure
+    panel = with_mean(f"{request.say('torque')} T", "torque", Curve("", result(angle)), result.mean, request)
+    return stacked([panel], InputAxis("", "angle", angle), request, request.titled(""))[0]
 
 
 def _angles(curve: TorqueCurve) -> Floats:

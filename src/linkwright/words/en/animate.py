@@ -6,10 +6,6 @@ WORDS = {
 Shows one cycle of a mechanism as a moving drawing, with traces of points, arrows
 and curves whose cursor runs along. An open cycle runs to and fro. A moving SVG
 runs by itself in browsers and readme files.""",
-    "examples": """\
-linkwright animate gallery:theo_jansen_leg --traces leg.T --output leg.svg
-linkwright animate crusher.yaml --traces C --curves jaw.angle --output crusher.gif
-linkwright animate crusher.yaml --forces --curves driver.effort --seconds 4 --output crusher.mp4""",
     "pace_title": "pace",
     "traces_help": "paths of points with a dot that runs along: C,jaw.D",
     "curves_help": "results drawn below: jaw.angle, C.velocity.x; with --forces also driver.effort",

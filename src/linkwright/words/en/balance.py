@@ -6,10 +6,6 @@ WORDS = {
 Lays out counterweights for a four-bar or a slider-crank, for full or partial
 balance of the shaking force, and shows the peaks of shaking force, shaking moment
 and input torque without and with them. --output writes the balanced model.""",
-    "examples": """\
-linkwright balance gallery:jaw_crusher_fourbar --radius "crank=200 mm, jaw=500 mm"
-linkwright balance press.yaml --radius 120mm --share 0.5
-linkwright balance linkage.yaml --radius 80mm --output balanced.yaml""",
     "radius_help": "distance of the counterweights from the pins that carry them, one (80mm) or by link "
     '("crank=80 mm, rod=40 mm")',
     "share_help": "share that is balanced, from 0 to 1 (default 1: the shaking force vanishes)",
@@ -21,8 +17,6 @@ linkwright balance linkage.yaml --radius 80mm --output balanced.yaml""",
     "none": "No counterweight is needed: the links have no mass, or their mass centres lie where they must.",
     "column.link": "counterweight on",
     "column.mass": "mass kg",
-    "column.x": "x mm",
-    "column.y": "y mm",
     "column.peak": "peak of",
     "column.unit": "unit",
     "column.without": "without",

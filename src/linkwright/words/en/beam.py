@@ -7,10 +7,6 @@ Finds reactions, shear force, bending moment, slope and deflection of a beam on 
 supports (also statically indeterminate, stepped, with hinges and springs), stress and
 safety; and the bending of a link of a mechanism under its joint forces, loads, weight
 and inertia, with stress, safety and the needed section over the cycle.""",
-    "examples": """\
-linkwright beam gallery:cantilever
-linkwright beam gallery:propped_cantilever --worked
-linkwright beam gallery:pitman_bending --plot bending.svg""",
     "reactions": "Reactions (force up, couple counter-clockwise)",
     "extremes": "Extremes",
     "places": "Key points",

@@ -7,11 +7,6 @@ Makes a cam from the motion program in a file: the profile for a roller, knife-e
 flat-faced follower, translating or oscillating, a groove, a conjugate pair or a barrel
 cam; pressure angle, curvature, undercut, spring, contact force and pressure, torque,
 vibration; what is left out (base circle, offset, roller, spring) is chosen.""",
-    "examples": """\
-linkwright cam gallery:cam_flat_face
-linkwright cam gallery:cam_roller --plot motion.svg --draw cam.svg
-linkwright cam gallery:cam_roller --kind cam_profile --plot pressure.svg
-linkwright cam gallery:cam_roller --profile cam.dxf --points 1440""",
     "kind_help": "kind of diagram for --plot",
     "profile_help": "write the profile to a .dxf, .csv or .txt file (x y z in mm for a mill)",
     "points_help": "points of the profile (default: 720)",

@@ -94,7 +94,6 @@ WORDS = {
     "step_angle": "Pressure angle",
     "step_radius": "Radius of curvature",
     "step_force": "Contact force and torque",
-    "drawing": "{name}",
     "drawn": "base circle r = {radius} mm, φ = {angle}°",
     "drawn_barrel": "unrolled, R = {radius} mm, φ = {angle}°",
     "compensation_points": "angles and wanted lifts do not fit: give as many of both, twelve or more, the "

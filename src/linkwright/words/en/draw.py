@@ -6,13 +6,6 @@ WORDS = {
 Draws a mechanism in the standard symbols: at its first position, at an input or
 time that you name, with limit positions, paths of points, velocities,
 accelerations, forces and dimension lines.""",
-    "examples": """\
-linkwright draw gallery:jaw_crusher_sixbar --output crusher.svg
-linkwright draw crusher.yaml --at "30 deg" --overlay limits --paths C,jaw.D --output crusher.pdf
-linkwright draw crusher.yaml --overlay faded:8 --velocities A B C --output crusher.png --width 1600
-linkwright draw crusher.yaml --forces --output crusher.svg --force
-linkwright draw crusher.yaml --dimensions pitman jaw O1:O3 --output crusher.svg
-linkwright draw gallery:excavator --time "2 s" --lang zh --output excavator.svg""",
     "where_title": "positions",
     "what_title": "contents",
     "form_title": "file",

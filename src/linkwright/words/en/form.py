@@ -2,7 +2,6 @@
 
 WORDS = {
     "add_key": "add {key_}: {form}",
-    "just": "{value}",
     "one_of": "one of {names}",
     "such_as": "{noun}, such as {example}",
     "formula": "{noun}, an expression of {variables}",

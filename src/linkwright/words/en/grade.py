@@ -8,7 +8,6 @@ with an answer key that "linkwright variants" wrote. Wrong numbers are named, wi
 the usual mistake that leads to just these numbers: degrees for radians, wrong
 assembly mode, missing parenthesis, quadrant of the arctangent, sign of the inertia
 couple, missing Coriolis term, mass centre at the wrong end, rpm for rad/s.""",
-    "examples": "linkwright grade exercise/key.json answers.csv",
     "key_help": "key.json of the variants",
     "answers_help": "CSV file of the answers",
     "output_help": "write the grades to a .csv file",

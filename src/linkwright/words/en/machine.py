@@ -7,16 +7,6 @@ Finds what a machine needs to run steadily: mean torque and motor, energy
 fluctuation, flywheel for a required coefficient of speed fluctuation (by the usual
 formula and exactly), and the true speed over the cycle. Instead of a machine, a
 torque diagram can be given by its areas or a torque as an expression of theta.""",
-    "examples": """\
-linkwright machine gallery:jaw_crusher_sixbar --fluctuation 0.03
-linkwright machine crusher.yaml --fluctuation 0.03 --ratio 5 --efficiency 0.9 --margin 1.2
-linkwright machine crusher.yaml --rim density=7200kg/m³,width=0.15,thickness=0.1
-linkwright machine --areas "+295, -685, +40, -340, +960, -270" --scale "5 N·m/mm, 1 deg/mm" \\
-    --speed 1800rpm --mass 36kg --gyration 150mm
-linkwright machine --torque "20000 + 9500*sin(2*theta) - 5700*cos(2*theta)" \\
-    --speed 180rpm --fluctuation 0.01
-linkwright machine --torque "5000 + 600*sin(2*theta)" --load "5000 + 500*sin(theta)" \\
-    --speed 150rpm --mass 500kg --gyration 0.4m""",
     "file_help": "model file, or gallery:NAME; leave it out with --areas or --torque",
     "what_title": "motor and flywheel",
     "curves_title": "a torque diagram instead of a machine",

@@ -6,10 +6,6 @@ WORDS = {
 Prints all design numbers of a machine that apply to it, each with its value, where
 in the cycle it occurs, the recommended limit and a remark. Warnings stand beneath,
 closeness to a singular position first.""",
-    "examples": """\
-linkwright metrics gallery:jaw_crusher_sixbar
-linkwright metrics press.yaml --names stroke,quick_return_ratio,transmission_angle
-linkwright metrics crusher.yaml --output numbers.csv""",
     "names_help": "names of the numbers, separated by commas (default: all that apply; --json shows the names)",
     "steps_help": "equal steps over the cycle (default 360); extreme values are refined between them",
     "forces_help": "joint forces and what follows from them (default: where the model has masses or loads)",

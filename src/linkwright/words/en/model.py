@@ -257,7 +257,6 @@ WORDS = {
     "plain_driver_table": "a driver's table",
     "plain_drawing": "a drawing",
     "point_on": "point on {link}:",
-    "form_length": "length: 0.5 m",
     "form_lengths": "lengths: [0.3 m, 0.4 m] and angle: 30 deg",
     "length_zero": "zero",
     "more_findings": "there are more than {count} findings; mend these first",

@@ -20,7 +20,6 @@ WORDS = {
     "cycle: {{from: …, to: …}} (the driver's coordinate) or cycle: {{duration: 2 s}}",
     "cycle_by_coordinate": "the cycle is given by the coordinate of driver {name!r}, which has no constant "
     "speed; write cycle: {{duration: …}} instead",
-    "coordinate": "{name} = {value}",
     "input": "input {parts}",
     "only_position": "its only position",
     "of_positions": "{where} ({failed} of {steps} positions fail)",

@@ -8,11 +8,6 @@ greatest) while others are kept: a global search that judges all designs of a
 generation in one sweep, then exact gradients. The settings stand in the file's
 section "optimize", or here. Prints the design beside the start and writes the
 model file with everything else as it was. Several objectives give a front.""",
-    "examples": """\
-linkwright optimize crusher.yaml --output better.yaml
-linkwright optimize gallery:jaw_crusher_sixbar --vary pitman.length=1.1..1.4m toggle.length=1..1.3m \\
-    --minimize peak_input_torque --keep "jaw.angle range=same within 1 %"
-linkwright optimize crusher.yaml --minimize peak_input_torque flywheel --plot front.svg --state search.json""",
     "file_help": "a model file, or gallery:NAME",
     "vary_help": "what varies, in place of the file's: ADDRESS=RANGE, such as crank.length=80..120mm",
     "minimize_help": "numbers to make least: design numbers, flywheel, summaries such as 'jaw.angle range'",

@@ -57,7 +57,6 @@ WORDS = {
     "wall_length": "Limit: {name} must stay above zero.",
     "wall_locked": "Every dimension that could move {name} is locked.",
     "wall_still": "No dimension moves {name} in this direction.",
-    "where": "{name} = {value}",
     "transmission_now": "transmission angle {value} ({name})",
     "not_found_again": "Forces are shown for the original only: the course of {names} is not found again "
     "here.",

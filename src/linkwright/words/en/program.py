@@ -7,10 +7,6 @@ Solves the optimisation program of a small file: variables with bounds (continuo
 whole, or from a list), an expression to minimise or maximise, constraints by name.
 Explains which constraints are active and what one more unit of each is worth; says
 which constraints cannot hold together where there is no solution.""",
-    "examples": """\
-linkwright program gallery:production_mix
-linkwright program gallery:lightest_spring --worked
-linkwright program gallery:gear_pair --json""",
     "optimum": "Optimum",
     "minimum": "minimum",
     "maximum": "maximum",

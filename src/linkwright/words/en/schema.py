@@ -5,6 +5,5 @@ WORDS = {
     "description": "Prints the JSON Schema of models and calculations (draft 2020-12), generated from the model "
     "itself.\nEditors complete keys and mark mistakes with it: write as the first line of a model\n# "
     "yaml-language-server: $schema=./linkwright.schema.json",
-    "examples": "linkwright schema --output linkwright.schema.json\nlinkwright schema | less",
     "output_help": "write it to a file",
 }

@@ -6,10 +6,6 @@ WORDS = {
 Adds up systems of forces (resultant, moment, wrench, equilibrant), finds the
 reactions of rigid bodies and of pinned structures, the tensions of belts and the
 pushes on wedges. A structure is a model file of links and joints without a drive.""",
-    "examples": """\
-linkwright statics gallery:force_system
-linkwright statics gallery:two_bars_equilibrium --worked
-linkwright statics bracket.yaml --plot bracket.svg""",
     "resultant": "Resultant R",
     "moment": "Moment about the chosen point",
     "wrench": "Wrench: force along an axis with a couple about it",
@@ -29,7 +25,6 @@ linkwright statics bracket.yaml --plot bracket.svg""",
     "gap": "largest gap in the balance of a link: {gap} N",
     "tight": "tight side T1",
     "slack": "slack side T2",
-    "pull": "T1 − T2",
     "ratio": "ratio of tensions e^(μθ)",
     "torque": "torque",
     "power": "power",

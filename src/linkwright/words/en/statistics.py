@@ -7,10 +7,6 @@ Describes samples of measurements (mean, deviation, quartiles, intervals), fits
 distributions, tests hypotheses (mean, variance, two samples, pairs, analysis of
 variance, normality, correlation), fits lines and polynomials, and finds process
 capability against limits.""",
-    "examples": """\
-linkwright statistics gallery:shaft_diameters
-linkwright statistics gallery:spring_rate --plot rate.svg
-linkwright statistics gallery:shaft_diameters --worked --lang zh""",
     "sample": "Sample {name}",
     "count": "number n",
     "mean": "mean x̄",
@@ -49,7 +45,6 @@ linkwright statistics gallery:shaft_diameters --worked --lang zh""",
     "residual": "residual deviation s",
     "si": "Coefficients are in SI units.",
     "capability": "Capability of {name}",
-    "sigma": "σ",
     "outside": "outside the limits",
     "within": "σ from within the subgroups (Cp, Cpk); share outside for a normal process.",
     "overall": "σ from all values (Pp, Ppk); share outside for a normal process.",

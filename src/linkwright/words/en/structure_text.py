@@ -19,7 +19,6 @@ WORDS = {
     "train": "Ratios of the train {pairs} by the method of the stopped carrier ({carrier}):",
     "stopped": "{carrier} stopped",
     "as_one": "all as one",
-    "willis": "  (n_{wheel} - n_{carrier}) / (n_{first} - n_{carrier}) = {ratio}",
     "at_rest": "Mobility 0 and no driver: a structure at rest, which carries loads.",
     "determined": "Mobility equals the number of drivers ({count}): the motion is determined.",
     "groups": "Assur groups in solving order:",

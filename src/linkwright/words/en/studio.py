@@ -6,7 +6,6 @@ WORDS = {
     "it, both\nways in step, findings at their lines, and tools that draw a mechanism from nothing. The server "
     "answers\nthis machine only and reads and writes model files below the folder it is started in. Every "
     "change is\nkept at once; what was not saved is there again after a crash.",
-    "examples": "linkwright studio\nlinkwright studio crusher.yaml",
     "file_help": "the model file, below this folder; a new one may be named",
     "port_help": "the port (default: a free one)",
     "browser_help": "only print the address",
@@ -118,7 +117,6 @@ WORDS = {
     "range_of": "Range of {name}",
     "number_name": "Name of the number",
     "demand_text": "Demand",
-    "demand_hint": "at least 40 deg",
     "forget": "Forget {name}",
     "begin": "Begin",
     "tried": "{done} of at most {most} machines tried",

@@ -6,11 +6,6 @@ WORDS = {
 Varies one or several dimensions (pitman.length, frame.O3.x, jaw.mass) or named
 parameters of a model, over a grid or a Sobol sequence, and prints the chosen
 metrics of every design. Designs that cannot move are counted and explained.""",
-    "examples": """\
-linkwright study gallery:jaw_crusher_sixbar --vary "pitman.length=1.2..1.3 m:11"
-linkwright study crusher.yaml --vary "pitman.length=1.2..1.3 m:5" "jaw.mass=700, 900 kg" \\
-    --metrics peak_input_torque "reaction O5 on jaw max" --output study.csv
-linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --samples 256""",
     "vary_help": 'what varies: "ADDRESS=FROM..TO UNIT:NUMBER" or "ADDRESS=VALUE, VALUE UNIT"; several make a '
     "grid",
     "metrics_help": "design numbers (see linkwright.metrics), travel, flywheel, or summaries of outputs in "

@@ -8,11 +8,6 @@ Sobol sequence, part by part into a folder of Parquet files. Files are written
 whole; run again after an interruption, it goes on with the missing parts. Memory
 does not grow with the designs. With --cluster the parts are computed by the
 workers of a Dask scheduler, to the same bits; workers may die.""",
-    "examples": """\
-linkwright sweep gallery:crank_rocker --vary coupler.length=3..4m:300 rocker.length=2..3m:300 \\
-    --numbers "rocker.angle range" transmission_angle --folder designs
-linkwright sweep crusher.yaml --vary pitman.length=1.1..1.4m --sampling sobol --samples 1000000 \\
-    --numbers peak_input_torque --folder torques --best peak_input_torque --cluster tcp://10.0.0.1:8786""",
     "numbers_help": "summaries such as 'rocker.angle range' and design numbers such as peak_reaction",
     "folder_help": "folder of the Parquet files; made where it does not exist, gone on with where it does",
     "part_help": "designs of a part, rounded up to a power of two (default 16384)",

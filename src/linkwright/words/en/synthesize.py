@@ -8,12 +8,6 @@ stroke and quick-return ratio. Shows every candidate with its error, Grashof
 type, defects over the whole range, smallest transmission angle and ratio of
 longest to shortest link; writes each as a model file. The task stands in the
 section "synthesis" of a file, or on the command line as KEY=VALUE.""",
-    "examples": """\
-linkwright synthesize slider_crank stroke="397.5 mm" rod_ratio=3.55 offset_ratio=0.305
-linkwright synthesize crank_rocker swing_angle="40 deg" quick_return_ratio=1.2 frame="300 mm" --output designs
-linkwright synthesize path points="[[20, 20], [20, 30], [20, 40]]" unit=mm --plot path.svg
-linkwright synthesize free_curve file=letter.svg joints=10 --output designs --plot letter.png
-linkwright synthesize press.yaml --json""",
     "task_help": "a file with a section synthesis, or the name of a task: {tasks}",
     "demands_help": 'demands of the task, such as stroke="40 mm"; lists in brackets as in a file',
     "output_help": "write every candidate as a model file into this folder",
@@ -30,7 +24,6 @@ linkwright synthesize press.yaml --json""",
     "column.worst": "worst",
     "column.defects": "defects",
     "column.input": "input",
-    "column.transmission": "μ min",
     "column.ratio": "l max/min",
     "column.torque": "peak torque",
     "column.reaction": "peak reaction",
@@ -41,7 +34,6 @@ linkwright synthesize press.yaml --json""",
     "defect.branch": "branch",
     "defect.order": "order",
     "lengths": "Candidate {number}: {lengths}",
-    "values": "  {values}",
     "counts": "Found: {counts}",
     "purpose": "synthesis of {task}; error {error}, smallest transmission angle {transmission}, {defects}",
     "purpose_defects": "defects: {defects}",
@@ -165,7 +157,6 @@ linkwright synthesize press.yaml --json""",
     "motion.no_pairs": "no two dyads make a linkage within the given region; enlarge it",
     "motion.no_movable": "no linkage moves through all poses in order without being dismantled; the best "
     "one has: {why}",
-    "motion.defects": "{defects}",
     "motion.fitted": "{poses} poses cannot all be met exactly; the links' lengths differ between the poses "
     "by the error "
     "shown",

@@ -7,10 +7,6 @@ Finds the spread of design numbers and curves of a mechanism from tolerances of 
 dimensions and clearances of its pins: linear with exact derivatives, and by Monte
 Carlo; what contributes most; the share of machines within limits. A clearance is
 free, or its pin follows the joint's own reaction.""",
-    "examples": """\
-linkwright tolerance gallery:crank_rocker_tolerance
-linkwright tolerance gallery:pressed_pins --plot pins.svg
-linkwright tolerance study.yaml --output machines.csv""",
     "nominal": "nominal value",
     "shift": "shift by pressed pins",
     "no_shift": "not followed (the pins cannot follow at {count} positions)",
@@ -30,7 +26,6 @@ linkwright tolerance study.yaml --output machines.csv""",
     "yield": "yield",
     "interval": "95 % interval {low} … {high} %; linear {linear} %",
     "contributions": "Contributions to the variance",
-    "part": "∂y/∂p = {slope}",
     "curve": "Curve {name}",
     "largest_deviation": "largest standard deviation",
     "largest_monte_carlo": "largest standard deviation, Monte Carlo",

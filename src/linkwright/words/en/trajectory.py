@@ -6,10 +6,6 @@ WORDS = {
 Finds the flight of a particle thrown in a vertical plane, with linear or quadratic
 drag, also from a point of a mechanism; and what a swinging conveyor's trough does to
 its load: rest, sliding forward and back, throw, and the mean speed of transport.""",
-    "examples": """\
-linkwright trajectory gallery:thrown_ball
-linkwright trajectory gallery:conveyor_load --plot load.svg
-linkwright trajectory gallery:conveyor_load --worked""",
     "speed": "speed at the start",
     "angle": "direction at the start",
     "duration": "time of flight",

@@ -8,10 +8,6 @@ Compares every published number that the package knows (course reports, textbook
 handbooks, certified data, closed forms and independent solutions of the gallery)
 with what it finds itself, to the digits that are printed. Where a source is wrong,
 the right number and the reason are shown.""",
-    "examples": """\
-linkwright validate
-linkwright validate --case crusher --every
-linkwright validate --json""",
     "case_help": "only cases whose name or source contains this",
     "every_help": "a line for every number",
     "working": "comparing",

@@ -8,9 +8,6 @@ answer key with the numbers that usual mistakes lead to, and questions for
 PrairieLearn, Moodle and QTI. Every variant passes its cycle, transmits as well as
 the model and is as hard. The section "course" of the model says what changes, what
 is asked, and where; without it all lengths change by 8 %.""",
-    "examples": """\
-linkwright variants gallery:jaw_crusher_fourbar --count 3 --seed 7
-linkwright variants crusher.yaml --count 30 --to sheets key moodle --output exercise""",
     "count_help": "how many (default 30)",
     "seed_help": "seed of the random numbers (default 0): the same seed gives the same variants",
     "to_help": "what to write: sheets, key, prairielearn, moodle, qti (default: all)",

@@ -7,12 +7,7 @@ Finds natural frequencies, modes and damping of masses (or discs) joined by spri
 dampers, their free and forced vibration (force, unbalance, moving ground, measured
 force), transmissibility and the best absorber; the vibration that a cam's motion law
 leaves behind in a follower; and what a mechanism's shaking force does on mounts.""",
-    "examples": """\
-linkwright vibration gallery:two_masses
-linkwright vibration gallery:tuned_absorber --plot absorber.svg
-linkwright vibration gallery:machine_on_mounts --worked""",
     "modes": "Natural frequencies and modes",
-    "mode": "f{index}",
     "shape": "mode: {mode}",
     "loose": "{count} of the modes are free motions of the whole: nothing ties it to the ground.",
     "absorber": "Best damped absorber (Den Hartog)",
@@ -27,7 +22,6 @@ linkwright vibration gallery:machine_on_mounts --worked""",
     "at_time": "at t = {time} s",
     "step_matrices": "Equations of motion M·ẍ + C·ẋ + K·x = F",
     "order": "in the order {names}, SI units:",
-    "step_modes": "det(K − ω²M) = 0",
     "characteristic": "roots of the characteristic equation, and poles λ of the damped system",
     "step_forced": "Forced vibration",
     "own_frequency": "natural frequency",

@@ -5,10 +5,6 @@ WORDS = {
     "description": """\
 把机构的一个循环画成动画，可带点的轨迹、矢量，以及光标同步移动的曲线。
 不闭合的循环往复播放。动态 SVG 在浏览器和说明文件中自行播放。""",
-    "examples": """\
-linkwright animate gallery:theo_jansen_leg --traces leg.T --output leg.svg
-linkwright animate crusher.yaml --traces C --curves jaw.angle --output crusher.gif
-linkwright animate crusher.yaml --forces --curves driver.effort --seconds 4 --output crusher.mp4""",
     "pace_title": "速度",
     "traces_help": "点的轨迹，带沿轨迹移动的圆点：C,jaw.D",
     "curves_help": "画在下方的结果：jaw.angle、C.velocity.x；有 --forces 时还可用 driver.effort",

@@ -5,10 +5,6 @@ WORDS = {
     "description": """\
 为四杆机构或曲柄滑块机构设计配重，完全或部分平衡振动力，
 并给出加配重前后振动力、振动力矩和平衡力矩的峰值。--output 写出平衡后的模型。""",
-    "examples": """\
-linkwright balance gallery:jaw_crusher_fourbar --radius "crank=200 mm, jaw=500 mm"
-linkwright balance press.yaml --radius 120mm --share 0.5
-linkwright balance linkage.yaml --radius 80mm --output balanced.yaml""",
     "radius_help": '配重到所在转动副的距离：一个值（80mm）或按构件给出（"crank=80 mm, rod=40 mm"）',
     "share_help": "平衡的比例，0 到 1（默认 1：振动力为零）",
     "steps_help": "比较时一个循环内的位置数（默认 360）",
@@ -19,8 +15,6 @@ linkwright balance linkage.yaml --radius 80mm --output balanced.yaml""",
     "none": "不需要配重：各构件没有质量，或质心已在所需位置。",
     "column.link": "配重所在构件",
     "column.mass": "质量 kg",
-    "column.x": "x mm",
-    "column.y": "y mm",
     "column.peak": "峰值",
     "column.unit": "单位",
     "column.without": "无配重",

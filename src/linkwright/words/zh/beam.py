@@ -6,10 +6,6 @@ WORDS = {
 求任意支承（包括超静定、阶梯、带铰和弹簧）的梁的支座反力、剪力、弯矩、转角与挠度，
 以及应力与安全系数；求机构构件在运动副反力、载荷、重力与惯性力作用下的弯曲，
 给出一个循环内的应力、安全系数和所需截面。""",
-    "examples": """\
-linkwright beam gallery:cantilever
-linkwright beam gallery:propped_cantilever --worked
-linkwright beam gallery:pitman_bending --plot bending.svg""",
     "reactions": "支座反力（力向上为正，力偶逆时针为正）",
     "extremes": "极值",
     "places": "关键点",

@@ -83,7 +83,6 @@ WORDS = {
     "step_angle": "压力角",
     "step_radius": "曲率半径",
     "step_force": "接触力与转矩",
-    "drawing": "{name}",
     "drawn": "基圆 r = {radius} mm，φ = {angle}°",
     "drawn_barrel": "展开图，R = {radius} mm，φ = {angle}°",
     "compensation_points": "转角与所需升程不符：二者数目应相同，至少十二个，转角递增",

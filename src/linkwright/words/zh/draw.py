@@ -5,13 +5,6 @@ WORDS = {
     "description": """\
 用标准符号绘制机构运动简图：起始位置，或给定输入、给定时刻的位置；
 可叠加极限位置、点的轨迹、速度、加速度、力和尺寸线。""",
-    "examples": """\
-linkwright draw gallery:jaw_crusher_sixbar --output crusher.svg
-linkwright draw crusher.yaml --at "30 deg" --overlay limits --paths C,jaw.D --output crusher.pdf
-linkwright draw crusher.yaml --overlay faded:8 --velocities A B C --output crusher.png --width 1600
-linkwright draw crusher.yaml --forces --output crusher.svg --force
-linkwright draw crusher.yaml --dimensions pitman jaw O1:O3 --output crusher.svg
-linkwright draw gallery:excavator --time "2 s" --lang zh --output excavator.svg""",
     "where_title": "位置",
     "what_title": "内容",
     "form_title": "文件",

@@ -1,12 +1,10 @@
 """对模型的意见如何组成句子。"""
 
 WORDS = {
-    "error": "{body}",
     "warning": "警告：{body}",
     "note": "提示：{body}",
     "with_remedy": "{message}；{remedy}",
     "comma": "、",
     "and": "{first}和{last}",
     "semicolon": "；",
-    "below": "{first}\n{second}",
 }

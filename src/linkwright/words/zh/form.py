@@ -2,7 +2,6 @@
 
 WORDS = {
     "add_key": "请补上 {key_}: {form}",
-    "just": "{value}",
     "one_of": "{names} 之一",
     "such_as": "{noun}，如 {example}",
     "formula": "{noun}，为 {variables} 的表达式",

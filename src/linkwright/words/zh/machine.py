@@ -6,16 +6,6 @@ WORDS = {
 求机器稳定运转所需的数据：平均力矩与电动机功率、最大盈亏功、
 满足速度不均匀系数的飞轮（按近似公式和精确值），以及一个循环内的真实转速。
 也可以不给机构，而给出力矩图的各块面积，或以 theta 的表达式给出力矩。""",
-    "examples": """\
-linkwright machine gallery:jaw_crusher_sixbar --fluctuation 0.03
-linkwright machine crusher.yaml --fluctuation 0.03 --ratio 5 --efficiency 0.9 --margin 1.2
-linkwright machine crusher.yaml --rim density=7200kg/m³,width=0.15,thickness=0.1
-linkwright machine --areas "+295, -685, +40, -340, +960, -270" --scale "5 N·m/mm, 1 deg/mm" \\
-    --speed 1800rpm --mass 36kg --gyration 150mm
-linkwright machine --torque "20000 + 9500*sin(2*theta) - 5700*cos(2*theta)" \\
-    --speed 180rpm --fluctuation 0.01
-linkwright machine --torque "5000 + 600*sin(2*theta)" --load "5000 + 500*sin(theta)" \\
-    --speed 150rpm --mass 500kg --gyration 0.4m""",
     "file_help": "模型文件，或 gallery:名称；使用 --areas 或 --torque 时不写",
     "what_title": "电动机与飞轮",
     "curves_title": "以力矩图代替机构",

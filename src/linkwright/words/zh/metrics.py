@@ -5,10 +5,6 @@ WORDS = {
     "description": """\
 输出机器适用的全部设计指标：数值、出现的位置、推荐限值与说明。
 警告列在表格下方，接近奇异位置的警告在最前。""",
-    "examples": """\
-linkwright metrics gallery:jaw_crusher_sixbar
-linkwright metrics press.yaml --names stroke,quick_return_ratio,transmission_angle
-linkwright metrics crusher.yaml --output numbers.csv""",
     "names_help": "指标名称，以逗号分隔（默认：全部适用的指标；--json 显示名称）",
     "steps_help": "一个循环内的等分数（默认 360）；极值在各位置之间再精确求取",
     "forces_help": "运动副反力及由其得出的指标（默认：模型有质量或载荷时）",

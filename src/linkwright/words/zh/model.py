@@ -254,7 +254,6 @@ WORDS = {
     "plain_driver_table": "驱动的表格",
     "plain_drawing": "图",
     "point_on": "构件 {link} 上的点",
-    "form_length": "length: 0.5 m",
     "form_lengths": "lengths: [0.3 m, 0.4 m] 和 angle: 30 deg",
     "length_zero": "零",
     "more_findings": "问题多于 {count} 个；请先改正以上各处",

@@ -18,7 +18,6 @@ WORDS = {
     "no_natural_end": "“{name}”的循环没有自然的终点，因为驱动“{driver}”不转动；请写 cycle: {{from: …, to: "
     "…}}（驱动的坐标）或 cycle: {{duration: 2 s}}",
     "cycle_by_coordinate": "循环以驱动“{name}”的坐标给出，而它不是匀速；请改写 cycle: {{duration: …}}",
-    "coordinate": "{name} = {value}",
     "input": "输入 {parts}",
     "only_position": "唯一的位置",
     "of_positions": "{where}（{steps} 个位置中有 {failed} 个失败）",

@@ -7,11 +7,6 @@ WORDS = {
 每一代的全部设计一次算出，再按精确梯度收敛。设定写在文件的 "optimize" 一节，
 或在此给出。列出所得设计与原设计的比较，并写出模型文件，其余内容不变。
 几个目标给出一条前沿。""",
-    "examples": """\
-linkwright optimize crusher.yaml --output better.yaml
-linkwright optimize gallery:jaw_crusher_sixbar --vary pitman.length=1.1..1.4m toggle.length=1..1.3m \\
-    --minimize peak_input_torque --keep "jaw.angle range=same within 1 %"
-linkwright optimize crusher.yaml --minimize peak_input_torque flywheel --plot front.svg --state search.json""",
     "file_help": "模型文件，或 gallery:NAME",
     "vary_help": "改变哪些量，代替文件中的设定：ADDRESS=RANGE，如 crank.length=80..120mm",
     "minimize_help": "使之最小的数：设计指标、flywheel、汇总如 'jaw.angle range'",

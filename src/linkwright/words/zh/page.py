@@ -55,7 +55,6 @@ WORDS = {
     "wall_length": "极限：{name}必须大于零。",
     "wall_locked": "能移动{name}的尺寸都已锁定。",
     "wall_still": "没有尺寸能使{name}朝这个方向移动。",
-    "where": "{name} = {value}",
     "transmission_now": "传动角 {value}（{name}）",
     "not_found_again": "只显示原方案的力：{names}的变化过程在此不重新计算。",
     "misfit": "{names} 的轮与其中心距或到齿条的距离不相配",

@@ -6,10 +6,6 @@ WORDS = {
 求解小文件中的优化问题：带界限的变量（连续、整数或从列表中选取），
 要最小化或最大化的表达式，以及命名的约束。说明哪些约束起作用、
 每放宽一个单位值多少；无解时指出哪些约束互相矛盾。""",
-    "examples": """\
-linkwright program gallery:production_mix
-linkwright program gallery:lightest_spring --worked
-linkwright program gallery:gear_pair --json""",
     "optimum": "最优解",
     "minimum": "最小值",
     "maximum": "最大值",

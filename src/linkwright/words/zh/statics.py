@@ -5,10 +5,6 @@ WORDS = {
     "description": """\
 力系的合成（合力、力矩、力螺旋、平衡力），刚体与铰接结构的约束力，
 带的张力，楔的推力。结构就是没有驱动的构件与运动副模型文件。""",
-    "examples": """\
-linkwright statics gallery:force_system
-linkwright statics gallery:two_bars_equilibrium --worked
-linkwright statics bracket.yaml --plot bracket.svg""",
     "resultant": "合力 R",
     "moment": "对所选点的力矩",
     "wrench": "力螺旋：沿轴线的力与绕轴线的力偶",
@@ -28,7 +24,6 @@ linkwright statics bracket.yaml --plot bracket.svg""",
     "gap": "各构件平衡方程的最大误差：{gap} N",
     "tight": "紧边拉力 T1",
     "slack": "松边拉力 T2",
-    "pull": "T1 − T2",
     "ratio": "张力比 e^(μθ)",
     "torque": "转矩",
     "power": "功率",

@@ -5,10 +5,6 @@ WORDS = {
     "description": """\
 描述测量样本（均值、标准差、四分位数、置信区间），拟合分布，假设检验（均值、方差、
 两样本、配对、方差分析、正态性、相关），直线与多项式回归，以及对规格限的过程能力。""",
-    "examples": """\
-linkwright statistics gallery:shaft_diameters
-linkwright statistics gallery:spring_rate --plot rate.svg
-linkwright statistics gallery:shaft_diameters --worked --lang zh""",
     "sample": "样本 {name}",
     "count": "个数 n",
     "mean": "均值 x̄",
@@ -47,7 +43,6 @@ linkwright statistics gallery:shaft_diameters --worked --lang zh""",
     "residual": "残差标准差 s",
     "si": "系数以 SI 单位表示。",
     "capability": "{name} 的过程能力",
-    "sigma": "σ",
     "outside": "超出规格限的比例",
     "within": "σ 取自子组内（Cp、Cpk）；超限比例按正态过程计算。",
     "overall": "σ 取自全部数据（Pp、Ppk）；超限比例按正态过程计算。",

@@ -18,7 +18,6 @@ WORDS = {
     "train": "轮系 {pairs} 的传动比（反转法，{carrier} 固定）：",
     "stopped": "{carrier} 固定",
     "as_one": "整体转动",
-    "willis": "  (n_{wheel} - n_{carrier}) / (n_{first} - n_{carrier}) = {ratio}",
     "at_rest": "自由度为 0 且没有原动件：这是承受载荷的静止结构。",
     "determined": "自由度等于原动件数（{count}）：机构具有确定的运动。",
     "groups": "按求解顺序排列的基本杆组：",

@@ -5,7 +5,6 @@ WORDS = {
     "description": "在浏览器中打开工作室：机构如交互页面，旁边是模型文件的文本，两者同步；问题显示在所在行；\n"
     "并有工具从空白开始绘制机构。服务器只应答本机，只读写启动目录及其下的模型文件。\n"
     "每次修改立即保留；崩溃后未保存的内容仍在。",
-    "examples": "linkwright studio\nlinkwright studio crusher.yaml",
     "file_help": "本目录下的模型文件；可以是新文件",
     "port_help": "端口（默认：任一空闲端口）",
     "browser_help": "只打印地址",
@@ -108,7 +107,6 @@ WORDS = {
     "range_of": "{name} 的范围",
     "number_name": "指标名称",
     "demand_text": "约束",
-    "demand_hint": "at least 40 deg",
     "forget": "移除 {name}",
     "begin": "开始",
     "tried": "已试 {done} 个机构，至多 {most} 个",

@@ -5,11 +5,6 @@ WORDS = {
     "description": """\
 按网格或 Sobol 序列改变模型的一个或多个尺寸（pitman.length、frame.O3.x、jaw.mass）
 或命名参数，输出每个设计方案的所选指标。不能运动的方案会计数并说明原因。""",
-    "examples": """\
-linkwright study gallery:jaw_crusher_sixbar --vary "pitman.length=1.2..1.3 m:11"
-linkwright study crusher.yaml --vary "pitman.length=1.2..1.3 m:5" "jaw.mass=700, 900 kg" \\
-    --metrics peak_input_torque "reaction O5 on jaw max" --output study.csv
-linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --samples 256""",
     "vary_help": '变化量："地址=起..止 单位:个数" 或 "地址=值,值 单位"；多个变化量组成网格',
     "metrics_help": "设计指标（见 linkwright.metrics）、travel、flywheel，或加引号的输出统计量"
     '（"driver.effort rms"、"C.velocity max"）',

@@ -6,11 +6,6 @@ WORDS = {
 计算各范围的全部组合或 Sobol 序列的汇总与设计指标，逐份写成一个文件夹中的 Parquet 文件。
 文件整份写入；中断后再次运行，只算缺少的份。所需内存不随设计数增长。给出 --cluster 时
 由 Dask 调度器的工作进程计算，结果逐位相同；工作进程可以中途退出。""",
-    "examples": """\
-linkwright sweep gallery:crank_rocker --vary coupler.length=3..4m:300 rocker.length=2..3m:300 \\
-    --numbers "rocker.angle range" transmission_angle --folder designs
-linkwright sweep crusher.yaml --vary pitman.length=1.1..1.4m --sampling sobol --samples 1000000 \\
-    --numbers peak_input_torque --folder torques --best peak_input_torque --cluster tcp://10.0.0.1:8786""",
     "numbers_help": "汇总如 'rocker.angle range' 与设计指标如 peak_reaction",
     "folder_help": "Parquet 文件的文件夹；没有时新建，已有时继续",
     "part_help": "每份的设计数，进位到二的幂（默认 16384）",

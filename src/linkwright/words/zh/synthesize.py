@@ -6,12 +6,6 @@ WORDS = {
 按任务求机构：轨迹、自由曲线、位姿、函数，或行程、行程速比系数等要求。列出每个方案的误差、
 Grashof 类型、整个范围内的缺陷、最小传动角、最长与最短杆之比，并把每个方案写成模型文件。
 任务写在文件的 "synthesis" 一节，或在命令行以 KEY=VALUE 给出。""",
-    "examples": """\
-linkwright synthesize slider_crank stroke="397.5 mm" rod_ratio=3.55 offset_ratio=0.305
-linkwright synthesize crank_rocker swing_angle="40 deg" quick_return_ratio=1.2 frame="300 mm" --output designs
-linkwright synthesize path points="[[20, 20], [20, 30], [20, 40]]" unit=mm --plot path.svg
-linkwright synthesize free_curve file=letter.svg joints=10 --output designs --plot letter.png
-linkwright synthesize press.yaml --json""",
     "task_help": "含 synthesis 一节的文件，或任务名：{tasks}",
     "demands_help": '任务的要求，如 stroke="40 mm"；列表与文件中一样写在方括号里',
     "output_help": "把每个方案作为模型文件写入此文件夹",
@@ -28,7 +22,6 @@ linkwright synthesize press.yaml --json""",
     "column.worst": "最大偏差",
     "column.defects": "缺陷",
     "column.input": "输入构件",
-    "column.transmission": "μ min",
     "column.ratio": "最长/最短",
     "column.torque": "力矩峰值",
     "column.reaction": "反力峰值",
@@ -39,7 +32,6 @@ linkwright synthesize press.yaml --json""",
     "defect.branch": "分支",
     "defect.order": "顺序",
     "lengths": "方案 {number}：{lengths}",
-    "values": "  {values}",
     "counts": "求得：{counts}",
     "purpose": "综合（{task}）；误差 {error}，最小传动角 {transmission}，{defects}",
     "purpose_defects": "缺陷：{defects}",
@@ -142,7 +134,6 @@ linkwright synthesize press.yaml --json""",
     "motion.no_dyads": "五个位姿有 {real} 个实 Burmester 杆组，需要两个；最近的解为最小二乘解，误差已列出",
     "motion.no_pairs": "所给区域内没有两个杆组能组成机构；请扩大区域",
     "motion.no_movable": "没有机构能不拆开而按顺序通过全部位姿；最好的方案有：{why}",
-    "motion.defects": "{defects}",
     "motion.fitted": "{poses} 个位姿不能全部精确满足；各位姿间杆长相差所列误差",
     "function.few": "{count} 对值不足以定函数；请给 3 对或更多",
     "function.values": "输入与输出应为个数相同的有限值列表；所给：{inputs} 与 {outputs}",

@@ -5,10 +5,6 @@ WORDS = {
     "description": """\
 由尺寸公差和转动副间隙求机构指标与曲线的分散：用精确导数的线性法，以及蒙特卡洛法；
 各项贡献的大小；在界限内的合格率。间隙可以是自由的，也可以跟随运动副自身的反力。""",
-    "examples": """\
-linkwright tolerance gallery:crank_rocker_tolerance
-linkwright tolerance gallery:pressed_pins --plot pins.svg
-linkwright tolerance study.yaml --output machines.csv""",
     "nominal": "名义值",
     "shift": "受压销引起的偏移",
     "no_shift": "未计算（在 {count} 个位置销跟不上反力）",
@@ -26,7 +22,6 @@ linkwright tolerance study.yaml --output machines.csv""",
     "yield": "合格率",
     "interval": "95 % 置信区间 {low} … {high} %；线性法 {linear} %",
     "contributions": "对方差的贡献",
-    "part": "∂y/∂p = {slope}",
     "curve": "曲线 {name}",
     "largest_deviation": "最大标准差",
     "largest_monte_carlo": "最大标准差（蒙特卡洛法）",

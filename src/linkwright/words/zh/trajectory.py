@@ -5,10 +5,6 @@ WORDS = {
     "description": """\
 求竖直平面内抛体的飞行（线性或平方阻力），也可由机构上的点抛出；
 以及摆动式输送机的槽体对物料的作用：静止、前滑、后滑、抛起，和平均输送速度。""",
-    "examples": """\
-linkwright trajectory gallery:thrown_ball
-linkwright trajectory gallery:conveyor_load --plot load.svg
-linkwright trajectory gallery:conveyor_load --worked""",
     "speed": "初速度",
     "angle": "初始方向",
     "duration": "飞行时间",

@@ -7,10 +7,6 @@ WORDS = {
 把程序所知的全部公开数据（课程设计报告、教科书、手册、认证数据、
 图库中的封闭解与独立解）与自己求得的结果逐个比较，精确到所印出的位数。
 原资料有误之处，给出正确的数值与原因。""",
-    "examples": """\
-linkwright validate
-linkwright validate --case crusher --every
-linkwright validate --json""",
     "case_help": "只比较名称或出处中含有此文字的算例",
     "every_help": "逐个列出每个数",
     "working": "比较",

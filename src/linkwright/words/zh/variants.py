@@ -6,9 +6,6 @@ WORDS = {
 在限定范围内改变模型的尺寸，写出每个变式的题单、答案（附常见错误所得的数），
 以及 PrairieLearn、Moodle、QTI 的题目。每个变式都能走完循环，传动性能不低于原题，
 难度相同。模型的 course 一节说明改变什么、求什么、在哪个位置；没有时各长度改变 8 %。""",
-    "examples": """\
-linkwright variants gallery:jaw_crusher_fourbar --count 3 --seed 7
-linkwright variants crusher.yaml --count 30 --to sheets key moodle --output exercise""",
     "count_help": "个数（默认 30）",
     "seed_help": "随机数种子（默认 0）：种子相同则变式相同",
     "to_help": "输出内容：sheets、key、prairielearn、moodle、qti（默认全部）",

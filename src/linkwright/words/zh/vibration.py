@@ -6,12 +6,7 @@ WORDS = {
 求由弹簧和阻尼器连接的质量（或圆盘）的固有频率、振型与阻尼，自由振动与强迫振动
 （力、不平衡、基础运动、实测力），传递率与最优吸振器；凸轮运动规律在从动件中留下的
 残余振动；以及机构的惯性力使支座上的机器产生的振动。""",
-    "examples": """\
-linkwright vibration gallery:two_masses
-linkwright vibration gallery:tuned_absorber --plot absorber.svg
-linkwright vibration gallery:machine_on_mounts --worked""",
     "modes": "固有频率与振型",
-    "mode": "f{index}",
     "shape": "振型：{mode}",
     "loose": "其中 {count} 个是整体的自由运动：系统没有与地面连接。",
     "absorber": "最优阻尼吸振器（Den Hartog）",
@@ -26,7 +21,6 @@ linkwright vibration gallery:machine_on_mounts --worked""",
     "at_time": "在 t = {time} s",
     "step_matrices": "运动方程 M·ẍ + C·ẋ + K·x = F",
     "order": "按 {names} 的顺序，SI 单位：",
-    "step_modes": "det(K − ω²M) = 0",
     "characteristic": "特征方程的根，以及有阻尼系统的极点 λ",
     "step_forced": "强迫振动",
     "own_frequency": "固有频率",
