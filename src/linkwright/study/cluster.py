@@ -47,12 +47,12 @@ def _dask() -> Any:
 
 @contextmanager
 def on_cluster(cluster: Any) -> Iterator[Any]:
-    """Within it sweeps, the studies and tolerance runs made of them, and optimisations whose designs go one by one,
-    are computed by the workers of a Dask cluster: a client, or the address of a scheduler. Gives the client. None:
-    threads of this machine.
+    """Within it sweeps, the studies and tolerance runs made of them, free curves, and optimisations whose designs go
+    one by one, are computed by the workers of a Dask cluster: a client, or the address of a scheduler. Gives the
+    client. None: threads of this machine.
 
-    Results are equal to the bit to those of threads. Raises LinkwrightError without the extra ``cluster``, and for a
-    scheduler that does not answer.
+    Results are equal to the bit to those of threads, but where a clock ends a search. Raises
+    LinkwrightError without the extra ``cluster``, and for a scheduler that does not answer.
     """
     client = None if cluster is None else connected(cluster)
     token = _current.set(client)

@@ -45,8 +45,9 @@ class Interrupted(KeyboardInterrupt):
 def kept_in(
     path: str | Path | None, name: str, *asked: object, progress: Progress | None = None
 ) -> Iterator[None]:
-    """Within it the finished parts of studies and tolerance runs are kept in a file, and those that it has already
-    are not computed again: the results are equal to the bit.
+    """Within it the finished parts of studies, tolerance runs and syntheses are kept in a file, and those that it has
+    already are not computed again: the results are equal to the bit. A search that a clock ends keeps what it has
+    found and the time that it has spent, and goes on from there.
 
     Args:
         path: the file; None: one named after ``name`` in the working directory, where the work is interrupted.
@@ -59,12 +60,12 @@ def kept_in(
     """
     from linkwright import __version__
 
-    kept = Kept(None if path is None else Path(path), identity(__version__, *asked), progress)
+    kept = Kept(None if path is None else Path(path), name, identity(__version__, *asked), progress)
     token = _current.set(kept)
     try:
         yield
     except KeyboardInterrupt:
-        raise Interrupted(kept.left(name)) from None
+        raise Interrupted(kept.left()) from None
     finally:
         _current.reset(token)
         kept.close()
@@ -117,8 +118,8 @@ def identity(*things: object) -> str:
 class Kept:
     """Parts by key in a database of one file, or of memory where there is none yet."""
 
-    def __init__(self, path: Path | None, digest: str, progress: Progress | None) -> None:
-        self.path, self.progress, self.written = path, progress, time.monotonic()
+    def __init__(self, path: Path | None, name: str, digest: str, progress: Progress | None) -> None:
+        self.path, self.name, self.progress, self.written = path, name, progress, time.monotonic()
         if path is not None:
             refuse_target(path)
         try:
@@ -156,11 +157,11 @@ class Kept:
         if time.monotonic() - self.written > WRITTEN:
             self._write()
 
-    def left(self, name: str) -> Path:
+    def left(self) -> Path:
         """The file with all parts."""
         self._write()
         if self.path is None:
-            stem = re.sub(r"[^\w-]+", "_", name).strip("_") or "machine"
+            stem = re.sub(r"[^\w-]+", "_", self.name).strip("_") or "machine"
             names = (Path(f"{stem}{'' if k == 1 else f'_{k}'}.state") for k in count(1))
             self.path = write_whole(next(each for each in names if not each.exists()), self.parts.serialize())
         return self.path

@@ -121,13 +121,18 @@ def synthesize_file(source: str | Path) -> Synthesis:
 
 def synthesize_text(text: str, name: str = "<text>") -> Synthesis:
     """Runs the section ``synthesis`` of a text; ``name`` stands for the file in findings."""
+    task, demands = asked_in(text, name)
+    return synthesize(task, **demands)
+
+
+def asked_in(text: str, name: str) -> tuple[str, dict[str, Any]]:
+    """Task and demands (SI) of the section ``synthesis`` of a text; raises ModelError."""
     root, findings = read_nodes(text, name)
     section = root.get("synthesis") if isinstance(root, MappingNode) else None
     if findings or not isinstance(section, MappingNode):
         place = f"{name}:1:1"
         raise ModelError(findings or [Finding("error", place, "", note("task.section"), "", "missing")])
-    task, demands = read_section(section, name)
-    return synthesize(task, **demands)
+    return read_section(section, name)
 
 
 def check_text(text: str, name: str) -> tuple[list[Finding], str] | None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options, number_of
@@ -24,6 +24,8 @@ def arguments(option: Options) -> None:
     option("--plot", "FILE")
     option("--mass", "KG/M")
     option("--speed", "SPEED", default="60 rpm")
+    option("--cluster", "ADDRESS", words="sweep.cluster_help")
+    option("--state", "FILE", words="study.state_help")
     option.force()
 
 
@@ -46,23 +48,32 @@ def run(options: argparse.Namespace, session: Session) -> int:
 
 
 def _solve(options: argparse.Namespace, session: Session) -> Synthesis:
-    from linkwright.files.source import GALLERY
+    from linkwright.cli.kept import kept
+    from linkwright.study.cluster import on_cluster
+    from linkwright.synthesis.tasks import synthesize
+
+    task, demands = _asked(options, session)
+    with kept(options.state, task, (task, demands), session), on_cluster(options.cluster):
+        return synthesize(task, **demands)
+
+
+def _asked(options: argparse.Namespace, session: Session) -> tuple[str, dict[str, Any]]:
+    """The task and its demands, from a file or the command line."""
+    from linkwright.files.source import GALLERY, read_source
     from linkwright.synthesis.names import TASK_NAMES
-    from linkwright.synthesis.tasks import synthesize_file, synthesize_text
+    from linkwright.synthesis.tasks import asked_in
 
     if options.task not in TASK_NAMES and not options.demands:
         near = Path(options.task)
         if not near.suffix and not near.exists() and not options.task.startswith(GALLERY):
-            from linkwright.synthesis.tasks import synthesize
-
-            return synthesize(options.task)
-        return synthesize_file(options.task)
+            return options.task, {}
+        return asked_in(*read_source(options.task))
     for text in options.demands:
         if not text.partition("=")[1]:
             raise UsageError(session.say("synthesize.bad_demand", text=text))
     pairs = (text.partition("=") for text in options.demands)
     lines = [f"  {key.strip()}: {value.strip()}" for key, _, value in pairs]
-    return synthesize_text("\n".join(["synthesis:", f"  task: {options.task}", *lines]), "synthesize")
+    return asked_in("\n".join(["synthesis:", f"  task: {options.task}", *lines]), "synthesize")
 
 
 def _unmet(error: SynthesisError, options: argparse.Namespace, mass: float | None, session: Session) -> int:

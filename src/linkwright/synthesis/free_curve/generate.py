@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Complexes
 from linkwright.engine.machine_code import available
+from linkwright.study.kept import reporting, surrounding
 from linkwright.synthesis.free_curve.curve_file import read_curve
 from linkwright.synthesis.free_curve.drawn import drawing
 from linkwright.synthesis.free_curve.linkages import Placed, kind_of, linkage_of
@@ -20,6 +21,7 @@ from linkwright.synthesis.free_curve.target import EVERY, LINE, Target, even_poi
 from linkwright.synthesis.path_generation.generate import complex_points
 from linkwright.synthesis.requirements.slider_crank import not_negative, positive
 from linkwright.synthesis.result import Candidate, Synthesis, note, refuse, whole
+from linkwright.words.sentence import Sentence
 
 #: Positions of a candidate's curve.
 SHOWN = 721
@@ -91,8 +93,14 @@ def free_curve(
     if not available():
         raise refuse("free_curve.compiler")
     target = Target(curve, closes, transmission_angle, size, turning)
-    search = Search(target, int(joints), seconds, int(seed), progress)
+    search = Search(target, int(joints), seconds, int(seed), progress or _bar())
     return _ranked(target, search.run(), curve, error, int(count), search)
+
+
+def _bar() -> Callable[[float, float], None] | None:
+    """Tells the surrounding ``kept_in`` the percents of the time that are over."""
+    report = reporting()
+    return None if report is None else lambda share, _: report(round(100 * share), 100)
 
 
 def _curve(
@@ -122,6 +130,11 @@ def _ranked(
     how = "turning" if target.turning else "swinging"
     asked = {"angle": f"{math.degrees(target.least):g}", "size": f"{target.largest:g}"}
     notes = [note(f"free_curve.{how}", **asked), note("free_curve.measure")]
+    kept = surrounding()
+    if search.stopped and not within:
+        raise KeyboardInterrupt
+    if search.stopped and kept is not None:
+        notes.append(Sentence("study.interrupted", path=kept.left()))
     counts = {"attempts": search.attempts, "designs": len(found)}
     if not within:
         nearest = [_candidate(each, target) for each, _ in _front(found)[:count]]

@@ -10,29 +10,35 @@ polished at fine positions, with the penalties weighted so that the demands hold
 
 from __future__ import annotations
 
+import pickle
 import threading
 import time
 from collections import deque
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import field, replace
-from itertools import islice
-from typing import NamedTuple, TypeVar
+from functools import cached_property, lru_cache
+from itertools import islice, pairwise
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
-from linkwright.engine.threads import cores
-from linkwright.synthesis.free_curve.atlas import atlas
+from linkwright.engine.threads import chunks, cores
+from linkwright.study.cluster import current, in_turn
+from linkwright.study.kept import identity, surrounding
+from linkwright.synthesis.free_curve.atlas import NEAREST, atlas
 from linkwright.synthesis.free_curve.kernels import FAR
 from linkwright.synthesis.free_curve.linkages import Placed
 from linkwright.synthesis.free_curve.moves import shaken, with_dyad, with_joint
 from linkwright.synthesis.free_curve.nodes import Design, Draw
-from linkwright.synthesis.free_curve.target import COARSE, FINE, MIDDLE, Fineness, Target
+from linkwright.synthesis.free_curve.target import COARSE, FINE, MIDDLE, Target
 
 #: Most joints of a four-bar, six-bar, eight-bar and of any linkage.
 JOINTS = (5, 8, 10, 12)
 T = TypeVar("T")
+#: Pools take one design in at a time.
+_LOCK = threading.Lock()
 
 
 class Level(NamedTuple):
@@ -52,14 +58,17 @@ LEVELS = (
     Level(5, 0, 0.5), Level(5, SLIDING, 0.5, apart=True), Level(8, SIX_BARS, 3.5),
     Level(8, 3, 2.5, apart=True), Level(9, 2, 2.5), Level(10, 2, 3.5), Level(12, None, 7.0),
 )  # fmt: skip
-#: Starts that begin together, how many of all descend further, and their share of a level's time.
-SOME, CHOSEN, STARTING = 200, 50, 0.5
+#: Starts of a piece of work, how many of all descend further, and their share of a level's time.
+SOME, CHOSEN, STARTING = 100, 50, 0.5
 #: What share of the drawn starts goes on after each step, so many steps (all of the nearest, which come first).
 BEGUN = ((0.5, 60, COARSE), (0.25, 30, MIDDLE))
 #: Processor seconds of a level with part 1 in a round of all levels; shares of the time after which the designs of
 #: the rounds go on together, and after which the best are polished.
 ROUND, MERGED, ENDED = 4.0, 0.85, 0.96
-POOL, BATCH = 30, 0.2
+POOL = 30
+#: Seconds of attempts between two looks at the pool, here and on a cluster; seconds between two times that all pools
+#: are kept.
+BATCH, AWAY, SAVED = 0.2, 1.0, 2.0
 #: Chance that a design with room for one more joint gets one.
 PARTED = 0.8
 #: Joints that one more dyad brings: its pin and its point of a link, or a pivot of its own as well.
@@ -142,9 +151,19 @@ def _lacking(pools: dict[Level, Pool], level: Level, joints: tuple[int, ...]) ->
     ]
 
 
+class Stage(NamedTuple):
+    """A level's work until a share of the time is over, in a round or with the designs of all rounds."""
+
+    level: Level
+    end: float
+    merged: bool
+
+
 @dataclass
 class Search:
-    """One search for a target.
+    """One search for a target, by the threads of this machine or the workers of the surrounding ``on_cluster``.
+
+    A surrounding ``kept_in`` keeps all pools, with the time that was spent, every ``SAVED`` seconds.
 
     Args:
         target: the curve with its demands.
@@ -160,154 +179,261 @@ class Search:
     seed: int
     progress: Callable[[float, float], None] | None = None
     attempts: int = 0
-    lock: threading.Lock = field(default_factory=threading.Lock)
+    stopped: bool = False
 
     def run(self) -> list[Design]:
-        """Designs that meet the demands, of every number of joints; an interrupt gives those found so far."""
-        levels = [each for each in LEVELS if each.joints <= self.joints]
-        if levels[-1].joints < self.joints:
-            levels.append(Level(self.joints, SIX_BARS if self.joints < JOINTS[1] else None, LEVELS[-1].part))
-        self.begin, self.draw = time.perf_counter(), np.random.default_rng(self.seed)
-        self.best = {level: Pool() for level in levels}
+        """Designs that meet the demands, of every number of joints; an interrupt gives the best found so far."""
+        self.levels = [each for each in LEVELS if each.joints <= self.joints]
+        if self.levels[-1].joints < self.joints:
+            lowest = SIX_BARS if self.joints < JOINTS[1] else None
+            self.levels.append(Level(self.joints, lowest, LEVELS[-1].part))
+        self.client, self.begin = current(), time.perf_counter()
+        self.hands = cores() if self.client is None else max(1, sum(self.client.nthreads().values()))
+        self._begin()
         with ThreadPoolExecutor(cores()) as self.workers:
             try:
-                self._rounds()
-                last = [level for level in levels if level.joints == self.joints]
-                for level, end in zip(last, np.linspace(MERGED, ENDED, len(last) + 1)[1:], strict=True):
-                    self._level(level, self.best, self.begin + float(end) * self.seconds)
-                return [
-                    each
-                    for level, pool in self.best.items()
-                    if level.joints in (*JOINTS, self.joints)
-                    for each in self._polished(pool)
-                ]
+                stages = self._stages()
+                while self.stage < len(stages):
+                    self._staged(stages[self.stage])
+                    self.stage += 1
+                    self._keep()
+                pools = [pool for level, pool in self.best.items() if level.joints in (*JOINTS, self.joints)]
+                found = [each for pool in pools for each in pool.designs[:6]]
             except KeyboardInterrupt:
-                found = [each for pool in self.best.values() for each in pool.designs[:4]]
-                if not found:
-                    raise
-                return found
+                self._keep()
+                self.stopped = True
+                pools = [*self.best.values(), *self.pools.values()]
+                found = [each for pool in pools for each in pool.designs[:1]]
+            return [each for each in self._each(found, polished) if each.value < FAR]
 
-    def _rounds(self) -> None:
-        """As many rounds as the time holds, after the atlases have been looked up."""
-        used = {level.atlas for level in self.best if level.atlas is not None}
+    def _begin(self) -> None:
+        """Looks the atlases up, and goes on from what is kept."""
+        self.draw, self.stage, self.pools = np.random.default_rng(self.seed), 0, dict[Level, Pool]()
+        self.best = {level: Pool() for level in self.levels}
+        self.saved = self.begin
+        used = {level.atlas for level in self.levels if level.atlas is not None}
         self.matches = {
             each: (atlas(each).nearest if each in ONE_DYAD else atlas(each).matches)(self.target)
             for each in used
         }
-        over = (time.perf_counter() - self.begin) / self.seconds
-        rounds = max(1, round(self.seconds * cores() / (ROUND * sum(level.part for level in self.best))))
-        times = np.linspace(over, max(over, MERGED), rounds + 1)
-        for number in range(rounds):
-            self._round(times[number], times[number + 1])
-
-    def _round(self, begin: float, end: float) -> None:
-        """All levels once, from other starts of the atlases."""
-        pools: dict[Level, Pool] = {}
-        parts = np.cumsum([level.part for level in self.best])
-        for level, part in zip(self.best, parts / parts[-1], strict=True):
-            fewer = _lacking(pools, level, (1, 2))
-            pool = pools[level] = Pool()
-            over = self.begin + (begin + (end - begin) * part) * self.seconds
-            try:
-                for each in self._starts(level, over):
-                    pool.add(each)
-                for one in fewer:
-                    for each in one.designs[:10]:
-                        pool.add(each)
-                self._level(level, pools, over)
-            finally:
-                for each in pool.designs:
-                    self.best[level].add(each)
-
-    def _level(self, level: Level, pools: dict[Level, Pool], end: float) -> None:
-        """Attempts until the time is over."""
-        pool, below = pools[level], _lacking(pools, level, HUNG)
-
-        def work(seed: int) -> None:
-            draw, stop = np.random.default_rng(seed), min(time.perf_counter() + BATCH, end)
-            while time.perf_counter() < stop:
-                found = self._attempt(draw, level.joints, pool, below)
-                with self.lock:
-                    self.attempts += 1
-                    pool.add(found)
-
-        while pool.designs and time.perf_counter() < end:
-            list(self.workers.map(work, self.draw.integers(1 << 60, size=cores())))
-            if self.progress is not None:
-                over = (time.perf_counter() - self.begin) / self.seconds
-                self.progress(min(over, 1.0), pool.designs[0].value)
-
-    def _starts(self, level: Level, end: float) -> Iterable[Design]:
-        """The best starts of an atlas, after descents, for a part of the level's time."""
-        if level.atlas is None:
-            return []
-        matches = self.matches[level.atlas]
-        order = iter(matches.order(self.draw, level.joints))
-        now = time.perf_counter()
-        last, near = now + STARTING * (end - now), list[Design]()
-        while some := list(islice(order, SOME)):
-            begun = self._each(some, lambda i: self.target.descend(matches.design(i), 30, COARSE))
-            self.attempts += len(some)
-            for part, steps, fineness in BEGUN:
-                count = int(part * len(begun)) if near else len(begun)
-                begun = self._further(_best(begun, count), steps, fineness)
-            near = _best(near + begun, CHOSEN)
-            if time.perf_counter() > last:
-                break
-        return self._each(near, self._ended)
-
-    def _further(self, designs: list[Design], steps: int, fineness: Fineness) -> list[Design]:
-        return self._each(designs, lambda each: self.target.descend(each, steps, fineness))
-
-    def _each(self, given: Sequence[T], work: Callable[[T], Design]) -> list[Design]:
-        """All after a descent, dealt to the workers."""
-        hands = self.workers.map(
-            lambda first: [work(each) for each in given[first :: cores()]], range(cores())
+        self.first = self._over()
+        self.rounds = max(
+            1, round(self.seconds * self.hands / (ROUND * sum(level.part for level in self.levels)))
         )
-        return [each for hand in hands for each in hand]
+        kept = surrounding()
+        left = None if kept is None else kept.part(self.key)
+        if left is not None:
+            over, self.draw.bit_generator.state, best, pools, *rest = left[0]
+            self.stage, self.attempts, self.first, self.rounds = rest
+            self.best |= {self.levels[k]: self._pool(designs) for k, designs in best.items()}
+            self.pools = {self.levels[k]: self._pool(designs) for k, designs in pools.items()}
+            self.begin = time.perf_counter() - over * self.seconds
 
-    def _attempt(self, draw: Draw, most: int, pool: Pool, below: list[Pool]) -> Design:
-        """One attempt: a shake or one more dyad, and a descent that is left off where it leads nowhere."""
-        design = self._next(draw, most, pool, below)
-        design = self.target.descend(self.target.descend(design, 20, COARSE), 15)
-        if design.value < FAR and pool.promises(0, design.value):
-            design = self.target.descend(design, 30)
-            if pool.promises(1, design.value):
-                return self._ended(design)
-        return replace(design, value=FAR)
+    @cached_property
+    def key(self) -> str:
+        """What the pools depend on but for the clock."""
+        target = self.target
+        demands = target.closed, target.least, target.largest, target.turning
+        return identity(target.points, *demands, self.joints, self.seconds, self.seed)
 
-    def _ended(self, design: Design) -> Design:
-        """After the last descent, in which the demands weigh more, and examined so."""
-        return self.target.checked(self.target.descend(design, 90, weight=STRICT), STRICT)
+    def _pool(self, designs: list[Any]) -> Pool:
+        """A pool that was kept."""
+        made = [Design(*each) for each in designs]
+        return Pool([replace(each, misses=self.target.misses(each)) for each in made])
 
-    def _next(self, draw: Draw, most: int, pool: Pool, below: list[Pool]) -> Design:
-        """A design that was moved; where joints are left, most often shared ones parted."""
-        design = self._moved(draw, most, pool, below)
-        while design.joints < most and draw.random() < PARTED:
-            design, before = with_joint(design, draw), design
-            if design is before:
+    def _keep(self) -> None:
+        """Keeps all pools, where they are kept, and the time that was spent on them."""
+        self.saved, kept = time.perf_counter(), surrounding()
+        if kept is None:
+            return
+        with _LOCK:
+            best, pools = (
+                {
+                    self.levels.index(level): [
+                        (one.nodes, one.x, one.mirror, one.value) for one in pool.designs
+                    ]
+                    for level, pool in each.items()
+                }
+                for each in (self.best, self.pools)
+            )
+        rest = self.stage, self.attempts, self.first, self.rounds
+        kept.add(self.key, (self._over(), self.draw.bit_generator.state, best, pools, *rest))
+
+    def _over(self) -> float:
+        """The share of the time that is over."""
+        return (time.perf_counter() - self.begin) / self.seconds
+
+    def _stages(self) -> list[Stage]:
+        """All levels in every round, then those of most joints with the designs of all rounds."""
+        times = np.linspace(self.first, max(self.first, MERGED), self.rounds + 1)
+        parts = np.cumsum([level.part for level in self.levels])
+        ends = list(zip(self.levels, (parts / parts[-1]).tolist(), strict=True))
+        last = [level for level in self.levels if level.joints == self.joints]
+        return [
+            Stage(level, begin + (end - begin) * part, False)
+            for begin, end in pairwise(times.tolist())
+            for level, part in ends
+        ] + [
+            Stage(level, end, True)
+            for level, end in zip(last, np.linspace(MERGED, ENDED, len(last) + 1)[1:].tolist(), strict=True)
+        ]
+
+    def _staged(self, stage: Stage) -> None:
+        """One stage; in a round from other starts of the atlas, unless they are kept."""
+        level = stage.level
+        if stage.merged:
+            self._level(stage, self.best)
+            return
+        if level not in self.pools:
+            fewer = _lacking(self.pools, level, (1, 2))
+            pool = Pool()
+            for each in self._starts(stage):
+                pool.add(each)
+            for one in fewer:
+                for each in one.designs[:10]:
+                    pool.add(each)
+            self.pools[level] = pool
+        self._level(stage, self.pools)
+        for each in self.pools[level].designs:
+            self.best[level].add(each)
+        if level is self.levels[-1]:
+            self.pools = {}
+
+    def _level(self, stage: Stage, pools: dict[Level, Pool]) -> None:
+        """Attempts until the time is over."""
+        most, pool, below = stage.level.joints, pools[stage.level], _lacking(pools, stage.level, HUNG)
+        batch = BATCH if self.client is None else AWAY
+        while pool.designs and (left := (stage.end - self._over()) * self.seconds) > 0:
+            seeds = self.draw.integers(1 << 60, size=self.hands).tolist()
+            tasks = [(most, pool, below, seed, min(batch, left)) for seed in seeds]
+            for count, found in self._dealt(tried, tasks):
+                self.attempts += count
+                for each in found:
+                    pool.add(each)
+            if time.perf_counter() - self.saved > SAVED:
+                self._keep()
+            if self.progress is not None:
+                self.progress(min(self._over(), 1.0), pool.designs[0].value)
+
+    def _starts(self, stage: Stage) -> list[Design]:
+        """The best starts of an atlas, after descents, for a part of the level's time."""
+        if stage.level.atlas is None:
+            return []
+        matches = self.matches[stage.level.atlas]
+        order = iter(matches.order(self.draw, stage.level.joints))
+        now = self._over()
+        last, near, count = now + STARTING * (stage.end - now), list[Design](), 0
+        while some := list(islice(order, SOME * self.hands)):
+            designs = [matches.design(i) for i in some]
+            tasks = [
+                (designs[first:end], count + first < NEAREST) for first, end in chunks(len(designs), SOME)
+            ]
+            for begun in self._dealt(started, tasks):
+                near = _best(near + begun, CHOSEN)
+            count += len(some)
+            self.attempts += len(some)
+            if self._over() > last:
                 break
-        return design
+        return self._each(near, ended)
 
-    def _moved(self, draw: Draw, most: int, pool: Pool, below: list[Pool]) -> Design:
-        """Half shaken; a quarter each with a dyad drawn at the drawing point, and with a promising one anywhere."""
-        kind = draw.random()
-        if below and kind < 0.5:
-            base = below[int(draw.integers(len(below)))].pick(draw)
-            if kind < 0.25:
-                design = with_dyad(base, draw, most, self.target.turning)
-                if design is not None:
-                    return design
-            elif most - base.joints > 1:
-                found = self.target.grown(base, draw.random((DRAWS, 9)), most)
-                if found:
-                    return found[min(int(draw.exponential(3)), len(found) - 1)]
-        return shaken(pool.pick(draw), draw)
+    def _each(self, given: Sequence[Design], work: Callable[[Target, Design], Design]) -> list[Design]:
+        """All after some work, dealt to the hands."""
+        parts = [(work, given[first :: self.hands]) for first in range(min(self.hands, len(given)))]
+        return [each for part in self._dealt(each_of, parts) for each in part]
 
-    def _polished(self, pool: Pool) -> list[Design]:
-        """The best of a pool, polished; the demands hold with a small margin."""
-        found = self._each(pool.designs[:6], lambda each: polished(self.target, each))
-        return [each for each in found if each.value < FAR]
+    def _dealt(self, work: Callable[..., T], tasks: Sequence[tuple[Any, ...]]) -> list[T]:
+        """What ``work`` gives for the target and each task, by threads or a cluster's workers."""
+        if self.client is None:
+            return [*self.workers.map(lambda task: work(self.target, *task), tasks)]
+        given = [(work, self._pickled, *task) for task in tasks]
+        found: dict[int, T] = dict(in_turn(self.client, _away, given))
+        return [found[number] for number in range(len(tasks))]
+
+    @cached_property
+    def _pickled(self) -> bytes:
+        return pickle.dumps(self.target)
+
+
+def _away(work: Callable[..., T], pickled: bytes, *task: Any) -> T:
+    """What ``work`` gives, on a worker of a cluster."""
+    return work(_target(pickled), *task)
+
+
+@lru_cache(2)
+def _target(pickled: bytes) -> Target:
+    """Made once for all pieces of a search."""
+    target: Target = pickle.loads(pickled)
+    return target
+
+
+def each_of(target: Target, work: Callable[[Target, Design], Design], designs: list[Design]) -> list[Design]:
+    """All designs after some work."""
+    return [work(target, each) for each in designs]
+
+
+def started(target: Target, designs: list[Design], all_go_on: bool) -> list[Design]:
+    """Starts after their first descents; unless all go on, the better ones."""
+    begun = [target.descend(each, 30, COARSE) for each in designs]
+    for part, steps, fineness in BEGUN:
+        some = begun if all_go_on else _best(begun, int(part * len(begun)))
+        begun = [target.descend(each, steps, fineness) for each in some]
+    return begun
+
+
+def tried(
+    target: Target, most: int, pool: Pool, below: list[Pool], seed: int, seconds: float
+) -> tuple[int, list[Design]]:
+    """The number of attempts in some seconds, and what they brought into the pool."""
+    draw, stop = np.random.default_rng(seed), time.perf_counter() + seconds
+    before, count = [*pool.designs], 0
+    while time.perf_counter() < stop:
+        found = attempt(target, draw, most, pool, below)
+        count += 1
+        with _LOCK:
+            pool.add(found)
+    return count, [each for each in pool.designs if not any(each is one for one in before)]
+
+
+def attempt(target: Target, draw: Draw, most: int, pool: Pool, below: list[Pool]) -> Design:
+    """A shake or one more dyad, and a descent that is left off where it leads nowhere."""
+    design = _next(target, draw, most, pool, below)
+    design = target.descend(target.descend(design, 20, COARSE), 15)
+    if design.value < FAR and pool.promises(0, design.value):
+        design = target.descend(design, 30)
+        if pool.promises(1, design.value):
+            return ended(target, design)
+    return replace(design, value=FAR)
+
+
+def ended(target: Target, design: Design) -> Design:
+    """After the last descent, in which the demands weigh more, and examined so."""
+    return target.checked(target.descend(design, 90, weight=STRICT), STRICT)
+
+
+def _next(target: Target, draw: Draw, most: int, pool: Pool, below: list[Pool]) -> Design:
+    """A design that was moved; where joints are left, most often shared ones parted."""
+    design = _moved(target, draw, most, pool, below)
+    while design.joints < most and draw.random() < PARTED:
+        design, before = with_joint(design, draw), design
+        if design is before:
+            break
+    return design
+
+
+def _moved(target: Target, draw: Draw, most: int, pool: Pool, below: list[Pool]) -> Design:
+    """Half shaken; a quarter each with a dyad drawn at the drawing point, and with a promising one anywhere."""
+    kind = draw.random()
+    if below and kind < 0.5:
+        base = below[int(draw.integers(len(below)))].pick(draw)
+        if kind < 0.25:
+            design = with_dyad(base, draw, most, target.turning)
+            if design is not None:
+                return design
+        elif most - base.joints > 1:
+            found = target.grown(base, draw.random((DRAWS, 9)), most)
+            if found:
+                return found[min(int(draw.exponential(3)), len(found) - 1)]
+    return shaken(pool.pick(draw), draw)
 
 
 def polished(target: Target, design: Design) -> Design:

@@ -26,6 +26,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.core.arrays import Complexes
+from linkwright.study.kept import once
 from linkwright.synthesis.nine_points.classes import MIX, PROBES, conjugate, repeated, turned
 from linkwright.synthesis.nine_points.start import displacements
 from linkwright.synthesis.nine_points.tracker import TOLERANCE, Places, carried, polished
@@ -93,8 +94,12 @@ def around(places: Places, u: Complexes, rng: np.random.Generator) -> Complexes:
 
 def _arrived(u: Complexes, first: Places, last: Places, tolerance: float = TOLERANCE) -> Complexes:
     """Solutions of the places ``first`` carried to ``last``, less the lost ones."""
-    ends = carried(u, first, last, tolerance)
-    return ends.solutions[ends.arrived]
+
+    def arrived() -> Complexes:
+        ends = carried(u, first, last, tolerance)
+        return ends.solutions[ends.arrived]
+
+    return once(arrived, lambda: (u, first.d, first.e, first.g, last.d, last.e, last.g, tolerance))
 
 
 def keys(u: Complexes) -> Complexes:

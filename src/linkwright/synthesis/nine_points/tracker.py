@@ -27,6 +27,7 @@ from linkwright.core.arrays import Complexes, Flags, Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.machine_code import available
 from linkwright.engine.threads import cores, spread_over
+from linkwright.study.kept import once
 
 #: Paths that are carried together: their matrices stay in the processor's cache.
 CHUNK = 181
@@ -69,15 +70,20 @@ def track(
 
     A second correction below ``rounding`` is taken for the rounding of ill-conditioned solutions.
     """
-    done, arrived = start.copy(), np.zeros(len(start), bool)
     places = [Places(q[0], q[1], np.empty(0, complex)) for q in (q0, q1)]
     way = _carried_compiled if available() else carried
 
-    def carry(first: int, last: int) -> None:
-        ends = way(start[first:last], places[0], places[1], tolerance, most, rounding)
-        done[first:last], arrived[first:last] = ends.solutions, ends.arrived
+    def all_carried() -> tuple[Complexes, Flags]:
+        done, arrived = start.copy(), np.zeros(len(start), bool)
 
-    spread_over(len(start), CHUNK, cores(), carry)
+        def carry(first: int, last: int) -> None:
+            ends = way(start[first:last], places[0], places[1], tolerance, most, rounding)
+            done[first:last], arrived[first:last] = ends.solutions, ends.arrived
+
+        spread_over(len(start), CHUNK, cores(), carry)
+        return done, arrived
+
+    done, arrived = once(all_carried, lambda: (start, q0, q1, tolerance, most, rounding))
     with np.errstate(all="ignore"):
         right = arrived & np.isfinite(done).all(1)
         right &= residual(np.where(right[:, None], done, 1.0), q1) < 1e-9

@@ -9,6 +9,7 @@ import numpy as np
 from linkwright.core.arrays import Complexes, Flags, Floats, Whole
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.threads import cores, spread_over
+from linkwright.study.kept import once
 from linkwright.synthesis.crank_family import CrankFamily
 from linkwright.synthesis.path_generation.kernels import (
     ANGLES,
@@ -114,6 +115,10 @@ class CompiledPaths:
 
     def _done(self, name: str, *further: float, weight: float) -> CompiledPaths:
         way, given = self._way(), self._given(weight)
+        key = name, further, way, given, self.starts
+        return self.of_starts(once(lambda: self._computed(name, further, way, given), lambda: key))
+
+    def _computed(self, name: str, further: tuple[float, ...], way: Whole, given: Floats) -> Floats:
         starts = self.starts.copy()
         size = 8 * starts.shape[1]
 
@@ -124,7 +129,7 @@ class CompiledPaths:
 
         share = max(1, min(SHARE, -(-len(starts) // (4 * cores()))))
         spread_over(len(starts), share, cores(), work)
-        return self.of_starts(starts)
+        return starts
 
     def _way(self) -> Whole:
         demand = self.demand
