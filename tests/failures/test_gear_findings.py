@@ -6,6 +6,7 @@ import pytest
 
 import linkwright as lw
 from linkwright.errors import LinkwrightError
+from linkwright.files.model_file import read_text
 from linkwright.kinematics.analysed import analysed
 from linkwright.machine import steady_running
 from linkwright.words.sentence import in_language
@@ -508,3 +509,20 @@ loads: {m: {kind: torque, on: b, magnitude: 5 N·m}}
         assert "1000 圈内" in in_language(refused.value.args[0], "zh")
     whole = lw.solve_forces(lw.loads(text.replace("[1009, 2003]", "[20, 40]")), steps=36)
     assert steady_running(whole, fluctuation=0.05).mean_torque == pytest.approx(2.5)  # 5 N·m · 20/40
+
+
+@pytest.mark.parametrize(("inertia", "unlikely"), [("0.5", False), ("6", True)])
+def test_a_crank_with_a_pulley_is_as_large_as_the_pulley(inertia: str, unlikely: bool) -> None:
+    """20 kg within the pulley's 240 mm have 1.15 kg·m² at most; the crank itself is 60 mm long."""
+    text = f"""
+format: 1
+frame: {{points: {{M: [-500 mm, 0 mm], O: [0 mm, 0 mm]}}}}
+links:
+  motor: {{points: [M]}}
+  crank: {{points: [O, A], length: 60 mm, mass: 20 kg, inertia: {inertia} kg·m²}}
+joints: {{belt: {{kind: belt, links: [motor, crank], radii: [60 mm, 240 mm]}}}}
+driver: {{turn: motor, about: M, speed: 1440 rpm}}
+"""
+    found = [each for each in read_text(text, "<text>")[1] if each.code == "unlikely"]
+    assert bool(found) == unlikely
+    assert not unlikely or "more than twice the link's size of 0.24 m" in found[0].message

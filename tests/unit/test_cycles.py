@@ -118,6 +118,10 @@ def test_turns_of_a_fast_driver_leave_the_slow_one_on_its_way() -> None:
 def test_a_cycle_that_cannot_be_laid_out_is_refused() -> None:
     with pytest.raises(CycleError, match="no natural end"):
         time_span(machine(STILL.replace(" m", " rad"), STILL.replace(" m", " rad"), "speed: 1 m/s"))
+    with pytest.raises(
+        CycleError, match=r"follows a law in time; write how long it is: cycle: \{duration: 2 s\}"
+    ):
+        time_span(machine(STILL.replace(" m", " rad"), STILL.replace(" m", " rad")))
     with pytest.raises(CycleError, match="steps"):
         over_cycle(machine(), 0)
     with pytest.raises(CycleError, match="constant speed"):

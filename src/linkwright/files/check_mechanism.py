@@ -11,6 +11,7 @@ from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import below
 from linkwright.files.reader import Reader
 from linkwright.joints.base import Joint
+from linkwright.joints.marks import Mark
 from linkwright.mechanism.mechanism import Link, Mechanism, Vec
 from linkwright.units import number
 from linkwright.words.sentence import Sentence
@@ -159,10 +160,12 @@ def _unlikely_inertias(reader: Reader, root: MappingNode, mechanism: Mechanism) 
         if not link.inertia:
             continue
         size = _size(link)
-        largest = link.mass * (2.0 * size) ** 2
-        if link.inertia <= largest or (
-            not size and (link.mass or set(link.points) <= set(mechanism.frame.points))
-        ):
+        if not size and (link.mass or set(link.points) <= set(mechanism.frame.points)):
+            continue
+        if link.inertia <= link.mass * (2.0 * size) ** 2:
+            continue
+        size = max(size, *(mark.radius for mark in _discs(mechanism) if mark.link == name), 0.0)
+        if link.inertia <= link.mass * (2.0 * size) ** 2:
             continue
         if link.mass:
             radius = math.sqrt(link.inertia / link.mass)
@@ -173,6 +176,13 @@ def _unlikely_inertias(reader: Reader, root: MappingNode, mechanism: Mechanism) 
         at = below(root, "links", name, "inertia")
         remedy = Sentence("model.check_inertia")
         reader.error(at, f"links.{name}.inertia", problem, remedy, "unlikely", severity="warning")
+
+
+def _discs(mechanism: Mechanism) -> list[Mark]:
+    """Wheels and cams, as large as they are drawn."""
+    wheels = (joint for joint in mechanism.joints.values() if joint.higher)
+    marks = (mark for joint in wheels for mark in joint.marks(mechanism, {}))
+    return [mark for mark in marks if mark.symbol in ("gear", "disc", "cam")]
 
 
 def _missing_inertias(reader: Reader, root: MappingNode, mechanism: Mechanism) -> None:

@@ -197,7 +197,8 @@ def time_span(mechanism: Mechanism) -> tuple[float, float, bool]:
     first = next(iter(mechanism.drivers.values()))
     known = _naturals(mechanism)
     if cycle is None and not known:
-        raise CycleError(Sentence("motion.no_natural_end", name=mechanism.name, driver=first.name))
+        said = "no_natural_end" if first.law.constant_speed else "law_without_end"
+        raise CycleError(Sentence(f"motion.{said}", name=mechanism.name, driver=first.name))
     if cycle is None:
         whole = _whole(mechanism) if together(mechanism) <= FEW else None
         return 0.0, whole or max(known), whole is not None

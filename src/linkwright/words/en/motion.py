@@ -18,6 +18,8 @@ WORDS = {
     "bad_steps": "steps is {steps}; give one step or more",
     "no_natural_end": "the cycle of {name!r} has no natural end, as driver {driver!r} does not turn; write "
     "cycle: {{from: …, to: …}} (the driver's coordinate) or cycle: {{duration: 2 s}}",
+    "law_without_end": "the cycle of {name!r} has no natural end, as driver {driver!r} follows a law in time; write "
+    "how long it is: cycle: {{duration: 2 s}}",
     "cycle_by_coordinate": "the cycle is given by the coordinate of driver {name!r}, which has no constant "
     "speed; write cycle: {{duration: …}} instead",
     "input": "input {parts}",

@@ -17,6 +17,8 @@ WORDS = {
     "bad_steps": "步数为 {steps}；至少为 1",
     "no_natural_end": "“{name}”的循环没有自然的终点，因为驱动“{driver}”不转动；请写 cycle: {{from: …, to: "
     "…}}（驱动的坐标）或 cycle: {{duration: 2 s}}",
+    "law_without_end": "“{name}”的循环没有自然的终点，因为驱动“{driver}”按时间规律运动；请写出循环的时间：cycle: "
+    "{{duration: 2 s}}",
     "cycle_by_coordinate": "循环以驱动“{name}”的坐标给出，而它不是匀速；请改写 cycle: {{duration: …}}",
     "input": "输入 {parts}",
     "only_position": "唯一的位置",
