@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
 import pytest
 
 import linkwright as lw
+from linkwright.cli import main
 from linkwright.errors import RequestError
 from linkwright.study import sensitivity, sweep
 from linkwright.study.compare import compare
@@ -145,6 +147,41 @@ def test_teeth_that_change_the_cycle_are_told_to_have_one() -> None:
         "2 at wheels off their distance; the first: the centres O, Q on 'frame' are 0.06 m apart"
         in fixed.text()
     )
+
+
+def test_numbers_of_forces_of_a_machine_that_carries_nothing(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Masses are forgotten: every command says so, also where the driver rests when its cycle begins (a division by 0
+    there), and no search is made for what no design has."""
+    text = """
+format: 1
+name: Trammel
+frame: {points: {O: [0 mm, 0 mm]}}
+links: {bar: {points: [A, B], length: 200 mm}, bx: {points: [A]}, by: {points: [B]}}
+joints:
+  x: {kind: prismatic, guide: frame, through: O, direction: 0 deg, block: bx, at: A}
+  y: {kind: prismatic, guide: frame, through: O, direction: 90 deg, block: by, at: B}
+assembly: {B: forward}
+driver: {slide: x, position: "150 mm*cos(2*pi*t/(2 s))"}
+cycle: {duration: 2 s}
+"""
+    file = tmp_path / "trammel.yaml"
+    file.write_text(text, encoding="utf-8")
+    vary = ["--vary", "bar.length=200..250mm:2"]
+    for command in (
+        ["metrics", str(file), "--names", "peak_reaction"],
+        ["sweep", str(file), *vary, "--numbers", "peak_reaction", "--folder", str(tmp_path / "designs")],
+        ["study", str(file), *vary, "--metrics", "peak_reaction A"],
+        ["optimize", str(file), *vary, "--minimize", "peak_reaction A"],
+    ):
+        assert main(command) in (1, 2)
+        told = capsys.readouterr().err
+        assert "the links of 'Trammel' have no mass and there are no loads; give masses" in told, command[0]
+    heavier = lw.loads(text.replace("length: 200 mm", "length: 200 mm, mass: 1 kg"))
+    found = study(heavier, {"bar.length": [0.2, 0.25]}, metrics=["stroke y", "peak_reaction A"])
+    ways = [0.2 - np.sqrt(0.2**2 - 0.15**2), 0.25 - np.sqrt(0.25**2 - 0.15**2)]
+    assert found["stroke y"] == pytest.approx(ways, rel=1e-9) and np.isfinite(found["peak_reaction A"]).all()
 
 
 def test_a_length_below_zero_is_told_with_its_unit() -> None:
@@ -302,7 +339,10 @@ def test_values_of_a_study_that_it_does_not_have() -> None:
     assert 'did you mean "travel"' in said(lambda: found["travl"])
     assert "travel" in said(lambda: found.best("travel")) and found.best("transmission_angle") == 1
     idle = said(lambda: study(machine(), {"coupler.length": "3.2, 3.4 m"}, metrics=["flywheel"], steps=24))
-    assert "'flywheel' does not apply" in idle
+    assert "flywheel cannot be found: the links of" in idle and "there are no loads; give masses" in idle
+    slide = lw.load("gallery:scotch_yoke")
+    idle = said(lambda: study(slide, {"crank.length": "40, 50 mm"}, metrics=["swing_angle"], steps=24))
+    assert "'swing_angle' does not apply" in idle
 
 
 @pytest.mark.parametrize(
@@ -391,7 +431,13 @@ def test_design_numbers_of_sweeps_name_what_they_have() -> None:
         assert text.startswith(f'"{name}" has no value for "Q9"; there is ')
     text = said(lambda: sweep(machine(), coupler, outputs=["peak_reaction"], steps=24))
     assert text == (
-        "peak_reaction of 'Crank-rocker four-bar with a coupler point' does not apply to it; choose another one"
+        "peak_reaction cannot be found: the links of 'Crank-rocker four-bar with a coupler point' have no mass and "
+        "there are no loads; give masses (mass: 5 kg) or loads (loads: …)"
+    )
+    text = said(lambda: sweep(machine(), coupler, outputs=["stroke"], steps=24))
+    assert (
+        text
+        == "stroke of 'Crank-rocker four-bar with a coupler point' does not apply to it; choose another one"
     )
 
 

@@ -97,7 +97,7 @@ def branch_notes(motion: Motion) -> tuple[Sentence, ...]:
                 "cycle.followed",
                 links=groups,
                 count=len(unsure),
-                where=_where(motion, near),
+                where=input_at(motion, near),
                 margin=number(float(way.margin[near]), 2),
             )
         )
@@ -192,7 +192,7 @@ def refusal(motion: Motion) -> PositionError:
     failed = np.flatnonzero(~motion.ok)
     first = int(failed[0])
     outcome = motion.outcomes[first]
-    where = _where(motion, first)
+    where = input_at(motion, first)
     if len(failed) > 1:
         where = Sentence("motion.of_positions", where=where, failed=len(failed), steps=motion.steps)
     links = next((each.links for each in motion.structure.groups if each.name == outcome.group), ())
@@ -208,7 +208,8 @@ def refusal(motion: Motion) -> PositionError:
     return PositionError(said, tuple(int(i) for i in failed), outcome)
 
 
-def _where(motion: Motion, index: int) -> str:
+def input_at(motion: Motion, index: int) -> str:
+    """The drivers' coordinates at a position, in words."""
     parts = [
         _shown(name, float(q[index]), motion.positions.rotary[name]) for name, q in motion.inputs.items()
     ]

@@ -12,6 +12,7 @@ from linkwright.core.outputs import Output, kind_of, row_name
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.cycle import Positions
 from linkwright.kinematics.design import Design
+from linkwright.kinematics.explain import input_at
 from linkwright.kinematics.motion import Motion, Rows
 from linkwright.kinematics.solve import MotionRun
 from linkwright.kinetostatics.forces import Forces
@@ -207,5 +208,5 @@ def _with_friction(motion: Motion, solver: ForceSolver, fields: dict[str, Floats
 def _locked(motion: Motion, terms: tuple[FrictionTerm, ...], fields: dict[str, Floats]) -> str:
     worst = max(terms, key=lambda t: float(np.nanmax(np.abs(fields[t.field]), initial=0.0)))
     place = int(np.nanargmax(np.abs(fields[worst.field])))
-    where = ", ".join(f"{name} = {q[place]:.6g}" for name, q in motion.inputs.items())
+    where = input_at(motion, place)
     return Sentence("forces.self_locking", name=motion.mechanism.name, where=where, joint=worst.joint)

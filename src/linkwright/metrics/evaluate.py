@@ -9,6 +9,7 @@ from math import isfinite
 from linkwright.errors import RequestError
 from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import ROUNDING, Forces
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Metric, MetricValue
 from linkwright.metrics.quantities import NOTHING
@@ -84,6 +85,15 @@ def _chosen(asked: Iterable[str] | None) -> dict[str, type[Metric]]:
         return {name: METRICS[name] for name in asked}
     usual = ((name, metric) for name, metric in METRICS.items() if not metric.on_request)
     return dict(sorted(usual, key=lambda each: each[1].rank))
+
+
+def unloaded(mechanism: Mechanism, names: Iterable[str]) -> Sentence | None:
+    """That some of these numbers, each a metric with its subject, need joint forces that the machine has not."""
+    metrics = {name: METRICS.get(name.split(" ")[0]) for name in names}
+    idle = tuple(name for name, metric in metrics.items() if metric is not None and metric.needs_forces)
+    if mechanism.has_loads or not idle:
+        return None
+    return Sentence("metrics.unloaded", names=idle, title=mechanism.name)
 
 
 def _refusal(name: str, analysis: Analysis) -> str:

@@ -21,6 +21,7 @@ from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.base import Number
+from linkwright.metrics.evaluate import unloaded
 from linkwright.metrics.outputs import mechanism_outputs
 from linkwright.metrics.quantities import powers
 from linkwright.metrics.summary import is_summary, one, wanted
@@ -57,6 +58,9 @@ class Measures:
             name for _, names in self.expressions.values() for name in names.values()
             if name not in self._dimensions and name not in problem.paths
         ))  # fmt: skip
+        heaviest = {each.address: each.high for each in problem.variables}
+        if (missing := unloaded(self.mechanism.with_dimensions(heaviest), self.numbers)) is not None:
+            raise RequestError(missing)
         self.cycles = [] if self._moves_positions() else self._cycles()
         self.side_by_side = bool(self.cycles) or not self.numbers
         self.backend: Backend = "llvm" if available() else "numpy"

@@ -14,6 +14,7 @@ from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import solve_forces
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import Analysis
+from linkwright.metrics.evaluate import unloaded
 from linkwright.study.metric_cycle import MetricCycle, metric_cycle
 from linkwright.study.range_designs import RangeDesigns, range_designs
 from linkwright.study.swept_designs import SweptDesigns, swept_designs
@@ -83,7 +84,8 @@ def numbers_of(
             values[name][index], dimensions[name] = value, dimension
     idle = [name for name in names if name not in dimensions] if len(designs) > len(failed) else []
     if idle:
-        raise RequestError(Sentence("study.sweep_metric", names=tuple(idle), name=mechanism.name))
+        said = Sentence("study.sweep_metric", names=tuple(idle), name=mechanism.name)
+        raise RequestError(unloaded(mechanism, idle) or said)
     return values, dimensions, failed
 
 

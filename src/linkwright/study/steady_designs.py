@@ -38,8 +38,13 @@ class SteadyDesigns:
     ) -> None:
         self._stage, self._given, self._run = Stage(program, keep=SIGNALS), known, run
         self.pieces, self.sense, self.speed = pieces, (1.0 if speed > 0.0 else -1.0), abs(speed)
-        self.way, self.lift = way, 2.0 / speed**2
+        self.way = way
         self._known: dict[Summary, tuple[Floats, Speeds]] = {}
+
+    @property
+    def lift(self) -> float:
+        """What work adds to the squares of the speed's shares, per kg·m²; of a driver that never stands still."""
+        return 2.0 / self.speed**2
 
     @cached_property
     def _signals(self) -> tuple[Floats, Floats, Floats]:

@@ -22,6 +22,7 @@ from linkwright.errors import LinkwrightError, RequestError, with_remedy
 from linkwright.files.write import dump
 from linkwright.machine import flywheel_inertia
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.metrics.evaluate import unloaded
 from linkwright.metrics.outputs import mechanism_outputs
 from linkwright.metrics.quantities import si_unit
 from linkwright.metrics.summary import is_summary
@@ -398,6 +399,8 @@ class _Work:
         """Raises for a metric that has a value for none of the designs that move."""
         for name, values in self.values.items():
             if np.isnan(values[ok]).all():
+                if (missing := unloaded(self.mechanism, [name])) is not None:
+                    raise RequestError(missing)
                 told = Sentence("study.does_not_apply", name=name, mechanism=self.mechanism.name)
                 if self.notes:
                     raise RequestError(Sentence("cli.about", name=told, cause=list(self.notes)))

@@ -77,11 +77,14 @@ def _evaluated(
     mechanism: Mechanism, names: list[str] | None, options: argparse.Namespace
 ) -> tuple[MetricsTable, LinkwrightError | None]:
     """The numbers, and why there are no forces where they failed."""
-    from linkwright.errors import LinkwrightError
+    from linkwright.errors import LinkwrightError, RequestError
     from linkwright.kinematics.solve import solve_motion
     from linkwright.kinetostatics.forces import solve_forces
     from linkwright.metrics import metrics
+    from linkwright.metrics.evaluate import unloaded
 
+    if options.forces is None and (missing := unloaded(mechanism, names or ())) is not None:
+        raise RequestError(missing)
     motion = solve_motion(mechanism, steps=options.steps, failures="mark" if options.mark else "raise")
     if options.forces is False or not (options.forces or mechanism.has_loads):
         return metrics(motion, names), None

@@ -18,7 +18,7 @@ WORDS = {
     "the passive ones are taken as unloaded",
     "indeterminate": "the couple of guide {name!r} is statically indeterminate, as other guides prevent the "
     "same rotation: it is taken as zero, and the couples of those guides carry all",
-    "self_locking": "{name!r} is self-locking by friction near {where} (rad or m): the friction in joint "
+    "self_locking": "{name!r} is self-locking by friction near {where}: the friction in joint "
     "{joint!r} grows without bound in the iteration, so no driver effort moves it; reduce the friction "
     "coefficient or the pin radius, or improve the transmission angle there",
     "contact_lost": "the pair {name} ({kind}) can only push, but would have to pull {places}; press its links "

@@ -145,6 +145,8 @@ closeness to a singular position first.""",
     "dead_point.output": "if {output} were to drive, it could not move the mechanism at {at}",
     "path_open": "the path of {point} is not closed: solve a whole cycle of {name!r}",
     "needs_forces": '"{name}" needs the joint forces of {title!r}; give it the result of solve_forces',
+    "unloaded": "{names} cannot be found: the links of {title!r} have no mass and there are no loads; give masses "
+    "(mass: 5 kg) or loads (loads: …)",
     "does_not_apply": '"{name}" does not apply to {title!r}: {meaning}',
     "not_in_table": '"{name}" is not in the table: it does not apply here or was not asked for',
     "no_value": '"{name}" has no value for "{subject}"; {hint}',

@@ -122,6 +122,7 @@ WORDS = {
     "dead_point.output": "若以 {output} 为主动件，则在 {at} 处无法带动机构",
     "path_open": "{point} 的轨迹不封闭：请求解“{name}”的整个循环",
     "needs_forces": "“{name}”需要“{title}”的运动副反力；请给出 solve_forces 的结果",
+    "unloaded": "无法求 {names}：“{title}”的构件没有质量，也没有载荷；请给出质量（mass: 5 kg）或载荷（loads: …）",
     "does_not_apply": "“{name}”不适用于“{title}”：{meaning}",
     "not_in_table": "“{name}”不在表中：此处不适用或没有要求",
     "no_value": "“{name}”没有“{subject}”的值；{hint}",
