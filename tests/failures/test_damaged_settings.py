@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import csv
 import json
+import sqlite3
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -159,16 +160,23 @@ def test_damaged_sections_of_a_search(said: Said, section: str, words: str) -> N
 
 
 def test_damaged_states_of_a_search(said: Said) -> None:
-    state = Path("state.json")
+    state = Path("search.state")
     words = ["optimize", CRANK, *SEARCH, "--state", str(state)]
     assert main([*words, "--evaluations", "12"]) == 0
-    kept = json.loads(state.read_text("utf-8"))
-    changes = [("x", None), ("x", []), ("x", -1), ("x", [[2.0]] * len(kept["x"])), ("generation", -1),
-               ("evaluations", -1), ("history", "x"), ("history", [None] * 99), ("draw", {})]  # fmt: skip
-    texts = [json.dumps({**kept, name: value}) for name, value in changes]
-    for text in ["", "[" * 100_000, *texts]:
-        state.write_text(text, encoding="utf-8")
-        assert "cannot be read; name another file" in said(2, *words, "--evaluations", "60")
+    with sqlite3.connect(state) as parts:
+        ((key, content),) = parts.execute("select * from parts where content like '%generation%'")
+    kept = dict(json.loads(content)["pairs"])
+    changes = [("x", None), ("x", []), ("x", -1), ("x", [[2.0]] * 12), ("generation", -1),
+               ("evaluations", -1), ("history", "x"), ("history", [None] * 99), ("draw", {"pairs": []})]  # fmt: skip
+    texts = [json.dumps({"pairs": [*{**kept, name: value}.items()]}) for name, value in changes]
+    for text in ["", "[" * 100_000, "null", *texts]:
+        with sqlite3.connect(state) as parts:
+            parts.execute("update parts set content = ? where key = ?", (text, key))
+        told = said(2, *words, "--evaluations", "60")
+        assert "cannot be used" in told and "name another file" in told
+    parts.close()
+    state.write_text(json.dumps({"problem": "x", "judged": []}), encoding="utf-8")  # as it once was
+    assert "cannot be used (file is not a database)" in said(2, *words, "--evaluations", "60")
 
 
 @pytest.mark.parametrize("folder", ["file", "file/inner", "a" * 300, "a\0b"])

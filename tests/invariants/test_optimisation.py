@@ -150,7 +150,7 @@ def test_an_interruption_says_from_which_file_it_goes_on(
     vary = {"crank.length": "300..400 mm", "rod.length": "100..200 mm"}
     with pytest.raises(KeyboardInterrupt, match=r"--state still\.json"):  # not that none can move
         lw.optimize(press, vary=vary, evaluations=200, progress=stop, state="still.json")
-    assert [each and each.name for each in files] == ["Press.search.json", "Press_2.search.json"]
+    assert [each and each.name for each in files] == ["Press.state", "Press_2.state"]
     assert all(each is not None and each.exists() for each in files)
 
 
@@ -175,7 +175,7 @@ def test_designs_that_go_one_by_one_are_kept_by_an_interruption_before_the_first
     first = judged[:]
     judged.append(0.0)
     rest = lw.optimize(lw.loads(GEARS), **settings, evaluations=60, state=state)
-    assert len(set(first)) == 5 and set(first) & set(judged[6:]) == {40.0}  # the start is measured first
+    assert len(set(first)) == 5 and not set(first) & set(judged[6:])
     assert rest.history == whole.history and dict(rest.best.values) == dict(whole.best.values)
 
 

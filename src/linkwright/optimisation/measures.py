@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import pickle
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from functools import cached_property, lru_cache
-from typing import Any
 
 import numpy as np
 
@@ -31,6 +30,7 @@ from linkwright.study.alternatives import Alternative
 from linkwright.study.cluster import current, in_turn
 from linkwright.study.criteria import criterion
 from linkwright.study.design_numbers import Numbers, side_by_side
+from linkwright.study.kept import identity, surrounding
 from linkwright.study.terms import OWN, Asked, Term, metric_of
 from linkwright.study.vary import refuse_moved_positions
 from linkwright.words.sentence import Sentence
@@ -170,13 +170,15 @@ class Measures:
                 seen = [cycle.evaluate(columns, backend=self.backend) for cycle in self.cycles]
             return {name: np.where(s.certain, v, np.nan) for s in seen for name, v in s.values.items()}
         designs = [*zip(*(column.tolist() for column in columns.values()), strict=True)]
-        new = [each for each in dict.fromkeys(designs) if each not in self.judged]
-        client = current()
-        if client is None or len(new) < 2:
-            for each in new:
-                self.judged[each] = self.measured(dict(zip(columns, each, strict=True)))
-        else:
-            self._shared(client, tuple(columns), new)
+        kept = surrounding()
+        there = {each: kept and kept.part(identity(*each)) for each in designs if each not in self.judged}
+        self.judged |= {each: part[0] for each, part in there.items() if part}
+        for each, numbers in self._measured(
+            tuple(columns), [each for each, part in there.items() if not part]
+        ):
+            self.judged[each] = numbers
+            if kept is not None:
+                kept.add(identity(*each), numbers)
         rows = [self.judged[each] for each in designs]
         return {name: np.array([row[k] for row in rows]) for k, name in enumerate(self.numbers)}
 
@@ -191,12 +193,19 @@ class Measures:
             return (np.nan,) * len(self.numbers)
         return tuple(np.nan if number is None else float(number.value) for number in found)
 
-    def _shared(self, client: Any, addresses: tuple[str, ...], designs: list[tuple[float, ...]]) -> None:
-        """Numbers of designs, a few of them at a time on a cluster."""
+    def _measured(
+        self, addresses: tuple[str, ...], designs: list[tuple[float, ...]]
+    ) -> Iterator[tuple[tuple[float, ...], tuple[float, ...]]]:
+        """Designs with their numbers, one by one, or a few of them at a time on a cluster."""
+        client = current()
+        if client is None or len(designs) < 2:
+            for each in designs:
+                yield each, self.measured(dict(zip(addresses, each, strict=True)))
+            return
         parts = [designs[first : first + FEW] for first in range(0, len(designs), FEW)]
         tasks = [(self._pickled, addresses, part) for part in parts]
         for number, found in in_turn(client, _designs, tasks):
-            self.judged |= zip(parts[number], found, strict=True)
+            yield from zip(parts[number], found, strict=True)
 
     @cached_property
     def _pickled(self) -> bytes:

@@ -2,14 +2,9 @@
 
 from __future__ import annotations
 
-import hashlib
-import json
-import re
-import time
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import partial
-from itertools import count
 from pathlib import Path
 from typing import Any
 
@@ -37,16 +32,16 @@ from linkwright.optimisation.evolution import (
     taken,
 )
 from linkwright.optimisation.front import Scale, nearest, picked, spread, without_own
-from linkwright.optimisation.optimum import Choice, OptimizeError, Optimum, SearchInterrupted, hypervolume
+from linkwright.optimisation.optimum import Choice, OptimizeError, Optimum, hypervolume
 from linkwright.optimisation.polish import Polish
 from linkwright.optimisation.problem import problem
 from linkwright.optimisation.task import CHECKED, Judged, Task
-from linkwright.whole_files import write_whole
+from linkwright.study.kept import kept_in, surrounding
 from linkwright.words.sentence import Sentence
 from linkwright.words.titles import title_said
 
-#: Evaluations where designs go one after the other and nobody says how many; seconds between two saved states.
-SLOW, SAVED = 400, 2.0
+#: Evaluations where designs go one after the other and nobody says how many; the name of a population that is kept.
+SLOW, POPULATION = 400, "population"
 #: Share of the evaluations that the first designs take, and the most that one sweep has; how many of them the local
 #: search starts from, its steps, and how far apart they lie in the cube.
 SAMPLED, AT_ONCE, STARTS, FEW, APART = 0.5, 20_000, 16, 10, 0.1
@@ -103,28 +98,22 @@ def optimize(
         OptimizeError: the demands cannot be met together; ``nearest`` is the design that misses them least. A search
             that was stopped before any met them gives that design with what it misses.
         ModelError: settings that cannot be read, with all findings.
-        SearchInterrupted: a KeyboardInterrupt before the first designs were known, or one that moves: the search
-            goes on from its file ``state``.
+        Interrupted: a KeyboardInterrupt before the first designs were known, or one that moves: the search goes on
+            from its file ``state``.
         LinkwrightError: a state of another problem; nothing moves.
     """
     mechanism, document, given = _source(source, settings)
     asked = problem(mechanism, given, "" if document is None else document.name)
-    digest, path = _digest(asked, given), None if state is None else Path(state)
-    try:
+    machine = dump(replace(asked.mechanism, optimize={}))
+    depends = {key: value for key, value in given.items() if key != "evaluations"}
+    with kept_in(state, asked.mechanism.name, machine, depends):
         task = Task(asked)
         if not task.measures.side_by_side and "evaluations" not in given:
             asked = replace(asked, evaluations=SLOW)
         size = asked.population or (
             64 if len(asked.goals) > 1 else min(64, max(24, 8 * len(asked.variables)))
         )
-        return _Run(task, size, asked.evaluations, path, progress, digest, document, leading).optimum()
-    except SearchInterrupted:
-        raise
-    except KeyboardInterrupt:
-        path = path or _free(asked.mechanism.name)
-        if not path.exists():
-            _write(path, digest, [], {})
-        raise SearchInterrupted(path) from None
+        return _Run(task, size, asked.evaluations, progress, document, leading).optimum()
 
 
 def _source(
@@ -139,25 +128,6 @@ def _source(
     if not given:
         raise RequestError(Sentence("optimize.no_section", name=partial(title_said, mechanism.name)))
     return mechanism, document, given
-
-
-def _digest(asked: Any, given: Mapping[str, Any]) -> str:
-    """What a state must agree with: the machine and the settings but for the number of evaluations."""
-    machine = dump(replace(asked.mechanism, optimize={}))
-    plain = {key: value for key, value in given.items() if key != "evaluations"}
-    return hashlib.blake2b(repr((plain, machine)).encode(), digest_size=12).hexdigest()
-
-
-def _write(path: Path, digest: str, judged: list[Any], snapshot: dict[str, Any]) -> None:
-    """Writes a state: the problem it belongs to, numbers of designs, and a population where there is one."""
-    write_whole(path, json.dumps({"problem": digest, "judged": judged, **snapshot}).encode())
-
-
-def _free(name: str) -> Path:
-    """A file of the working directory that is not there yet, for the state of a machine's search."""
-    stem = re.sub(r"[^\w-]+", "_", name).strip("_") or "machine"
-    names = (Path(f"{stem}{'' if k == 1 else f'_{k}'}.search.json") for k in count(1))
-    return next(each for each in names if not each.exists())
 
 
 def _apart(judged: Judged) -> Judged:
@@ -177,16 +147,16 @@ class _Run:
         task: Task,
         size: int,
         most: int,
-        path: Path | None,
         progress: Progress | None,
-        digest: str,
         document: Document | None,
         leading: Callable[[Optimum], None] | None,
     ) -> None:
-        self.task, self.size, self.most, self.path = task, size, most, path
-        self.progress, self.digest, self.document, self.leading = progress, digest, document, leading
+        self.task, self.size, self.most = task, size, most
+        self.progress, self.document, self.leading = progress, document, leading
         self.stopped: Path | None = None
-        self.snapshot = self._kept()
+        kept = surrounding()
+        assert kept is not None
+        self.kept = kept
         self.polish = Polish(task)
         alone = not task.measures.side_by_side
         self.best, self.places = (POLISHED_ALONE, FRONT_ALONE) if alone else (POLISHED, FRONT)
@@ -197,21 +167,18 @@ class _Run:
             state = self._searched()
             return self._found(state, self._polished(self._sure(state)))
         except KeyboardInterrupt:
-            if not self.snapshot and not self.task.measures.judged:
+            left = self._left()
+            if left is None:
                 raise
-            self.path = self.stopped = self.path or _free(self.task.problem.mechanism.name)
-            self._save()
-            if not self.snapshot:
-                raise SearchInterrupted(self.path) from None
-            state = resumed(self.task, self.snapshot)
-            return self._found(state, state.judged)
+            self.stopped = self.kept.left()
+            return self._found(left, left.judged)
 
     def _found(self, state: State, judged: Judged) -> Optimum:
         """The best of the designs, or their front; raises where none meets the demands."""
         chosen = self._chosen(judged)
         if not np.isfinite(chosen.violations).all():
             if self.stopped is not None:
-                raise SearchInterrupted(self.stopped)
+                raise KeyboardInterrupt
             raise RequestError(self._nothing(judged))
         found = self._made(chosen, state, made=True)
         if self.stopped is None and not (judged.total == 0).any():
@@ -239,44 +206,29 @@ class _Run:
 
     def _searched(self) -> State:
         """The search's end, not polished."""
-        saved = time.monotonic()
-        state = self._begun(self.snapshot)
-        self.snapshot = self._data(state)
-        self._tell(state)
+        state = self._left() or self._fresh()
+        self._keep(state)
         while state.evaluations < self.most and not idle(state):
             generation(self.task, state)
-            self.snapshot = self._data(state)
-            if self.path is not None and time.monotonic() - saved > SAVED:
-                self._save()
-                saved = time.monotonic()
-            self._tell(state)
-        if self.path is not None:
-            self._save()
+            self._keep(state)
         return state
 
-    def _kept(self) -> dict[str, Any]:
-        """The state in the file; empty where there is none, or none but the numbers of designs."""
-        if self.path is None or not self.path.exists():
-            return {}
-        try:
-            data = json.loads(self.path.read_text(encoding="utf-8"))
-            if data.pop("problem") != self.digest:
-                raise RequestError(Sentence("optimize.other_state", path=self.path))
-            for design, numbers in data.pop("judged"):
-                self.task.measures.judged[tuple(map(float, design))] = tuple(map(float, numbers))
-            return dict(data)
-        except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
-            raise RequestError(Sentence("optimize.bad_state", path=self.path)) from None
+    def _keep(self, state: State) -> None:
+        """Keeps a population, with the number of designs measured for it, and tells of it."""
+        self.kept.add(POPULATION, {**state.data(), "measured": self.task.measures.evaluations})
+        self._tell(state)
 
-    def _begun(self, kept: dict[str, Any]) -> State:
-        if not kept:
-            return self._fresh()
+    def _left(self) -> State | None:
+        """The population that was kept last; None: none was."""
+        there = self.kept.part(POPULATION)
+        if there is None:
+            return None
         try:
-            state = resumed(self.task, kept)
-            self.task.measures.evaluations = int(kept["measured"])
+            state = resumed(self.task, there[0])
+            self.task.measures.evaluations = int(there[0]["measured"])
             return state
-        except (ValueError, KeyError, TypeError):
-            raise RequestError(Sentence("optimize.bad_state", path=self.path)) from None
+        except (ValueError, KeyError, TypeError) as problem:
+            raise self.kept.bad(problem) from None
 
     def _fresh(self) -> State:
         """The first population: the best of many designs, some of them after a short local search; all designs, and
@@ -315,14 +267,6 @@ class _Run:
         least = NOTHING * start if np.isfinite(start) and start > 0.0 else NOTHING
         found = np.abs(judged.goals[:, goal])
         return np.maximum(np.where(np.isfinite(found), found, 1.0), least)
-
-    def _data(self, state: State) -> dict[str, Any]:
-        """A state as plain data, with the number of designs measured for it."""
-        return {**state.data(), "measured": self.task.measures.evaluations}
-
-    def _save(self) -> None:
-        assert self.path is not None
-        _write(self.path, self.digest, [*self.task.measures.judged.items()], self.snapshot)
 
     def _sure(self, state: State) -> Judged:
         """The population, for a yield judged by as many samples as the result is checked with."""

@@ -153,14 +153,6 @@ class OptimizeError(LinkwrightError):
         return OptimizeError, (self.args[0], self.nearest)
 
 
-class SearchInterrupted(KeyboardInterrupt):
-    """A search stopped before its first designs were all known, or one that moves; it goes on from ``state``."""
-
-    def __init__(self, state: Path) -> None:
-        self.state = state
-        super().__init__(str(Sentence("optimize.interrupted", path=state)))
-
-
 def hypervolume(goals: Floats, worst: Floats) -> float:
     """Volume that points (N, m) beat below a point (m,), as a share of the box from their least values to it."""
     low = np.minimum(goals.min(axis=0), worst)

@@ -39,7 +39,7 @@ def report(found: Optimum, language: str) -> list[str]:
         lines.append(tell("optimize.made", share=f"{100 * found.best.made:.1f}"))
     lines += [tell("optimize.no_effect", address=each) for each in found.without_effect]
     if found.interrupted:
-        lines.append(tell("optimize.interrupted", path=found.state))
+        lines.append(tell("study.interrupted", path=found.state))
     return lines
 
 

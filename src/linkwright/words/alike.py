@@ -54,7 +54,7 @@ linkwright metrics crusher.yaml --output numbers.csv""",
 linkwright optimize crusher.yaml --output better.yaml
 linkwright optimize gallery:jaw_crusher_sixbar --vary pitman.length=1.1..1.4m toggle.length=1..1.3m \\
     --minimize peak_input_torque --keep "jaw.angle range=same within 1 %"
-linkwright optimize crusher.yaml --minimize peak_input_torque flywheel --plot front.svg --state search.json""",
+linkwright optimize crusher.yaml --minimize peak_input_torque flywheel --plot front.svg --state front.state""",
     "page.where": "{name} = {value}",
     "plot.step": "{dimension} + {step}",
     "program.examples": """\

@@ -94,10 +94,10 @@ def _pairs(texts: list[str] | None, say: Say) -> dict[str, str] | None:
 
 def _stopped(stopped: KeyboardInterrupt, say: Say) -> str:
     """What an interruption before the first population leaves."""
-    from linkwright.optimisation.optimum import SearchInterrupted
+    from linkwright.study.kept import Interrupted
 
-    if isinstance(stopped, SearchInterrupted):
-        return say("optimize.interrupted", path=stopped.state)
+    if isinstance(stopped, Interrupted):
+        return say("study.interrupted", path=stopped.state)
     return say("optimize.nothing_yet")
 
 

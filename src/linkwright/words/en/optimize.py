@@ -48,7 +48,6 @@ model file with everything else as it was. Several objectives give a front.""",
     "and less exact.",
     "made": "{share} % of the machines made within the tolerances meet all demands (512 samples).",
     "worst": "At the worst within the tolerances: {numbers}.",
-    "interrupted": "The search was interrupted; run the same command with --state {path} to go on.",
     "picture": "Optimisation of {name}",
     "legend.front": "front",
     "legend.start": "start",
@@ -95,5 +94,4 @@ model file with everything else as it was. Several objectives give a front.""",
     "failing_yield": "of the machines made within the tolerances {share} % meet all demands at best, not {wanted} %; "
     "tighten the tolerances, ask for a smaller yield:, or widen the bounds",
     "other_state": 'the state "{path}" belongs to another problem; name another file, or remove it',
-    "bad_state": 'the state "{path}" cannot be read; name another file, or remove it',
 }

@@ -43,7 +43,6 @@ WORDS = {
     "differences": "此机器的设计须逐个计算，最后几步按差分：较慢，也较不精确。",
     "made": "公差内制成的机器有 {share} % 满足全部要求（512 个样本）。",
     "worst": "公差内最坏时：{numbers}。",
-    "interrupted": "搜索被中断；用同一命令加 --state {path} 再次运行即可继续。",
     "picture": "{name} 的优化",
     "legend.front": "前沿",
     "legend.start": "原设计",
@@ -85,5 +84,4 @@ WORDS = {
     "failing_yield": "公差内制成的机器最多有 {share} % 满足全部要求，达不到 {wanted} %；"
     "请收紧公差、减小 yield:，或放宽上下限",
     "other_state": '状态文件 "{path}" 属于另一个问题；请另给文件，或删除它',
-    "bad_state": '状态文件 "{path}" 无法读取；请另给文件，或删除它',
 }
