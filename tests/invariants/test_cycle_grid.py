@@ -22,3 +22,41 @@ def test_polynomials_meet_the_motion_between_their_points(frame: float) -> None:
     time = np.random.default_rng(3).uniform(grid.start, grid.end, 400)
     exact = lw.solve_motion(machine, times=time).link("rocker").angular_velocity
     assert np.abs(curve(time) - exact).max() < 1e-9 * np.abs(exact).max()
+
+
+TIMES = (0.0, 0.07, 0.19, 0.23, 0.36, 0.41, 0.52, 0.55, 0.68, 0.74, 0.83, 0.91, 1.0)
+PLACES = (0.3, 0.9, 0.2, 1.1, 2.5, 2.1, 3.4, 2.2, 2.9, 1.4, 1.8, 0.1, 0.3)
+BY_LINES = """
+format: 1
+frame: {points: {O: [0 m, 0 m]}}
+links: {crank: {points: [O, A], length: 1 m, mass: 2 kg, mass_centre: [0.5 m, 0 m]}}
+driver: {turn: crank, about: O, table: {time: [TIMES], position: [PLACES], interpolation: linear}}
+gravity: [0, -9.81 m/s²]
+loads: {brake: {kind: torsion_damper, links: [crank, frame], damping: 0.7 N·m·s/rad}}
+"""
+
+
+def test_laws_that_bend_between_the_positions_are_cut_where_they_bend() -> None:
+    """A crank turned through the lines of a table against a damper and a weight: T = c ω + m g r cos q, of which each
+    line has its own integral and its largest size at its ends or where the weight hangs beside the pivot."""
+    text = BY_LINES.replace("TIMES", ", ".join(f"{t} s" for t in TIMES))
+    crank = lw.loads(text.replace("PLACES", ", ".join(f"{q} rad" for q in PLACES)))
+    weight, squares, peak = 2.0 * 9.81 * 0.5, 0.0, 0.0
+    for width, low, high in zip(np.diff(TIMES), PLACES[:-1], PLACES[1:], strict=True):
+        drag = 0.7 * (high - low) / width
+        turned = 0.5 * (high - low) + 0.25 * (np.sin(2 * high) - np.sin(2 * low))  # of cos²
+        sines = np.sin(high) - np.sin(low)
+        squares += width * (drag**2 + (2 * drag * weight * sines + weight**2 * turned) / (high - low))
+        inside = [np.pi] if min(low, high) < np.pi < max(low, high) else []
+        peak = max(peak, *(abs(drag + weight * np.cos(q)) for q in (low, high, *inside)))
+    for steps in (12, 97):
+        table = lw.metrics(lw.solve_forces(crank, steps=steps))
+        assert table.value("peak_input_torque") == pytest.approx(peak, rel=1e-12)
+        assert table.value("rms_input_torque") == pytest.approx(np.sqrt(squares), rel=1e-12)
+    swept = lw.sweep(
+        crank,
+        {"loads.brake.damping": np.array([0.5, 0.7])},
+        outputs=["peak_input_torque", "rms_input_torque"],
+    )
+    assert swept["peak_input_torque"][1] == pytest.approx(peak, rel=1e-12)
+    assert swept["rms_input_torque"][1] == pytest.approx(np.sqrt(squares), rel=1e-12)

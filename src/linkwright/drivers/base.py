@@ -47,6 +47,10 @@ class Law(ABC):
         """First and last time in s at which the law says the coordinate."""
         return -math.inf, math.inf
 
+    def breaks(self, start: float, end: float) -> Array:
+        """Times in s from ``start`` to ``end`` at which the coordinate or a derivative of it may jump, in order."""
+        return np.empty(0)
+
     @property
     def constant_speed(self) -> float | None:
         """The speed of a law q = start + speed t, rad/s or m/s; None for another."""
@@ -82,6 +86,13 @@ class Law(ABC):
     @abstractmethod
     def text_values(self) -> Mapping[str, object]:
         """The values of ``fields``, for writing a file."""
+
+
+def repeated(places: Array, period: float, start: float, end: float) -> Array:
+    """Places of a period and those of the periods before and after, from ``start`` to ``end``, in order."""
+    first, last = math.floor((start - places[-1]) / period), math.ceil((end - places[0]) / period)
+    every = np.sort((places + period * np.arange(first, last + 1)[:, None]).ravel())
+    return np.asarray(every[(every >= start) & (every <= end)])
 
 
 @dataclass(frozen=True)

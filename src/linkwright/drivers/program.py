@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from linkwright.core.dataclass import dataclass
-from linkwright.drivers.base import LAWS, Law
+from linkwright.drivers.base import LAWS, Law, repeated
 from linkwright.errors import LinkwrightError
 from linkwright.fields.base import Field
 from linkwright.laws.program_fields import ProgramField
@@ -55,6 +55,9 @@ class ProgramLaw(Law):
 
     def span(self) -> tuple[float, float]:
         return super().span() if self._repeats else (0.0, self.program.period)
+
+    def breaks(self, start: float, end: float) -> Array:
+        return repeated(self.program.breaks[:-1], self.program.period, start, end)
 
     def natural_duration(self) -> float | None:
         return self.program.period

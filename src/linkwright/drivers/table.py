@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from linkwright.core.dataclass import dataclass
-from linkwright.drivers.base import LAWS, Law
+from linkwright.drivers.base import LAWS, Law, repeated
 from linkwright.errors import LinkwrightError
 from linkwright.fields.base import Field, TimeTable, TimeTableValues
 from linkwright.words.sentence import Sentence
@@ -75,6 +75,14 @@ class TableLaw(Law):
         slopes = np.diff(self.positions) / np.diff(self.times)
         part = np.clip(np.searchsorted(self.times, t, side="right") - 1, 0, len(slopes) - 1)
         return np.interp(t, self.times, self.positions), slopes[part], 0.0 * t
+
+    def breaks(self, start: float, end: float) -> Array:
+        import numpy as np
+
+        times = np.array(self.times)
+        if self.interpolation == "periodic":
+            return repeated(times[:-1], float(times[-1] - times[0]), start, end)
+        return np.asarray(times[(times >= start) & (times <= end)])
 
     def natural_duration(self) -> float | None:
         return self.times[-1] - self.times[0]

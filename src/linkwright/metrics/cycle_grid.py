@@ -55,7 +55,8 @@ _ALIKE = {
 #: points no position is asked for: places are exact to the machine's digits over the distance, second derivatives to
 #: these over its cube. To this share polynomials meet what is smooth there.
 AROUND, PASSED = 1.0 / 36.0, 1e-8
-#: More rough pieces than this are noise.
+#: What is left of this share of a signal's size, and more, is no noise. More rough pieces than this are noise.
+_LOUDEST = 1e-4
 _NOISE = 96
 #: Share of the largest value up to which another is rounding, share of a bracket over which its slope is taken, and
 #: the most changes of sign of what is no rounding.
@@ -239,7 +240,7 @@ class CycleGrid:
         or bend.
 
         What halving does not make smoother is noise: as share of the size of an output, that of positions which are
-        found by iteration, or near a singular one.
+        found by iteration, or near a singular one. A jump stays in one of both halves.
         """
         knots = self._apart(self._switches())
         edges = self._first_edges(knots)
@@ -249,19 +250,19 @@ class CycleGrid:
             edges = self._first_edges(knots)
             solved = self._at(edges)
         knots = np.append(knots, self.around)
-        before = np.inf
+        before, many = np.inf, 0
         for _ in range(HALVINGS):
             tail = self._tails(solved, joined(edges, knots))
             rough = (tail > SMOOTH) & (np.diff(edges) > 1e-12 * (self.end - self.start))
             rough &= ~self._passing(edges)
             level = float(np.median(tail[rough])) if rough.any() else 0.0
-            if not 0 < rough.sum() <= _NOISE or level > 0.25 * before:
+            if not 0 < rough.sum() <= _NOISE or (level > 0.25 * before and rough.sum() > many):
                 break
-            before = level
+            before, many = level, int(rough.sum())
             edges = np.sort(np.append(edges, 0.5 * (edges[:-1] + edges[1:])[rough]))
             solved = self._at(edges)
-        noisy = len(edges) > 2 and bool((tail > SMOOTH).mean() > 0.5)
-        return edges, solved, float(np.quantile(tail, 0.9)) if noisy else 0.0, knots
+        noise = float(np.quantile(tail, 0.9)) if len(edges) > 2 and (tail > SMOOTH).mean() > 0.5 else 0.0
+        return edges, solved, noise if noise < _LOUDEST else 0.0, knots
 
     def _at(self, edges: Floats) -> Any:
         """The result at the Gauss points between edges."""
@@ -282,15 +283,16 @@ class CycleGrid:
 
     # places where loads jump ------------------------------------------------------------------------
     def _switches(self) -> Floats:
-        """Times at which a load begins or ends to act, its table bends, or a velocity that it or friction opposes
-        reverses.
+        """Times at which a driver's law goes over to another formula, a load begins or ends to act, its table bends,
+        or a velocity that it or friction opposes reverses.
 
         A phase that holds a little more than its ends ends there all the same.
         """
+        laws = [driver.law for driver in self._motion.mechanism.drivers.values()]
+        found = [law.breaks(self.start, self.end) for law in laws]
         if self._forces is None:
-            return np.empty(0)
+            return self._wrapped(found)
         signals = MotionSignals(self._motion)
-        found: list[Floats] = []
         for load in self._motion.mechanism.loads.values():
             phase = getattr(load, "phase", None)
             known, complete = switch_times(load, signals)
