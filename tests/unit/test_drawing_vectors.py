@@ -272,3 +272,20 @@ def test_rounding_errors_are_no_torques() -> None:
     """A coupler on a circle at constant speed: its inertia force lies along the cranks, so there is no torque."""
     drawing = draw(lw.load("gallery:parallelogram"), forces=True, position=0)
     assert not [t for t in texts(drawing) if t.startswith("T =")]
+
+
+def test_forces_that_are_rounding_are_zero() -> None:
+    """A yoke has no acceleration in the middle of its stroke: sin π leaves 1e-15 N, which were drawn as arrows."""
+    yoke = lw.loads("""
+format: 1
+frame: {points: {O: [0 m, 0 m]}}
+links: {crank: {points: [O, A], length: 0.1 m}, die: {points: [A]}, yoke: {points: [Y], mass: 2 kg}}
+joints:
+  way: {kind: prismatic, guide: frame, through: O, direction: 90 deg, block: yoke, at: Y, block_angle: 90 deg}
+  slot: {kind: prismatic, guide: yoke, through: Y, direction: 0 deg, block: die, at: A}
+driver: {turn: crank, about: O, speed: 10 rad/s}
+""")
+    turning = lw.solve_forces(lw.solve_motion(yoke, at=[math.pi, 1.0]))
+    assert 0.0 < np.abs(turning.reaction("way", on="yoke")[0]).max() + abs(turning.input_torque[0]) < 1e-12
+    assert draw(turning.motion, position=0, forces=turning).notes == ("all forces are zero at this position",)
+    assert draw(turning.motion, position=1, forces=turning).notes == ()

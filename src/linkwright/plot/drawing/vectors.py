@@ -185,7 +185,7 @@ class Arrows:
 
     def empty(self, indices: Sequence[int]) -> bool:
         """Whether nothing of it is more than zero at some positions."""
-        return not any(each.largest(indices) > 0 for each in self.families)
+        return not any(each.largest(indices) > each.floor for each in self.families)
 
     def shape(self, index: int, view: View, scale: float) -> Shape:
         """All arrows and arcs at one position."""
@@ -256,15 +256,25 @@ def force_vectors(forces: Forces, names: Sequence[str] | None) -> Arrows:
     reactions, couples = _reactions(forces, names)
     loads, moments = _loads(forces)
     pushes, torques = _drivers(forces)
-    return _above_rounding((reactions, loads, pushes), (couples, moments, torques))
+    return _above_rounding((reactions, loads, pushes), (couples, moments, torques), _of_inertia(forces))
 
 
-def _above_rounding(vectors: tuple[Vectors, ...], torques: tuple[Torques, ...]) -> Arrows:
+def _of_inertia(forces: Forces) -> float:
+    """Force, N, that is but rounding beside all masses at the largest acceleration: what cancels leaves so much."""
+    from linkwright.kinetostatics.forces import ROUNDING
+
+    mass = 0.0 if forces.static else sum(link.mass for link in forces.mechanism.links.values())
+    rows = [forces.motion.point(name).acceleration for name in all_points(forces.mechanism)] if mass else []
+    largest = max((float(np.nan_to_num(np.hypot(*row.T)).max(initial=0.0)) for row in rows), default=0.0)
+    return ROUNDING * mass * largest
+
+
+def _above_rounding(vectors: tuple[Vectors, ...], torques: tuple[Torques, ...], least: float) -> Arrows:
     """The same, where a force counts from a billionth of the largest on, a torque from that at the machine's size."""
     feet = np.concatenate([np.zeros((1, 2)), *(foot for each in vectors for foot in each.feet.values())])
     feet = feet[np.isfinite(feet).all(axis=1)]
     everywhere = range(len(next(iter(vectors[0].values.values()), feet)))
-    force = NOTHING * max(each.largest(everywhere) for each in vectors)
+    force = max(NOTHING * max(each.largest(everywhere) for each in vectors), least)
     torque = force * float(np.ptp(feet, axis=0).max())
     return Arrows(
         "force",
