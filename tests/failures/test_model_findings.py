@@ -364,3 +364,23 @@ def test_a_wheel_on_the_frame_needs_no_mass_beside_its_inertia() -> None:
     assert not [each for each in read_text(wheel, "m.yaml")[1] if "without mass" in each.message]
     (found,) = findings(changed("length: 1 m}", "length: 1 m, inertia: 0.01 kg·m²}"))
     assert "without mass" in found.message
+
+
+def test_a_crank_driven_about_the_wrong_pin_is_asked_about() -> None:
+    """About its outer pin a crank is driven against the coupler, which is seldom meant; said, it is taken."""
+    text = """
+format: 1
+frame: {points: {O: [0 mm, 0 mm], Q: [300 mm, 0 mm]}}
+links:
+  crank: {points: [O, A], length: 80 mm}
+  coupler: {points: [A, B], length: 280 mm}
+  rocker: {points: [Q, B], length: 200 mm}
+driver: {turn: crank, about: A, speed: 90 rpm}
+"""
+    found = [each for each in read_text(text, "m.yaml")[1] if each.code == "doubtful"]
+    assert [each.where for each in found] == ["m.yaml:8:30"] and found[0].severity == "warning"
+    assert found[0].remedy == "write relative_to: coupler if that is meant, else about: O"
+    for meant in ("about: A, relative_to: coupler", "about: O"):
+        assert all(
+            each.code != "doubtful" for each in read_text(text.replace("about: A", meant), "m.yaml")[1]
+        )

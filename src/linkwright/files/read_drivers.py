@@ -157,6 +157,17 @@ def _revolute(
                 node, place.child("relative_to"), "several_on_pin", "ambiguous", pin=pin, rest=tuple(rest)
             )
             return None
+        held = [name for name, links in reader.names.pins.items() if {link, "frame"} <= set(links)]
+        if other != "frame" and held:
+            values = {"link": link, "pin": pin, "other": other, "held": held[0]}
+            reader.finding(
+                node.get("about"),
+                place.child("about"),
+                "driven_against",
+                "doubtful",
+                severity="warning",
+                **values,
+            )
     elif other not in rest:
         remedy = Sentence("names.one_of", names=tuple(rest))
         at, key = node.get("relative_to"), place.child("relative_to")

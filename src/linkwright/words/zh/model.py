@@ -210,6 +210,8 @@ WORDS = {
     "split_up": "请拆成几个独立的机构",
     "unconnected": "{links} 没有与机架连接",
     "unconnected_do": "请与机架或已连接的构件共用一个点",
+    "driven_against": "销“{pin}”把“{link}”连到“{other}”而不是机架，因而驱动的是它相对“{other}”的转角",
+    "driven_against_do": "若确是此意，请写 relative_to: {other}，否则写 about: {held}",
     "over_angle": "“{link}”是该构件的转角，而 x 是长度",
     "over_guide": "若指该构件的位移，请写其导路的名称：over: {guide}",
     "over_point": "请写导路的名称或点的坐标（如 C.x）",
