@@ -156,3 +156,27 @@ def test_the_least_area_for_a_stroke_is_found_with_exact_gradients() -> None:
     assert found.exact
     assert found.mechanism().dimension("crank.length") == pytest.approx(0.25, rel=1e-6)
     assert area(found.mechanism(), "plate") == pytest.approx(0.4, rel=1e-6)
+
+
+def test_points_that_turn_back_at_once_end_there() -> None:
+    """A crank turned to and fro by the lines of a table, so that arcs end where the table bends."""
+    crank = lw.loads("""
+format: 1
+frame: {points: {O: [0 m, 0 m]}}
+links: {crank: {points: [O, A], length: 2 m, also: {P: [1 m, 0.5 m]}}}
+driver:
+  turn: crank
+  about: O
+  table: {time: [0 s, 0.3 s, 0.7 s, 1 s], position: [0.2 rad, 0.9 rad, -0.4 rad, 0.2 rad], interpolation: linear}
+""")
+    radius = np.hypot(1.0, 0.5)
+    around = np.linspace(-0.4, 0.9, 200_001)
+    arcs = np.concatenate(
+        [[0.0], 2.0 * np.exp(1j * around), radius * np.exp(1j * (around + np.arctan2(0.5, 1.0)))]
+    )
+    expected = ConvexHull(np.column_stack([arcs.real, arcs.imag])).volume
+    for steps in (12, 36, 100):
+        table = lw.metrics(lw.solve_motion(crank, steps=steps), "swept_area")
+        assert table.value("swept_area") == pytest.approx(expected, rel=1e-9)
+    swept = lw.sweep(crank, {"crank.P.y": np.array([0.4, 0.5])}, outputs="swept_area")
+    assert swept["swept_area"][1] == pytest.approx(expected, rel=1e-9)

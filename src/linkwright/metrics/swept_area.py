@@ -8,7 +8,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from linkwright.core.arrays import Floats, Indices
+from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.outputs import row_names
 from linkwright.core.piecewise import POINTS, nodes
 from linkwright.core.plane import area, convex_hull
@@ -99,9 +99,8 @@ def _curves(analysis: Analysis) -> Curves | None:
     grid, keys = analysis.grid, points(analysis.motion.mechanism)
     if grid is not None:
         values = _places(grid.motion, keys)
-        piece, last = np.arange(values.shape[2]), values.shape[2] - 1
-        spans, opened = _spans(analysis, grid.motion, values), not analysis.closed
-        return Curves(values, (piece == 0) & opened, (piece == last) & opened, spans)
+        spans = _spans(analysis, grid.motion, values)
+        return Curves(values, *turned(analysis.motion.mechanism, grid.edges, analysis.closed), spans)
     if not analysis.resolver.possible or analysis.motion.steps < 2:
         return None
     stretches = analysis.resolver.stretches
@@ -117,6 +116,17 @@ def _curves(analysis: Analysis) -> Curves | None:
     piece = np.arange(PIECES * len(times)) % PIECES
     whole = np.tile([0, len(piece) * POINTS], (len(keys), 1))
     return Curves(_places(motion, keys), piece == 0, piece == PIECES - 1, whole)
+
+
+def turned(mechanism: Mechanism, edges: Floats, closed: bool) -> tuple[Flags, Flags]:
+    """Pieces between edges, s, before which points come from elsewhere, and behind which they go elsewhere, than as
+    the piece goes on: at the ends of an open cycle, and where the law of a driver goes over to another formula."""
+    laws = [driver.law for driver in mechanism.drivers.values()]
+    bends = np.concatenate([law.breaks(edges[0], edges[-1]) for law in laws])
+    apart = np.abs(edges[:, None] - bends).min(axis=1, initial=np.inf)
+    bent = apart <= 1e-9 * (edges[-1] - edges[0])
+    bent[[0, -1]] = bent[[0, -1]].any() or not closed
+    return bent[:-1], bent[1:]
 
 
 def _spans(analysis: Analysis, motion: Motion, values: Floats) -> Indices:
