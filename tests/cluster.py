@@ -1,11 +1,13 @@
 """``python -m tests.cluster``: two workers against one; sweeps, searches and studies survive kill -9 at random times.
 
-Every sweep and every search that was disturbed must end with the same bytes as one that was not.
+Every sweep and every search that was disturbed must end with the same bytes as one that was not; a free curve, whose
+search a clock ends, with as small an error, and with the same bytes when it is shown again.
 """
 
 from __future__ import annotations
 
 import argparse
+import json
 import os
 import random
 import shutil
@@ -45,11 +47,19 @@ optimize:
   define: {a: small, b: large}
   evaluations: 600
 """
+#: A curve, the search for which a clock ends, and the error of a linkage that this time is enough for.
+CURVE = ["synthesize", "free_curve", "points=[[9, 0], [9, 17], [0, 6], [13, 6]]", "unit=mm", "seconds=12"]
+ENOUGH = 0.01
+POINTS = (
+    "points=[[20, 10], [17.7, 15.1], [11.7, 17.9], [5, 16.9], [0.6, 12.7], [1, 6], [6, 2], [14, 3], [18, 6]]"
+)
 #: Work whose finished parts are kept.
 LONG = {
     "study": ["study", "gallery:jaw_crusher_sixbar", "--vary", *(f"{name}={text}" for name, text in VARY.items()),
               "--sampling", "sobol", "--samples", "30000", "--output", "designs.csv"],
     "tolerance run": ["tolerance", "gallery:pressed_pins", "--output", "curves.csv"],
+    "path": ["synthesize", "path", POINTS, "turning=false"],
+    "nine points": ["synthesize", "exact_path", POINTS],
 }  # fmt: skip
 OPTIONS = {"threads_per_worker": 1, "dashboard_address": None, "processes": True}
 
@@ -135,7 +145,7 @@ def searched(words: list[str], folder: Path, most_kills: int) -> tuple[bytes, in
 
 def stopped(words: list[str], folder: Path, most_kills: int, longest: float) -> tuple[bytes, int]:
     """The same of any work that has a state; it is killed after at most ``longest`` seconds."""
-    folder.mkdir()
+    folder.mkdir(exist_ok=True)
     words = [sys.executable, "-m", "linkwright", *words, "--json", "--state", "work.state", "--force"]
     kills, begin = 0, time.perf_counter()
     while True:
@@ -184,8 +194,29 @@ def search_dies(base: Path, rounds: int) -> None:
                 assert same
 
 
+def curve_dies(base: Path, rounds: int) -> None:
+    """The search for a free curve is killed and started again, and a worker of its cluster is killed."""
+    for number in range(rounds):
+        for where in ("here", "cluster"):
+            folder, more = base / f"curve {where} {number}", list[str]()
+            with distributed.LocalCluster(n_workers=2, **OPTIONS) as cluster:
+                if where == "cluster":
+                    more = ["--cluster", cluster.scheduler_address]
+                    pid = random.choice(list(cluster.workers.values())).pid
+                    threading.Timer(random.uniform(4.0, 12.0), os.kill, (pid, signal.SIGKILL)).start()
+                found, kills = stopped([*CURVE, *more], folder, 2, 12.0)
+            again, _ = stopped(CURVE, folder, 0, 12.0)  # the time is over: what is kept is shown
+            best = json.loads(found)["candidates"][0]["error"]
+            told = "equal to the bit" if again == found else "DIFFERENT"
+            print(
+                f"free curve on {where} killed {kills} times: error {best:.4f}, shown again {told}",
+                flush=True,
+            )
+            assert again == found and best < ENOUGH
+
+
 def main() -> int:
-    """Runs all five."""
+    """Runs all six."""
     parser = argparse.ArgumentParser(prog="python -m tests.cluster", description=__doc__)
     parser.add_argument("--samples", type=int, default=200_000)
     parser.add_argument("--rounds", type=int, default=10)
@@ -202,6 +233,7 @@ def main() -> int:
         if options.work:
             return 0
         search_dies(base, options.rounds)
+        curve_dies(base, options.rounds)
         if options.searches:
             return 0
         speed(base, options.samples)
