@@ -27,7 +27,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.engine.threads import chunks, cores
 from linkwright.study.cluster import current, in_turn
 from linkwright.study.kept import identity, surrounding
-from linkwright.synthesis.free_curve.atlas import NEAREST, atlas
+from linkwright.synthesis.free_curve.atlas import NEAREST, Laid, atlas
 from linkwright.synthesis.free_curve.kernels import FAR
 from linkwright.synthesis.free_curve.linkages import Placed
 from linkwright.synthesis.free_curve.moves import shaken, with_dyad, with_joint
@@ -232,9 +232,7 @@ class Search:
     @cached_property
     def key(self) -> str:
         """What the pools depend on but for the clock."""
-        target = self.target
-        demands = target.closed, target.least, target.largest, target.turning
-        return identity(target.points, *demands, self.joints, self.seconds, self.seed)
+        return identity(*self.target.given, self.joints, self.seconds, self.seed)
 
     def _pool(self, designs: list[Any]) -> Pool:
         """A pool that was kept."""
@@ -324,9 +322,10 @@ class Search:
         now = self._over()
         last, near, count = now + STARTING * (stage.end - now), list[Design](), 0
         while some := list(islice(order, SOME * self.hands)):
-            designs = [matches.design(i) for i in some]
+            laid = [(int(i), matches.laid(i)) for i in some]
             tasks = [
-                (designs[first:end], count + first < NEAREST) for first, end in chunks(len(designs), SOME)
+                (stage.level.atlas, laid[first:end], count + first < NEAREST)
+                for first, end in chunks(len(laid), SOME)
             ]
             for begun in self._dealt(started, tasks):
                 near = _best(near + begun, CHOSEN)
@@ -371,9 +370,9 @@ def each_of(target: Target, work: Callable[[Target, Design], Design], designs: l
     return [work(target, each) for each in designs]
 
 
-def started(target: Target, designs: list[Design], all_go_on: bool) -> list[Design]:
-    """Starts after their first descents; unless all go on, the better ones."""
-    begun = [target.descend(each, 30, COARSE) for each in designs]
+def started(target: Target, number: int, starts: list[tuple[int, Laid]], all_go_on: bool) -> list[Design]:
+    """Starts from an atlas after their first descents; unless all go on, the better ones."""
+    begun = [target.descend(atlas(number).design(i, laid), 30, COARSE) for i, laid in starts]
     for part, steps, fineness in BEGUN:
         some = begun if all_go_on else _best(begun, int(part * len(begun)))
         begun = [target.descend(each, steps, fineness) for each in some]

@@ -56,6 +56,7 @@ class Target:
     def __init__(
         self, curve: Complexes, closed: bool, least: float, largest: float, turning: bool = True
     ) -> None:
+        self.given = curve, closed, least, largest, turning
         even = even_points(curve, LINE, closed)
         self.closed, self.least, self.largest, self.turning = closed, least, largest, turning or closed
         self.centre = complex(even.mean())
@@ -66,6 +67,10 @@ class Target:
             some = even_points(self.points, count, closed)
             for mirror, seen in ((False, some), (True, some.conj())):
                 self._points[count, mirror] = np.concatenate([seen.real, seen.imag, [0.0]])
+
+    def __reduce__(self) -> tuple[type[Target], tuple[object, ...]]:
+        """Sent as it was given, which is short."""
+        return Target, self.given
 
     def descend(
         self, design: Design, iterations: int, fineness: Fineness = MIDDLE, *, weight: float = 1.0, more: float = 0.0,
