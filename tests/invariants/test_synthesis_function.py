@@ -119,3 +119,16 @@ def test_round_pairs_have_four_bars_beside_those_that_they_do_not_determine(outp
     inputs, wanted = np.radians([0, 30, 60]), np.radians(outputs)
     best = lw.function_generation(inputs, wanted).best
     assert turned_by_motion(best, inputs, list(best.linkage.links)[2]) == pytest.approx(wanted, abs=1e-7)
+
+
+@pytest.mark.parametrize("given", [{}, {"input_zero": np.radians(280.0), "output_zero": np.radians(350.0)}])
+def test_zero_angles_told_are_those_of_the_links(given: dict[str, float]) -> None:
+    """Also of links that the equation has with a negative length, whose zeros were told half a turn off: the model
+    turned from the zeros that are told has the demanded outputs."""
+    inputs, outputs = np.radians([30.0, 75.0, 120.0]), np.radians([60.0, 85.0, 140.0])
+    for each in lw.function_generation(inputs, outputs, count=12, **given):
+        start, end = each.values["input_zero [rad]"], each.values["output_zero [rad]"]
+        motion = lw.solve_motion(each.mechanism(), at=inputs + start)
+        off = motion.link("output").angle - outputs - end
+        assert np.abs(np.angle(np.exp(1j * off))).max() < 1e-9
+        assert not given or (start, end) == pytest.approx(np.radians([100.0, 170.0]))

@@ -150,8 +150,10 @@ def _exact(demand: FunctionDemand, frame: float, count: int, seed: int) -> Synth
     facts = assess_four_bars(0 * one, pin * frame, joint * frame, frame * one)
     order = np.lexsort((-facts.transmission, ~facts.sound))[: 40 * count]
     made = []
+    against = lengths[:, [0, 2]] < 0.0  # a negative length: the link points the other way
+    links = np.where(against, (zeros + math.pi) % (2 * math.pi), zeros)
     for i in order:
-        values = {"input_zero [rad]": float(zeros[i, 0]), "output_zero [rad]": float(zeros[i, 1])}
+        values = {"input_zero [rad]": float(links[i, 0]), "output_zero [rad]": float(links[i, 1])}
         each = four_bar_candidate(
             0j, pin[i] * frame, joint[i] * frame, complex(frame), facts, int(i), 0.0, values=values
         )
