@@ -165,16 +165,20 @@ def stopped(words: list[str], folder: Path, most_kills: int, longest: float) -> 
 
 
 def work_dies(base: Path, rounds: int) -> None:
-    """Studies and tolerance runs are killed and started again."""
-    for name, words in LONG.items():
-        begin = time.perf_counter()
-        wanted, _ = stopped(words, base / name, 0, 0.0)
-        longest = time.perf_counter() - begin
-        for number in range(rounds):
-            found, kills = stopped(words, base / f"{name} {number}", 2, longest)
-            told = "equal to the bit" if found == wanted else "DIFFERENT"
-            print(f"{name} killed {kills} times: {told}", flush=True)
-            assert found == wanted
+    """Work whose parts are kept is killed and started again, studies and tolerance runs on a cluster too."""
+    with distributed.LocalCluster(n_workers=2, **OPTIONS) as cluster:
+        away = ["--cluster", cluster.scheduler_address]
+        for name, words in LONG.items():
+            begin = time.perf_counter()
+            wanted, _ = stopped(words, base / name, 0, 0.0)
+            longest = time.perf_counter() - begin
+            for number in range(rounds):
+                for where, more in (("here", []), ("a cluster", away))[: 2 - (words[0] == "synthesize")]:
+                    folder = base / f"{name} on {where} {number}"
+                    found, kills = stopped([*words, *more], folder, 2, longest)
+                    told = "equal to the bit" if found == wanted else "DIFFERENT"
+                    print(f"{name} on {where} killed {kills} times: {told}", flush=True)
+                    assert found == wanted
 
 
 def search_dies(base: Path, rounds: int) -> None:
