@@ -1,6 +1,7 @@
 """Paths of hidden four-bars are found again, compiled and in arrays, and no other optimiser comes lower."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ from linkwright.synthesis.crank_family import CrankFamily
 from linkwright.synthesis.path_generation import search
 from linkwright.synthesis.path_generation.compiled import CompiledPaths
 from linkwright.synthesis.path_generation.projection import Demand, ProjectedPaths
+from linkwright.synthesis.result import different
 
 KINDS = ("crank_rocker", "double_crank", "double_rocker", "triple_rocker")
 
@@ -121,3 +123,18 @@ def test_without_a_compiler_the_same_optimum_is_found(monkeypatch: pytest.Monkey
     compiled = lw.path_generation(points, angles=theta).best.error
     monkeypatch.setattr(search, "available", lambda: False)
     assert lw.path_generation(points, angles=theta).best.error == pytest.approx(compiled, rel=1e-8)
+
+
+@pytest.mark.parametrize(
+    ("share", "distance", "kept"), [(1e-3, 1e-9, 1), (0.03, 1e-9, 2), (1e-3, 0.0, 2), (0.03, 1.0, 1)]
+)
+def test_candidates_that_a_designer_takes_for_one_are_shown_once(
+    share: float, distance: float, kept: int
+) -> None:
+    """A linkage a thousandth larger does the same, and was a candidate of its own. Exact ones (0) all stay."""
+    best = lw.path_generation([(0.02, 0.02), (0.02, 0.03), (0.02, 0.04)], seed=1).best
+    places = best.linkage.points
+    first = next(iter(places.values()))
+    grown = {name: first + (1.0 + share) * (place - first) for name, place in places.items()}
+    other = replace(best, linkage=replace(best.linkage, points=grown))
+    assert len(different((best, other), distance)) == kept

@@ -19,6 +19,9 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.synthesis.linkage import Linkage
 from linkwright.words.sentence import Sentence
 
+#: Share of its size within which a linkage does what another one does.
+SAME = 0.01
+
 
 @dataclass(frozen=True, eq=False)
 class Candidate:
@@ -181,15 +184,25 @@ def ranking(error: Floats, transmission: Floats, sound: Flags, size: float) -> W
 
 
 def different(candidates: tuple[Candidate, ...], distance: float) -> tuple[Candidate, ...]:
-    """Without candidates all of whose points lie within ``distance`` (m) of those of a better one."""
+    """Without candidates like a better one: all points within ``distance`` (m) of its, or within a hundredth of its
+    size where no length differs by more than that share. With 0 all stay."""
     kept: list[Candidate] = []
-    seen: list[Complexes] = []
     for each in candidates:
-        places = np.array(list(each.linkage.points.values()))
-        if all(len(places) != len(o) or np.abs(places - o).max() > distance for o in seen):
+        if not distance or not any(_alike(each.linkage, better.linkage, distance) for better in kept):
             kept.append(each)
-            seen.append(places)
     return tuple(kept)
+
+
+def _alike(a: Linkage, b: Linkage, distance: float) -> bool:
+    places, others = (np.array(list(each.points.values())) for each in (a, b))
+    if len(places) != len(others):
+        return False
+    off = float(np.abs(places - others).max())
+    if off <= distance:
+        return True
+    lengths, other_lengths = (list(each.lengths().values()) for each in (a, b))
+    same = len(lengths) == len(other_lengths) and np.allclose(lengths, other_lengths, rtol=SAME, atol=0.0)
+    return bool(same and off <= SAME * np.abs(others - others[0]).max())
 
 
 def ranked(candidates: Sequence[Candidate], size: float) -> tuple[Candidate, ...]:
