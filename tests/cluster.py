@@ -138,13 +138,15 @@ def run_dies(base: Path, samples: int, wanted: dict[str, bytes], rounds: int) ->
         assert same
 
 
-def searched(words: list[str], folder: Path, most_kills: int) -> tuple[bytes, int]:
-    """What a search printed and wrote, and how often it was killed at a random moment and started again."""
-    return stopped(["optimize", *words, "--output", "better.yaml"], folder, most_kills, 6.0)
+def undisturbed(words: list[str], folder: Path) -> tuple[bytes, float]:
+    """What work printed and wrote, and how many seconds it took."""
+    begin = time.perf_counter()
+    return stopped(words, folder, 0, 0.0)[0], time.perf_counter() - begin
 
 
 def stopped(words: list[str], folder: Path, most_kills: int, longest: float) -> tuple[bytes, int]:
-    """The same of any work that has a state; it is killed after at most ``longest`` seconds."""
+    """What work that has a state printed and wrote, and how often it was killed at a random moment, after at most
+    ``longest`` seconds, and started again."""
     folder.mkdir(exist_ok=True)
     words = [sys.executable, "-m", "linkwright", *words, "--json", "--state", "work.state", "--force"]
     kills, begin = 0, time.perf_counter()
@@ -169,9 +171,7 @@ def work_dies(base: Path, rounds: int) -> None:
     with distributed.LocalCluster(n_workers=2, **OPTIONS) as cluster:
         away = ["--cluster", cluster.scheduler_address]
         for name, words in LONG.items():
-            begin = time.perf_counter()
-            wanted, _ = stopped(words, base / name, 0, 0.0)
-            longest = time.perf_counter() - begin
+            wanted, longest = undisturbed(words, base / name)
             for number in range(rounds):
                 for where, more in (("here", []), ("a cluster", away))[: 2 - (words[0] == "synthesize")]:
                     folder = base / f"{name} on {where} {number}"
@@ -186,18 +186,15 @@ def search_dies(base: Path, rounds: int) -> None:
     model = base / "teeth.yaml"
     model.write_text(TEETH)
     with distributed.LocalCluster(n_workers=2, **OPTIONS) as cluster:
-        on_cluster = [str(model), "--cluster", cluster.scheduler_address]
-        wanted = {
-            "front": searched(FRONT, base / "front", 0)[0],
-            "teeth": searched([str(model)], base / "teeth", 0)[0],
-        }
-        for number in range(rounds):
-            for name, words in (("front", FRONT), ("teeth", on_cluster)):
-                found, kills = searched(words, base / f"{name} {number}", 2)
-                same = found == wanted[name]
-                told = "equal to the bit" if same else "DIFFERENT"
+        away = ["--cluster", cluster.scheduler_address]
+        for name, words, more in (("front", FRONT, []), ("pair of gears", [str(model)], away)):
+            words = ["optimize", *words, "--output", "better.yaml"]
+            wanted, longest = undisturbed(words, base / name)
+            for number in range(rounds):
+                found, kills = stopped([*words, *more], base / f"{name} {number}", 2, longest)
+                told = "equal to the bit" if found == wanted else "DIFFERENT"
                 print(f"search of a {name} killed {kills} times: {told}", flush=True)
-                assert same
+                assert found == wanted
 
 
 def curve_dies(base: Path, rounds: int) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import json
 import math
+import sqlite3
 from collections.abc import Callable
 from itertools import count
 from pathlib import Path
@@ -148,6 +149,11 @@ def test_the_command_says_where_a_free_curve_goes_on(
     assert "--state" not in capsys.readouterr().out
     assert main([*words, "seconds=2", "--state", "free_curve.state"]) == 2
     assert "belongs to another problem" in capsys.readouterr().err
+    with sqlite3.connect("free_curve.state") as parts:
+        parts.execute("update parts set content = '[1]' where key <> 'work'")
+    parts.close()
+    assert main([*words, "seconds=1", "--state", "free_curve.state"]) == 2
+    assert "cannot be used" in capsys.readouterr().err
 
 
 def test_a_cluster_finds_what_this_machine_finds(clock: None, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -220,15 +220,13 @@ class _Run:
 
     def _left(self) -> State | None:
         """The population that was kept last; None: none was."""
-        there = self.kept.part(POPULATION)
-        if there is None:
-            return None
-        try:
-            state = resumed(self.task, there[0])
-            self.task.measures.evaluations = int(there[0]["measured"])
+
+        def made(data: dict[str, Any]) -> State:
+            state = resumed(self.task, data)
+            self.task.measures.evaluations = int(data["measured"])
             return state
-        except (ValueError, KeyError, TypeError) as problem:
-            raise self.kept.bad(problem) from None
+
+        return self.kept.resumed(POPULATION, made)
 
     def _fresh(self) -> State:
         """The first population: the best of many designs, some of them after a short local search; all designs, and

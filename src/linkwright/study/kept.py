@@ -129,7 +129,7 @@ class Kept:
             self.parts.commit()
             found = self._content("work")
         except (sqlite3.Error, OSError, ValueError) as problem:
-            raise self.bad(problem) from None
+            raise self._bad(problem) from None
         if found != digest:
             self.parts.close()
             raise RequestError(Sentence("optimize.other_state", path=path))
@@ -140,7 +140,15 @@ class Kept:
             content = self._content(key)
             return None if content is None else (_made(json.loads(content)),)
         except (sqlite3.Error, ValueError, KeyError, TypeError, AttributeError, RecursionError) as problem:
-            raise self.bad(problem) from None
+            raise self._bad(problem) from None
+
+    def resumed(self, key: str, make: Callable[[Any], T]) -> T | None:
+        """What ``make`` makes of what is kept under a key; None: nothing is."""
+        there = self.part(key)
+        try:
+            return None if there is None else make(there[0])
+        except (ValueError, KeyError, TypeError, IndexError) as problem:
+            raise self._bad(problem) from None
 
     def add(self, key: str, found: Any, seconds: float = math.inf) -> None:
         """Keeps what was found in so many seconds, in place of what was there."""
@@ -153,7 +161,7 @@ class Kept:
         try:
             self.parts.execute("insert or replace into parts values (?, ?)", (key, content))
         except sqlite3.Error as problem:
-            raise self.bad(problem) from None
+            raise self._bad(problem) from None
         if time.monotonic() - self.written > WRITTEN:
             self._write()
 
@@ -179,8 +187,7 @@ class Kept:
         row = self.parts.execute("select content from parts where key = ?", (key,)).fetchone()
         return None if row is None else str(row[0])
 
-    def bad(self, problem: Exception) -> RequestError:
-        """What is raised for a file that cannot be used."""
+    def _bad(self, problem: Exception) -> RequestError:
         return RequestError(Sentence("study.bad_state", path=self.path, reason=str(problem)[:200]))
 
 

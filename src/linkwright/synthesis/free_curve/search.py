@@ -221,13 +221,16 @@ class Search:
             1, round(self.seconds * self.hands / (ROUND * sum(level.part for level in self.levels)))
         )
         kept = surrounding()
-        left = None if kept is None else kept.part(self.key)
-        if left is not None:
-            over, self.draw.bit_generator.state, best, pools, *rest = left[0]
-            self.stage, self.attempts, self.first, self.rounds = rest
-            self.best |= {self.levels[k]: self._pool(designs) for k, designs in best.items()}
-            self.pools = {self.levels[k]: self._pool(designs) for k, designs in pools.items()}
-            self.begin = time.perf_counter() - over * self.seconds
+        if kept is not None:
+            kept.resumed(self.key, self._resume)
+
+    def _resume(self, left: Any) -> None:
+        """Goes on from what is kept."""
+        over, self.draw.bit_generator.state, best, pools, *rest = left
+        self.stage, self.attempts, self.first, self.rounds = rest
+        self.best |= {self.levels[k]: self._pool(designs) for k, designs in best.items()}
+        self.pools = {self.levels[k]: self._pool(designs) for k, designs in pools.items()}
+        self.begin = time.perf_counter() - over * self.seconds
 
     @cached_property
     def key(self) -> str:
