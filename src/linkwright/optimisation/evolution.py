@@ -33,11 +33,11 @@ class State:
     def data(self) -> dict[str, Any]:
         """Plain data."""
         return {
-            "x": self.judged.x.tolist(),
+            "x": self.judged.x,
             "generation": self.generation,
             "evaluations": self.evaluations,
             "draw": self.draw.bit_generator.state,
-            "history": [*self.history],
+            "history": np.array(self.history),
         }
 
 

@@ -152,7 +152,7 @@ class Kept:
 
     def add(self, key: str, found: Any, seconds: float = math.inf) -> None:
         """Keeps what was found in so many seconds, in place of what was there."""
-        if _bytes(found) > WORTH * seconds:
+        if seconds < math.inf and _bytes(found) > WORTH * seconds:
             return
         try:
             content = json.dumps(_plain(found))
