@@ -42,8 +42,9 @@ SMOOTH = 1e-11
 #: Halving ends where it changes the integral by less than this share, or after so many times.
 _FINE, _HALVINGS = 1e-14, 48
 _NONE: Floats = np.empty(0)
-#: More pieces than this that want halving mean rounding noise, which no halving smooths.
-_NOISE = 2000
+#: More pieces than this that want halving mean noise, which no halving smooths; so do more pieces than before where
+#: they miss less than this share of the function's size.
+_NOISE, _LOUDEST = 2000, 1e-9
 
 
 def nodes(edges: Floats) -> Floats:
@@ -315,14 +316,17 @@ def _halved(
     edges: Floats, values: Floats, function: Function, knots: Floats, tolerance: float
 ) -> tuple[Floats, Floats]:
     """Pieces halved where they are not met, or where neighbours do not meet away from the knots, until that no longer
-    changes the integral."""
+    changes the integral, or what is left is noise, which halving makes more and not less."""
     size = float(np.abs(values).max(initial=0.0))
     scale = float(np.diff(edges) @ np.abs(values).mean(axis=1))
+    before, many = 0.0, _NOISE
     for _ in range(_HALVINGS):
         off = misses(values, joined(edges, knots))
         rough = (off > tolerance * size) & (np.diff(edges) * off > _FINE * scale)
-        if not 0 < rough.sum() <= _NOISE:
+        level, count = float(np.median(off[rough])) if rough.any() else 0.0, int(rough.sum())
+        if not 0 < count <= _NOISE or (count > many and 0.25 * before < level < _LOUDEST * size):
             break
+        before, many = level, count
         low, middle, high = edges[:-1][rough], (0.5 * (edges[:-1] + edges[1:]))[rough], edges[1:][rough]
         starts, ends = np.append(low, middle), np.append(middle, high)
         places = 0.5 * (starts + ends)[:, None] + 0.5 * (ends - starts)[:, None] * NODES

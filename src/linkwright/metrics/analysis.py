@@ -398,16 +398,17 @@ class Analysis:
                 return Extreme(found.value, found.place, self.resolver.input_at(found.place), True)
             if len(self.grid.around):
                 return self._past_changes(self.grid, signal, of, sign)
+        for (end, _), value in zip(self.resolver.edges, self._at_ends(signal, of), strict=True):
+            if sign * value > sign * sample.value:
+                sample = Extreme(value, end, self.resolver.input_at(end), True)
+        if np.isinf(sample.value):
+            return sample
         step = float(abs(time[1] - time[0]))
         peaks = _peaks(sign * values, self.closed)[:4]
         low, high = time[peaks] - step, time[peaks] + step
         if not self.closed:
             low, high = np.maximum(low, time.min()), np.minimum(high, time.max())
-        best = self._narrowed(lambda t: sign * signal(self.resolver.at(t, of)), low, high, sign, sample)
-        for (end, _), value in zip(self.resolver.edges, self._at_ends(signal, of), strict=True):
-            if sign * value > sign * best.value:
-                best = Extreme(value, end, self.resolver.input_at(end), True)
-        return best
+        return self._narrowed(lambda t: sign * signal(self.resolver.at(t, of)), low, high, sign, sample)
 
     def _at_ends(self, signal: Callable[[Any], Floats], of: str) -> list[float]:
         """Limits of a signal at the ends of what is reached, NaN where they are not known."""

@@ -58,8 +58,9 @@ def limit(values: Floats, steepest: int = 2) -> float:
     """The limit of a signal at a change point from the values (k,) of one side; infinite where it grows as the
     inverse of the distance or of a power of it up to ``steepest``, NaN where no polynomial tells."""
     found = float(_ALL @ values)
-    if abs(found - float(_BUT_ONE @ values)) <= AGREE * float(np.abs(values).max()):
-        return found
+    nothing = AGREE * float(np.abs(values).max())
+    if abs(found - float(_BUT_ONE @ values)) <= nothing:
+        return found if abs(found) > nothing else 0.0
     if (np.diff(np.abs(values[:_GROWING])) < 0.0).all():
         for order in range(1, steepest + 1):
             scaled = values * _AWAY**order
