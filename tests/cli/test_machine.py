@@ -210,3 +210,30 @@ def test_what_gives_no_flywheel_is_refused(
     arguments: list[str], part: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert part in refusal(capsys, *arguments, code=1)
+
+
+def test_an_even_torque_has_no_energy_fluctuation(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """A gear train against a constant torque: its rounding (1e-13 J) was told with a slowest and a fastest place."""
+    file = tmp_path / "train.yaml"
+    file.write_text(
+        """
+format: 1
+name: Planetary train
+frame: {points: {O: [0 mm, 0 mm]}}
+links:
+  arm: {points: [O, P], length: 60 mm, mass: 1 kg, inertia: 0.001 kg·m²}
+  planet: {points: [P], mass: 0.5 kg, inertia: 0.0001 kg·m²}
+  ring: {points: [O], mass: 5 kg, inertia: 0.05 kg·m²}
+joints:
+  inner: {kind: gear, links: [frame, planet], teeth: [40, 20], module: 2 mm, carrier: arm}
+  outer: {kind: gear, links: [planet, ring], teeth: [20, 80], mesh: internal, module: 2 mm, carrier: arm}
+driver: {turn: arm, about: O, speed: 100 rpm}
+loads: {out: {kind: torque, on: ring, opposes: velocity, magnitude: 30 N·m}}
+""",
+        encoding="utf-8",
+    )
+    assert main(["machine", str(file), "--fluctuation", "0.05", "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["mean_torque"]["value"] == pytest.approx(45.0, rel=1e-12)  # 30 N·m · (1 + 40/80)
+    assert found["energy_fluctuation"]["value"] == 0.0 and "energy_lowest" not in found
+    assert found["reached_fluctuation"]["value"] == 0.0

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -26,8 +25,6 @@ if TYPE_CHECKING:
 DIGITS = 7
 #: A mean torque below this share of the largest one is zero.
 NOTHING = 1e-9
-#: An energy below this share of the work of a cycle is rounding.
-ROUNDING = 1e-13
 
 
 @dataclass(frozen=True)
@@ -74,8 +71,14 @@ def of_running(running: SteadyRunning, wanted: Wanted) -> list[list[Row]]:
         first.append(Row("motor_power", motor_found.power, "power"))
     second = [
         Row("energy_fluctuation", energy.value, "energy"),
-        Row("energy_lowest", float(np.min(energy.energy)), "energy", at(energy.low)),
-        Row("energy_highest", float(np.max(energy.energy)), "energy", at(energy.high)),
+        *(
+            []
+            if not energy.value
+            else [
+                Row("energy_lowest", float(np.min(energy.energy)), "energy", at(energy.low)),
+                Row("energy_highest", float(np.max(energy.energy)), "energy", at(energy.high)),
+            ]
+        ),
         Row("inertia_smallest", float(inertia[least]), "inertia", at(float(angle[least]))),
         Row("inertia_largest", float(inertia[most]), "inertia", at(float(angle[most]))),
         Row("required_fluctuation", running.required, "fluctuation"),
@@ -111,7 +114,7 @@ def of_curves(driver: TorqueCurve, load: TorqueCurve | None, wanted: Wanted, say
         shown_mean = shown(mean, "torque") if mean < -NOTHING * abs(lowest) else "0 N·m"
         raise LinkwrightError(say("machine.no_mean_torque", mean=shown_mean))
     resisting = TorqueCurve.constant(mean, period=driver.period) if load is None else load
-    energy = _without_rounding(energy_fluctuation(driver, resisting), mean * driver.period)
+    energy = energy_fluctuation(driver, resisting).without_rounding(mean * driver.period)
     first = [Row("mean_torque", mean, "torque")]
     if wanted.speed:
         found = motor(mean, wanted.speed, efficiency=wanted.efficiency, margin=wanted.margin)
@@ -132,13 +135,6 @@ def of_curves(driver: TorqueCurve, load: TorqueCurve | None, wanted: Wanted, say
         third += _speeds(true_speed(resisting, total, wanted.speed, driver=driver), lambda angle: angle)
         third += _accelerations(driver.minus(resisting), total)
     return [first, second, third, _dimensions(flywheel, wanted.speed or 0.0, wanted)]
-
-
-def _without_rounding(energy: EnergyFluctuation, work: float) -> EnergyFluctuation:
-    """The same with energies set to zero that are mere rounding of the work of a cycle, J."""
-    kept = np.where(np.abs(energy.energy) < ROUNDING * work, 0.0, energy.energy)
-    value = energy.value if energy.value >= ROUNDING * work else 0.0
-    return replace(energy, value=value, diagram=lambda: (energy.angle, kept))
 
 
 def _by_formula(energy: float, wanted: Wanted) -> tuple[float, list[Row]]:

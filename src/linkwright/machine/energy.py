@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import field
+from dataclasses import field, replace
 from functools import cached_property, partial
 
 import numpy as np
@@ -17,6 +17,8 @@ from linkwright.words.sentence import Sentence
 
 #: Driver and load must do equal work over a cycle to this share of the work done.
 BALANCE = 1e-9
+#: An energy below this share of the work of a cycle is rounding.
+ROUNDING = 1e-13
 
 
 @dataclass(frozen=True)
@@ -43,6 +45,14 @@ class EnergyFluctuation:
     def energy(self) -> Floats:
         """Energy there, (n,) J."""
         return self._shown[1]
+
+    def without_rounding(self, work: float) -> EnergyFluctuation:
+        """The same with energies set to zero that are mere rounding of the work of a cycle, J."""
+
+        def kept() -> tuple[Floats, Floats]:
+            return self.angle, np.where(np.abs(self.energy) < ROUNDING * work, 0.0, self.energy)
+
+        return replace(self, value=self.value if self.value >= ROUNDING * work else 0.0, diagram=kept)
 
     @cached_property
     def _shown(self) -> tuple[Floats, Floats]:

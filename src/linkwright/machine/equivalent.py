@@ -138,7 +138,8 @@ class Equivalent:
     def energy(self) -> EnergyFluctuation:
         """Fluctuation of ∫ (mean - T) dφ, T the torque at constant speed: that of the loads, and ½ dJ_e/dφ ω²."""
         kinetic = 0.5 * self.speed**2 * at_nodes(self.inertia_at, self.work.edges)
-        return of_energy(Piecewise(self.work.edges, self.work.at_nodes - kinetic), balance=self.work.total)
+        found = of_energy(Piecewise(self.work.edges, self.work.at_nodes - kinetic), balance=self.work.total)
+        return found.without_rounding(abs(self.load.mean) * self.load.period)
 
     def input_at(self, angle: float) -> float:
         """The input's coordinate, rad, at an angle turned."""

@@ -28,6 +28,8 @@ from linkwright.words.sentence import Sentence
 #: A machine whose kinetic energy falls below this share of that at its mean speed stops, and one whose inertia falls
 #: below this share of the largest has none.
 STOPPED = 1e-9
+#: A coefficient of speed fluctuation below this is rounding.
+ROUNDING = 1e-12
 #: How often pieces are halved where the speed that was found is not smooth, and it is found again.
 ROUNDS = 8
 
@@ -56,7 +58,8 @@ class SpeedCurve:
     @property
     def fluctuation(self) -> float:
         """Coefficient of speed fluctuation really reached, (ω_max - ω_min)/ω_mean."""
-        return (self.fastest[1] - self.slowest[1]) / self.mean
+        found = (self.fastest[1] - self.slowest[1]) / self.mean
+        return found if found > ROUNDING else 0.0
 
     @property
     def periodicity(self) -> float:
