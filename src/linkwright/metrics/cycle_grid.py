@@ -261,6 +261,8 @@ class CycleGrid:
             before, many = level, int(rough.sum())
             edges = np.sort(np.append(edges, 0.5 * (edges[:-1] + edges[1:])[rough]))
             solved = self._at(edges)
+        if len(edges) > 2 and (tail > SMOOTH).mean() > 0.5:
+            tail = self._tails(solved, np.zeros(len(edges) - 2, dtype=bool))  # gaps are no noise
         noise = float(np.quantile(tail, 0.9)) if len(edges) > 2 and (tail > SMOOTH).mean() > 0.5 else 0.0
         return edges, solved, noise if noise < _LOUDEST else 0.0, knots
 
