@@ -22,7 +22,7 @@ from linkwright.engine.trace import Scalar, Trace, absolute, floor, select, sign
 from linkwright.kinetostatics.friction import Swinging
 from linkwright.kinetostatics.site import LAP
 from linkwright.study.joint_bends import FIRST
-from linkwright.study.limit_stages import CONVERGED, STEP, rates
+from linkwright.study.limit_stages import CONVERGED, STEP, narrowed, rates
 from linkwright.study.traced import Traced
 
 #: Share of all joint forces below which a force is none.
@@ -157,28 +157,32 @@ def _crossings(traced: Traced, name: str, count: int) -> Stage:
 
 
 def _place(traced: Traced, corner: Corner, value: Scalar, count: int) -> Stage:
-    """One place by secants within a bracket (Dowell & Jarratt 1972, "Pegasus"); a jump through zero is none."""
-    t = Trace()
+    """One place by secants within a bracket; a jump through zero is none."""
+    t, begins = Trace(), {each: f"{each}:{corner.of}:{corner.number}" for each in (*_BRACKET, "marked")}
     (driver,) = traced.mechanism.drivers
-    x, a, b, at_a, at_b = (t.state(name) for name in _BRACKET)
-    marked, speed, first = t.state("marked"), t.parameter(f"{driver}.speed"), t.parameter(FIRST)
+    x, low, high, last, at_last = (t.state(name) for name in ("x", "low", "high", "last", "at last"))
+    speed, first = t.parameter(f"{driver}.speed"), t.parameter(FIRST)
     way = t.parameter(LAP) * sign(speed)
     share = (x - first) / way
     inside = first + (share - floor(share)) * way
     time = t.parameter("first time") + (inside - first) / speed
     there = _at(traced, Program.of(traced.solver.motion.trace, {"value": value}), t, inside, time)["value"]
-    changed, zero = there * at_b < 0.0, absolute(there) <= 0.0
-    less = select(zero, at_a, at_a * at_b / select(zero, 1.0, at_b + there))
-    a1, at_a1 = select(changed, b, a), select(changed, at_b, less)
-    x1 = x - there * (x - a1) / (there - at_a1)
+    still = absolute(there) * absolute(x - last) <= 0.0
+    secant = select(still, x, x - there * (x - last) / (there - at_last))
+    following, low1, high1 = narrowed(x, low, high, there * t.parameter(begins["at a"]) > 0.0, secant)
     parked = first + (corner.number + 0.5) / count * way
-    met = select(absolute(x1 - x) <= CONVERGED, marked, 0.0) > 0.5
+    moved = select(still, 0.0, absolute(following - x))
+    met = select(moved <= CONVERGED, t.parameter(begins["marked"]), 0.0) > 0.5
     program = Program.of(
         t,
         {"place": select(met, x, parked), "gap": select(met, there, x - parked)},
-        {"x": x1, "a": a1, "b": x, "at a": at_a1, "at b": there, "marked": marked},
+        {"x": select(still, x, following), "low": low1, "high": high1, "last": x, "at last": there},
     )
-    begins = {each: f"{each}:{corner.of}:{corner.number}" for each in (*_BRACKET, "marked")}
+    starts = {"x": "x", "low": "a", "high": "b", "last": "a", "at last": "at a"}
     return Stage(
-        program, {corner.name: Reduction("place", "last")}, steps=STEPS, starts=begins, roots={"x": "gap"}
+        program,
+        {corner.name: Reduction("place", "last")},
+        steps=STEPS,
+        starts={name: begins[each] for name, each in starts.items()},
+        roots={"x": "gap"},
     )

@@ -299,10 +299,10 @@ class GaussCycle:
     def _between_bends(self, t: Trace, cuts: list[Scalar], whole: Scalar) -> tuple[Scalar, Scalar]:
         """The same where the cycle begins with a bend."""
         assert self.bends is not None
-        first = self.bends.first(self.traced, t)
+        first = self.bends.first(t)
         begin = (first - t.parameter(FIRST)) / whole
         later = [cut - begin - floor(cut - begin) for cut in cuts]
-        low, high = self.bends.bounds(self.traced, t, first, whole, later)
+        low, high = self.bends.bounds(t, first, whole, later)
         return begin + low + t.position("inside") * (high - low), t.position("width") * (high - low)
 
 

@@ -27,44 +27,40 @@ FIXED = 1e-9
 
 
 @dataclass(frozen=True)
-class _Turning:
-    """A joint with bends whose link turns steadily: how often in the cycle, and from which angle to its carrier, rad,
-    in the machine as it is."""
+class Turning:
+    """A joint with bends whose link turns through, always the same way: how often in the cycle, and at what ``angle``
+    (n,) to its carrier, rad, in the machine as it is."""
 
     joint: str
     bends: Bends
     turns: int
-    rest: float
+    angle: Floats
 
     def names(self) -> Iterator[tuple[str, float]]:
-        """Names of the cycle values, with the angles, rad."""
+        """Names of the cycle values that are the inputs of the bends, with the angles, rad."""
         for k, angle in enumerate(self.bends.angles):
             for lap in range(self.turns):
                 yield f"bend:{self.joint}:{k}:{lap}", angle + TURN * lap
 
 
-def bending(traced: Traced) -> Iterator[tuple[str, Bends, Floats, int]]:
-    """Joints with bends: their names, how fast their links turn about their carriers, as ratios to the driver's speed
-    over the positions, and how often in the cycle."""
-    rate = next(iter(traced.positions.coordinates.values()))[1]
+def turning(traced: Traced, *, steady: bool) -> list[Turning]:
+    """The joints with bends whose links turn through, in fixed ratios to the driver or in none."""
+    rate, found = next(iter(traced.positions.coordinates.values()))[1], []
     for name, joint in traced.mechanism.joints.items():
         if (bends := joint.bends) is not None:
             link, carrier = traced.nominal.link(bends.link), traced.nominal.link(bends.carrier)
             ratios = (link.angular_velocity - carrier.angular_velocity) / rate
-            yield name, bends, ratios, round(abs(float(ratios.mean())) * whole_turns(traced))
-
-
-def _turning(traced: Traced) -> Iterator[_Turning]:
-    for name, bends, ratios, turns in bending(traced):
-        if turns >= 1 and np.ptp(ratios) <= FIXED * np.abs(ratios).max():
-            link, carrier = traced.nominal.link(bends.link), traced.nominal.link(bends.carrier)
-            yield _Turning(name, bends, turns, float(link.angle[0] - carrier.angle[0]))
+            turns = round(abs(float(ratios.mean())) * whole_turns(traced))
+            fixed = bool(np.ptp(ratios) <= FIXED * np.abs(ratios).max())
+            if turns >= 1 and fixed == steady and (ratios * ratios[0] > 0.0).all():
+                found.append(Turning(name, bends, turns, link.angle - carrier.angle))
+    return found
 
 
 def bend_names(traced: Traced) -> tuple[str, ...]:
     """Names of the cycle values that are the inputs, rad, at which joints go over from one formula to the next; of
     those joints whose links turn in a fixed ratio to the driver."""
-    return tuple(name for each in _turning(traced) for name, _ in each.names())
+    return tuple(name for each in turning(traced, steady=True) for name, _ in each.names())
 
 
 def bend_stage(traced: Traced) -> Stage | None:
@@ -72,14 +68,15 @@ def bend_stage(traced: Traced) -> Stage | None:
     source, t = traced.solver.motion, Trace()
     found: dict[str, Scalar] = {}
     (driver,) = traced.mechanism.drivers
-    for each in _turning(traced):
+    for each in turning(traced, steady=True):
         a, b = (source.poses[link].direction for link in (each.bends.carrier, each.bends.link))
         along, across = a.dot(b), a.cross(b)
-        c, s = float(np.cos(each.rest)), float(np.sin(each.rest))
+        rest = float(each.angle[0])
+        c, s = float(np.cos(rest)), float(np.sin(rest))
         moved = 2.0 * atan((across * c - along * s) / (1.0 + along * c + across * s))
         phase = source.dimensions(each.bends.phase)
         speed = source.states[each.bends.link].omega - source.states[each.bends.carrier].omega
-        program = Program.of(source.trace, {"behind": phase - moved - each.rest, "speed": speed})
+        program = Program.of(source.trace, {"behind": phase - moved - rest, "speed": speed})
         there = traced.at_input(program, t, t.parameter(FIRST))
         ratio = there["speed"] / t.parameter(f"{driver}.speed")
         found |= {

@@ -174,45 +174,72 @@ def _refined(
     traced: Traced, output: Swinging, kind: str, values: Mapping[str, Scalar], followed: bool
 ) -> Stage:
     """The input where the rate is zero, within one step of the nearest position, and values there."""
-    t = Trace()
-    (driver,) = traced.mechanism.drivers
-    x, low, high = (t.state(name) for name in ("x", "low", "high"))
-    speed = t.parameter(f"{driver}.speed")
+    t, near = Trace(), f"near:{output}:{kind}"
     rate, second = rates(traced, output)
-    sought = {"rate": rate, "second": second, **values}
     states = _carried(traced) if followed else {}
     beside = {name: t.parameter(f"{name}:{output}:{kind}") for name in states}
     judged = {**states, VALID: traced.solver.motion.valid} if followed else {}
-    motion = Program.of(traced.solver.motion.trace, {**sought, **judged})
-    there = traced.at_input(
-        motion, t, x, {name.removeprefix("carried:"): value for name, value in beside.items()}
-    )
-    other = _other_assembly(there, beside) if followed else 0.0
-    falling = there["rate"] if kind == "max" else -there["rate"]
-    before = falling > 0.0
-    step = t.parameter(STEP) * sign(speed)
-    near = t.parameter(f"near:{output}:{kind}")
-    first = absolute(low) + absolute(high) <= 0.0
-    low0, high0 = select(first, near - step, low), select(first, near + step, high)
-    low1, high1 = select(before, x, low0), select(before, high0, x)
-    newton = x - there["rate"] / there["second"] * speed
-    following = select((newton - low1) * (newton - high1) <= 0.0, newton, 0.5 * (low1 + high1))
-    program = Program.of(
+    motion = Program.of(traced.solver.motion.trace, {"rate": rate, "second": second, **values, **judged})
+    carried = {name.removeprefix("carried:"): value for name, value in beside.items()}
+    there = traced.at_input(motion, t, t.state("x"), carried)
+    sense = -1.0 if kind == "max" else 1.0
+    more = {"doubt": _other_assembly(there, beside) if followed else 0.0, **{n: there[n] for n in values}}
+    wanted = {limit_name(output, kind): "x", f"moved:{output}:{kind}": "moved", **{n: n for n in values}}
+    return _newton(
+        traced,
         t,
-        {"x": following, "moved": absolute(following - x) + other, **{name: there[name] for name in sought}},
-        {"x": following, "low": low1, "high": high1},
+        (sense * there["rate"], sense * there["second"]),
+        _beside(traced, t, near),
+        near,
+        wanted,
+        more,
     )
-    name = limit_name(output, kind)
+
+
+def narrowed(x: Scalar, low: Scalar, high: Scalar, before: Mask, better: Scalar) -> tuple[Scalar, ...]:
+    """The next place of a search for a zero, and the bracket: a ``better`` place, the middle where that leaves it;
+    ``before``: whether the zero lies towards ``high``."""
+    low, high = select(before, x, low), select(before, high, x)
+    return select((better - low) * (better - high) <= 0.0, better, 0.5 * (low + high)), low, high
+
+
+def _beside(traced: Traced, t: Trace, near: str) -> tuple[Scalar, Scalar]:
+    """The positions before and after one whose input is a cycle value."""
+    (driver,) = traced.mechanism.drivers
+    at, step = t.parameter(near), t.parameter(STEP) * sign(t.parameter(f"{driver}.speed"))
+    return at - step, at + step
+
+
+def _newton(
+    traced: Traced,
+    t: Trace,
+    found: tuple[Scalar, Scalar],
+    bracket: tuple[Scalar, Scalar],
+    start: str,
+    wanted: Mapping[str, str],
+    more: Mapping[str, Scalar],
+    steps: int = STEPS,
+) -> Stage:
+    """Newton's steps from a cycle value to where what is ``found`` at the state ``x``, with its rate, is zero in a
+    bracket, below zero where that begins; ``wanted``: results, and what they are the last values of. A ``doubt`` that
+    is ``more`` counts as movement."""
+    (driver,) = traced.mechanism.drivers
+    x, low, high = (t.state(name) for name in ("x", "low", "high"))
+    gap, rate = found
+    first = absolute(low) + absolute(high) <= 0.0
+    low0, high0 = (select(first, end, known) for end, known in zip(bracket, (low, high), strict=True))
+    better = x - gap / rate * t.parameter(f"{driver}.speed")
+    following, low1, high1 = narrowed(x, low0, high0, gap < 0.0, better)
+    moved = absolute(following - x) + more.get("doubt", 0.0)
+    program = Program.of(
+        t, {**more, "x": following, "moved": moved, "gap": gap}, {"x": following, "low": low1, "high": high1}
+    )
     return Stage(
         program,
-        {
-            name: Reduction("x", "last"),
-            f"moved:{output}:{kind}": Reduction("moved", "last"),
-            **{each: Reduction(each, "last") for each in values},
-        },
-        steps=STEPS,
-        starts={"x": f"near:{output}:{kind}", "low": 0.0, "high": 0.0},
-        roots={"x": "rate"},
+        {name: Reduction(of, "last") for name, of in wanted.items()},
+        steps=steps,
+        starts={"x": start, "low": 0.0, "high": 0.0},
+        roots={"x": "gap"},
     )
 
 
@@ -227,61 +254,28 @@ def part_edge(traced: Traced, load: Load, phase: SwingPhase, which: int) -> Stag
     t = Trace()
     (driver,) = traced.mechanism.drivers
     motion = Program.of(traced.solver.motion.trace, _to_edge(traced, load, phase, which))
-    x, low, high = (t.state(name) for name in ("x", "low", "high"))
-    speed = t.parameter(f"{driver}.speed")
-    there = traced.at_input(motion, t, x)
-    first = absolute(low) + absolute(high) <= 0.0
+    there, sense = traced.at_input(motion, t, t.state("x")), sign(t.parameter(f"{driver}.speed"))
     begins, ends = (t.parameter(limit_name(phase.output, kind)) for kind in (phase.start, phase.end))
-    low0 = select(first, begins, low)
-    high0 = select(
-        first, begins + sign(speed) * turned(sign(speed) * (ends - begins), t.parameter(LAP)), high
-    )
-    before = there["gap"] < 0.0
-    low1, high1 = select(first, low0, select(before, x, low0)), select(first, high0, select(before, high0, x))
-    newton = x - there["gap"] / there["rate"] * speed
-    middle = 0.5 * (low1 + high1)
-    inside = (newton - low1) * (newton - high1) <= 0.0
-    following = select(first, middle, select(inside, newton, middle))
-    program = Program.of(
-        t, {"x": following, "gap": there["gap"]}, {"x": following, "low": low1, "high": high1}
-    )
-    return Stage(
-        program,
-        {edge_name(load.name, which): Reduction("x", "last")},
-        steps=EDGE_STEPS,
-        starts={"x": 0.0, "low": 0.0, "high": 0.0},
-        roots={"x": "gap"},
-    )
+    bracket = begins, begins + sense * turned(sense * (ends - begins), t.parameter(LAP))
+    start, wanted = limit_name(phase.output, phase.start), {edge_name(load.name, which): "x"}
+    return _newton(traced, t, (there["gap"], there["rate"]), bracket, start, wanted, {}, EDGE_STEPS)
 
 
 def part_edge_beside(traced: Traced, load: Load, phase: SwingPhase, which: int) -> list[Stage]:
     """The same in groups without closed form, from the position next to it on the way; what is carried from position
     to position is given as fields."""
     source, name, t = traced.solver.motion, edge_name(load.name, which), Trace()
-    (driver,) = traced.mechanism.drivers
     to_edge = _to_edge(traced, load, phase, which)
     carried = {f"carried:{each}": value for each, value in source.next_states.items()}
     away = select(to_edge["rate"] > 0.0, absolute(to_edge["gap"]), np.inf)
     seen = {"away": away, "input": source.trace.position("input"), VALID: source.valid, **carried}
     wanted = {f"{each}:{name}": Reduction(each, "at_min", "away") for each in ("input", *carried)}
     nearest = Stage(states_as_fields(Program.of(source.trace, seen)), wanted, valid=VALID)
-    x, low, high = (t.state(each) for each in ("x", "low", "high"))
-    speed, near = t.parameter(f"{driver}.speed"), t.parameter(f"input:{name}")
+    near = f"input:{name}"
     states = {each.removeprefix("carried:"): t.parameter(f"{each}:{name}") for each in carried}
-    there = traced.at_input(Program.of(source.trace, to_edge), t, x, states)
-    step, first = t.parameter(STEP) * sign(speed), absolute(low) + absolute(high) <= 0.0
-    before = there["gap"] < 0.0
-    low1 = select(before, x, select(first, near - step, low))
-    high1 = select(before, select(first, near + step, high), x)
-    newton = x - there["gap"] / there["rate"] * speed
-    inside = (newton - low1) * (newton - high1) <= 0.0
-    following = select(inside, newton, 0.5 * (low1 + high1))
-    program = Program.of(
-        t, {"x": following, "gap": there["gap"]}, {"x": following, "low": low1, "high": high1}
-    )
-    starts: dict[str, str | float] = {"x": f"input:{name}", "low": 0.0, "high": 0.0}
-    edge = Stage(program, {name: Reduction("x", "last")}, steps=STEPS, starts=starts, roots={"x": "gap"})
-    return [nearest, edge]
+    there = traced.at_input(Program.of(source.trace, to_edge), t, t.state("x"), states)
+    found = there["gap"], there["rate"]
+    return [nearest, _newton(traced, t, found, _beside(traced, t, near), near, {name: "x"}, {})]
 
 
 def _to_edge(traced: Traced, load: Load, phase: SwingPhase, which: int) -> dict[str, Scalar]:

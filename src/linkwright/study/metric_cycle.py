@@ -28,9 +28,9 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import Analysis, strokes, true_speed
 from linkwright.metrics.summary import Summary, one
 from linkwright.study.followed_points import FollowedPoints, followed_points
-from linkwright.study.gauss_cycle import PIECES, SHARE, GaussCycle, can_have_corners, reversing, side_by_side
+from linkwright.study.gauss_cycle import PIECES, SHARE, GaussCycle, can_have_corners, reversing
 from linkwright.study.iterated_groups import limits_beside
-from linkwright.study.limit_stages import constants, limit_stages, rates
+from linkwright.study.limit_stages import constants, limit_stages, rates, whole_turns
 from linkwright.study.loaded_cycle import along_input, with_loads
 from linkwright.study.piece_summaries import SIDES, PieceSummaries
 from linkwright.study.seen import Seen
@@ -46,7 +46,7 @@ from linkwright.study.term_parts import (
     without_more_limits,
 )
 from linkwright.study.terms import Asked, Term, all_parts, term
-from linkwright.study.timed_cycle import TimedCycle, follows_times, timed_cycle
+from linkwright.study.timed_cycle import TimedCycle, can_go_together, gauss_points
 from linkwright.study.traced import VALID, Traced, design_table
 
 #: Designs of one call.
@@ -88,9 +88,9 @@ def _metric_cycle(
     asked: Asked | None,
 ) -> MetricCycle | None:
     plain = Traced(mechanism, addresses, over_cycle(mechanism, steps))
-    turns = side_by_side(plain, addresses)
-    if not turns and not follows_times(plain, addresses):
+    if not can_go_together(plain, addresses):
         return None
+    turns = whole_turns(plain)
     analysis = Analysis.of(solve_forces(plain.nominal))
     offered = (each if isinstance(each, Term) else term(each, analysis, asked) for each in given)
     fitting = without_more_limits if turns else without_limits
@@ -106,7 +106,7 @@ def _metric_cycle(
     swinging = others if rubbing else (*loads.swinging, *others)
     loads = replace(loads, swinging=tuple(dict.fromkeys(swinging)))
     traced = with_loads(plain, loads)
-    gauss = GaussCycle.of(traced, loads, PIECES[0]) if turns else timed_cycle(traced, loads, analysis)
+    gauss = gauss_points(traced, loads, analysis, PIECES[0])
     nominal = {address: np.array([mechanism.dimension(address)]) for address in addresses}
     if isinstance(gauss, GaussCycle):
         signals = [each.value for each in traced.quantities(outputs).values()]

@@ -24,10 +24,10 @@ from linkwright.metrics.cycle_grid import PIECES
 from linkwright.metrics.swept_area import points, turned
 from linkwright.metrics.swept_hull import Curves, SweptHull
 from linkwright.study.followed_points import followed_points
-from linkwright.study.gauss_cycle import GaussCycle, side_by_side
+from linkwright.study.gauss_cycle import GaussCycle
 from linkwright.study.metric_cycle import Found
 from linkwright.study.terms import Term, chosen_subjects, metric_of
-from linkwright.study.timed_cycle import TimedCycle, follows_times, timed_cycle
+from linkwright.study.timed_cycle import TimedCycle, can_go_together, gauss_points
 from linkwright.study.traced import VALID, Traced, design_table
 
 #: Designs whose curves are kept at the same time.
@@ -52,12 +52,9 @@ def swept_designs(mechanism: Mechanism, varied: Iterable[str], names: Iterable[s
     if not asked:
         return None
     traced = Traced(mechanism, addresses, over_cycle(mechanism, 360))
-    loads = AlongInput(frozenset())
-    if side_by_side(traced, addresses):
-        return SweptDesigns(traced, GaussCycle.of(traced, loads, PIECES), asked)
-    if not follows_times(traced, addresses):
+    if not can_go_together(traced, addresses):
         return None
-    gauss = timed_cycle(traced, loads, Analysis.of(traced.nominal))
+    gauss = gauss_points(traced, AlongInput(frozenset()), Analysis.of(traced.nominal), PIECES)
     return None if gauss is None else SweptDesigns(traced, gauss, asked)
 
 

@@ -22,7 +22,8 @@ from linkwright.kinematics.cycle import at_times, over_cycle
 from linkwright.kinetostatics.traced_loads import AlongInput
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import Analysis
-from linkwright.study.gauss_cycle import SHARE, certain
+from linkwright.study.gauss_cycle import SHARE, GaussCycle, certain, side_by_side
+from linkwright.study.limit_stages import whole_turns
 from linkwright.study.traced import VALID, Traced
 from linkwright.study.vary import positions_steps
 
@@ -119,9 +120,19 @@ def moves(mechanism: Mechanism, address: str, steps: int) -> bool:
     return True
 
 
-def timed_cycle(traced: Traced, loads: AlongInput, analysis: Analysis) -> TimedCycle | None:
-    """The cycle of a machine; None where loads or friction go by limits, which move with the dimensions, or the
-    machine itself is smooth nowhere."""
+def can_go_together(traced: Traced, varied: Iterable[str]) -> bool:
+    """Whether all designs can be read at Gauss points, of whole turns or of the same times."""
+    names = tuple(varied)
+    return side_by_side(traced, names) or follows_times(traced, names)
+
+
+def gauss_points(
+    traced: Traced, loads: AlongInput, analysis: Analysis, pieces: int
+) -> GaussCycle | TimedCycle | None:
+    """The Gauss points of designs that can go together; None where loads or friction go by limits, which move with
+    the dimensions, or the machine itself is smooth nowhere, and the cycle is no whole number of turns."""
+    if whole_turns(traced):
+        return GaussCycle.of(traced, loads, pieces)
     if loads.outputs or loads.moving or loads.swinging or analysis.grid is None:
         return None
     return TimedCycle(traced, tuple(analysis.grid.edges.tolist()))

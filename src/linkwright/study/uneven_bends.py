@@ -7,6 +7,7 @@ them; derivatives are those of the places found (implicit function theorem).
 
 from __future__ import annotations
 
+from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
@@ -17,7 +18,7 @@ from linkwright.engine.program import Program
 from linkwright.engine.trace import Mask, Scalar, Trace, absolute, atan, cos, select, sin, stop
 from linkwright.joints.base import Bends
 from linkwright.loads.phases import TURN
-from linkwright.study.joint_bends import FIXED, bending
+from linkwright.study.joint_bends import turning
 from linkwright.study.traced import Traced
 
 #: Newton steps to a bend, and the last one that ends the search well, rad.
@@ -34,6 +35,7 @@ class UnevenBends:
     which the machine as it is has them.
     """
 
+    traced: Traced
     bends: Bends
     angles: Floats
     near: Floats
@@ -56,19 +58,17 @@ class UnevenBends:
             found |= {f"bend {k}": self.angles[index], f"near bend {k}": self.near[index]}
         return found
 
-    def first(self, traced: Traced, t: Trace) -> Scalar:
+    def first(self, t: Trace) -> Scalar:
         """The input of the first bend, rad."""
-        return self._input(traced, t, float(self.angles[0]), float(self.near[0]))[0]
+        return self._input(t, float(self.angles[0]), float(self.near[0]))[0]
 
-    def bounds(
-        self, traced: Traced, t: Trace, first: Scalar, way: Scalar, cuts: list[Scalar]
-    ) -> tuple[Scalar, Scalar]:
+    def bounds(self, t: Trace, first: Scalar, way: Scalar, cuts: list[Scalar]) -> tuple[Scalar, Scalar]:
         """Where the stretch of a position begins and ends, as shares of the ``way`` from the ``first`` bend; the
         ``cuts``, such shares in any order, are put in among the bends. NaN where a bend is not found."""
         found: Mask = True
         edges: list[Scalar] = []
         for k in range(len(cuts) + 2):
-            x, met = self._input(traced, t, t.position(f"bend {k}"), t.position(f"near bend {k}"))
+            x, met = self._input(t, t.position(f"bend {k}"), t.position(f"near bend {k}"))
             edges.append((x - first) / way)
             found = t.logic("and", found, met)
         for before, after in pairwise(edges):
@@ -78,12 +78,12 @@ class UnevenBends:
         low, high = edges
         return select(found, low, np.nan), high
 
-    def _input(self, traced: Traced, t: Trace, angle: Scalar, near: Scalar) -> tuple[Scalar, Mask]:
+    def _input(self, t: Trace, angle: Scalar, near: Scalar) -> tuple[Scalar, Mask]:
         """The input at which the link has the angle and the phase, rad, and whether it is found."""
         x = near
         for _ in range(STEPS):
             x = stop(x)
-            there = traced.at_input(self._program(traced), t, x)
+            there = self.traced.at_input(self.program, t, x)
             c, s = (function(angle + there["phase"]) for function in (cos, sin))
             along, across = there["along"], there["across"]
             step = (
@@ -92,45 +92,36 @@ class UnevenBends:
             x = x - step
         return x, absolute(step) <= CONVERGED
 
-    def _program(self, traced: Traced) -> Program:
+    @cached_property
+    def program(self) -> Program:
         """Direction of the link from its carrier, and its angle's change with the input."""
-        source = traced.solver.motion
-        a, b = (source.poses[link].direction for link in (self.bends.carrier, self.bends.link))
-        (driver,) = traced.mechanism.drivers
-        turning = source.states[self.bends.link].omega - source.states[self.bends.carrier].omega
-        ratio = turning / source.trace.parameter(f"{driver}.speed")
-        phase = source.dimensions(self.bends.phase)
+        source, bends = self.traced.solver.motion, self.bends
+        a, b = (source.poses[link].direction for link in (bends.carrier, bends.link))
+        (driver,) = self.traced.mechanism.drivers
+        speed = source.states[bends.link].omega - source.states[bends.carrier].omega
+        ratio = speed / source.trace.parameter(f"{driver}.speed")
+        phase = source.dimensions(bends.phase)
         outputs = {"along": a.dot(b), "across": a.cross(b), "ratio": ratio, "phase": phase}
         return Program.of(source.trace, outputs)
 
 
 def uneven_bends(traced: Traced) -> UnevenBends | None:
-    """The bends of the only joint whose link turns through, but not steadily; None where there is none, or where it
-    follows a group without closed form."""
-    uneven = []
-    for _, bends, ratios, laps in bending(traced):
-        if laps >= 1 and np.ptp(ratios) > FIXED * np.abs(ratios).max() and (ratios * ratios[0] > 0.0).all():
-            uneven.append((bends, laps))
+    """The bends of the only joint whose link turns through, but not steadily, as the machine passes them; None where
+    there is none, or where it follows a group without closed form."""
+    uneven = turning(traced, steady=False)
     if len(uneven) != 1:
         return None
-    ((bends, laps),) = uneven
-    found = UnevenBends(bends, *_passed(traced, bends, laps))
-    return None if found._program(traced).states else found
-
-
-def _passed(traced: Traced, bends: Bends, laps: int) -> tuple[Floats, Floats]:
-    """Angles and inputs of the bends as the machine passes them in its cycle."""
-    nominal = traced.nominal
-    turned = nominal.link(bends.link).angle - nominal.link(bends.carrier).angle
-    turned = turned - traced.mechanism.dimension(bends.phase)
+    bends, laps = uneven[0].bends, uneven[0].turns
+    turned = uneven[0].angle - traced.mechanism.dimension(bends.phase)
     q = next(iter(traced.positions.coordinates.values()))[0]
     step, sense = q[1] - q[0], np.sign(turned[1] - turned[0])
     q, turned = np.append(q, q[0] + len(q) * step), np.append(turned, turned[0] + sense * TURN * laps)
     lap = TURN * np.arange(laps)
     behind = np.sort(np.mod(sense * (np.array(bends.angles) - turned[0]), TURN)[:, None] + lap, axis=None)
-    angles = turned[0] + sense * behind
-    near = np.interp(behind, sense * (turned - turned[0]), q)
-    return np.append(angles, angles[0]), np.append(near, near[0] + q[-1] - q[0])
+    angles, near = turned[0] + sense * behind, np.interp(behind, sense * (turned - turned[0]), q)
+    angles, near = np.append(angles, angles[0]), np.append(near, near[0] + q[-1] - q[0])
+    found = UnevenBends(traced, bends, angles, near)
+    return None if found.program.states else found
 
 
 def _middle(low: Scalar, x: Scalar, high: Scalar) -> Scalar:
