@@ -232,7 +232,8 @@ def main() -> int:
         if options.speed:
             speed(base, options.samples)
             return 0
-        work_dies(base, options.rounds)
+        if not options.searches:
+            work_dies(base, options.rounds)
         if options.work:
             return 0
         search_dies(base, options.rounds)

@@ -103,9 +103,10 @@ def _trials(judged: Judged, draw: np.random.Generator, size: int, k: int) -> Flo
 def dominates(a: Judged, b: Judged, i: Indices, j: Indices) -> Flags:
     """Which designs a[i] beat b[j]: feasible before not, less violation, no objective worse and one better."""
     va, vb = a.total[i], b.total[j]
-    ga, gb = a.goals[i], b.goals[j]
+    goals = [(of_a[i], of_b[j]) for of_a, of_b in zip(a.goals.T, b.goals.T, strict=True)]
     with np.errstate(invalid="ignore"):
-        front = (ga <= gb).all(axis=-1) & (ga < gb).any(axis=-1)
+        front = np.logical_and.reduce([x <= y for x, y in goals])
+        front &= np.logical_or.reduce([x < y for x, y in goals])
     return np.asarray(np.where((va == 0) & (vb == 0), front, va < vb))
 
 
@@ -131,9 +132,8 @@ def taken(judged: Judged, rows: Indices) -> Judged:
 
 def fronts(judged: Judged) -> Whole:
     """The number of every design's front: 0 is beaten by none, 1 by none but those of 0, …"""
-    size = len(judged.x)
-    i, j = np.meshgrid(np.arange(size), np.arange(size), indexing="ij")
-    beats = dominates(judged, judged, i.ravel(), j.ravel()).reshape(size, size)
+    size, rows = len(judged.x), np.arange(len(judged.x))
+    beats = dominates(judged, judged, rows[:, None], rows)
     level, left, number = np.zeros(size, np.int64), np.ones(size, bool), 0
     while left.any():
         now = left & ~(beats[left].any(axis=0))
@@ -147,9 +147,13 @@ def fronts(judged: Judged) -> Whole:
 
 def crowding(goals: Floats) -> Floats:
     """How far apart the neighbours of each design lie in the objectives."""
+    return _apart(goals, [np.argsort(column, kind="stable") for column in goals.T])
+
+
+def _apart(goals: Floats, orders: list[Indices]) -> Floats:
+    """The same of the designs in the orders of each objective; 0 for others."""
     found = np.zeros(len(goals))
-    for column in goals.T:
-        order = np.argsort(column, kind="stable")
+    for column, order in zip(goals.T, orders, strict=True):
         span = column[order[-1]] - column[order[0]] if np.isfinite(column[order[0]]) else 0.0
         found[order[[0, -1]]] = np.inf
         if len(order) > 2 and 0 < span < np.inf:
@@ -165,9 +169,12 @@ def survivors(judged: Judged, size: int) -> Judged:
     kept = np.argsort(level, kind="stable")
     cut = level[kept[size - 1]]
     sure, last = np.flatnonzero(level < cut), np.flatnonzero(level == cut)
-    while len(sure) + len(last) > size:
-        last = np.delete(last, int(np.argmin(crowding(judged.goals[last]))))
-    return taken(judged, np.concatenate([sure, last]))
+    goals, left = judged.goals[last], np.arange(len(last))
+    orders = [np.argsort(column, kind="stable") for column in goals.T]
+    while len(sure) + len(left) > size:
+        crowded = left[np.argmin(_apart(goals, orders)[left])]
+        left, *orders = (each[each != crowded] for each in (left, *orders))
+    return taken(judged, np.concatenate([sure, last[left]]))
 
 
 def ranked(judged: Judged) -> Indices:
