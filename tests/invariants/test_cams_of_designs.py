@@ -9,6 +9,7 @@ from scipy.optimize import brentq
 
 import linkwright as lw
 from linkwright.core.arrays import Floats
+from linkwright.files.model_file import read_text
 from linkwright.metrics import METRICS, Analysis
 from linkwright.study.design_numbers import numbers_of
 from linkwright.study.metric_cycle import metric_cycle
@@ -206,3 +207,9 @@ def test_cams_that_turn_unevenly_are_cut_where_their_lifts_bend() -> None:
                 torque_of(mechanism, *(design + side * step * np.eye(3)[number]))[0] for side in (1.0, -1.0)
             ]
             assert slope[number] == pytest.approx((sides[0] - sides[1]) / (2.0 * step), rel=1e-6, abs=1e-6)
+
+
+def test_a_heavy_wheel_beside_a_cam_is_a_warning() -> None:
+    """The cam's own size needs its pivot, which is found after the file is read."""
+    text = GEARED.replace("inertia: 0.001", "inertia: 9")
+    assert {each.code for each in read_text(text, "<text>")[1]} == {"unlikely"}

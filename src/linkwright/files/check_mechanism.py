@@ -180,9 +180,13 @@ def _unlikely_inertias(reader: Reader, root: MappingNode, mechanism: Mechanism) 
 
 def _discs(mechanism: Mechanism) -> list[Mark]:
     """Wheels and cams, as large as they are drawn."""
-    wheels = (joint for joint in mechanism.joints.values() if joint.higher)
+    wheels = (joint.settled(mechanism, _unsaid) for joint in mechanism.joints.values() if joint.higher)
     marks = (mark for joint in wheels for mark in joint.marks(mechanism, {}))
     return [mark for mark in marks if mark.symbol in ("gear", "disc", "cam")]
+
+
+def _unsaid(*_: object) -> None:
+    """Findings that are told when the whole model is read."""
 
 
 def _missing_inertias(reader: Reader, root: MappingNode, mechanism: Mechanism) -> None:

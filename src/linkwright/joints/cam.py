@@ -216,10 +216,10 @@ class CamJoint(HigherPair):
 
     # motion -----------------------------------------------------------------------------------
     def marks(self, mechanism: Mechanism, tooth: dict[tuple[str, str], float]) -> Iterable[Mark]:
-        """The cam's profile with its pitch curve, and what of the follower touches it."""
+        """The cam's profile with its pitch curve, and the follower; none of a cam that nothing holds."""
         from linkwright.joints.cam_shape import CamShape
 
-        return CamShape.of(self, mechanism).marks()
+        return CamShape.of(self, mechanism).marks() if self.centre else ()
 
     def following(self, mechanism: Mechanism) -> CamContact:
         from linkwright.joints.marks import Amount, CamContact
