@@ -9,6 +9,7 @@ from contextvars import ContextVar
 from importlib import import_module
 from typing import Any
 
+from linkwright.engine.threads import cores
 from linkwright.errors import LinkwrightError
 from linkwright.study.kept import identity, surrounding
 from linkwright.words.sentence import Sentence
@@ -69,6 +70,11 @@ def current() -> Any:
     return _current.get()
 
 
+def hands(client: Any) -> int:
+    """Threads of all workers at this moment, or of this machine."""
+    return cores() if client is None else max(1, sum(client.nthreads().values()))
+
+
 def in_turn(
     client: Any,
     work: Callable[..., Any],
@@ -102,7 +108,7 @@ def _computed(
     dask = _dask()
     left, tried = iter(missing), dict.fromkeys(missing, 0)
     numbers: dict[Any, int] = {}
-    room = WAITING * max(1, sum(client.nthreads().values()))
+    room = WAITING * hands(client)
 
     def given(number: int) -> Any:
         tried[number] += 1

@@ -25,7 +25,7 @@ import numpy as np
 
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.threads import chunks, cores
-from linkwright.study.cluster import current, in_turn
+from linkwright.study.cluster import current, hands, in_turn
 from linkwright.study.kept import identity, surrounding
 from linkwright.synthesis.free_curve.atlas import NEAREST, Laid, atlas
 from linkwright.synthesis.free_curve.kernels import FAR
@@ -188,7 +188,6 @@ class Search:
             lowest = SIX_BARS if self.joints < JOINTS[1] else None
             self.levels.append(Level(self.joints, lowest, LEVELS[-1].part))
         self.client, self.begin = current(), time.perf_counter()
-        self.hands = cores() if self.client is None else max(1, sum(self.client.nthreads().values()))
         self._begin()
         with ThreadPoolExecutor(cores()) as self.workers:
             try:
@@ -216,7 +215,7 @@ class Search:
             each: (atlas(each).nearest if each in ONE_DYAD else atlas(each).matches)(self.target)
             for each in used
         }
-        self.first = self._over()
+        self.first, self.hands = self._over(), hands(self.client)
         self.rounds = max(
             1, round(self.seconds * self.hands / (ROUND * sum(level.part for level in self.levels)))
         )
@@ -281,7 +280,7 @@ class Search:
 
     def _staged(self, stage: Stage) -> None:
         """One stage; in a round from other starts of the atlas, unless they are kept."""
-        level = stage.level
+        level, self.hands = stage.level, hands(self.client)
         if stage.merged:
             self._level(stage, self.best)
             return
