@@ -23,10 +23,11 @@ from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
+from linkwright.core.arrays import Floats, Whole
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.threads import chunks, cores
 from linkwright.study.cluster import current, hands, in_turn
-from linkwright.study.kept import identity, surrounding
+from linkwright.study.kept import identity, once, surrounding
 from linkwright.synthesis.free_curve.atlas import NEAREST, Laid, atlas
 from linkwright.synthesis.free_curve.kernels import FAR
 from linkwright.synthesis.free_curve.linkages import Placed
@@ -133,6 +134,11 @@ class Pool:
         return self.designs[min(int(draw.exponential(6)), len(self.designs) - 1)]
 
 
+def _bare(designs: list[Design]) -> list[tuple[Whole, Floats, bool, float]]:
+    """Designs as they are kept: without what is found again at once."""
+    return [(each.nodes, each.x, each.mirror, each.value) for each in designs]
+
+
 def _best(designs: list[Design], count: int) -> list[Design]:
     return sorted(designs, key=lambda each: each.value)[:count]
 
@@ -203,33 +209,36 @@ class Search:
                 self.stopped = True
                 pools = [*self.best.values(), *self.pools.values()]
                 found = [each for pool in pools for each in pool.designs[:1]]
-            return [each for each in self._each(found, polished) if each.value < FAR]
+            own = (part for each in found for part in (each.nodes, each.x, each.mirror))
+            made = once(lambda: _bare(self._each(found, polished)), lambda: (self.key, "polished", *own))
+            return [each for each in (Design(*one) for one in made) if each.value < FAR]
 
     def _begin(self) -> None:
-        """Looks the atlases up, and goes on from what is kept."""
+        """Goes on from what is kept; looks the atlases up from which there will be starts."""
         self.draw, self.stage, self.pools = np.random.default_rng(self.seed), 0, dict[Level, Pool]()
-        self.best = {level: Pool() for level in self.levels}
-        self.saved = self.begin
-        used = {level.atlas for level in self.levels if level.atlas is not None}
+        self.best, self.hands = {level: Pool() for level in self.levels}, hands(self.client)
+        self.saved, kept = self.begin, surrounding()
+        self.rounds = max(
+            1, round(self.seconds * self.hands / (ROUND * sum(level.part for level in self.levels)))
+        )
+        over = None if kept is None else kept.resumed(self.key, self._resume)
+        used = {each.atlas for each in self.levels if self.stage < self.rounds * len(self.levels)} - {None}
         self.matches = {
             each: (atlas(each).nearest if each in ONE_DYAD else atlas(each).matches)(self.target)
             for each in used
         }
-        self.first, self.hands = self._over(), hands(self.client)
-        self.rounds = max(
-            1, round(self.seconds * self.hands / (ROUND * sum(level.part for level in self.levels)))
-        )
-        kept = surrounding()
-        if kept is not None:
-            kept.resumed(self.key, self._resume)
+        if over is None:
+            self.first = self._over()
+        else:
+            self.begin = time.perf_counter() - over * self.seconds
 
-    def _resume(self, left: Any) -> None:
-        """Goes on from what is kept."""
+    def _resume(self, left: Any) -> float:
+        """Takes what is kept; gives the share of the time that was over."""
         over, self.draw.bit_generator.state, best, pools, *rest = left
         self.stage, self.attempts, self.first, self.rounds = rest
         self.best |= {self.levels[k]: self._pool(designs) for k, designs in best.items()}
         self.pools = {self.levels[k]: self._pool(designs) for k, designs in pools.items()}
-        self.begin = time.perf_counter() - over * self.seconds
+        return float(over)
 
     @cached_property
     def key(self) -> str:
@@ -248,12 +257,7 @@ class Search:
             return
         with _LOCK:
             best, pools = (
-                {
-                    self.levels.index(level): [
-                        (one.nodes, one.x, one.mirror, one.value) for one in pool.designs
-                    ]
-                    for level, pool in each.items()
-                }
+                {self.levels.index(level): _bare(pool.designs) for level, pool in each.items()}
                 for each in (self.best, self.pools)
             )
         rest = self.stage, self.attempts, self.first, self.rounds
