@@ -15,8 +15,9 @@ from tests.reference.test_branches import fault
 import linkwright as lw
 from linkwright.kinematics.assembly import AssemblyError
 from linkwright.kinematics.between import Between
-from linkwright.kinematics.branch import CORRECTION, MISFIT, _Walk, follow, straight
+from linkwright.kinematics.branch import CORRECTION, MISFIT, Branch, Way, _Walk, follow, straight
 from linkwright.kinematics.certificate import End, certify, cubic
+from linkwright.kinematics.closed_loops import ClosedLoops
 from linkwright.kinematics.continuation import Followed, Follower, _Journey
 from linkwright.kinematics.design import Design
 from linkwright.kinematics.explain import branch_notes
@@ -456,3 +457,35 @@ def test_another_design_has_a_way_of_its_own(triad: Motion) -> None:
     there = followed(lw.solve_motion(triad.mechanism.with_dimensions(changes), steps=36))
     agree(other, there)
     agree(solver.states(triad.positions), followed(triad))
+
+
+def test_a_rough_drawing_is_closed_along_loops_that_it_closes(
+    triad: Motion, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The way from a drawing to its assembly begins where the opened loops are closed as drawn, and ends where the
+    loops themselves are: with wrong openings it began anywhere."""
+    ways = []
+
+    def noted(loops: ClosedLoops, way: Way, begin: Floats) -> Branch:
+        ways.append((loops, way, begin))
+        return follow(loops, way, begin)
+
+    monkeypatch.setattr("linkwright.kinematics.continuation.follow", noted)
+    shift = {"A": (-0.004, 0.015), "P": (0.012, -0.02), "Q": (-0.015, 0.01), "R": (0.004, 0.018)}
+    drawing = {
+        name: (x + shift.get(name, (0, 0))[0], y + shift.get(name, (0, 0))[1])
+        for name, (x, y) in triad.mechanism.drawing.items()
+    }
+    follower = MotionSolver(replace(triad.mechanism, drawing=drawing)).follower()
+    exact = follower.drawn
+    ((opened, way, begin),) = ways
+    ends = way.drive(np.array([0.0, 1.0]))[0]
+    largest = np.abs(follower.loops.gap(follower.loops.turned(np.concatenate([begin, ends[0, :-1]])))).max()
+    assert largest > 0.001
+    closed = opened.gap(opened.turned(np.concatenate([begin, ends[0]])))
+    assert np.abs(closed).max() < 1e-12
+    at_the_end = opened.gap(opened.turned(np.concatenate([exact, ends[1]])))
+    assert np.abs(at_the_end).max() < 1e-12
+    assert (
+        np.abs(follower.loops.gap(follower.loops.turned(np.concatenate([exact, ends[1, :-1]])))).max() < 1e-12
+    )

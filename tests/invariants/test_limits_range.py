@@ -59,6 +59,9 @@ def test_triple_rockers(a: float, b: float, c: float, d: float, mode: str, share
     half = end if stretched else pi - end
     found = input_range(fourbar(a, b, c, d, start=degrees(middle + share * half), mode=mode))
     assert np.allclose(ends(found), (middle - half, middle + half), rtol=0, atol=4e-15 / np.sin(end))
+    for each, exact in ((found.low, middle - half), (found.high, middle + half)):
+        assert each is not None and abs(each.value - exact) - 4e-15 / np.sin(end) <= each.precision < 1e-13
+        assert each.precision >= 4e-16 * (1.0 + abs(each.value))  # its rounding, never less than nothing
     how = "stretched" if stretched else "folded"
     assert f"at both ends group RRR (coupler, rocker) is {how}" in found.explain()
 
