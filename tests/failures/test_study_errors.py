@@ -14,6 +14,7 @@ from linkwright.cli import main
 from linkwright.errors import RequestError
 from linkwright.study import sensitivity, sweep
 from linkwright.study.compare import compare
+from linkwright.study.objective import objective
 from linkwright.study.ranges import parse_range
 from linkwright.study.study import study
 from linkwright.study.vary import varied_ranges
@@ -483,3 +484,27 @@ def test_a_triad_has_no_closed_form_and_no_transmission_angle() -> None:
             f"'transmission_angle {pin}': a transmission angle is that of a dyad cut at a pin; RRR-RRR "
             "(bar_1, bar_2, bar_3, plate) is none; use conditioning"
         )
+
+
+@pytest.mark.parametrize(
+    "phase", ["", ", phase: {of: bore, from: max, to: min}", ", phase: {moving: bore, direction: increasing}"]
+)
+def test_gradients_of_loads_that_have_no_value_somewhere_say_which(phase: str) -> None:
+    """A table over the slider that is too short: the same sentence as forces, not a gradient of nothing."""
+    text = """
+format: 1
+frame: {points: {O: [0 mm, 0 mm]}}
+links:
+  crank: {points: [O, A], length: 40 mm}
+  rod: {points: [A, B], length: 140 mm}
+  piston: {points: [B], mass: 0.5 kg}
+joints: {bore: {kind: prismatic, guide: frame, through: O, direction: 0 deg, block: piston, at: B}}
+assembly: {B: forward}
+driver: {turn: crank, about: O, speed: 1500 rpm}
+loads:
+  gas:
+    {kind: force, on: piston, at: B, direction: 0 deg, table: {over: bore, x: [12 cm, 15 cm], y: [3 N, 0 N]}PHASE}
+"""
+    machine = lw.loads(text.replace("PHASE", phase))
+    told = said(lambda: objective(machine, {"peak_input_torque": 1.0}, vary=["rod.length"]))
+    assert told.startswith("loads.gas: its table over bore goes from 0.12 m to 0.15 m and does not cover")
