@@ -71,7 +71,7 @@ def test_the_numbers_are_written(tmp_path: Path, capsys: pytest.CaptureFixture[s
         (["--names", "strok"], 2, 'did you mean "stroke"'),
         (["--names", "stroke,,grashof"], 2, "empty place"),
         (["--names", "grashof"], 2, "does not apply"),
-        (["--names", "peak_reaction"], 2, "joint forces"),
+        (["--names", "peak_reaction"], 2, "no mass and there are no loads"),
         (["--steps", "0"], 2, "--steps"),
     ],
 )

@@ -180,3 +180,24 @@ driver:
         assert table.value("swept_area") == pytest.approx(expected, rel=1e-9)
     swept = lw.sweep(crank, {"crank.P.y": np.array([0.4, 0.5])}, outputs="swept_area")
     assert swept["swept_area"][1] == pytest.approx(expected, rel=1e-9)
+
+
+@pytest.mark.parametrize("phase", [0.0, 0.6048, -0.9668])
+def test_points_that_a_rocking_crank_runs_to_and_fro_are_taken_once(phase: float) -> None:
+    """Two swings of a slider-crank's crank through 1.2 rad to both sides of 0.4 rad: the hull of the arc of A, the
+    way of B and the places that a point of the rod takes, each found here."""
+    law = f'"0.4 rad + 1.2 rad*sin(2*pi*t/(1 s) + {phase} rad)"'
+    text = SLIDER.replace("speed: 2 rad/s", f"position: {law}") + "cycle: {duration: 2 s}\n"
+    crank = lw.loads(text.replace("length: 1 m}", "length: 1 m, also: {S: [0.4 m, 0.3 m]}}"))
+    turned = np.linspace(-0.8, 1.6, 400_001)
+    a = 0.3 * np.exp(1j * turned)
+    b = a.real + np.sqrt(1.0 - a.imag**2)
+    s = a + (b - a) * (0.4 + 0.3j)
+    places = np.concatenate([a, b, s])
+    rod = ConvexHull(np.column_stack([places.real, places.imag]))
+    for steps in (48, 360):
+        table = lw.metrics(lw.solve_motion(crank, steps=steps), "swept_area_of_link")
+        assert table.value("swept_area_of_link", "rod") == pytest.approx(rod.volume, rel=1e-9)
+        assert table.value("swept_area_of_link", "crank") == pytest.approx(0.5 * 0.3**2 * 2.4, rel=1e-9)
+    swept = lw.sweep(crank, {"crank.length": np.array([0.25, 0.3])}, outputs="swept_area_of_link rod")
+    assert swept["swept_area_of_link rod"][1] == pytest.approx(rod.volume, rel=1e-9)

@@ -52,5 +52,7 @@ def number(value: float, dimension: str, digits: int = 6) -> str:
     """The number alone, in the shown unit; zero without a sign, rounding of an angle or a length as zero."""
     if abs(value) < NOTHING.get(dimension, 0.0):
         return "0"
+    if math.isinf(value):
+        return "∞" if value > 0.0 else "-∞"
     factor = SHOWN[dimension][1] if dimension in SHOWN else 1.0
     return f"{value * factor + 0.0:.{digits}g}"

@@ -9,6 +9,7 @@ from itertools import chain
 import numpy as np
 
 from linkwright.core.search import zeros
+from linkwright.drivers.base import Law
 from linkwright.engine.trace import Scalar, floor
 from linkwright.kinetostatics.closure import dyads
 from linkwright.metrics.analysis import Analysis
@@ -29,13 +30,19 @@ def _reached(analysis: Analysis, start: float, end: float) -> tuple[float, float
     law = next(iter(analysis.motion.mechanism.drivers.values())).law
     if law.constant_speed is not None:
         return law.at(start), law.at(end)
-    time = np.linspace(start, end, len(analysis.motion.time))
+    values = [value for _, value in turns(law, start, end, len(analysis.motion.time))]
+    least, most = min(values), max(values)
+    return (most, least) if values[0] == most and values[-1] == least else (least, most)
+
+
+def turns(law: Law, start: float, end: float, steps: int) -> list[tuple[float, float]]:
+    """Times, s, at which a driver begins, turns back within one of some steps, and ends, with its place there."""
+    time = np.linspace(start, end, steps)
     sign = np.sign(law.coordinate(time)[1])
-    turns = np.flatnonzero(sign[:-1] * sign[1:] < 0.0)
-    at = zeros(lambda t: law.coordinate(t)[1:], time[turns], time[turns + 1], sign[turns])
-    values = law.coordinate(np.concatenate([[start, end], time, at]))[0]
-    least, most = float(values.min()), float(values.max())
-    return (most, least) if values[0] == most and values[1] == least else (least, most)
+    back = np.flatnonzero(sign[:-1] * sign[1:] < 0.0)
+    at = zeros(lambda t: law.coordinate(t)[1:], time[back], time[back + 1], sign[back])
+    times = np.sort(np.concatenate([time[sign == 0.0], at, [start, end]]))
+    return list(zip(times.tolist(), law.coordinate(times)[0].tolist(), strict=True))
 
 
 def _drives(analysis: Analysis, time: float) -> bool:

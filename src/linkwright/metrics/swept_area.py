@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from itertools import chain
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import chain, product
 from typing import ClassVar
 
 import numpy as np
@@ -19,10 +19,14 @@ from linkwright.kinematics.names import canonical
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Better, Metric, MetricValue, Remark
-from linkwright.metrics.cycle_grid import PIECES
+from linkwright.metrics.cycle_grid import PIECES, CycleGrid
 from linkwright.metrics.outputs import output_link
 from linkwright.metrics.quantities import shown
+from linkwright.metrics.range_of_motion import turns
 from linkwright.metrics.swept_hull import Curves, SweptHull
+
+#: Ends of ways nearer to each other than this share of the way are the same.
+SAME = 1e-9
 
 
 class HullArea(Metric):
@@ -99,7 +103,7 @@ def _curves(analysis: Analysis) -> Curves | None:
     grid, keys = analysis.grid, points(analysis.motion.mechanism)
     if grid is not None:
         values = _places(grid.motion, keys)
-        spans = _spans(analysis, grid.motion, values)
+        spans = _spans(analysis, grid, values)
         return Curves(values, *turned(analysis.motion.mechanism, grid.edges, analysis.closed), spans)
     if not analysis.resolver.possible or analysis.motion.steps < 2:
         return None
@@ -129,19 +133,42 @@ def turned(mechanism: Mechanism, edges: Floats, closed: bool) -> tuple[Flags, Fl
     return bent[:-1], bent[1:]
 
 
-def _spans(analysis: Analysis, motion: Motion, values: Floats) -> Indices:
-    """The nodes of every curve from one end of its way to the other, where it is run to and fro by a link that turns
-    or slides on the frame; one of a point at rest."""
-    mechanism, found = motion.mechanism, np.tile([0, motion.steps], (len(values), 1))
-    keys = points(mechanism)
+def _spans(analysis: Analysis, grid: CycleGrid, values: Floats) -> Indices:
+    """The nodes of every curve from one end of its way to the other, where it is run to and fro: of all points by the
+    one driver, or by a link that turns or slides on the frame; one of a point at rest."""
+    mechanism, times = analysis.motion.mechanism, nodes(grid.edges).ravel()
+    whole = (0, len(times)) if len(analysis.resolver.changes) else of_driver(mechanism, grid.edges)
+    keys, found = points(mechanism), np.tile(whole, (len(values), 1))
     for output in analysis.outputs:
-        way = motion.read(output)
+        way = grid.motion.read(output)
         if output.kind != "angle" or np.ptp(way) < 2.0 * np.pi:
-            ends = sorted((int(way.argmin()), int(way.argmax())))
+            ends = [(grid.start, float(way[0])), (grid.end, float(way[-1]))]
+            reached = [*ends, *((each.time, each.value) for each in analysis.limits(output))]
             own = points_of_links(mechanism)[output_link(mechanism, output)]
-            found[[keys.index(key) for key in own]] = ends[0], ends[1] + 1
+            found[[keys.index(key) for key in own]] = np.searchsorted(times, _once(reached))
     found[(values == values[:, :, :1, :1]).all(axis=(1, 2, 3))] = 0, 1
     return found
+
+
+def of_driver(mechanism: Mechanism, edges: Floats) -> tuple[int, int]:
+    """The first of the nodes between edges, s, and that behind the last one, that suffice where one driver runs the
+    machine to and fro."""
+    times, laws = nodes(edges).ravel(), [driver.law for driver in mechanism.drivers.values()]
+    if len(laws) > 1 or laws[0].constant_speed is not None:
+        return 0, len(times)
+    first, last = np.searchsorted(times, _once(turns(laws[0], edges[0], edges[-1], len(times))))
+    return int(first), int(last)
+
+
+def _once(reached: Sequence[tuple[float, float]]) -> tuple[float, float]:
+    """Times between which what turns back at some times, with these values, goes through its whole way, once if that
+    can be."""
+    values = [value for _, value in reached]
+    slack = SAME * (max(values) - min(values))
+    low = [time for time, value in reached if value <= min(values) + slack]
+    high = [time for time, value in reached if value >= max(values) - slack]
+    first, last = min(product(low, high), key=lambda pair: abs(pair[1] - pair[0]))
+    return min(first, last), max(first, last)
 
 
 def _places(motion: Motion, keys: tuple[str, ...]) -> Floats:

@@ -12,7 +12,7 @@ from linkwright.metrics.base import CELLS, METRICS, MetricValue
 from linkwright.registry import offered
 from linkwright.words import say
 from linkwright.words.characters import aligned
-from linkwright.words.sentence import Sentence, in_language
+from linkwright.words.sentence import Sentence, in_language, in_words, together
 
 if TYPE_CHECKING:
     import pandas
@@ -46,9 +46,19 @@ class MetricsTable(Plotted, Sequence[MetricValue]):
         return self.warnings_in("en")
 
     def warnings_in(self, language: str) -> tuple[str, ...]:
-        """The same in a language."""
+        """The same in a language, closeness to a singular position first; subjects of which the same is said stand
+        together."""
         notes = (in_language(note, language) for note in self.notes)
-        return (*notes, *(f"{row.subject}: {w.text(language)}" for row in self.rows for w in row.warnings))
+        said: dict[str, list[str]] = {}
+        for row in sorted(self.rows, key=lambda row: row.metric != "singularity"):
+            for remark in row.warnings:
+                said.setdefault(remark.text(language), []).append(in_words(row.subject, language))
+        about = {cause: together(tuple(dict.fromkeys(subjects))) for cause, subjects in said.items()}
+        told = (
+            say("cli.about", language, name=in_language(names, language), cause=cause)
+            for cause, names in about.items()
+        )
+        return (*notes, *told)
 
     def __getitem__(self, key: Any) -> Any:
         if isinstance(key, str):

@@ -21,7 +21,7 @@ from linkwright.kinetostatics.traced_loads import AlongInput
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import Analysis
 from linkwright.metrics.cycle_grid import PIECES
-from linkwright.metrics.swept_area import points, turned
+from linkwright.metrics.swept_area import of_driver, points, turned
 from linkwright.metrics.swept_hull import Curves, SweptHull
 from linkwright.study.followed_points import followed_points
 from linkwright.study.gauss_cycle import GaussCycle
@@ -186,12 +186,13 @@ class SweptDesigns:
         pieces = self._gauss.pieces
         values = rows.reshape(len(self._keys), 2, POINTS, pieces).swapaxes(2, 3)
         begins, ends = np.zeros((2, pieces), dtype=bool)
+        spans = np.tile([0, self._gauss.count], (len(values), 1))
         if isinstance(self._gauss, TimedCycle):
             edges, closed = np.array(self._gauss.edges), self.traced.positions.closed
             begins, ends = turned(self.traced.mechanism, edges, closed)
-        still = (values == values[:, :, :1, :1]).all(axis=(1, 2, 3))
-        last = np.where(still, 1, self._gauss.count)
-        return Curves(values, begins, ends, np.stack([np.zeros_like(last), last], axis=1))
+            spans[:] = of_driver(self.traced.mechanism, edges)
+        spans[(values == values[:, :, :1, :1]).all(axis=(1, 2, 3))] = 0, 1
+        return Curves(values, begins, ends, spans)
 
     def _table(self, cycle: CycleProgram, columns: Mapping[str, Floats]) -> Floats:
         return design_table(cycle.dimensions, self._known, columns)

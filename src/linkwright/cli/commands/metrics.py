@@ -9,7 +9,7 @@ from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
 from linkwright.words import Say, say
-from linkwright.words.sentence import Sentence, in_words
+from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.errors import LinkwrightError
@@ -97,21 +97,11 @@ def _evaluated(
     return metrics(forces, names), None
 
 
-def _ordered_warnings(table: MetricsTable, language: str) -> list[str]:
-    """Sentences that need attention, closeness to a singular position first."""
-    rows = sorted(table, key=lambda row: row.metric != "singularity")
-    return [
-        say("cli.about", language, name=in_words(row.subject, language), cause=remark.text(language))
-        for row in rows
-        for remark in row.warnings
-    ]
-
-
 def _report(table: MetricsTable, session: Session) -> list[str]:
     say = session.say
     if not table.rows:
         return [session.strong(table.title), "", say("metrics.nothing")]
-    warnings = _ordered_warnings(table, session.language)
+    warnings = table.warnings_in(session.language)
     lines = [session.strong(table.title), "", *session.table(_lines(table, session))]
     return [
         *lines,
@@ -157,7 +147,7 @@ def _data(table: MetricsTable, trouble: LinkwrightError | None, language: str) -
         "ok": trouble is None,
         "name": table.title,
         "metrics": rows,
-        "warnings": _ordered_warnings(table, language),
+        "warnings": list(table.warnings_in(language)),
         "not_applicable": list(table.skipped),
     }
     return found if trouble is None else {**found, "error": str(trouble)}

@@ -78,7 +78,10 @@ def with_mean(
     *,
     fill: bool = False,
 ) -> Panel:
-    """A panel of one curve with the level of its mean, which the legend names with its value."""
+    """A panel of one curve with the level of its mean, which the legend names with its value; without it where there
+    is none, as of a cycle that is only partly reached."""
+    if np.isnan(mean):
+        return Panel(title, dimension, (curve,), (), fill)
     value = Panel(title, dimension, (curve,)).unit.text(mean)
     level = Level(f"{whose}{request.say('mean', value=value)}", mean)
     return Panel(title, dimension, (curve,), (level,), fill)
