@@ -6,6 +6,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from scipy.optimize import brentq
+from tests.invariants.test_friction_of_designs import dense
 
 import linkwright as lw
 from linkwright.core.arrays import Floats
@@ -213,3 +214,32 @@ def test_a_heavy_wheel_beside_a_cam_is_a_warning() -> None:
     """The cam's own size needs its pivot, which is found after the file is read."""
     text = GEARED.replace("inertia: 0.001", "inertia: 9")
     assert {each.code for each in read_text(text, "<text>")[1]} == {"unlikely"}
+
+
+def test_numbers_of_one_machine_with_a_cam_are_those_of_a_dense_quadrature() -> None:
+    """Cut where the lift bends, few pieces meet everything."""
+    machine = lw.loads(UNEVEN.partition("  press:")[0])
+    expected = dense(machine, 1.0 / 3.0)
+    analysis = Analysis.of(lw.solve_forces(machine))
+    found = [analysis.part(part).value for part in ("power mean", "driver.effort rms")]
+    assert found[1] == pytest.approx(expected[1], rel=1e-12)
+    assert found[0] == pytest.approx(expected[0], abs=1e-12 * 6.0 * np.pi * expected[1])
+    assert analysis.grid is not None
+    assert len(analysis.grid.edges) < 60
+
+
+def test_reactions_of_the_press_go_side_by_side_though_its_teeth_change_flanks_beside_its_cam() -> None:
+    machine = lw.load("gallery:printing_press")
+    names = ["peak_reaction", "rms_reaction", "rms_input_torque", "mean_power"]
+    cycle = metric_cycle(machine, ["rod.length"], names)
+    assert cycle is not None
+    assert {each.name for each in cycle.terms} == set(names)
+    lengths = machine.dimension("rod.length") * np.array([1.0, 1.002])
+    found = cycle.evaluate({"rod.length": lengths})
+    assert found.certain.all()
+    for k, length in enumerate(lengths.tolist()):
+        analysis = Analysis.of(lw.solve_forces(machine.with_dimensions({"rod.length": length})))
+        for name in names:
+            known = measured(name, analysis)
+            assert known is not None
+            assert found.values[name][k] == pytest.approx(known[0], rel=1e-10)

@@ -29,6 +29,8 @@ from linkwright.study.traced import Traced
 NONE = 1e-11
 #: Steps of the search for one place, and the most places of a machine.
 STEPS, MOST = 9, 24
+#: Steps from position to position over which a value that is zero rests, as it does where a cam does.
+REST = 2.5
 _BRACKET = ("x", "a", "b", "at a", "at b")
 
 
@@ -65,7 +67,7 @@ def signed_values(
     found = {
         name: Signed(force, total)
         for name, force in programs.signed.items()
-        if programs.friction is not None or trace.lift(force) in needed
+        if programs.friction is not None or trace.lift(absolute(force)) in needed
     }
     return found | {f"rate {each}": Signed(rates(traced, each)[0], 0.0) for each in swinging}
 
@@ -136,9 +138,13 @@ def _crossings(traced: Traced, name: str, count: int) -> Stage:
     decided = absolute(value) > 0.0
     now, place = select(decided, value, last), select(decided, x, at)
     began, beginning = select(absolute(first) > 0.0, first, value), select(absolute(first) > 0.0, start, x)
-    changed = select(value * last < 0.0, 1.0, 0.0)
+    apart = REST * absolute(step)
+    changed = select(absolute(x - at) < apart, select(value * last < 0.0, 1.0, 0.0), 0.0)
     ends = absolute(x + step - t.parameter(FIRST) - lap) < 0.5 * absolute(step)
-    around = select(ends, select(now * began < 0.0, 1.0 - changed, 0.0), 0.0)
+    near = select(
+        absolute(beginning + lap - place) < apart, select(now * began < 0.0, 1.0 - changed, 0.0), 0.0
+    )
+    around = select(ends, near, 0.0)
     ordinary = changed > 0.5
     a, b = select(ordinary, at, place), select(ordinary, x, beginning + lap)
     at_a, at_b = select(ordinary, last, now), select(ordinary, value, began)

@@ -69,8 +69,8 @@ def iterated(traced: Traced) -> tuple[str, ...]:
 
 
 def can_have_corners(traced: Traced) -> bool:
-    """Whether the cycle can be cut where friction bends: all groups have a closed form, and no joint has bends."""
-    return not iterated(traced) and uneven_bends(traced) is None and not bend_names(traced)
+    """Whether the cycle can be cut where friction bends: all groups have a closed form."""
+    return not iterated(traced)
 
 
 def at_point(state: str) -> str:
