@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
+import numpy as np
 import pytest
 
 import linkwright as lw
+from linkwright.cli import main
 from linkwright.errors import LinkwrightError
 from linkwright.files.model_file import read_text
 from linkwright.kinematics.analysed import analysed
@@ -526,3 +530,33 @@ driver: {{turn: motor, about: M, speed: 1440 rpm}}
     found = [each for each in read_text(text, "<text>")[1] if each.code == "unlikely"]
     assert bool(found) == unlikely
     assert not unlikely or "more than twice the link's size of 0.24 m" in found[0].message
+
+
+@pytest.mark.parametrize(("base", "cut"), [("24", True), ("25", False)])
+def test_check_warns_of_a_cam_that_its_follower_cuts_away(
+    base: str, cut: bool, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The radius of curvature of a flat-faced cam is r_b + s + s″: of a cycloidal rise h over β it is least where
+    h(u - sin(2πu)/2π) + 2πh sin(2πu)/β² is, -24.6 mm for 15 mm over 90°."""
+    u = np.linspace(0.0, 1.0, 10001)
+    sine = np.sin(2 * np.pi * u)
+    least = (15.0 * (u - sine / (2 * np.pi)) + 2 * np.pi * 15.0 * sine / (np.pi / 2) ** 2).min()
+    assert bool(float(base) + least < 0.0) == cut
+    file = tmp_path / "cam.yaml"
+    file.write_text(
+        f"""
+format: 1
+frame: {{points: {{O: [0 mm, 0 mm]}}}}
+links: {{cam: {{points: [O]}}, slide: {{points: [P], mass: 1 kg}}}}
+joints:
+  way: {{kind: prismatic, guide: frame, through: O, direction: 90 deg, block: slide, at: P, block_angle: 90 deg}}
+  lobe:
+    {{kind: cam, cam: cam, follower: slide, at: P, touch: flat, base_radius: {base} mm, program: [
+    {{rise: 15 mm, over: 90 deg, law: cycloidal}}, {{dwell: 90 deg}}, {{fall: 15 mm, over: 180 deg}}]}}
+driver: {{turn: cam, about: O, speed: 300 rpm}}
+""",
+        encoding="utf-8",
+    )
+    assert main(["check", str(file)]) == 0
+    told = capsys.readouterr().out
+    assert ("joints.lobe.base_radius: warning: from" in told and "cuts away" in told) is cut

@@ -96,6 +96,7 @@ class Reader(PlainReader):
             value = given if isinstance(given, float) else self._evaluated(given, node, place)
             return None if value is None else self._within(value, node, place, dimension)
         except QuantityError as error:
+            self.used |= {each for each in _WORD.findall(text) if each in self.kinds}
             self.quantity_error(error, node, place, text)
             return None
 
