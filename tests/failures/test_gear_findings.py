@@ -560,3 +560,29 @@ driver: {{turn: cam, about: O, speed: 300 rpm}}
     assert main(["check", str(file)]) == 0
     told = capsys.readouterr().out
     assert ("joints.lobe.base_radius: warning: from" in told and "cuts away" in told) is cut
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong", "key"),
+    [
+        ("M: [-500 mm", "M: [-500", "frame.points.M.x"),
+        ("O: [0 mm", "O: [0 mmm", "frame.points.O.x"),
+        ("240 mm]", "900 mm]", "joints.belt.radii"),
+        ("[motor, crank]", "[motor, cranc]", "joints.belt.links.1"),
+    ],
+)
+def test_a_pulley_that_cannot_be_placed_is_told_beside_an_unlikely_inertia(
+    right: str, wrong: str, key: str
+) -> None:
+    """How large the crank is cannot be known then; what is wrong of the belt is."""
+    text = """
+format: 1
+frame: {points: {M: [-500 mm, 0 mm], O: [0 mm, 0 mm]}}
+links:
+  motor: {points: [M]}
+  crank: {points: [O, A], length: 60 mm, mass: 20 kg, inertia: 6 kg·m²}
+joints: {belt: {kind: belt, links: [motor, crank], radii: [60 mm, 240 mm]}}
+driver: {turn: motor, about: M, speed: 1440 rpm}
+"""
+    found = read_text(text.replace(right, wrong), "<text>")[1]
+    assert key in [each.key for each in found if each.severity == "error"]

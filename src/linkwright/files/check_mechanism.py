@@ -164,6 +164,8 @@ def _unlikely_inertias(reader: Reader, root: MappingNode, mechanism: Mechanism) 
             continue
         if link.inertia <= link.mass * (2.0 * size) ** 2:
             continue
+        if mechanism.higher and reader.error_count:  # a wheel may not be read, or not be placed
+            continue
         size = max(size, *(mark.radius for mark in _discs(mechanism) if mark.link == name), 0.0)
         if link.inertia <= link.mass * (2.0 * size) ** 2:
             continue
