@@ -243,3 +243,39 @@ def test_reactions_of_the_press_go_side_by_side_though_its_teeth_change_flanks_b
             known = measured(name, analysis)
             assert known is not None
             assert found.values[name][k] == pytest.approx(known[0], rel=1e-10)
+
+
+#: A crank that turns the cam to and fro by 89°.
+ROCKING = (
+    UNEVEN.partition("  press:")[0]
+    .replace("M: [-30 mm, 0 mm]", "M: [-110 mm, 0 mm]")
+    .replace("length: 100 mm", "length: 60 mm")
+)
+
+
+def test_designs_whose_cam_rocks_go_side_by_side() -> None:
+    """Six bends of the lift are passed on the way to and again on the way back."""
+    machine = lw.loads(ROCKING)
+    cycle = metric_cycle(machine, ["lobe.phase", "slide.mass"], ["rms_input_torque", "peak_reaction"])
+    assert cycle is not None
+    assert len(cycle.gauss.cuts) == 12
+    phases = machine.dimension("lobe.phase") + np.radians([0.0, 0.7, -0.5])
+    given = {"lobe.phase": phases, "slide.mass": np.array([0.5, 0.5, 0.6])}
+    found = cycle.evaluate(given)
+    assert found.certain.all()
+    values, slopes = cycle.gradients([{"rms_input_torque": 1.0}], given, list(given))
+    assert values[0] == pytest.approx(found.values["rms_input_torque"], rel=1e-13)
+    for k, design in enumerate(np.transpose(list(given.values())).tolist()):
+
+        def rms(changed: list[float]) -> float:
+            return dense(machine.with_dimensions(dict(zip(given, changed, strict=True))), 1.0 / 3.0)[1]
+
+        assert found.values["rms_input_torque"][k] == pytest.approx(rms(design), rel=1e-12)
+        for number, step in enumerate((1e-4, 1e-4)):
+            near = [[x + side * step * (i == number) for i, x in enumerate(design)] for side in (1, -1)]
+            difference = (rms(near[0]) - rms(near[1])) / (2.0 * step)
+            assert slopes[0, k, number] == pytest.approx(difference, rel=1e-5, abs=1e-8)
+        alone = Analysis.of(lw.solve_forces(machine.with_dimensions(dict(zip(given, design, strict=True)))))
+        known = measured("peak_reaction", alone)
+        assert known is not None
+        assert found.values["peak_reaction"][k] == pytest.approx(known[0], rel=1e-10)

@@ -21,7 +21,7 @@ from linkwright.engine.table import Tables
 from linkwright.engine.trace import Scalar, Trace, absolute, floor, select, sign
 from linkwright.kinetostatics.friction import Swinging
 from linkwright.kinetostatics.site import LAP
-from linkwright.study.joint_bends import FIRST
+from linkwright.study.joint_bends import FIRST, other_bends
 from linkwright.study.limit_stages import CONVERGED, STEP, narrowed, rates
 from linkwright.study.traced import Traced
 
@@ -59,7 +59,7 @@ def signed_values(
     traced: Traced, outputs: Iterable[Scalar], swinging: Iterable[Swinging]
 ) -> dict[str, Signed]:
     """What the ``outputs`` bend or jump at, by names: forces, N, that press guides with friction, those between teeth
-    or in strands, and the rates of what is ``swinging`` with friction."""
+    or in strands, the rates of what is ``swinging`` with friction, and what lifts of cams that rock bend at."""
     programs, trace = traced.forces.programs, traced.solver.motion.trace
     joints = programs.forces.joints
     total = sum((absolute(each.force.x) + absolute(each.force.y) for each in joints), start=0.0)
@@ -69,7 +69,8 @@ def signed_values(
         for name, force in programs.signed.items()
         if programs.friction is not None or trace.lift(absolute(force)) in needed
     }
-    return found | {f"rate {each}": Signed(rates(traced, each)[0], 0.0) for each in swinging}
+    found |= {f"rate {each}": Signed(rates(traced, each)[0], 0.0) for each in swinging}
+    return found | {name: Signed(value, 0.0) for name, value in other_bends(traced).items()}
 
 
 def corner_stages(traced: Traced, values: Mapping[str, Signed], corners: Iterable[Corner]) -> list[Stage]:

@@ -12,7 +12,7 @@ from linkwright.core.outputs import Output
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import Reduction
 from linkwright.engine.stage import Stage
-from linkwright.engine.trace import Scalar, Trace, atan
+from linkwright.engine.trace import Scalar, Trace, atan, cos, sin
 from linkwright.joints.base import Bends
 from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.signals import MotionSignals
@@ -61,6 +61,25 @@ def bend_names(traced: Traced) -> tuple[str, ...]:
     """Names of the cycle values that are the inputs, rad, at which joints go over from one formula to the next; of
     those joints whose links turn in a fixed ratio to the driver."""
     return tuple(name for each in turning(traced, steady=True) for name, _ in each.names())
+
+
+def other_bends(traced: Traced) -> dict[str, Scalar]:
+    """What is zero where the other joints go over from one formula to the next, by name: whose links rock, or more
+    than one in no fixed ratio."""
+    uneven, found, source = turning(traced, steady=False), dict[str, Scalar](), traced.solver.motion
+    known = {each.joint for each in turning(traced, steady=True) + (uneven if len(uneven) == 1 else [])}
+    for name, joint in traced.mechanism.joints.items():
+        if (bends := joint.bends) is None or name in known:
+            continue
+        turned = traced.nominal.link(bends.link).angle - traced.nominal.link(bends.carrier).angle
+        turned = turned - traced.mechanism.dimension(bends.phase)
+        a, b = (source.poses[link].direction for link in (bends.carrier, bends.link))
+        along, across, phase = a.dot(b), a.cross(b), source.dimensions(bends.phase)
+        for k, angle in enumerate(bends.angles):
+            if np.floor((turned.max() - angle) / TURN) >= np.ceil((turned.min() - angle) / TURN):
+                c, s = cos(angle + phase), sin(angle + phase)
+                found[f"bend {name} {k}"] = (across * c - along * s) / (1.0 + along * c + across * s)
+    return found
 
 
 def bend_stage(traced: Traced) -> Stage | None:

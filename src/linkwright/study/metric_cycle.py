@@ -108,10 +108,15 @@ def _metric_cycle(
     traced = with_loads(plain, loads)
     gauss = gauss_points(traced, loads, analysis, PIECES[0])
     nominal = {address: np.array([mechanism.dimension(address)]) for address in addresses}
+    if gauss is None:
+        return None
+    first = MetricCycle(traced, gauss, terms, analysis, loads)
     if isinstance(gauss, GaussCycle):
         signals = [each.value for each in traced.quantities(outputs).values()]
-        gauss = gauss.cornered(loads, signals, rubbing)
-    return None if gauss is None else _met(MetricCycle(traced, gauss, terms, analysis, loads), nominal)
+        cut = gauss.cornered(loads, signals, rubbing)
+        if cut.corners and (rubbing or not first.met(nominal)[1].all()):
+            first = MetricCycle(traced, cut, terms, analysis, loads)
+    return _met(first, nominal)
 
 
 def _met(first: MetricCycle, nominal: Mapping[str, Floats]) -> MetricCycle | None:
