@@ -496,3 +496,34 @@ def test_positions_that_can_be_put_together_and_positions_that_are_reached() -> 
     assert whole.assembled.tolist() == [fits] and part.assembled.tolist() == [fits // 2]
     assert not whole.ok.any()
     assert lw.solve_motion(mechanism, steps=steps, failures="mark").ok.sum() == fits // 2
+
+
+def test_an_angle_of_more_than_a_turn_is_taken_design_by_design() -> None:
+    """A wheel turned by 7 rad to both sides against a torsion spring: T = (k - J ω²) q."""
+    wheel = lw.loads("""
+format: 1
+frame: {points: {O: [0 m, 0 m]}}
+links: {wheel: {points: [O, A], length: 1 m, mass: 0 kg, inertia: 0.02 kg·m²}}
+driver: {turn: wheel, about: O, position: "7 rad*sin(2*pi*t/(1 s))"}
+cycle: {duration: 1 s}
+loads: {winding: {kind: torsion_spring, links: [wheel, frame], stiffness: 3 N·m/rad, free_angle: 0 deg}}
+""")
+    inertia = np.array([0.02, 0.03])
+    found = lw.sweep(wheel, {"wheel.inertia": inertia}, outputs="peak_input_torque")
+    assert found["peak_input_torque"] == pytest.approx(7.0 * np.abs(3.0 - inertia * 4.0 * np.pi**2), rel=1e-9)
+
+
+def test_an_output_that_does_not_move_has_an_infinite_advantage() -> None:
+    """Two links pinned to each other and to the frame stand still beside a crank."""
+    still = lw.loads("""
+format: 1
+frame: {points: {O: [0 m, 0 m], P: [2 m, 0 m], Q: [3 m, 0 m]}}
+links:
+  crank: {points: [O, A], length: 0.5 m}
+  one: {points: [P, B], length: 1 m}
+  two: {points: [Q, B], length: 0.8 m}
+assembly: {B: left}
+driver: {turn: crank, about: O, speed: 2 rad/s}
+""")
+    found = lw.sweep(still, {"one.length": np.array([0.9, 1.0])}, outputs="mechanical_advantage")
+    assert np.isinf(found["mechanical_advantage"]).all()

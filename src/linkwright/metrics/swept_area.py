@@ -145,7 +145,7 @@ def _spans(analysis: Analysis, grid: CycleGrid, values: Floats) -> Indices:
             ends = [(grid.start, float(way[0])), (grid.end, float(way[-1]))]
             reached = [*ends, *((each.time, each.value) for each in analysis.limits(output))]
             own = points_of_links(mechanism)[output_link(mechanism, output)]
-            found[[keys.index(key) for key in own]] = np.searchsorted(times, _once(reached))
+            found[[keys.index(key) for key in own]] = _between(times, _once(reached))
     found[(values == values[:, :, :1, :1]).all(axis=(1, 2, 3))] = 0, 1
     return found
 
@@ -156,8 +156,13 @@ def of_driver(mechanism: Mechanism, edges: Floats) -> tuple[int, int]:
     times, laws = nodes(edges).ravel(), [driver.law for driver in mechanism.drivers.values()]
     if len(laws) > 1 or laws[0].constant_speed is not None:
         return 0, len(times)
-    first, last = np.searchsorted(times, _once(turns(laws[0], edges[0], edges[-1], len(times))))
-    return int(first), int(last)
+    return _between(times, _once(turns(laws[0], edges[0], edges[-1], len(times))))
+
+
+def _between(times: Floats, ends: tuple[float, float]) -> tuple[int, int]:
+    """The first of the nodes at some times between two, and that behind the last one; one at least."""
+    first, last = np.searchsorted(times[:-1], ends[0]), np.searchsorted(times, ends[1])
+    return int(first), max(int(last), int(first) + 1)
 
 
 def _once(reached: Sequence[tuple[float, float]]) -> tuple[float, float]:

@@ -47,7 +47,7 @@ from linkwright.study.term_parts import (
 )
 from linkwright.study.terms import Asked, Term, all_parts, term
 from linkwright.study.timed_cycle import TimedCycle, can_go_together, gauss_points
-from linkwright.study.traced import VALID, Traced, design_table
+from linkwright.study.traced import VALID, Traced, TurnsThrough, design_table
 
 #: Designs of one call.
 BLOCK = 2048
@@ -72,12 +72,15 @@ def metric_cycle(
     ``steps``: of the motion by which it is judged what applies; ``asked``: see ``terms.term``. None where the
     designs cannot go side by side: the way passes change points, loads do not follow the input, polynomials do not
     meet the machine itself, or the cycle is no whole number of turns of one driver of constant speed and the
-    dimensions move its times or inputs, loads or friction go by limits, or a group has no closed form. What is found
-    for a machine is kept.
+    dimensions move its times or inputs, loads or friction go by limits, a group has no closed form, or an angle that
+    is taken goes through more than a turn. What is found for a machine is kept.
     """
     given, addresses = tuple(names), tuple(varied)
     key = (addresses, given, steps, asked)
-    return _cycles.get(mechanism, key, lambda: _metric_cycle(mechanism, addresses, given, steps, asked))
+    try:
+        return _cycles.get(mechanism, key, lambda: _metric_cycle(mechanism, addresses, given, steps, asked))
+    except TurnsThrough:
+        return None
 
 
 def _metric_cycle(

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from functools import reduce
 
+import numpy as np
+
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.engine.trace import Scalar, absolute, minimum, select
@@ -40,7 +42,9 @@ class Term:
 
     def measured(self, analysis: Analysis) -> float:
         """The number of one machine."""
-        found = self.value({part: analysis.part(part).value for part in self.parts})
+        parts = {part: np.float64(analysis.part(part).value) for part in self.parts}
+        with np.errstate(divide="ignore", invalid="ignore"):  # infinite as of many designs, not an error
+            found = self.value(parts)
         assert isinstance(found, float)
         return float(found)
 

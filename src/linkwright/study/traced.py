@@ -38,6 +38,10 @@ NEAREST = "nearest change point"
 CLEAR = 0.75 * np.pi
 
 
+class TurnsThrough(RequestError):
+    """An angle is wanted of a link that turns by more than programs can tell from each other."""
+
+
 class Traced:
     """Programs of one mechanism for outputs in the user's words.
 
@@ -181,7 +185,7 @@ class Traced:
         if high - low <= TURNING:
             return 0.5 * (low + high)
         if not self.turning:
-            raise RequestError(Sentence("study.turns_through", link=link))
+            raise TurnsThrough(Sentence("study.turns_through", link=link))
         around = np.sort(angle % (2 * np.pi))
         gaps = np.diff(np.append(around, around[0] + 2 * np.pi))
         widest = int(np.argmax(gaps))
