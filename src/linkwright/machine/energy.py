@@ -48,11 +48,8 @@ class EnergyFluctuation:
 
     def without_rounding(self, work: float) -> EnergyFluctuation:
         """The same with energies set to zero that are mere rounding of the work of a cycle, J."""
-
-        def kept() -> tuple[Floats, Floats]:
-            return self.angle, np.where(np.abs(self.energy) < ROUNDING * work, 0.0, self.energy)
-
-        return replace(self, value=self.value if self.value >= ROUNDING * work else 0.0, diagram=kept)
+        value = self.value if self.value >= ROUNDING * work else 0.0
+        return replace(self, value=value, diagram=partial(_without_rounding, self, ROUNDING * work))
 
     @cached_property
     def _shown(self) -> tuple[Floats, Floats]:
@@ -87,6 +84,10 @@ def of_energy(energy: Piecewise, *, balance: float) -> EnergyFluctuation:
     low, high = energy.extremes()
     diagram = partial(_diagram, energy, low.place, high.place)
     return EnergyFluctuation(high.value - low.value, low.place, high.place, balance, diagram)
+
+
+def _without_rounding(found: EnergyFluctuation, least: float) -> tuple[Floats, Floats]:
+    return found.angle, np.where(np.abs(found.energy) < least, 0.0, found.energy)
 
 
 def _diagram(energy: Piecewise, low: float, high: float) -> tuple[Floats, Floats]:

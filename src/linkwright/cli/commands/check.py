@@ -94,7 +94,13 @@ def findings_of(name: str) -> tuple[list[Finding], dict[str, object]]:
     varying = [load for load, each in mechanism.loads.items() if _varies(each)]
     idle = _of_loads(name, mechanism, unsure, varying) if (unsure or varying) and not turned else []
     notes += _assumed(name, mechanism, built)
-    mended = [*turned, *idle, *_of_cams(name, mechanism), *_of_settings(name, mechanism), *notes]
+    mended = [
+        *turned,
+        *idle,
+        *(_of_cams(name, mechanism) if mechanism.higher else ()),
+        *_of_settings(name, mechanism),
+        *notes,
+    ]
     return [*found, *(_located(each, root, place) for each in mended)], fact
 
 
@@ -126,16 +132,18 @@ def _assumed(name: str, mechanism: Mechanism, structure: Structure) -> list[Find
 
 def _of_cams(name: str, mechanism: Mechanism) -> list[Finding]:
     """Cams whose profile could not be made: their follower would cut away what it should touch."""
-    cams = [joint.name for joint in mechanism.joints.values() if joint.kind == "cam"]
-    if not cams:
-        return []
     from linkwright.cams.joint import cam_of
 
-    return [
-        replace(each, severity="warning", where=name, key=f"joints.{cam}.{each.key.split('.')[-1]}")
-        for cam in cams
-        for each in cam_of(mechanism, cam).findings()
-    ]
+    found: list[Finding] = []
+    for joint in mechanism.joints.values():
+        try:
+            faults = cam_of(mechanism, joint.name).findings()
+        except TypeError:  # no cam
+            continue
+        for each in faults:
+            key = f"joints.{joint.name}.{each.key.split('.')[-1]}"
+            found.append(replace(each, severity="warning", where=name, key=key))
+    return found
 
 
 def _of_calculation(name: str) -> tuple[list[Finding], dict[str, object]]:
