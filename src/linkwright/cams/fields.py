@@ -4,23 +4,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from linkwright.cams.follower import Follower, LiftQuantity, lift_of
 from linkwright.cams.loading import CamLoading, CamMaterial, CamSpring
 from linkwright.cams.sizes import CamChoice
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import ModelError
-from linkwright.fields.base import Field, Quantity, Word, given
+from linkwright.fields.base import Field, Place, Quantity, Reader, Word, given
 from linkwright.fields.nodes import Node
 from linkwright.laws.program_fields import RATES, ProgramField
 from linkwright.laws.smoothest import ORDERS, FoundProgram, Window
 from linkwright.parts.base import fault
 from linkwright.parts.fields import Listed, Table, Whole
-
-if TYPE_CHECKING:
-    from linkwright.files.plain_reader import Place
-    from linkwright.files.reader import Reader
 
 
 @dataclass(frozen=True)

@@ -4,16 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from linkwright.core.dataclass import dataclass
-from linkwright.fields.base import Field, Quantity, Schema, Word, given
+from linkwright.fields.base import Field, Place, Quantity, Reader, Schema, Word, given
+from linkwright.fields.nodes import Node
 from linkwright.parts.fields import Flag
-
-if TYPE_CHECKING:
-    from linkwright.fields.nodes import Node
-    from linkwright.files.plain_reader import Place
-    from linkwright.files.reader import Reader
 
 KINDS = ("roller", "knife", "flat")
 MOTIONS = ("translating", "oscillating")

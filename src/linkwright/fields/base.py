@@ -12,7 +12,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import field, fields, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from linkwright import units
 from linkwright.core.dataclass import dataclass
@@ -21,8 +21,12 @@ from linkwright.fields.nodes import Node, Scalar
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
-    from linkwright.files.plain_reader import Place
-    from linkwright.files.reader import Reader
+    from linkwright.files import plain_reader, reader
+
+    Place: TypeAlias = plain_reader.Place
+    Reader: TypeAlias = reader.Reader
+else:  # what reads files is imported when one is read
+    Place = Reader = Any
 
 Schema = dict[str, Any]
 

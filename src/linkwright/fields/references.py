@@ -5,17 +5,22 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Mapping
 from dataclasses import field
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 from linkwright.core.dataclass import dataclass
-from linkwright.fields.base import Field, Quantities, Schema, pair_schema, quantity_schema, written_quantity
+from linkwright.fields.base import (
+    Field,
+    Place,
+    Quantities,
+    Reader,
+    Schema,
+    pair_schema,
+    quantity_schema,
+    written_quantity,
+)
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Sequence
 from linkwright.words.sentence import Sentence
-
-if TYPE_CHECKING:
-    from linkwright.files.plain_reader import Place
-    from linkwright.files.reader import Reader
 
 
 @dataclass(frozen=True)

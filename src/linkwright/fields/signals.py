@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import Expression
 from linkwright.core.outputs import Output
 from linkwright.fields.base import (
     Field,
+    Place,
     Quantities,
+    Reader,
     Schema,
     Word,
     quantity_schema,
@@ -21,11 +23,6 @@ from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node
 from linkwright.fields.strokes import PARTS, StrokePart, StrokePartField
 from linkwright.words.sentence import Sentence
-
-if TYPE_CHECKING:
-    from linkwright.files.plain_reader import Place
-    from linkwright.files.reader import Reader
-
 
 Limit = Literal["max", "min"]
 

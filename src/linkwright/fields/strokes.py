@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 from linkwright.core.dataclass import dataclass
-from linkwright.fields.base import Field, Schema, pair_schema, quantity_schema, written_quantity
+from linkwright.fields.base import (
+    Field,
+    Place,
+    Reader,
+    Schema,
+    pair_schema,
+    quantity_schema,
+    written_quantity,
+)
 from linkwright.fields.nodes import Node, Scalar, Sequence
 from linkwright.words.sentence import Sentence
-
-if TYPE_CHECKING:
-    from linkwright.files.plain_reader import Place
-    from linkwright.files.reader import Reader
 
 PartWord = Literal["first", "last", "free"]
 #: Keys of a phase that name a part of the stroke.

@@ -24,14 +24,17 @@ from linkwright.core.outputs import Output
 from linkwright.fields.base import (
     REQUIRED,
     Field,
+    Place,
     Quantities,
     Quantity,
+    Reader,
     Schema,
     Word,
     given,
     given_by_file,
     table_schema,
 )
+from linkwright.fields.nodes import Node
 from linkwright.fields.references import (
     LinkName,
     LinkNames,
@@ -49,9 +52,6 @@ from linkwright.words.sentence import Sentence, together
 if TYPE_CHECKING:
     from linkwright.core.arrays import Floats
     from linkwright.engine.trace import Scalar
-    from linkwright.fields.nodes import Node
-    from linkwright.files.plain_reader import Place
-    from linkwright.files.reader import Reader
     from linkwright.kinematics.motion import Motion
     from linkwright.loads.magnitude import Course
     from linkwright.loads.marks import Mark

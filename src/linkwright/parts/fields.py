@@ -3,21 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from linkwright import units
 from linkwright.core import expressions
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import QuantityError
-from linkwright.fields.base import Field, Schema, given_by_file, table_schema
+from linkwright.fields.base import Field, Place, Reader, Schema, given_by_file, table_schema
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar
 from linkwright.registry import nearest
 from linkwright.words.sentence import Sentence
-
-if TYPE_CHECKING:
-    from linkwright.files.plain_reader import Place
-    from linkwright.files.reader import Reader
 
 Make = Callable[..., Any]
 

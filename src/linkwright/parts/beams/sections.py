@@ -4,19 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding
-from linkwright.fields.base import Field, Quantities, Quantity, Text
+from linkwright.fields.base import Field, Place, Quantities, Quantity, Reader, Text
+from linkwright.fields.nodes import Node
 from linkwright.parts.base import fault
 from linkwright.parts.fields import Known, Table
 from linkwright.words.sentence import Sentence
-
-if TYPE_CHECKING:
-    from linkwright.fields.nodes import Node
-    from linkwright.files.plain_reader import Place
-    from linkwright.files.reader import Reader
 
 #: IPE profiles, EN 10365: h, b, web, flange, root radius (mm), area (mm²), I (mm⁴), W (mm³).
 IPE: Mapping[str, tuple[float, ...]] = {

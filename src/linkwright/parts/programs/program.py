@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -14,9 +14,9 @@ from linkwright.core import expressions
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, ModelError, QuantityError
-from linkwright.fields.base import Field, given
+from linkwright.fields.base import Field, Place, Reader, given
 from linkwright.fields.nodes import Mapping as MappingNode
-from linkwright.fields.nodes import Scalar
+from linkwright.fields.nodes import Node, Scalar
 from linkwright.parts.base import UNITS, Block, Problem, Result, Row, fault, put, shown, si_unit
 from linkwright.parts.fields import AnyQuantity, Flag, Listed, Named, Table
 from linkwright.parts.programs.formula import Constraint, Formula, constraint, formula
@@ -33,11 +33,6 @@ from linkwright.parts.programs.problem import Model, Variable
 from linkwright.words import Say
 from linkwright.words.sentence import Sentence
 from linkwright.worked.page import Step
-
-if TYPE_CHECKING:
-    from linkwright.fields.nodes import Node
-    from linkwright.files.plain_reader import Place
-    from linkwright.files.reader import Reader
 
 #: A constraint is active within this share of the size of its sides.
 ACTIVE = 1e-6

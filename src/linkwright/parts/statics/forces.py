@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,16 +13,12 @@ from numpy.typing import ArrayLike
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding
-from linkwright.fields.base import Quantities, Quantity, given
+from linkwright.fields.base import Place, Quantities, Quantity, Reader, given
+from linkwright.fields.nodes import Node
 from linkwright.parts.base import Block, Problem, Result, Row, fault, number, put
 from linkwright.parts.fields import Either, Named, Table
 from linkwright.words import Say
 from linkwright.worked.page import Step
-
-if TYPE_CHECKING:
-    from linkwright.fields.nodes import Node
-    from linkwright.files.plain_reader import Place
-    from linkwright.files.reader import Reader
 
 #: A sum smaller than this share of its largest part is zero but for rounding.
 ZERO = 1e-12

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import Expression, parse
 from linkwright.errors import Finding, QuantityError, RequestError
-from linkwright.fields.base import Quantity, given
+from linkwright.fields.base import Place, Quantity, Reader, given
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node
 from linkwright.laws.base import MOTION_LAWS, MotionLaw
@@ -24,10 +24,6 @@ from linkwright.parts.base import Block, Problem, Result, Row, fault, number, pu
 from linkwright.parts.vibration.linear import Linear
 from linkwright.words import Say
 from linkwright.worked.page import Step
-
-if TYPE_CHECKING:
-    from linkwright.files.plain_reader import Place
-    from linkwright.files.reader import Reader
 
 #: Points of curves.
 POINTS = 801

@@ -11,13 +11,11 @@ import numpy as np
 from linkwright.core.arrays import Floats, largest
 from linkwright.core.dataclass import dataclass
 from linkwright.metrics.quantities import SHOWN, si_unit
-from linkwright.plot.diagrams.picture import INK
+from linkwright.plot.diagrams.picture import INK, Axes, Figure
 from linkwright.words.characters import printable
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
     from linkwright.plot.diagrams.base import Request
     from linkwright.plot.diagrams.source import InputAxis

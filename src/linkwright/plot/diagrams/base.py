@@ -13,12 +13,11 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 from linkwright.core.dataclass import dataclass
+from linkwright.plot.diagrams.picture import Figure
 from linkwright.registry import Registry
 from linkwright.words import Say, say
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
     from linkwright.plot.diagrams.source import Source
 
 

@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from linkwright.core.arrays import Flags, Floats
 from linkwright.plot.diagrams.axes import round_up, significant
 from linkwright.plot.diagrams.marks import acting
-from linkwright.plot.diagrams.picture import INK
+from linkwright.plot.diagrams.picture import INK, Axes
 from linkwright.plot.diagrams.source import InputAxis, Source
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 #: Two labels nearer than these shares of the picture's size, across and up, are not both written.
 NEAR = np.array([0.09, 0.05])

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -16,7 +15,7 @@ from linkwright.kinetostatics.forces import Forces
 from linkwright.plot.diagrams.axes import significant, unit_of, wrapped
 from linkwright.plot.diagrams.base import DIAGRAMS, Kind, Request
 from linkwright.plot.diagrams.outputs import known_link
-from linkwright.plot.diagrams.picture import COLOURS
+from linkwright.plot.diagrams.picture import COLOURS, Axes, Figure
 from linkwright.plot.diagrams.position import draw_position, name_position, position_cell
 from linkwright.plot.diagrams.reactions import require_forces
 from linkwright.plot.diagrams.scaled_page import (
@@ -37,10 +36,6 @@ from linkwright.plot.diagrams.scaled_page import (
 from linkwright.plot.diagrams.source import Source
 from linkwright.plot.force_names import link_numbers, reaction_index
 from linkwright.words.sentence import Sentence
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 #: Longest extent of a polygon on the paper, mm, and how many pictures stand in a row.
 EXTENT, IN_ROW = 58.0, 3

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,14 +11,10 @@ from linkwright.plot.diagrams.axes import Legend, Unit, equal, framed, unit_of
 from linkwright.plot.diagrams.base import DIAGRAMS, Kind, Request
 from linkwright.plot.diagrams.curve_marks import draw_curve, jumps, mark_inputs
 from linkwright.plot.diagrams.outputs import joint_and_link, known_link
-from linkwright.plot.diagrams.picture import COLOURS, FAINT, INK, new_figure
+from linkwright.plot.diagrams.picture import COLOURS, FAINT, INK, Axes, Figure, new_figure
 from linkwright.plot.diagrams.reactions import require_forces
 from linkwright.plot.diagrams.source import Source
 from linkwright.plot.force_names import chosen_pairs
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 
 @DIAGRAMS.register("hodograph")

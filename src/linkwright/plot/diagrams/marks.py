@@ -15,12 +15,10 @@ from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.loads.over_cycle import activity
 from linkwright.metrics.analysis import Kind
 from linkwright.plot.diagrams.axes import Unit
-from linkwright.plot.diagrams.picture import INK
+from linkwright.plot.diagrams.picture import INK, Axes
 from linkwright.plot.diagrams.source import Source
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-
     from linkwright.plot.diagrams.panels import Curve, Panel
     from linkwright.plot.diagrams.source import InputAxis
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 import numpy as np
 
@@ -15,7 +15,7 @@ from linkwright.kinematics.motion import Motion
 from linkwright.plot.diagrams.axes import significant, wrapped
 from linkwright.plot.diagrams.base import DIAGRAMS, Kind, Request
 from linkwright.plot.diagrams.motion_vectors import MotionPolygon, acceleration_polygon, velocity_polygon
-from linkwright.plot.diagrams.picture import COLOURS, INK
+from linkwright.plot.diagrams.picture import COLOURS, INK, Axes, Figure
 from linkwright.plot.diagrams.position import draw_position, name_position, position_cell
 from linkwright.plot.diagrams.scaled_page import (
     BAR,
@@ -36,10 +36,6 @@ from linkwright.plot.diagrams.scaled_page import (
 from linkwright.plot.diagrams.source import Source
 from linkwright.words import Say
 from linkwright.words.sentence import Sentence
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 #: Longest extent of the polygon on the paper, mm.
 POLYGON = 110.0

@@ -5,7 +5,6 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -15,13 +14,9 @@ from linkwright.core.outputs import Output
 from linkwright.plot.diagrams.axes import Legend, Unit, framed, label_input, unit_of
 from linkwright.plot.diagrams.base import Kind, Request
 from linkwright.plot.diagrams.marks import LimitMark, PhaseMark, limit_marks, mark_peaks, phase_marks
-from linkwright.plot.diagrams.picture import COLOURS, FAINT, INK, SHADE, new_figure
+from linkwright.plot.diagrams.picture import COLOURS, FAINT, INK, SHADE, Axes, Figure, new_figure
 from linkwright.plot.diagrams.source import Extremes, InputAxis, Source
 from linkwright.words import Say
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 DASHES = ("-", "--", ":", "-.")
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -15,14 +14,10 @@ from linkwright.plot.diagrams.base import DIAGRAMS, Kind, Request
 from linkwright.plot.diagrams.curve_marks import draw_curve, mark_inputs
 from linkwright.plot.diagrams.outputs import output_named, traced_points
 from linkwright.plot.diagrams.panels import DASHES
-from linkwright.plot.diagrams.picture import COLOURS, INK, new_figure
+from linkwright.plot.diagrams.picture import COLOURS, INK, Axes, Figure, new_figure
 from linkwright.plot.diagrams.position import LINK, draw_position, reach
 from linkwright.plot.diagrams.source import Source
 from linkwright.words.sentence import Sentence
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 
 @DIAGRAMS.register("paths")

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import lru_cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError, RequestError
@@ -18,7 +18,12 @@ from linkwright.whole_files import write_whole
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+    from matplotlib import axes, figure
+
+    Axes: TypeAlias = axes.Axes
+    Figure: TypeAlias = figure.Figure
+else:  # matplotlib is imported when something is drawn
+    Axes = Figure = Any
 
 
 #: Families that hold Chinese characters, the ones that look best first.

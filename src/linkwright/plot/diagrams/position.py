@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import field
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -11,12 +10,9 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.kinematics.motion import Motion
 from linkwright.plot.diagrams.axes import significant
-from linkwright.plot.diagrams.picture import INK, new_figure
+from linkwright.plot.diagrams.picture import INK, Axes, new_figure
 from linkwright.plot.diagrams.scaled_page import BAR, Cell, Labels, scale_for, symbol, with_index
 from linkwright.words import Say
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 LINK, PIN = "#7a828c", 4.2
 #: Longest extent of a position beside a polygon, mm.

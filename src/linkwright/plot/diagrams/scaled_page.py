@@ -3,19 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.plot.diagrams.axes import round_up
-from linkwright.plot.diagrams.picture import INK
+from linkwright.plot.diagrams.picture import INK, Axes, Figure
 from linkwright.plot.svg.text import split_index
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 INCH = 25.4
 #: Space around a picture, and above it for its title, mm.

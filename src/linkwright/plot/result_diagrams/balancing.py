@@ -2,19 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from linkwright.core.arrays import Floats, largest
 from linkwright.kinetostatics.balancing import Balancing
 from linkwright.plot.diagrams.axes import Legend, equal, framed, label_input, unit_of
 from linkwright.plot.diagrams.base import Request, result_diagram
 from linkwright.plot.diagrams.panels import DASHES, Curve, Panel, draw_panel
-from linkwright.plot.diagrams.picture import COLOURS, INK, new_figure
+from linkwright.plot.diagrams.picture import COLOURS, INK, Axes, Figure, new_figure
 from linkwright.plot.diagrams.source import Source
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 #: A shaking force of this share of the one before is zero but for rounding.
 VANISHED = 1e-9

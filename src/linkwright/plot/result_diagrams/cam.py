@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -11,12 +10,9 @@ from linkwright.cams.report import RATES
 from linkwright.cams.result import CamDesign
 from linkwright.errors import RequestError
 from linkwright.plot.diagrams.base import Request, result_diagram
-from linkwright.plot.diagrams.picture import FAINT, INK
+from linkwright.plot.diagrams.picture import FAINT, INK, Figure
 from linkwright.plot.result_diagrams.part_axes import Line, Pane, panes, plane
 from linkwright.words.sentence import Sentence
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 #: Points of the coloured profile, and speeds of the vibration's diagram.
 _POINTS, _SPEEDS = 1440, 240

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -11,16 +10,13 @@ from linkwright.errors import RequestError
 from linkwright.plot.diagrams.axes import Legend, equal, framed, unit_of
 from linkwright.plot.diagrams.base import Request, result_diagram
 from linkwright.plot.diagrams.panels import Curve, Panel, look, stacked
-from linkwright.plot.diagrams.picture import INK, new_figure
+from linkwright.plot.diagrams.picture import INK, Figure, new_figure
 from linkwright.plot.diagrams.source import InputAxis
 from linkwright.registry import offered
 from linkwright.study.compare import Comparison
 from linkwright.study.overlay import Overlay
 from linkwright.words import say
 from linkwright.words.sentence import Sentence
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 HODOGRAPH = "hodograph"
 #: What a motion is called and measured in, for an output that turns and for one that slides.

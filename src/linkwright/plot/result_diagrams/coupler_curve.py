@@ -2,17 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from linkwright.metrics.coupler_curve import CouplerCurve
 from linkwright.plot.diagrams.axes import Legend, framed, unit_of
 from linkwright.plot.diagrams.base import Request, result_diagram
-from linkwright.plot.diagrams.picture import COLOURS, new_figure
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+from linkwright.plot.diagrams.picture import COLOURS, Figure, new_figure
 
 
 @result_diagram("coupler_curve", CouplerCurve)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -10,13 +10,9 @@ from linkwright.core.arrays import Floats
 from linkwright.errors import RequestError
 from linkwright.plot.diagrams.axes import Legend, framed, significant
 from linkwright.plot.diagrams.base import Request
-from linkwright.plot.diagrams.picture import COLOURS, new_figure
+from linkwright.plot.diagrams.picture import COLOURS, Axes, Figure, new_figure
 from linkwright.plot.result_diagrams.design_table import Column, DesignTable
 from linkwright.words.sentence import Sentence
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 FAILED = "#c0392b"
 #: From so many designs on, points would hide each other, and their number in cells is shown.

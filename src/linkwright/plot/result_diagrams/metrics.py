@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from linkwright.errors import RequestError
@@ -11,12 +9,8 @@ from linkwright.metrics.base import METRICS, MetricValue
 from linkwright.metrics.table import MetricsTable
 from linkwright.plot.diagrams.axes import Legend, Unit, framed, unit_of
 from linkwright.plot.diagrams.base import Request, result_diagram
-from linkwright.plot.diagrams.picture import COLOURS, FAINT, new_figure
+from linkwright.plot.diagrams.picture import COLOURS, FAINT, Axes, Figure, new_figure
 from linkwright.words.sentence import Sentence
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 #: Height of a row of dots and of an axis with its label, inches.
 ROW, AXIS = 0.3, 0.75

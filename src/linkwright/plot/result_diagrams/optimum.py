@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from linkwright.optimisation.optimum import Optimum
 from linkwright.optimisation.report import label, shown_unit
 from linkwright.plot.diagrams.base import Request, result_diagram
-from linkwright.plot.diagrams.picture import COLOURS, INK, new_figure
+from linkwright.plot.diagrams.picture import COLOURS, INK, Figure, new_figure
 from linkwright.words import say
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 #: A front of less than this share of the way to the start would be a dot beside it; the start stays outside then.
 NEAR = 0.1

@@ -12,12 +12,10 @@ from linkwright.core.dataclass import dataclass
 from linkwright.parts.base import UNITS, unit
 from linkwright.plot.diagrams.axes import Legend, Unit, angle_ticks, framed, unit_of
 from linkwright.plot.diagrams.base import Request
-from linkwright.plot.diagrams.picture import COLOURS, FAINT, INK, new_figure
+from linkwright.plot.diagrams.picture import COLOURS, FAINT, INK, Axes, Figure, new_figure
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
     from matplotlib.axis import Axis
-    from matplotlib.figure import Figure
 
 
 @dataclass(frozen=True)

@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from linkwright.parts.beams.beam import BeamLine
 from linkwright.parts.beams.link import LinkStress
 from linkwright.plot.diagrams.base import Request, result_diagram
+from linkwright.plot.diagrams.picture import Figure
 from linkwright.plot.result_diagrams.part_axes import Line, Pane, panes
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 PANES = (("V", "shear [N]", "force"), ("M", "moment [N·m]", "torque"), ("θ", "slope [rad]", "slope"),
          ("w", "deflection [m]", "length"))  # fmt: skip

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,11 +11,7 @@ from linkwright.parts.programs.problem import Variable
 from linkwright.parts.programs.program import Optimum, unit_of
 from linkwright.plot.diagrams.axes import framed
 from linkwright.plot.diagrams.base import Request, result_diagram
-from linkwright.plot.diagrams.picture import COLOURS, FAINT, INK, SHADE, new_figure
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
+from linkwright.plot.diagrams.picture import COLOURS, FAINT, INK, SHADE, Axes, Figure, new_figure
 
 GRID = 241
 

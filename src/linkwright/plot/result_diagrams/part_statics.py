@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -15,12 +14,8 @@ from linkwright.parts.statics.forces import Resultant, spatial
 from linkwright.parts.statics.structure import StructureForces
 from linkwright.parts.statics.wedge import WedgeForces
 from linkwright.plot.diagrams.base import Request, result_diagram
-from linkwright.plot.diagrams.picture import COLOURS, INK
+from linkwright.plot.diagrams.picture import COLOURS, INK, Axes, Figure
 from linkwright.plot.result_diagrams.part_axes import Line, Pane, arrow, line_of, panes, plane, point
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 #: Longest arrow as a share of the picture's size.
 LONGEST = 0.4

@@ -2,18 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from linkwright.parts.statistics.samples import Statistics
 from linkwright.plot.diagrams.axes import framed
 from linkwright.plot.diagrams.base import Request, result_diagram
-from linkwright.plot.diagrams.picture import COLOURS, FAINT, new_figure
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
+from linkwright.plot.diagrams.picture import COLOURS, FAINT, Axes, Figure, new_figure
 
 
 @result_diagram("samples", Statistics)

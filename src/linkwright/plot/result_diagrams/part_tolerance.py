@@ -2,19 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from linkwright.plot.diagrams.axes import framed
 from linkwright.plot.diagrams.base import Request, result_diagram
-from linkwright.plot.diagrams.picture import COLOURS, FAINT, new_figure
+from linkwright.plot.diagrams.picture import COLOURS, FAINT, Axes, Figure, new_figure
 from linkwright.plot.result_diagrams.part_axes import unit_for
 from linkwright.tolerance.result import Spread
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 
 @result_diagram("tolerance", Spread)

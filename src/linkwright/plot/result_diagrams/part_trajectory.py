@@ -2,16 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from linkwright.parts.trajectories.conveyor import Transport
 from linkwright.parts.trajectories.particle import Flight
 from linkwright.plot.diagrams.base import Request, result_diagram
-from linkwright.plot.diagrams.picture import COLOURS
+from linkwright.plot.diagrams.picture import COLOURS, Figure
 from linkwright.plot.result_diagrams.part_axes import Line, Pane, panes, plane
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 
 @result_diagram("flight", Flight)

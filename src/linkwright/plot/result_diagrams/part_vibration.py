@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -11,10 +10,8 @@ from linkwright.parts.vibration.follower import FollowerVibration
 from linkwright.parts.vibration.mounts import TITLES, Shaken
 from linkwright.parts.vibration.system import Vibration
 from linkwright.plot.diagrams.base import Request, result_diagram
+from linkwright.plot.diagrams.picture import Figure
 from linkwright.plot.result_diagrams.part_axes import Line, Pane, panes
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 
 @result_diagram("vibration_response", Vibration)

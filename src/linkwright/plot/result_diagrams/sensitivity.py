@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -14,15 +13,12 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.plot.diagrams.axes import Legend, framed
 from linkwright.plot.diagrams.base import Request, result_diagram
 from linkwright.plot.diagrams.panels import Curve, Panel, look, stacked
-from linkwright.plot.diagrams.picture import COLOURS, new_figure
+from linkwright.plot.diagrams.picture import COLOURS, Figure, new_figure
 from linkwright.plot.diagrams.source import InputAxis
 from linkwright.plot.result_diagrams.design_table import chosen
 from linkwright.study.ranges import dimension_of
 from linkwright.study.sensitivity import Sensitivity
 from linkwright.words.sentence import Sentence
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 #: Steps in which a dimension that is zero is changed, with their texts, by its kind.
 _STEPS = {"length": (1e-3, "1 mm"), "angle": (math.radians(1.0), "1°")}

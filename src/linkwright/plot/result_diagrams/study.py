@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from linkwright.plot.diagrams.base import Request, result_diagram
+from linkwright.plot.diagrams.picture import Figure
 from linkwright.plot.result_diagrams.design_space import draw_designs
 from linkwright.plot.result_diagrams.design_table import DesignTable, chosen, measure, varied
 from linkwright.study.criteria import criterion
 from linkwright.study.designs import Sweep
 from linkwright.study.study import Study
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 
 @result_diagram("study", Study, options=("of",))

@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from linkwright.plot.diagrams.base import Request, result_diagram
-from linkwright.plot.diagrams.picture import COLOURS, FAINT, INK, new_figure
+from linkwright.plot.diagrams.picture import COLOURS, FAINT, INK, Figure, new_figure
 from linkwright.synthesis.report import name_said
 from linkwright.synthesis.result import Candidate, Synthesis
 from linkwright.words import say, speaker
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 SHOWN = 4
 

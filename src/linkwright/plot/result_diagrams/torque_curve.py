@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.machine.torque_curve import TorqueCurve
 from linkwright.plot.diagrams.base import Request, result_diagram
 from linkwright.plot.diagrams.panels import Curve, stacked, with_mean
+from linkwright.plot.diagrams.picture import Figure
 from linkwright.plot.diagrams.source import InputAxis
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 STEPS = 720
 #: How far before a jump the curve is drawn, as a share of its period.
