@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import re
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from typing import Literal
 
 from linkwright.core.dataclass import dataclass
-from linkwright.words import LANGUAGES, say
+from linkwright.words import LANGUAGES, has, say
 from linkwright.words.sentence import Sentence, in_language
 
 Severity = Literal["error", "warning", "note"]
 
+_KEY = re.compile(r"[a-z_]+\.[\w.]+")
 #: Codes of findings that say that there is no such file.
 NO_FILE = frozenset({"no-file", "not-a-file"})
 
@@ -48,8 +51,13 @@ def with_remedy(message: str, remedy: str) -> str:
 class LinkwrightError(Exception):
     """Base of every error that the user can do something about.
 
-    ``str(error)`` is English; ``error.say("zh")`` says the same in Chinese.
+    ``message``: a key of the catalogue, with its values, or a sentence. ``str(error)`` is English, and
+    ``error.say("zh")`` says the same in Chinese.
     """
+
+    def __init__(self, message: str = "", /, **values: object) -> None:
+        known = values or (_KEY.fullmatch(message) and has(message))
+        super().__init__(Sentence(message, **values) if known else message)
 
     def __str__(self) -> str:
         return self.say()
@@ -66,6 +74,15 @@ class LinkwrightError(Exception):
 
 class RequestError(LinkwrightError):
     """What was asked for does not exist or is out of range: the call is wrong, not the model."""
+
+
+@contextmanager
+def about(name: str, kind: type[LinkwrightError] = RequestError) -> Iterator[None]:
+    """Errors of the user inside become errors of a kind that begin with a name: of an option, of a key."""
+    try:
+        yield
+    except LinkwrightError as error:
+        raise kind("cli.about", name=name, cause=error) from None
 
 
 class ModelError(LinkwrightError):
@@ -97,4 +114,4 @@ class QuantityError(LinkwrightError):
 def require_language(language: str) -> None:
     """Raises RequestError for a language without words."""
     if language not in LANGUAGES:
-        raise RequestError(Sentence("names.no_language", language=language, languages=tuple(LANGUAGES)))
+        raise RequestError("names.no_language", language=language, languages=tuple(LANGUAGES))

@@ -44,7 +44,7 @@ class Registry(Mapping[str, T], Generic[T]):
 
         def file_under(element: T) -> T:
             if name in self._elements and _home(self._elements[name]) != _home(element):
-                raise LinkwrightError(Sentence("names.twice", noun=Sentence(f"nouns.{self.noun}"), name=name))
+                raise LinkwrightError("names.twice", noun=Sentence(f"nouns.{self.noun}"), name=name)
             self._elements[name] = element
             if self._attribute is not None and self._attribute not in vars(element):
                 setattr(element, self._attribute, name)

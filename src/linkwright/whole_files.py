@@ -7,7 +7,7 @@ from contextlib import suppress
 from pathlib import Path
 
 from linkwright.errors import RequestError
-from linkwright.words.sentence import Sentence, reason_of
+from linkwright.words.sentence import reason_of
 
 
 def refuse_target(path: str | Path, *, force: bool = True, remedy: str = "") -> None:
@@ -18,16 +18,16 @@ def refuse_target(path: str | Path, *, force: bool = True, remedy: str = "") -> 
     target = Path(path)
     try:
         if target.is_dir():
-            raise RequestError(Sentence("file.is_folder", path=target))
+            raise RequestError("file.is_folder", path=target)
         if not target.parent.is_dir():
-            raise RequestError(Sentence("file.no_folder", path=target.parent))
+            raise RequestError("file.no_folder", path=target.parent)
         target.lstat() if target.is_symlink() else os.stat(target)
     except FileNotFoundError:
         return
     except (OSError, ValueError) as problem:
         raise _refused(target, problem) from None
     if not force:
-        raise RequestError(Sentence("file.exists", path=target, remedy=remedy))
+        raise RequestError("file.exists", path=target, remedy=remedy)
 
 
 def make_folder(path: str | Path) -> Path:
@@ -78,4 +78,4 @@ def _replace(target: Path, content: bytes) -> None:
 
 def _refused(target: Path, problem: OSError | ValueError, said: str = "file.cannot_write") -> RequestError:
     shown = str(target) if len(str(target)) < 300 else f"{str(target)[:120]}…"
-    return RequestError(Sentence(said, path=shown, reason=reason_of(problem)))
+    return RequestError(said, path=shown, reason=reason_of(problem))

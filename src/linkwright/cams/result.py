@@ -19,7 +19,6 @@ from linkwright.errors import RequestError
 from linkwright.laws.program import MotionProgram
 from linkwright.parts.base import Block, Result
 from linkwright.words import Say
-from linkwright.words.sentence import Sentence
 from linkwright.worked.page import Step
 
 if TYPE_CHECKING:
@@ -212,20 +211,18 @@ class CamDesign(Result):
         """
         radius = self.cam.cutter_radius if radius is None else radius
         if radius is None or not radius >= 0:
-            raise RequestError(Sentence("cams.no_cutter"))
+            raise RequestError("cams.no_cutter")
         contact = self.cam.walls[wall].contact(self.places(points))
         hollow = -float(contact.bend.min())
         if hollow * radius > 1 + 1e-9:
-            raise RequestError(
-                Sentence("cams.cutter_large", radius=f"{1e3 * radius:.6g}", most=f"{1e3 / hollow:.6g}")
-            )
+            raise RequestError("cams.cutter_large", radius=f"{1e3 * radius:.6g}", most=f"{1e3 / hollow:.6g}")
         path = contact.point + radius * contact.normal
         return np.stack([path.real, path.imag], axis=1)
 
     def places(self, points: int) -> Floats:
         """Angles (rad) of so many points of the profile; raises RequestError for too few or too many."""
         if not _FEWEST <= points <= _MOST:
-            raise RequestError(Sentence("cams.points", points=points, least=_FEWEST, most=_MOST))
+            raise RequestError("cams.points", points=points, least=_FEWEST, most=_MOST)
         end = self.cam.barrel_radius is not None
         return np.linspace(0.0, 2 * math.pi, points + end, endpoint=end)
 
@@ -287,15 +284,15 @@ class CamDesign(Result):
         Raises RequestError without ``elasticity`` and mass, and for a program that is not made of segments.
         """
         if self.cam.elasticity is None or not self.loading.mass:
-            raise RequestError(Sentence("cams.no_elasticity"))
+            raise RequestError("cams.no_elasticity")
         if not isinstance(self.cam.program, MotionProgram):
-            raise RequestError(Sentence("cams.no_segments"))
+            raise RequestError("cams.no_segments")
         return residual_amplitude(self.cam.program, self.own_frequency, np.asarray(speeds, dtype=float))
 
     def steady_deviation(self, speeds: Floats) -> Floats:
         """Largest distance of the follower's mass from what the cam asks (n,) at speeds (n,), in steady turning."""
         if self.cam.elasticity is None or not self.loading.mass:
-            raise RequestError(Sentence("cams.no_elasticity"))
+            raise RequestError("cams.no_elasticity")
         damping = self.cam.elasticity.damping_ratio
         return steady_deviation(
             self.cam.program, self.own_frequency, damping, np.asarray(speeds, dtype=float)

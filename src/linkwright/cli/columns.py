@@ -18,6 +18,7 @@ from linkwright.core.outputs import Output
 from linkwright.units import SI_UNITS
 from linkwright.words import Say
 from linkwright.words.characters import GAP, cells, padded
+from linkwright.words.sentence import Sentence
 
 #: Digits of a column's largest value.
 DIGITS = 5
@@ -79,7 +80,7 @@ class Column:
         return next(exact, most)
 
 
-def pick(columns: Mapping[str, Column], patterns: Sequence[str], say: Say) -> list[Column]:
+def pick(columns: Mapping[str, Column], patterns: Sequence[str]) -> list[Column]:
     """The columns that any pattern names: a name, the beginning of names up to a dot, or with ``*`` and ``?``."""
     found: dict[str, Column] = {}
     for pattern in patterns:
@@ -90,8 +91,8 @@ def pick(columns: Mapping[str, Column], patterns: Sequence[str], say: Say) -> li
         ]
         if not hits:
             owners = dict.fromkeys(column.owner for column in columns.values() if column.owner)
-            said = say("solve.no_column", pattern=pattern, owners=say("finding.comma").join(owners))
-            raise UsageError(said + did_you_mean(pattern, [*columns, *owners], say))
+            said = Sentence("solve.no_column", pattern=pattern, owners=tuple(owners))
+            raise UsageError(did_you_mean(said, pattern, [*columns, *owners]))
         found.update((column.name, column) for column in hits)
     return list(found.values())
 

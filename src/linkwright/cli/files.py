@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 from linkwright import whole_files
 from linkwright.cli.errors import UsageError
 from linkwright.cli.session import Session
-from linkwright.words import Say
 from linkwright.words.characters import cell_text
 
 if TYPE_CHECKING:
@@ -47,13 +46,13 @@ def write_diagram(
     write_whole(path, content, force=force)
 
 
-def refuse_output(name: str | None, endings: Sequence[str], say: Say, *, force: bool) -> None:
+def refuse_output(name: str | None, endings: Sequence[str], *, force: bool) -> None:
     """Raises UsageError for a file that could not be written, before any work is done."""
     if name is None:
         return
     path = Path(name)
     if path.suffix.lower() not in endings:
-        raise UsageError(say("cli.bad_suffix", path=path, endings=say("finding.comma").join(endings)))
+        raise UsageError("cli.bad_suffix", path=path, endings=tuple(endings))
     refuse_existing(path, force=force)
 
 

@@ -12,11 +12,10 @@ from linkwright import units
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import did_you_mean, number_of
 from linkwright.core.dataclass import dataclass
-from linkwright.errors import LinkwrightError, QuantityError
+from linkwright.errors import about
 from linkwright.machine.flywheel import FlywheelSize, disk, flywheel_inertia, on_faster_shaft, rim
 from linkwright.machine.motor import motor
 from linkwright.machine.torque_curve import TURN, TorqueCurve
-from linkwright.words import Say
 from linkwright.words.sentence import Sentence
 
 #: Keys of --disk and --rim: dimension, and the argument that takes it.
@@ -47,18 +46,16 @@ class Wanted:
     size: Callable[[float], FlywheelSize] | None
 
 
-def wanted(options: argparse.Namespace, say: Say) -> Wanted:
+def wanted(options: argparse.Namespace) -> Wanted:
     """The numbers of the options; raises UsageError for one that makes no sense, before any work is done."""
     found = Wanted(
-        fluctuation=None
-        if options.fluctuation is None
-        else _number("--fluctuation", options.fluctuation, say),
-        ratio=_number("--ratio", options.ratio, say),
-        efficiency=_number("--efficiency", options.efficiency, say),
-        margin=_number("--margin", options.margin, say),
-        speed=None if options.speed is None else quantity("--speed", options.speed, "angular_velocity", say),
-        inertia=_inertia(options, say),
-        size=_size(options, say),
+        fluctuation=None if options.fluctuation is None else _number("--fluctuation", options.fluctuation),
+        ratio=_number("--ratio", options.ratio),
+        efficiency=_number("--efficiency", options.efficiency),
+        margin=_number("--margin", options.margin),
+        speed=None if options.speed is None else quantity("--speed", options.speed, "angular_velocity"),
+        inertia=_inertia(options),
+        size=_size(options),
     )
     _checked(
         "--fluctuation", lambda: flywheel_inertia(1.0, 1.0, found.fluctuation or 0.0), options.fluctuation
@@ -72,111 +69,104 @@ def wanted(options: argparse.Namespace, say: Say) -> Wanted:
     return found
 
 
-def quantity(option: str, text: str, dimension: str, say: Say) -> float:
+def quantity(option: str, text: str, dimension: str) -> float:
     """SI value above zero of an option; raises UsageError."""
-    try:
+    with about(option, UsageError):
         value = units.parse(text, dimension)
-    except QuantityError as error:
-        raise UsageError(Sentence("cli.about", name=option, cause=error)) from None
     if not value > 0:
-        raise UsageError(say("machine.not_above_zero", option=option, text=text))
+        raise UsageError("machine.not_above_zero", option=option, text=text)
     return value
 
 
-def curve(option: str, text: str, period: str | None, say: Say) -> TorqueCurve:
+def curve(option: str, text: str, period: str | None) -> TorqueCurve:
     """Torque curve of an expression of theta; raises UsageError with the column of what is wrong."""
-    length = TURN if period is None else quantity("--period", period, "angle", say)
-    try:
+    length = TURN if period is None else quantity("--period", period, "angle")
+    with about(option, UsageError):
         found = TorqueCurve.from_function(text, period=length)
         with np.errstate(all="ignore"):
             values = found.function(np.linspace(0.0, length, TRIED))
-    except QuantityError as error:
-        raise UsageError(Sentence("cli.about", name=option, cause=error)) from None
     if not np.isfinite(values).all():
-        raise UsageError(say("machine.not_finite", option=option, text=text))
+        raise UsageError("machine.not_finite", option=option, text=text)
     return found
 
 
-def areas(text: str, say: Say) -> list[float]:
+def areas(text: str) -> list[float]:
     """Areas in mm²; raises UsageError for a text that is no list of numbers."""
     found = []
     for part in text.replace("−", "-").split(","):
         found.append(number_of(part.replace("mm²", "").replace("mm2", "").replace(" ", "")))
         if not math.isfinite(found[-1]):
-            raise UsageError(say("machine.bad_area", text=part.strip()))
+            raise UsageError("machine.bad_area", text=part.strip())
     return found
 
 
-def scale(text: str | None, say: Say) -> tuple[float, float]:
+def scale(text: str | None) -> tuple[float, float]:
     """Torque scale, N·m per mm, and angle scale, rad per mm, of ``5 N·m/mm, 1 deg/mm``; raises UsageError."""
     if text is None:
-        raise UsageError(say("machine.no_scale"))
+        raise UsageError("machine.no_scale")
     found = {}
     torque, angle = units.DIMENSIONS["torque"], units.DIMENSIONS["angle"]
     for part in text.split(","):
-        value, dimension = _any_quantity(part, text, say)
+        value, dimension = _any_quantity(part, text)
         per_mm = {units.times(torque, units.DIMENSIONS["length"], -1): "torque"}
         per_mm[units.times(angle, units.DIMENSIONS["length"], -1)] = "angle"
         if dimension not in per_mm or not value > 0:
-            raise UsageError(say("machine.bad_scale", text=text))
+            raise UsageError("machine.bad_scale", text=text)
         found[per_mm[dimension]] = 1e-3 * value
     if len(found) != 2:
-        raise UsageError(say("machine.bad_scale", text=text))
+        raise UsageError("machine.bad_scale", text=text)
     return found["torque"], found["angle"]
 
 
-def _any_quantity(part: str, text: str, say: Say) -> tuple[float, units.Dimension]:
+def _any_quantity(part: str, text: str) -> tuple[float, units.Dimension]:
     plain = units.tidy(part)
     found = units.NUMBER.match(plain)
     if found is None or not plain[found.end() :].strip():
-        raise UsageError(say("machine.bad_scale", text=text))
-    try:
+        raise UsageError("machine.bad_scale", text=text)
+    with about("--scale", UsageError):
         factor, dimension = units.unit(plain[found.end() :].strip())
-    except QuantityError as error:
-        raise UsageError(Sentence("cli.about", name="--scale", cause=error)) from None
     return float(found.group()) * factor, dimension
 
 
-def _number(option: str, text: str, say: Say) -> float:
+def _number(option: str, text: str) -> float:
     value = number_of(text)
     if not math.isfinite(value):
-        raise UsageError(say("machine.no_number", option=option, text=text))
+        raise UsageError("machine.no_number", option=option, text=text)
     return value
 
 
-def _inertia(options: argparse.Namespace, say: Say) -> float:
+def _inertia(options: argparse.Namespace) -> float:
     """Moment of inertia that is there: given, or of a mass and a radius of gyration; 0 where neither is."""
     if options.inertia is not None and (options.mass is not None or options.gyration is not None):
-        raise UsageError(say("cli.not_together", name="--inertia", other="--mass"))
+        raise UsageError("cli.not_together", name="--inertia", other="--mass")
     if (options.mass is None) != (options.gyration is None):
-        raise UsageError(say("machine.mass_and_gyration"))
+        raise UsageError("machine.mass_and_gyration")
     if options.inertia is not None:
-        return quantity("--inertia", options.inertia, "inertia", say)
+        return quantity("--inertia", options.inertia, "inertia")
     if options.mass is None:
         return 0.0
-    mass = quantity("--mass", options.mass, "mass", say)
-    return mass * quantity("--gyration", options.gyration, "length", say) ** 2
+    mass = quantity("--mass", options.mass, "mass")
+    return mass * quantity("--gyration", options.gyration, "length") ** 2
 
 
-def _size(options: argparse.Namespace, say: Say) -> Callable[[float], FlywheelSize] | None:
+def _size(options: argparse.Namespace) -> Callable[[float], FlywheelSize] | None:
     for option, text, shape in (("--disk", options.disk, disk), ("--rim", options.rim, rim)):
         if text is not None:
-            given = _shape_values(option, text, say)
+            given = _shape_values(option, text)
             return lambda inertia, shape=shape, given=given: shape(inertia, **given)  # type: ignore[misc]
     return None
 
 
-def _shape_values(option: str, text: str, say: Say) -> dict[str, float]:
+def _shape_values(option: str, text: str) -> dict[str, float]:
     keys = [key for key in SHAPE_KEYS if option == "--rim" or key != "thickness"]
     found = {}
     for part in filter(None, (part.strip() for part in text.split(","))):
         key, sign, given = (piece.strip() for piece in part.partition("="))
         if not sign or key not in keys:
-            hint = did_you_mean(key, keys, say) if sign else ""
-            known = say("finding.comma").join(keys)
-            raise UsageError(say("machine.bad_shape", option=option, text=part, keys=known) + hint)
+            said = Sentence("machine.bad_shape", option=option, text=part, keys=tuple(keys))
+            raise UsageError(did_you_mean(said, key, keys) if sign else said)
         dimension, name = SHAPE_KEYS[key]
-        found[name] = quantity(f"{option} {key}", given, dimension, say)
+        found[name] = quantity(f"{option} {key}", given, dimension)
     return found
 
 
@@ -184,7 +174,5 @@ def _checked(option: str, trial: Callable[[], object], given: object = True) -> 
     """Runs what refuses a value out of range; raises UsageError with the option's name."""
     if given is None:
         return
-    try:
+    with about(option, UsageError):
         trial()
-    except LinkwrightError as error:
-        raise UsageError(Sentence("cli.about", name=option, cause=error)) from None

@@ -8,7 +8,9 @@ from collections.abc import Iterable, Sequence
 from typing import Any
 
 from linkwright.cli.reading import read
+from linkwright.errors import with_remedy
 from linkwright.words import Say
+from linkwright.words.sentence import Sentence
 
 
 class CommandParser(argparse.ArgumentParser):
@@ -51,12 +53,12 @@ class CommandParser(argparse.ArgumentParser):
         return self.say("cli.usage") + text.removeprefix("usage: ")
 
 
-def did_you_mean(word: str, known: Iterable[str], say: Say, otherwise: str = "") -> str:
-    """What to put behind a sentence about a mistyped word: the known one nearest to it, where one is near."""
+def did_you_mean(said: Sentence, word: str, known: Iterable[str], otherwise: str = "") -> str:
+    """A sentence about a mistyped word with the known one nearest to it, where one is near."""
     from linkwright.registry import nearest
 
     offer = nearest(word, list(known))
-    return say("cli.did_you_mean", name=offer) if offer else otherwise
+    return with_remedy(said, Sentence("names.did_you_mean", offer=offer) if offer else otherwise)
 
 
 def whole_number(text: str) -> int:

@@ -70,8 +70,8 @@ def refuse_outputs(options: argparse.Namespace, session: Session) -> None:
     """Raises UsageError for files that could not be written, before any work is done."""
     from linkwright.cli.files import PICTURES, refuse_output
 
-    refuse_output(options.output, ENDINGS, session.say, force=options.force)
-    refuse_output(options.plot, PICTURES, session.say, force=options.force)
+    refuse_output(options.output, ENDINGS, force=options.force)
+    refuse_output(options.plot, PICTURES, force=options.force)
 
 
 def read(source: str, command: str, session: Session) -> Problem:
@@ -81,8 +81,7 @@ def read(source: str, command: str, session: Session) -> Problem:
 
     kind = kind_of(source)
     if kind in COMMANDS and COMMANDS[kind] != command:
-        say = session.say
-        raise UsageError(say("part.other_command", kind=kind, command=COMMANDS[kind], file=source))
+        raise UsageError("part.other_command", kind=kind, command=COMMANDS[kind], file=source)
     problem = load(source)
     if source.startswith(GALLERY) and not session.json:
         title = title_said(problem.name, session.language)
@@ -98,7 +97,7 @@ def show(result: Result, options: argparse.Namespace, session: Session, *, kind:
     def table() -> str:
         columns = result.columns()
         if not columns:
-            raise UsageError(session.say("part.no_curves", path=Path(options.output)))
+            raise UsageError("part.no_curves", path=Path(options.output))
         return csv_of(columns)
 
     write_table(options.output, table, result.data, force=options.force)

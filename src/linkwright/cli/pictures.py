@@ -9,10 +9,10 @@ from pathlib import Path
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options, whole_number
 from linkwright.cli.session import Session
+from linkwright.errors import about
 from linkwright.kinematics.motion import Motion
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import no_such
-from linkwright.words.sentence import Sentence
 
 
 def source_arguments(option: Options, *, steps: int) -> None:
@@ -58,18 +58,15 @@ def refuse_unknown_vectors(motion: Motion, options: argparse.Namespace) -> None:
     joints = motion.mechanism.joints
     for name in names(options.forces):
         if (joint := name.rpartition(".")[2]) not in joints:
-            raise UsageError(Sentence("cli.about", name="--forces", cause=no_such("joint", joint, joints)))
+            raise UsageError("cli.about", name="--forces", cause=no_such("joint", joint, joints))
 
 
 def refuse_unknown(find: Callable[[str], object], option: str, given: Sequence[str]) -> None:
     """Raises UsageError where ``find`` does not know a name that follows an option."""
-    from linkwright.errors import LinkwrightError
 
     for name in given:
-        try:
+        with about(option, UsageError):
             find(name)
-        except LinkwrightError as error:
-            raise UsageError(Sentence("cli.about", name=option, cause=error)) from None
 
 
 def cycle(mechanism: Mechanism, steps: int, session: Session) -> Motion:
@@ -78,7 +75,7 @@ def cycle(mechanism: Mechanism, steps: int, session: Session) -> Motion:
     from linkwright.kinematics.solve import solve_motion
 
     if steps > MOST:
-        raise UsageError(session.say("solve.too_many", steps=steps, most=MOST))
+        raise UsageError("solve.too_many", steps=steps, most=MOST)
     motion = solve_motion(mechanism, steps=steps, failures="mark")
     failed = int((~motion.ok).sum())
     if failed and failed < motion.steps:

@@ -9,8 +9,7 @@ from collections.abc import Mapping
 from linkwright import units
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import did_you_mean
-from linkwright.errors import QuantityError
-from linkwright.words import Say
+from linkwright.errors import about
 from linkwright.words.sentence import Sentence
 
 #: More values than this are taken for a slip.
@@ -20,52 +19,52 @@ _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?\s*", re.IGNORECASE)
 _COMMA = re.compile(r"[+-]?\d*[1-9]\d*,\d+\s*[^\d\s,.][^,]*")
 
 
-def quantities(text: str, dimension: str, say: Say, option: str) -> list[float]:
+def quantities(text: str, dimension: str, option: str) -> list[float]:
     """SI values of a list of quantities and ranges, separated by commas; raises UsageError.
 
     A range is ``FROM..TO:STEP``; its first bound and its step take the unit of ``TO`` where they have none.
     """
     parts = [part.strip() for part in text.split(",")]
     if not all(parts):
-        raise UsageError(say("solve.empty_value", option=option, text=text))
+        raise UsageError("solve.empty_value", option=option, text=text)
     if _COMMA.fullmatch(text.strip()):
-        raise UsageError(Sentence("cli.about", name=option, cause=units.decimal_comma(text.strip())))
+        raise UsageError("cli.about", name=option, cause=units.decimal_comma(text.strip()))
     found: list[float] = []
     for part in parts:
         if ".." in part:
-            found += _range(part, dimension, say, option)
+            found += _range(part, dimension, option)
         else:
             found.append(_value(part, "", dimension, option))
     return found
 
 
-def inputs(text: str, rotary: Mapping[str, bool], say: Say) -> dict[str, list[float]]:
+def inputs(text: str, rotary: Mapping[str, bool]) -> dict[str, list[float]]:
     """Coordinates by driver of ``--at``: a list for the first driver, or ``NAME=list; NAME=list``."""
     found: dict[str, list[float]] = {}
     for part in text.split(";"):
         name, equals, values = part.rpartition("=")
         name = name.strip() if equals else next(iter(rotary))
         if name not in rotary:
-            hint = did_you_mean(name, rotary, say)
-            raise UsageError(say("cli.about", name="--at", cause=say("solve.no_driver", name=name) + hint))
-        found[name] = quantities(values, "angle" if rotary[name] else "length", say, "--at")
+            cause = did_you_mean(Sentence("solve.no_driver", name=name), name, rotary)
+            raise UsageError("cli.about", name="--at", cause=cause)
+        found[name] = quantities(values, "angle" if rotary[name] else "length", "--at")
     counts = {len(values) for values in found.values()} - {1}
     if len(counts) > 1:
-        raise UsageError(say("solve.uneven", counts=say("finding.comma").join(map(str, sorted(counts)))))
+        raise UsageError("solve.uneven", counts=tuple(map(str, sorted(counts))))
     return found
 
 
-def _range(text: str, dimension: str, say: Say, option: str) -> list[float]:
+def _range(text: str, dimension: str, option: str) -> list[float]:
     bounds, colon, step_text = text.partition(":")
     first, last = bounds.split("..", 1)
     if not colon or not step_text.strip():
-        raise UsageError(say("solve.range_step", option=option, text=text))
+        raise UsageError("solve.range_step", option=option, text=text)
     unit = _NUMBER.sub("", last.strip(), count=1).strip()
     begin, end = _value(first, unit, dimension, option), _value(last, unit, dimension, option)
     step = abs(_value(step_text, unit, dimension, option))
     count = abs(end - begin) / step if step else math.inf
     if count > MOST:
-        raise UsageError(say("solve.range_long", option=option, text=text, most=MOST))
+        raise UsageError("solve.range_long", option=option, text=text, most=MOST)
     sign = math.copysign(step, end - begin)
     return [begin + sign * i for i in range(math.floor(count * (1 + 1e-12) + 1e-9) + 1)]
 
@@ -75,7 +74,5 @@ def _value(text: str, unit: str, dimension: str, option: str) -> float:
     own = text.strip()
     if unit and _NUMBER.fullmatch(own):
         own = f"{own} {unit}"
-    try:
+    with about(option, UsageError):
         return units.parse(own, dimension)
-    except QuantityError as error:
-        raise UsageError(Sentence("cli.about", name=option, cause=error)) from None

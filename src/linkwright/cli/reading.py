@@ -14,6 +14,7 @@ from dataclasses import field
 
 from linkwright.cli.errors import UsageError
 from linkwright.core.dataclass import dataclass
+from linkwright.errors import with_remedy
 from linkwright.registry import nearest
 from linkwright.words.sentence import Sentence
 
@@ -171,13 +172,9 @@ def _unknown(parser: argparse.ArgumentParser, name: str) -> UsageError:
     said = Sentence("cli.unknown_option", name=name)
     offer = nearest(name, list(parser._option_string_actions)) if name.startswith("--") else None
     if offer:
-        return UsageError(
-            Sentence("finding.with_remedy", message=said, remedy=Sentence("names.did_you_mean", offer=offer))
-        )
+        return UsageError(with_remedy(said, Sentence("names.did_you_mean", offer=offer)))
     return _slip(parser, said)
 
 
 def _slip(parser: argparse.ArgumentParser, said: Sentence) -> UsageError:
-    return UsageError(
-        Sentence("finding.with_remedy", message=said, remedy=Sentence("cli.see_help_of", command=parser.prog))
-    )
+    return UsageError(with_remedy(said, Sentence("cli.see_help_of", command=parser.prog)))

@@ -12,7 +12,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding
 from linkwright.words import Say
 from linkwright.words.characters import terminal_text
-from linkwright.words.sentence import Sentence, reason_of
+from linkwright.words.sentence import reason_of
 
 #: Width of tables where there is no terminal, as in a pipe or a file.
 PIPE_WIDTH = 100
@@ -108,7 +108,7 @@ def _writing() -> Iterator[None]:
     except BrokenPipeError:
         raise
     except OSError as problem:
-        raise OutputError(Sentence("cli.output_lost", reason=reason_of(problem))) from None
+        raise OutputError("cli.output_lost", reason=reason_of(problem)) from None
 
 
 def _coloured(terminal: bool) -> bool:

@@ -8,11 +8,10 @@ from dataclasses import replace
 from linkwright.cli.columns import Column
 from linkwright.cli.errors import UsageError
 from linkwright.cli.solving import Solved
-from linkwright.errors import LinkwrightError
+from linkwright.errors import about
 from linkwright.kinematics.motion import Motion
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.structure import Structure
-from linkwright.words.sentence import Sentence
 
 LINK = ("angle", "angular_velocity", "angular_acceleration")
 GUIDE = ("displacement", "velocity", "acceleration")
@@ -48,10 +47,8 @@ def blocks(solved: Solved, columns: Mapping[str, Column], points: Iterable[str])
 
 def point_keys(motion: Motion, names: Sequence[str] | None) -> list[str]:
     """Names that the columns have for points that are asked for; raises UsageError for an unknown one."""
-    try:
+    with about("--points", UsageError):
         return [motion.point(name).name for name in names or ()]
-    except LinkwrightError as error:
-        raise UsageError(Sentence("cli.about", name="--points", cause=error)) from None
 
 
 def _output_guides(mechanism: Mechanism) -> list[str]:

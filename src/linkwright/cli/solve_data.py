@@ -12,17 +12,14 @@ from linkwright.cli.solve_remarks import closeness
 from linkwright.cli.solving import Solved
 from linkwright.core.arrays import largest
 from linkwright.plot.force_names import reaction_pairs
-from linkwright.words import Say
 
 
-def csv_text(solved: Solved, options: argparse.Namespace, say: Say) -> str:
+def csv_text(solved: Solved, options: argparse.Namespace) -> str:
     """A line of names with units, then a line per position; empty where a position was not reached."""
-    return csv_of(
-        {f"{column.name} [{column.unit}]": column.values for column in chosen(solved, options, say)}
-    )
+    return csv_of({f"{column.name} [{column.unit}]": column.values for column in chosen(solved, options)})
 
 
-def data(solved: Solved, options: argparse.Namespace, say: Say) -> dict[str, object]:
+def data(solved: Solved, options: argparse.Namespace) -> dict[str, object]:
     """Everything that the table and what stands beneath it say."""
     motion, forces = solved.motion, solved.forces
     failed = [int(row) for row in solved.rows if not motion.ok[row]]
@@ -31,9 +28,7 @@ def data(solved: Solved, options: argparse.Namespace, say: Say) -> dict[str, obj
         "name": motion.mechanism.name,
         "mobility": motion.structure.mobility,
         "positions": len(solved.rows),
-        "columns": {
-            f"{column.name} [{column.unit}]": column.values for column in chosen(solved, options, say)
-        },
+        "columns": {f"{column.name} [{column.unit}]": column.values for column in chosen(solved, options)},
         "reached": motion.ok[solved.rows],
         "not_reached": {str(list(solved.rows).index(row)): motion.outcomes[row].sentence for row in failed},
         "notes": list(solved.notes),
@@ -55,11 +50,11 @@ def data(solved: Solved, options: argparse.Namespace, say: Say) -> dict[str, obj
     return found
 
 
-def chosen(solved: Solved, options: argparse.Namespace, say: Say) -> list[Column]:
+def chosen(solved: Solved, options: argparse.Namespace) -> list[Column]:
     """The columns that are asked for behind time and inputs; all of them if none is asked for."""
     columns = {column.name: column for column in (Column.of(*item) for item in solved.results().items())}
     patterns = [*(options.columns or ()), *point_keys(solved.motion, options.points)]
     if not patterns:
         return list(columns.values())
     first = {column.name: column for column in [columns["time"], *leading(solved, columns)]}
-    return list({**first, **{column.name: column for column in pick(columns, patterns, say)}}.values())
+    return list({**first, **{column.name: column for column in pick(columns, patterns)}}.values())

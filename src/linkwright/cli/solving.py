@@ -23,7 +23,7 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.cycle_grid import CycleGrid
 from linkwright.plot.force_names import reaction_pairs
-from linkwright.words import Say
+from linkwright.words.sentence import Sentence
 
 #: Steps of the grid on which largest values are sought, at least.
 FINE = 360
@@ -76,9 +76,9 @@ class Solved:
         return {output: values[self.rows] for output, values in found.items()}
 
 
-def solve(mechanism: Mechanism, warnings: list[Finding], options: argparse.Namespace, say: Say) -> Solved:
+def solve(mechanism: Mechanism, warnings: list[Finding], options: argparse.Namespace) -> Solved:
     """Solves as the options say; raises LinkwrightError."""
-    motion, rows = _motion(mechanism, options, say)
+    motion, rows = _motion(mechanism, options)
     wanted = options.forces if options.forces is not None else mechanism.has_loads or options.static
     forces, trouble = None, None
     if wanted:
@@ -90,20 +90,20 @@ def solve(mechanism: Mechanism, warnings: list[Finding], options: argparse.Names
     return Solved(motion, forces, rows, tuple(warnings), trouble, whole)
 
 
-def _motion(mechanism: Mechanism, options: argparse.Namespace, say: Say) -> tuple[Motion, Indices]:
+def _motion(mechanism: Mechanism, options: argparse.Namespace) -> tuple[Motion, Indices]:
     failures = "mark" if options.mark else "raise"
     if options.at is not None:
         if not mechanism.drivers:
-            raise UsageError(say("cli.about", name="--at", cause=say("solve.no_input")))
-        given = inputs(options.at, rotary(mechanism), say)
+            raise UsageError("cli.about", name="--at", cause=Sentence("solve.no_input"))
+        given = inputs(options.at, rotary(mechanism))
         motion = solve_motion(mechanism, at=given, failures=failures)  # type: ignore[arg-type]
     elif options.times is not None:
-        times = quantities(options.times, "time", say, "--times")
+        times = quantities(options.times, "time", "--times")
         motion = solve_motion(mechanism, times=times, failures=failures)  # type: ignore[arg-type]
     else:
         steps = options.steps or ROWS
         if steps > MOST:
-            raise UsageError(say("solve.too_many", steps=steps, most=MOST))
+            raise UsageError("solve.too_many", steps=steps, most=MOST)
         share = -(-FINE // steps)
         motion = solve_motion(mechanism, steps=steps * share, endpoint=True, failures=failures)  # type: ignore[arg-type]
         return motion, np.arange(0, motion.steps, share)

@@ -14,7 +14,8 @@ from linkwright.cli.help import command_parser, overview, version
 from linkwright.cli.parser import did_you_mean
 from linkwright.cli.session import Session
 from linkwright.errors import NO_FILE, LinkwrightError, ModelError, RequestError
-from linkwright.words import LANGUAGES, Say, speaker
+from linkwright.words import LANGUAGES, speaker
+from linkwright.words.sentence import Sentence
 
 FINE, FAULTY, MISUSED, INTERRUPTED = 0, 1, 2, 130
 
@@ -75,9 +76,7 @@ def _dispatch(arguments: list[str], session: Session) -> int:
     elif unknown := [
         word for word in head if word not in ("--json", "--debug") and not word.startswith("--lang")
     ]:
-        raise UsageError(
-            _unknown(session.say, "cli.unknown_option", unknown[0], ["--help", "--version", "--lang"])
-        )
+        raise _unknown("cli.unknown_option", unknown[0], ["--help", "--version", "--lang"])
     else:
         session.show(session.say("cli.start"))
     return FINE
@@ -86,7 +85,7 @@ def _dispatch(arguments: list[str], session: Session) -> int:
 def _command(name: str, arguments: list[str], session: Session) -> int:
     known = commands.names()
     if name not in known:
-        raise UsageError(_unknown(session.say, "cli.unknown_command", name, known))
+        raise _unknown("cli.unknown_command", name, known)
     parser = command_parser(name, session.say)
     if "--help" in arguments or "-h" in arguments:
         session.show(parser.format_help().rstrip())
@@ -130,8 +129,9 @@ def _language(arguments: Sequence[str]) -> str:
     return chosen
 
 
-def _unknown(say: Say, key: str, word: str, known: Sequence[str]) -> str:
-    return say(key, name=word) + did_you_mean(word, known, say, say("cli.see_help", command="linkwright"))
+def _unknown(key: str, word: str, known: Sequence[str]) -> UsageError:
+    hint = Sentence("cli.see_help_of", command="linkwright")
+    return UsageError(did_you_mean(Sentence(key, name=word), word, known, hint))
 
 
 def _refused(error: LinkwrightError, session: Session) -> int:

@@ -14,7 +14,7 @@ from linkwright.course.key import read_key
 from linkwright.course.variants import close
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.words import speaker
-from linkwright.words.sentence import Sentence, lines, reason_of
+from linkwright.words.sentence import lines, reason_of
 
 #: Letters of an answer that a sentence repeats.
 SHOWN = 60
@@ -82,23 +82,23 @@ def _rows(given: str | Path | Sequence[Mapping[str, str]], names: Sequence[str])
         columns = list(found.fieldnames or ())
         rows: list[Mapping[str, str]] = list(found)
     except (OSError, ValueError, csv.Error) as error:
-        raise RequestError(Sentence("course.bad_answers", path=given, why=reason_of(error))) from None
+        raise RequestError("course.bad_answers", path=given, why=reason_of(error)) from None
     for name in ("variant", *names):
         if columns.count(name) != 1:
             said = "course.two_columns" if name in columns else "course.no_column"
-            raise RequestError(Sentence(said, name=name))
+            raise RequestError(said, name=name)
     return rows
 
 
 def _graded(key: Mapping[str, Any], row: Mapping[str, str], line: int) -> Grade:
     beyond: object = row.get(None)  # type: ignore[call-overload]
     if isinstance(beyond, list) and any(beyond):
-        raise LinkwrightError(Sentence("course.long_row", line=line, text=", ".join(beyond)[:SHOWN]))
+        raise LinkwrightError("course.long_row", line=line, text=", ".join(beyond)[:SHOWN])
     variant = _variant(key, row, line)
     questions, tolerance = key["questions"], float(key["tolerance"])
     missing = [each["name"] for each in questions if each["name"] not in row]
     if missing:
-        raise RequestError(Sentence("course.no_column", name=missing[0]))
+        raise RequestError("course.no_column", name=missing[0])
     given = [_number(row[each["name"]], line, each["name"]) for each in questions]
     units = [each["unit"] for each in questions]
     right = tuple(
@@ -156,7 +156,7 @@ def _variant(key: Mapping[str, Any], row: Mapping[str, str], line: int) -> Mappi
     for each in key["variants"]:
         if str(each["number"]) == text:
             return each  # type: ignore[no-any-return]
-    raise LinkwrightError(Sentence("course.no_variant", line=line, text=text, count=len(key["variants"])))
+    raise LinkwrightError("course.no_variant", line=line, text=text, count=len(key["variants"]))
 
 
 def _number(text: str | None, line: int, name: str) -> float | None:
@@ -169,7 +169,7 @@ def _number(text: str | None, line: int, name: str) -> float | None:
     except ValueError:
         found = math.nan
     if not math.isfinite(found):
-        raise LinkwrightError(Sentence("course.no_answer", line=line, name=name, text=shown[:SHOWN]))
+        raise LinkwrightError("course.no_answer", line=line, name=name, text=shown[:SHOWN])
     return found
 
 

@@ -10,7 +10,7 @@ from typing import Any
 from linkwright.course.mistakes import MISTAKES
 from linkwright.course.variants import FORMAT
 from linkwright.errors import RequestError
-from linkwright.words.sentence import Sentence, reason_of
+from linkwright.words.sentence import reason_of
 
 #: Above this size no answer lies.
 LARGEST = 1e300
@@ -20,10 +20,10 @@ def read_key(given: Mapping[str, Any] | str | Path) -> Mapping[str, Any]:
     """A key from its data or its path; raises RequestError where it cannot be read or is not whole."""
     found, path = (given, "key") if isinstance(given, Mapping) else (_read(given), str(given))
     if not isinstance(found, Mapping) or found.get("format") != FORMAT or "variants" not in found:
-        raise RequestError(Sentence("course.no_key", path=path))
+        raise RequestError("course.no_key", path=path)
     place = next(_faults(found), None)
     if place is not None:
-        raise RequestError(Sentence("course.damaged_key", path=path, place=place))
+        raise RequestError("course.damaged_key", path=path, place=place)
     return found
 
 
@@ -31,7 +31,7 @@ def _read(path: str | Path) -> Any:
     try:
         return json.loads(Path(path).read_text("utf-8"))
     except (OSError, ValueError, RecursionError) as error:
-        raise RequestError(Sentence("course.bad_key", path=path, why=reason_of(error))) from None
+        raise RequestError("course.bad_key", path=path, why=reason_of(error)) from None
 
 
 def _faults(key: Mapping[str, Any]) -> Iterator[str]:

@@ -22,7 +22,6 @@ from linkwright.kinematics.motion import Motion
 from linkwright.plot.drawing.draw import draw
 from linkwright.plot.drawing.view import DIAGONAL
 from linkwright.words import Say, speaker
-from linkwright.words.sentence import Sentence
 
 #: Width of the pictures of questions, pixels.
 PICTURE = 640
@@ -36,7 +35,7 @@ def files_of(found: Variants, forms: Sequence[str], language: str) -> Files:
     chosen = tuple(forms) or tuple(FORMS)
     for form in chosen:
         if form not in FORMS:
-            raise RequestError(Sentence("course.no_form", name=form, forms=tuple(FORMS)))
+            raise RequestError("course.no_form", name=form, forms=tuple(FORMS))
     files: Files = {}
     for form in chosen:
         files |= FORMS[form](found, language)

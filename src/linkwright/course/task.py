@@ -10,12 +10,11 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.course.chain import Line
 from linkwright.course.mistakes import Sheet
-from linkwright.errors import LinkwrightError, QuantityError, RequestError
+from linkwright.errors import LinkwrightError, RequestError, about
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
 from linkwright.study.ranges import dimension_of
 from linkwright.units import DIMENSIONS, parse
-from linkwright.words.sentence import Sentence
 
 KEYS = ("vary", "ask", "at", "tolerance")
 #: By how much lengths change, and how far an answer may be off, where nobody says.
@@ -71,9 +70,9 @@ def _task(mechanism: Mechanism, given: Mapping[str, Any]) -> Task:
     for key in given:
         if key not in KEYS:
             hint = offered(str(key), KEYS)
-            raise RequestError(Sentence("course.unknown_key", place=f"course.{key}", name=key, hint=hint))
+            raise RequestError("course.unknown_key", place=f"course.{key}", name=key, hint=hint)
     if not mechanism.steady:
-        raise LinkwrightError(Sentence("course.no_input", name=mechanism.name))
+        raise LinkwrightError("course.no_input", name=mechanism.name)
     driver = next(iter(mechanism.drivers.values()))
     rotary = mechanism.joints[driver.joint].coordinate == "turn"
     at = _quantity("at", given.get("at", "60 deg" if rotary else "0.01 m"), "angle" if rotary else "length")
@@ -83,10 +82,8 @@ def _task(mechanism: Mechanism, given: Mapping[str, Any]) -> Task:
 
 
 def _quantity(place: str, given: Any, dimension: str) -> float:
-    try:
+    with about(f"course.{place}", LinkwrightError):
         return parse(str(given), dimension)
-    except QuantityError as error:
-        raise LinkwrightError(Sentence("cli.about", name=f"course.{place}", cause=error)) from None
 
 
 def _tolerance(value: Any) -> float:
@@ -96,7 +93,7 @@ def _tolerance(value: Any) -> float:
     except ValueError:
         found = math.nan
     if not 0.0 < found <= 0.2:
-        raise RequestError(Sentence("course.bad_tolerance", text=text))
+        raise RequestError("course.bad_tolerance", text=text)
     return found
 
 
@@ -107,7 +104,7 @@ def _ranges(mechanism: Mechanism, given: Any) -> dict[str, tuple[float, float]]:
         own = {name: value for name, value in dimensions.items() if name.endswith(".length") and value > 0.0}
         return {name: ((1 - SHARE) * value, (1 + SHARE) * value) for name, value in own.items()}
     if not isinstance(given, Mapping):
-        raise RequestError(Sentence("course.bad_range", address="vary", text=str(given)))
+        raise RequestError("course.bad_range", address="vary", text=str(given))
     found = {}
     for address, limits in given.items():
         value = mechanism.dimension(str(address))
@@ -125,9 +122,9 @@ def _limits(mechanism: Mechanism, address: str, value: float, given: Any) -> tup
             share = float(str(given).strip().removesuffix("%")) / 100.0
             low, high = sorted(((1 - share) * value, (1 + share) * value))
     except ValueError:
-        raise RequestError(Sentence("course.bad_range", address=address, text=str(given))) from None
+        raise RequestError("course.bad_range", address=address, text=str(given)) from None
     if not -math.inf < low < high < math.inf:
-        raise RequestError(Sentence("course.bad_range", address=address, text=str(given)))
+        raise RequestError("course.bad_range", address=address, text=str(given))
     return low, high
 
 
@@ -136,13 +133,11 @@ def _questions(sheet: Sheet, given: Any) -> tuple[Question, ...]:
     if given is not None:
         names = {output.column: output for output in sheet.values}
         if not isinstance(given, list | tuple) or not given:
-            raise RequestError(Sentence("course.no_list", given=str(given), hint=offered("", names)))
+            raise RequestError("course.no_list", given=str(given), hint=offered("", names))
         found = []
         for name in dict.fromkeys(given):
             if str(name) not in names:
-                raise RequestError(
-                    Sentence("course.no_number", name=str(name), hint=offered(str(name), names))
-                )
+                raise RequestError("course.no_number", name=str(name), hint=offered(str(name), names))
             found.append(Question(names[str(name)]))
         return tuple(found)
     asked = [(line.output, line.group) for line in sheet.lines if line.output and not _told(line)]

@@ -19,7 +19,6 @@ from linkwright.files.model_file import load
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import metrics
-from linkwright.words.sentence import Sentence
 
 FORMAT = 1
 #: Designs that are tried per variant, at most; digits of a changed dimension; positions of the cycle.
@@ -155,9 +154,9 @@ def variants(
         LinkwrightError: settings that make no sense; fewer variants than asked for within the limits.
     """
     if not 1 <= count <= 1000:
-        raise RequestError(Sentence("course.bad_count", count=count))
+        raise RequestError("course.bad_count", count=count)
     if seed < 0:
-        raise RequestError(Sentence("study.bad_seed", seed=seed))
+        raise RequestError("study.bad_seed", seed=seed)
     asked = task(machine if isinstance(machine, Mechanism) else load(str(machine)))
     rng = np.random.default_rng(seed)
     model = _solved(asked, 0, {}, asked.mechanism)
@@ -174,7 +173,7 @@ def variants(
                 told(len(found), count)
         if len(found) == count:
             return Variants(asked, seed, tuple(found))
-    raise LinkwrightError(Sentence("course.too_few", found=len(found), count=count, tried=TRIES * count))
+    raise LinkwrightError("course.too_few", found=len(found), count=count, tried=TRIES * count)
 
 
 def _transmission(mechanism: Mechanism) -> float | None:

@@ -12,7 +12,6 @@ from linkwright.core.dataclass import dataclass
 from linkwright.engine.late import numpy as np
 from linkwright.errors import LinkwrightError
 from linkwright.registry import Registry
-from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.core.arrays import Floats
@@ -63,7 +62,7 @@ class Law(ABC):
 
     def modelica(self, write: LawText) -> str:
         """The coordinate as a Modelica expression of ``time``, of operations that tools can differentiate."""
-        raise LinkwrightError(Sentence("export.no_law", law=self.key))
+        raise LinkwrightError("export.no_law", law=self.key)
 
     def dimensions(self) -> Mapping[str, float]:
         """Names of the law's dimensions within the driver (``speed``) with their SI values."""

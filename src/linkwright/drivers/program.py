@@ -11,7 +11,6 @@ from linkwright.drivers.base import LAWS, Law, repeated
 from linkwright.errors import LinkwrightError
 from linkwright.fields.base import Field
 from linkwright.laws.program_fields import ProgramField
-from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.drivers.base import Array
@@ -38,7 +37,7 @@ class ProgramLaw(Law):
             slack = 1e-9 * last
             if np.any(t < -slack) or np.any(t > last + slack):
                 values = {"first": first, "last": last, "begin": np.min(t), "end": np.max(t)}
-                raise LinkwrightError(Sentence("loads.table_range", **values))
+                raise LinkwrightError("loads.table_range", **values)
             t = np.clip(t, 0.0, np.nextafter(last, 0.0))
         q, rate, second, _ = self.program.curves(t)
         return q, rate, second

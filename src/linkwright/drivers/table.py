@@ -10,7 +10,6 @@ from linkwright.core.dataclass import dataclass
 from linkwright.drivers.base import LAWS, Law, repeated
 from linkwright.errors import LinkwrightError
 from linkwright.fields.base import Field, TimeTable, TimeTableValues
-from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.core.spline import Spline
@@ -44,9 +43,7 @@ class TableLaw(Law):
         first, last = self.span()
         slack = 1e-9 * (last - first)
         if np.any(t < first - slack) or np.any(t > last + slack):
-            raise LinkwrightError(
-                Sentence("loads.table_range", first=first, last=last, begin=np.min(t), end=np.max(t))
-            )
+            raise LinkwrightError("loads.table_range", first=first, last=last, begin=np.min(t), end=np.max(t))
         inside = np.clip(t, first, last)
         return self._linear(inside) if self.interpolation == "linear" else self._spline(inside)
 

@@ -37,10 +37,8 @@ def package(name: str, purpose: str, install: str | None = None) -> Any:
     except ImportError:
         command = f"pip install {install or name}"
         raise RequestError(
-            Sentence(
-                "export.needs_package",
-                purpose=Sentence(f"nouns.{purpose}"),
-                install=install or name,
-                command=command,
-            )
+            "export.needs_package",
+            purpose=Sentence(f"nouns.{purpose}"),
+            install=install or name,
+            command=command,
         ) from None

@@ -14,7 +14,6 @@ from linkwright.kinetostatics.forces import Forces
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
 from linkwright.whole_files import refuse_target, write_whole
-from linkwright.words.sentence import Sentence
 
 
 def export(
@@ -65,7 +64,7 @@ def chosen_format(path: Path, name: str | None) -> str:
     if suffix in by_suffix:
         return by_suffix[suffix]
     hint = offered(suffix, sorted(by_suffix), "export.say_format")
-    raise RequestError(Sentence("export.no_ending", path=path, suffix=suffix, hint=hint))
+    raise RequestError("export.no_ending", path=path, suffix=suffix, hint=hint)
 
 
 def check_options(name: str, form: Format, options: dict[str, Any]) -> None:
@@ -74,4 +73,4 @@ def check_options(name: str, form: Format, options: dict[str, Any]) -> None:
     for option in options:
         if option not in known:
             hint = offered(option, known, "names.it_has")
-            raise RequestError(Sentence("export.no_option", name=name, option=option, hint=hint))
+            raise RequestError("export.no_option", name=name, option=option, hint=hint)

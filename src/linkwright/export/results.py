@@ -12,7 +12,6 @@ from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.table import MetricsTable
-from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.structure import Structure
@@ -39,7 +38,7 @@ class Results:
         if isinstance(source, Motion):
             return cls(source, None, language)
         if not isinstance(source, Mechanism):
-            raise RequestError(Sentence("export.no_source", name=type(source).__name__))
+            raise RequestError("export.no_source", name=type(source).__name__)
         motion = solve_motion(source, steps=steps)
         return cls(motion, solve_forces(motion) if source.has_loads else None, language)
 
@@ -70,5 +69,5 @@ class Results:
     def first_ok(self) -> int:
         """Index of the first position that was reached; raises LinkwrightError if there is none."""
         if not self.motion.ok.any():
-            raise LinkwrightError(Sentence("export.nothing_reached", name=self.mechanism.name))
+            raise LinkwrightError("export.nothing_reached", name=self.mechanism.name)
         return int(self.motion.ok.argmax())

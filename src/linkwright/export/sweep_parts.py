@@ -23,7 +23,6 @@ from linkwright.study.designs import sweep
 from linkwright.study.ranges import Range
 from linkwright.study.vary import varied_ranges
 from linkwright.whole_files import make_folder, write_whole
-from linkwright.words.sentence import Sentence
 
 Sampling = Literal["grid", "sobol"]
 #: Designs of a part; of a whole sweep, at most.
@@ -139,7 +138,7 @@ class SweepParts:
         kept: dict[str, Floats] = {}
         for part in self.each():
             if name not in part:
-                raise RequestError(Sentence("study.no_column", name=name, names=tuple(part)))
+                raise RequestError("study.no_column", name=name, names=tuple(part))
             merged = {key: np.concatenate([kept[key], each]) for key, each in part.items()} if kept else part
             sizes = -merged[name] if largest else merged[name]
             order = np.argsort(sizes, kind="stable")
@@ -195,7 +194,7 @@ def sweep_parts(
         LinkwrightError: unknown names, a folder with another sweep, no pyarrow or distributed, no cluster.
     """
     if not str(folder):
-        raise RequestError(Sentence("study.no_folder"))
+        raise RequestError("study.no_folder")
     plan = _plan(mechanism, vary, outputs, sampling, samples, seed, steps, part)
     found = SweepParts(Path(folder), plan)
     missing = _missing(found)
@@ -214,13 +213,13 @@ def _plan(
     sampling: Sampling, samples: int, seed: int, steps: int, part: int,
 ) -> Plan:  # fmt: skip
     if sampling not in ("grid", "sobol"):
-        raise RequestError(Sentence("study.no_sampling", sampling=sampling))
+        raise RequestError("study.no_sampling", sampling=sampling)
     ranges = varied_ranges(mechanism, vary, sampled=sampling == "sobol")
     count = samples if sampling == "sobol" else int(np.prod([float(len(each.values)) for each in ranges]))
     if seed < 0:
-        raise RequestError(Sentence("study.bad_seed", seed=seed))
+        raise RequestError("study.bad_seed", seed=seed)
     if not 1 <= count <= MOST:
-        raise RequestError(Sentence("study.bad_samples", samples=count, most=MOST))
+        raise RequestError("study.bad_samples", samples=count, most=MOST)
     names = tuple(each.name.strip() for each in wanted(outputs))
     size = 1 << max(0, (min(part, count) - 1).bit_length()) if part > 0 else PART
     return Plan(mechanism, ranges, names, sampling, count, seed, steps, size)
@@ -237,7 +236,7 @@ def _missing(found: SweepParts) -> list[int]:
         except (OSError, ValueError, AttributeError):
             same = False
         if not same:
-            raise RequestError(Sentence("study.other_sweep", folder=found.folder))
+            raise RequestError("study.other_sweep", folder=found.folder)
     else:
         said = {"plan": digest, "designs": found.designs, "parts": found.parts, "outputs": found.plan.outputs}
         write_whole(note, json.dumps(said, indent=1).encode())

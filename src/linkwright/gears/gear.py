@@ -12,7 +12,6 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
 from linkwright.gears.involute import involute, involute_at
-from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.gears.space import ToothSpace
@@ -59,9 +58,9 @@ class Gear:
         }
         for name, (value, low, high) in ranges.items():
             if not low <= value <= high:
-                raise RequestError(Sentence("gears.out_of_range", name=name, value=value, low=low, high=high))
+                raise RequestError("gears.out_of_range", name=name, value=value, low=low, high=high)
         if int(self.teeth) != self.teeth:
-            raise RequestError(Sentence("gears.whole_teeth", teeth=self.teeth))
+            raise RequestError("gears.whole_teeth", teeth=self.teeth)
         self._check_tip()
         _ = self.space
 
@@ -69,14 +68,14 @@ class Gear:
         if self.internal:
             if not self.base_diameter <= self.tip_diameter < self.root_diameter:
                 raise RequestError(
-                    Sentence("gears.ring_tip", tip=1e3 * self.tip_diameter, base=1e3 * self.base_diameter)
+                    "gears.ring_tip", tip=1e3 * self.tip_diameter, base=1e3 * self.base_diameter
                 )
         elif not self.root_diameter < self.tip_diameter or self.tip_diameter <= self.base_diameter:
-            raise RequestError(Sentence("gears.no_flank", tip=1e3 * self.tip_diameter))
+            raise RequestError("gears.no_flank", tip=1e3 * self.tip_diameter)
         if self.thickness_at(0.5 * self.tip_diameter) <= 0:
-            raise RequestError(Sentence("gears.pointed", tip=1e3 * self.tip_diameter))
+            raise RequestError("gears.pointed", tip=1e3 * self.tip_diameter)
         if self.root_diameter <= 0:
-            raise RequestError(Sentence("gears.no_flank", tip=1e3 * self.tip_diameter))
+            raise RequestError("gears.no_flank", tip=1e3 * self.tip_diameter)
 
     @property
     def outward(self) -> int:
@@ -159,7 +158,7 @@ class Gear:
         All points lie on the exact curves; a tooth is on the x axis, of a ring a space.
         """
         if not 2 <= points <= 5000:
-            raise RequestError(Sentence("gears.out_of_range", name="points", value=points, low=2, high=5000))
+            raise RequestError("gears.out_of_range", name="points", value=points, low=2, high=5000)
         return self.space.around(self, points)
 
     def turned(self, angle: float, points: int = 40) -> Floats:

@@ -70,21 +70,19 @@ class GearPair:
     def __post_init__(self) -> None:
         for name in ("module", "pressure_angle"):
             if getattr(self.pinion, name) != getattr(self.wheel, name):
-                raise RequestError(Sentence("gears.differ", name=name))
+                raise RequestError("gears.differ", name=name)
         if self.pinion.internal:
-            raise RequestError(Sentence("gears.ring_first"))
+            raise RequestError("gears.ring_first")
         if self.wheel.internal and self.wheel.teeth <= self.pinion.teeth:
-            raise RequestError(Sentence("gears.ring_small", ring=self.wheel.teeth, pinion=self.pinion.teeth))
+            raise RequestError("gears.ring_small", ring=self.wheel.teeth, pinion=self.pinion.teeth)
         if self._touching_involute <= 0:
-            raise RequestError(Sentence("gears.no_mesh"))
+            raise RequestError("gears.no_mesh")
         least = 0.5 * self._bases
         if self.distance is not None and (
             self.distance <= least or self.backlash < -1e-9 * self.pinion.module
         ):
             raise RequestError(
-                Sentence(
-                    "gears.distance", distance=1e3 * self.distance, touching=1e3 * self._touching_distance
-                )
+                "gears.distance", distance=1e3 * self.distance, touching=1e3 * self._touching_distance
             )
 
     @property

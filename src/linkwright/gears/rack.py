@@ -12,7 +12,6 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
 from linkwright.gears.gear import PRESSURE_ANGLES
-from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.plot.drawing.picture import Drawing
@@ -41,9 +40,9 @@ class Rack:
         }
         for name, (value, low, high) in ranges.items():
             if not low <= value <= high:
-                raise RequestError(Sentence("gears.out_of_range", name=name, value=value, low=low, high=high))
+                raise RequestError("gears.out_of_range", name=name, value=value, low=low, high=high)
         if self.addendum * math.tan(self.pressure_angle) >= math.pi / 4:
-            raise RequestError(Sentence("gears.pointed_rack", addendum=self.addendum))
+            raise RequestError("gears.pointed_rack", addendum=self.addendum)
 
     @property
     def pitch(self) -> float:

@@ -16,7 +16,6 @@ from linkwright.core.arrays import Flags, Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.search import ends
 from linkwright.errors import RequestError
-from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.gears.gear import Gear
@@ -109,7 +108,7 @@ def tool_space(gear: Gear) -> ToothSpace:
         last = _crossing(gear, tip)
     form = float(tip.foot(np.array([last]))[0][0])
     if form >= 0.5 * gear.tip_diameter:
-        raise RequestError(Sentence("gears.no_flank", tip=1e3 * gear.tip_diameter))
+        raise RequestError("gears.no_flank", tip=1e3 * gear.tip_diameter)
     return ToothSpace(max(form, 0.5 * gear.base_diameter), tip, last)
 
 
@@ -118,9 +117,7 @@ def tool_tip(gear: Gear) -> ToolTip:
     m, slope = gear.module, gear.pressure_angle
     deep = m * (gear.dedendum - gear.profile_shift)
     if deep <= 0.02 * m:
-        raise RequestError(
-            Sentence("gears.shift_too_large", shift=gear.profile_shift, most=gear.dedendum - 0.02)
-        )
+        raise RequestError("gears.shift_too_large", shift=gear.profile_shift, most=gear.dedendum - 0.02)
     half = m * (math.pi / 4 - gear.dedendum * math.tan(slope))
     room = half / (1 / math.cos(slope) - math.tan(slope))
     radius = max(0.0, min(gear.fillet * m, room, deep - 0.02 * m))
@@ -156,7 +153,7 @@ def ring_space(gear: Gear) -> ToothSpace:
     root, base = 0.5 * gear.root_diameter, 0.5 * gear.base_diameter
     half_root = float(gear.half_angle(np.array([root]))[0])
     if half_root <= 0:
-        raise RequestError(Sentence("gears.pointed_space", root=1e3 * gear.root_diameter))
+        raise RequestError("gears.pointed_space", root=1e3 * gear.root_diameter)
     size = min(gear.fillet * gear.module, 0.9 * half_root * base)
     centre = root - size
     while (

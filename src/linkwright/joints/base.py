@@ -414,7 +414,7 @@ class Joint(ABC):
     @classmethod
     def lacks(cls, what: str) -> LackingError:
         """The error for what the kind does not supply."""
-        return LackingError(Sentence("model.kind_lacks", kind=getattr(cls, "kind", cls.__name__), what=what))
+        return LackingError("model.kind_lacks", kind=getattr(cls, "kind", cls.__name__), what=what)
 
 
 class HigherPair(Joint):

@@ -249,7 +249,7 @@ class CamJoint(HigherPair):
     def close_loop(self, build: LoopBuilder, cut: Connection, group: str) -> None:
         """A lift gains nothing over whole turns of the cam; where it is within one no sum of rotations says."""
         if not build.gains:
-            raise LackingError(Sentence("joints.cam_sums"))
+            raise LackingError("joints.cam_sums")
         if self.side:
             build.sum({self.follower: 1.0, self.carrier: -1.0}, {}, 0.0)
         else:
@@ -267,7 +267,7 @@ class CamJoint(HigherPair):
         return push < -1e-9 * max(float(abs(push).max(initial=0.0)), 1e-12)
 
     def sums(self, mechanism: Mechanism) -> tuple[Mapping[str, float], Mapping[str, float], float]:
-        raise LackingError(Sentence("joints.cam_sums"))
+        raise LackingError("joints.cam_sums")
 
     def tied(self, mechanism: Mechanism) -> tuple[Mapping[str, float], Mapping[str, float]]:
         """With a slope of the lift that no sizes of wheels have: the golden section, m of the base circle or rad."""

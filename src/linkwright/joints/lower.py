@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, ClassVar
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError
 from linkwright.joints.base import Joint
-from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.mechanism.mechanism import Mechanism
@@ -34,7 +33,7 @@ class TurningJoint(Joint):
     @property
     def friction_arm(self) -> float:
         if self.friction and self.pin_radius is None:
-            raise LinkwrightError(Sentence("forces.needs_pin_radius", name=self.name))
+            raise LinkwrightError("forces.needs_pin_radius", name=self.name)
         return self.friction * (self.pin_radius or 0.0)
 
 

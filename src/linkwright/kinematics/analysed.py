@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.structure import Structure, StructureError, structure
-from linkwright.words.sentence import Sentence
 
 
 def analysed(mechanism: Mechanism) -> Structure:
@@ -21,4 +20,4 @@ def analysed(mechanism: Mechanism) -> Structure:
         report = rank_from_drawing(mechanism)
         if report is None:
             raise
-        raise StructureError(Sentence("rank.besides", cause=error, sentence=report)) from None
+        raise StructureError("rank.besides", cause=error, sentence=report) from None

@@ -141,12 +141,10 @@ def _drawn_states(mechanism: Mechanism, structure: Structure, drawing: Drawing) 
     for group in _open.get(structure, None, lambda: _without_closed_form(structure)):
         if not drawing and any(step.turns for step in group.unknowns):
             raise AssemblyError(
-                Sentence(
-                    "motion.needs_drawing",
-                    links=tuple(group.links),
-                    level=group.assur_class,
-                    drawn=_to_draw(group),
-                )
+                "motion.needs_drawing",
+                links=tuple(group.links),
+                level=group.assur_class,
+                drawn=_to_draw(group),
             )
         for step in group.unknowns:
             name = state_name(group, step)

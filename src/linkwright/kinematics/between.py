@@ -14,7 +14,6 @@ from linkwright.kinematics.change_points import Passage, closes, passages, signs
 from linkwright.kinematics.cycle import Positions, at_one_time, at_times
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import reached_modes
-from linkwright.words.sentence import Sentence
 
 
 class Between:
@@ -28,7 +27,7 @@ class Between:
         for name, (q, *_) in motion.positions.coordinates.items():
             lawful = nominal.coordinates[name][0]
             if not (np.abs(q - lawful) <= 1e-12 + 1e-9 * np.abs(lawful)).all():
-                raise LinkwrightError(Sentence("motion.no_way_between", name=name))
+                raise LinkwrightError("motion.no_way_between", name=name)
 
     @cached_property
     def passing(self) -> list[Passage]:

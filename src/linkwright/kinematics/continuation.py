@@ -24,7 +24,6 @@ from linkwright.kinematics.closed_loops import ClosedLoops, counted, iterated
 from linkwright.kinematics.cycle import Positions, at_times
 from linkwright.kinematics.groups import state_name
 from linkwright.mechanism.drawing import Drawing
-from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.kinematics.design import Design
@@ -202,7 +201,7 @@ class Follower:
                 exact = None if root is None else root[: loops.n]
         if exact is None:
             said = tuple(f"{name} = {q:.6g}" for name, q in zip(loops.drivers, inputs, strict=True))
-            raise AssemblyError(Sentence("motion.not_near_drawing", name=self.mechanism.name, inputs=said))
+            raise AssemblyError("motion.not_near_drawing", name=self.mechanism.name, inputs=said)
         return exact
 
     @property

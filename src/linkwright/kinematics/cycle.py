@@ -93,7 +93,7 @@ def at_times(
     """The positions at given times, s."""
     t = np.atleast_1d(np.asarray(time, dtype=float))
     if not np.isfinite(t).all():
-        raise CycleError(Sentence("motion.bad_time"))
+        raise CycleError("motion.bad_time")
     coordinates = {name: _driven(driver, t) for name, driver in mechanism.drivers.items()}
     return Positions(t, coordinates, rotary(mechanism), closed, period)
 
@@ -109,13 +109,7 @@ def _driven(driver: Driver, time: Floats) -> tuple[Floats, Floats, Floats]:
             value, at = float(row[bad[0]]), float(time[bad[0]])
             shown = f"{value:g} {SI_UNITS[kind]}"
             raise CycleError(
-                Sentence(
-                    "motion.law_beyond",
-                    name=driver.name,
-                    kind=Sentence(f"nouns.a_{kind}"),
-                    value=shown,
-                    time=at,
-                )
+                "motion.law_beyond", name=driver.name, kind=Sentence(f"nouns.a_{kind}"), value=shown, time=at
             )
     return rows
 
@@ -138,18 +132,18 @@ def at_inputs(mechanism: Mechanism, at: ArrayLike | Mapping[str, ArrayLike]) -> 
     coordinate is given, since then the time would not be known.
     """
     if not mechanism.drivers:
-        raise CycleError(Sentence("motion.no_input_to_set", name=mechanism.name))
+        raise CycleError("motion.no_input_to_set", name=mechanism.name)
     given = dict(at) if isinstance(at, Mapping) else {next(iter(mechanism.drivers)): at}
     if not given:
-        raise CycleError(Sentence("motion.no_inputs", driver=next(iter(mechanism.drivers))))
+        raise CycleError("motion.no_inputs", driver=next(iter(mechanism.drivers)))
     rows = {}
     for name, values in given.items():
         driver = _driver(mechanism, name)
         if driver.law.constant_speed is None:
-            raise CycleError(Sentence("motion.own_law", name=name))
+            raise CycleError("motion.own_law", name=name)
         q = np.atleast_1d(np.asarray(values, dtype=float))
         if not np.isfinite(q).all():
-            raise CycleError(Sentence("motion.bad_input", name=name))
+            raise CycleError("motion.bad_input", name=name)
         rows[name] = q
     count = max(len(q) for q in rows.values())
     first, q = next(iter(rows.items()))
@@ -167,7 +161,7 @@ def over_cycle(mechanism: Mechanism, steps: int, endpoint: bool = False) -> Posi
     ``endpoint``; an open one always ``steps`` + 1 positions, both ends among them.
     """
     if steps < 1:
-        raise CycleError(Sentence("motion.bad_steps", steps=steps))
+        raise CycleError("motion.bad_steps", steps=steps)
     if not mechanism.drivers:
         return at_times(mechanism, [0.0])
     if mechanism.higher:
@@ -198,7 +192,7 @@ def time_span(mechanism: Mechanism) -> tuple[float, float, bool]:
     known = _naturals(mechanism)
     if cycle is None and not known:
         said = "no_natural_end" if first.law.constant_speed else "law_without_end"
-        raise CycleError(Sentence(f"motion.{said}", name=mechanism.name, driver=first.name))
+        raise CycleError(f"motion.{said}", name=mechanism.name, driver=first.name)
     if cycle is None:
         whole = _whole(mechanism) if together(mechanism) <= FEW else None
         return 0.0, whole or max(known), whole is not None
@@ -206,7 +200,7 @@ def time_span(mechanism: Mechanism) -> tuple[float, float, bool]:
         return 0.0, cycle.duration, _closes(mechanism, cycle.duration)
     speed = first.law.constant_speed
     if not speed:
-        raise CycleError(Sentence("motion.cycle_by_coordinate", name=first.name))
+        raise CycleError("motion.cycle_by_coordinate", name=first.name)
     if cycle.turns is not None:
         duration = cycle.turns * 2 * np.pi / abs(speed)
         return 0.0, duration, _closes(mechanism, duration)

@@ -125,7 +125,7 @@ def input_range(mechanism: Mechanism, driver: str | None = None) -> InputRange:
     name = driver or next(iter(mechanism.drivers), None)
     if name is None or name not in mechanism.drivers:
         if not driver:
-            raise RequestError(Sentence("range.no_driver", name=mechanism.name))
+            raise RequestError("range.no_driver", name=mechanism.name)
         raise RequestError(no_such("driver", driver, mechanism.drivers))
     search = _Search(mechanism, name)
     high = search.end(1.0)
@@ -212,12 +212,10 @@ class _Search:
             if len(good):
                 return float(q[good[0]])
         raise LinkwrightError(
-            Sentence(
-                "range.not_assembled",
-                name=self.mechanism.name,
-                driver=self.driver,
-                place=_shown(nominal, self.rotary),
-            )
+            "range.not_assembled",
+            name=self.mechanism.name,
+            driver=self.driver,
+            place=_shown(nominal, self.rotary),
         )
 
     # one direction --------------------------------------------------------------------------------

@@ -27,7 +27,6 @@ from linkwright.kinematics.motion import TURN, Motion
 from linkwright.kinematics.names import program_names
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
-from linkwright.words.sentence import Sentence
 
 #: Rates below this share of the output's largest one, or of that of the whole mechanism, are rounding errors of zero.
 STILL, STILL_BESIDE = 1e-12, 1e-15
@@ -113,7 +112,7 @@ def output_of(mechanism: Mechanism, text: str) -> Output:
         return found
     points = [f"{point}.{axis}" for link in links.values() for point in link for axis in "xy"]
     hint = offered(text, [*links, *guides, *points])
-    raise RequestError(Sentence("motion.no_output", text=text, hint=hint))
+    raise RequestError("motion.no_output", text=text, hint=hint)
 
 
 class Bracket(NamedTuple):

@@ -23,7 +23,6 @@ from linkwright.kinematics.solver import MotionSolver
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
 from linkwright.structure import Structure
-from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     import pandas
@@ -208,7 +207,7 @@ class Motion(Plotted):
     def input(self) -> Floats:
         """Coordinate of the first driver, (n,) rad or m."""
         if not self.inputs:
-            raise RequestError(Sentence("motion.no_input", name=self.mechanism.name))
+            raise RequestError("motion.no_input", name=self.mechanism.name)
         return next(iter(self.inputs.values()))
 
     @cached_property
@@ -287,7 +286,7 @@ class Motion(Plotted):
                 locked(b.angular_acceleration - a.angular_acceleration),
             )
         hint = offered(name, self.mechanism.joints)
-        raise RequestError(Sentence("motion.no_coordinate", name=name, hint=hint))
+        raise RequestError("motion.no_coordinate", name=name, hint=hint)
 
     def point_of(self, key: str) -> PointMotion:
         """Motion of a point by its canonical key."""

@@ -39,7 +39,7 @@ def find_point(mechanism: Mechanism, name: str) -> tuple[str, str]:
         points = mechanism.link(link).points
         if point not in points:
             hint = offered(point, points)
-            raise RequestError(Sentence("names.no_such_point", link=link, name=point, hint=hint))
+            raise RequestError("names.no_such_point", link=link, name=point, hint=hint)
         return link, point
     welded = {weld.links[1] for weld in mechanism.welds.values() if weld.at == name}
     found = [link for link in owners(mechanism, name) if link not in welded]
@@ -48,7 +48,7 @@ def find_point(mechanism: Mechanism, name: str) -> tuple[str, str]:
         raise _unknown("point", name, everything)
     if len(found) > 1 and not mechanism.pin_links(name):
         choices = tuple(f"{link}.{name}" for link in found)
-        raise RequestError(Sentence("motion.several_points", name=name, choices=choices))
+        raise RequestError("motion.several_points", name=name, choices=choices)
     return found[0], name
 
 
@@ -92,7 +92,7 @@ def output_meant(mechanism: Mechanism, text: str) -> Output:
 def no_output(mechanism: Mechanism, text: str) -> NoReturn:
     """Raises RequestError with the names that come nearest to one that means nothing."""
     hint = offered(text, list(output_names(mechanism)), "study.such_as", most=6)
-    raise RequestError(Sentence("study.no_such_output", name=text, mechanism=mechanism.name, hint=hint))
+    raise RequestError("study.no_such_output", name=text, mechanism=mechanism.name, hint=hint)
 
 
 def _part(mechanism: Mechanism, text: str) -> Output | None:

@@ -73,7 +73,7 @@ def jacobian_rank(motion: Motion, index: int = 0) -> RankReport:
     position is not solved.
     """
     if not motion.ok[index]:
-        raise LinkwrightError(Sentence("motion.no_rank", index=index))
+        raise LinkwrightError("motion.no_rank", index=index)
     mechanism = motion.mechanism
     system = ConstraintSystem(mechanism)
     here = coordinates(motion, index)

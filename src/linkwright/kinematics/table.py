@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 from linkwright.core.arrays import Floats
 from linkwright.core.outputs import POINT, Output, row_names
 from linkwright.errors import LinkwrightError
-from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     import pandas
@@ -61,6 +60,6 @@ def dataframe(named: Mapping[str, Floats], *, index: str | None = None) -> panda
     try:
         import pandas
     except ImportError as error:
-        raise LinkwrightError(Sentence("motion.needs_pandas")) from error
+        raise LinkwrightError("motion.needs_pandas") from error
     table = pandas.DataFrame(dict(named))
     return table if index is None else table.set_index(index)

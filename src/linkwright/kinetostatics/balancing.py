@@ -15,7 +15,6 @@ from linkwright.errors import LinkwrightError, RequestError
 from linkwright.joints.base import Joint
 from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.mechanism.mechanism import Link, Mechanism
-from linkwright.words.sentence import Sentence
 
 Radius = Mapping[str, float] | float
 
@@ -77,7 +76,7 @@ def balance(mechanism: Mechanism, *, radius: Radius, share: float = 1.0, steps: 
         LinkwrightError: another kind of mechanism, a share outside 0 … 1, a radius that is not positive.
     """
     if not 0.0 <= share <= 1.0:
-        raise RequestError(Sentence("forces.share", share=share))
+        raise RequestError("forces.share", share=share)
     moments = _moments(mechanism, radius, share)
     links = dict(mechanism.links)
     weights = []
@@ -106,10 +105,10 @@ def with_counterweight(link: Link, weight: Counterweight) -> Link:
 
 def _radius(radius: Radius, link: str) -> float:
     if isinstance(radius, Mapping) and link not in radius:
-        raise RequestError(Sentence("forces.weight_no_radius", link=link))
+        raise RequestError("forces.weight_no_radius", link=link)
     distance = radius[link] if isinstance(radius, Mapping) else radius
     if not distance > 0.0:
-        raise RequestError(Sentence("forces.weight_radius", link=link, distance=distance))
+        raise RequestError("forces.weight_radius", link=link, distance=distance)
     return distance
 
 
@@ -123,7 +122,7 @@ def _moments(mechanism: Mechanism, radius: Radius, share: float) -> list[tuple[s
     floating = [name for name in mechanism.links if name not in grounded]
     sliders = [name for name, joint in grounded.items() if joint.coordinate == "slide"]
     if len(mechanism.links) != 3 or len(floating) != 1 or len(grounded) != 2 or len(sliders) > 1:
-        raise LinkwrightError(Sentence("forces.not_balanced", name=mechanism.name))
+        raise LinkwrightError("forces.not_balanced", name=mechanism.name)
     coupler = mechanism.links[floating[0]]
     pins = {name: _shared_pin(mechanism, name, coupler.name) for name in grounded}
     if sliders:
@@ -168,7 +167,7 @@ def _shared_pin(mechanism: Mechanism, a: str, b: str) -> str:
     for joint in mechanism.joints.values():
         if a in joint.joined and b in joint.joined and joint.coordinate != "slide":
             return joint.name
-    raise LinkwrightError(Sentence("forces.no_pin_shared", a=a, b=b, name=mechanism.name))
+    raise LinkwrightError("forces.no_pin_shared", a=a, b=b, name=mechanism.name)
 
 
 def _at(link: Link, point: str) -> complex:

@@ -22,7 +22,6 @@ from linkwright.kinetostatics.link_balance import balance_residual
 from linkwright.kinetostatics.solver import ForceSolver
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import no_such
-from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     import pandas
@@ -141,7 +140,7 @@ class Forces(Plotted):
     def input_torque_from_power(self) -> Floats:
         """The same from the powers of all forces, (n,); for one driver; NaN where it stands still."""
         if len(self.mechanism.drivers) != 1:
-            raise RequestError(Sentence("forces.one_sum"))
+            raise RequestError("forces.one_sum")
         rate = self.motion.positions.coordinates[self._first_driver()][1]
         with np.errstate(all="ignore"):
             return locked(np.where(rate == 0.0, np.nan, self.power / rate))
@@ -211,12 +210,10 @@ class Forces(Plotted):
         if on is None:
             others = [link for link in links if link != "frame"]
             if len(others) != 1:
-                raise RequestError(
-                    Sentence("forces.say_link", joint=joint, links=tuple(links), first=others[0])
-                )
+                raise RequestError("forces.say_link", joint=joint, links=tuple(links), first=others[0])
             return others[0]
         if on not in links:
-            raise RequestError(Sentence("forces.not_touching", joint=joint, link=on, links=tuple(links)))
+            raise RequestError("forces.not_touching", joint=joint, link=on, links=tuple(links))
         return on
 
     def guide_direction(self, joint: str) -> Floats:
@@ -234,7 +231,7 @@ class Forces(Plotted):
     def _first_driver(self) -> str:
         drivers = self.motion.design.base.drivers
         if not drivers:
-            raise RequestError(Sentence("forces.no_driver", name=self.mechanism.name))
+            raise RequestError("forces.no_driver", name=self.mechanism.name)
         return next(iter(drivers))
 
     def fetch(self, names: tuple[str, ...]) -> list[Floats]:

@@ -25,7 +25,6 @@ from linkwright.kinetostatics.trace import ForceTrace
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
 from linkwright.structure.group import Group
-from linkwright.words.sentence import Sentence
 
 #: What jerks are the rates of.
 _ACCELERATIONS = {
@@ -127,7 +126,7 @@ class Named:
         seeds: dict[Value, Scalar] = {}
         for driver in self.mechanism.drivers.values():
             if driver.law.constant_speed is None:
-                raise RequestError(Sentence("study.no_jerk", name=name, driver=driver.name))
+                raise RequestError("study.no_jerk", name=name, driver=driver.name)
             given = self.motion.motion.drivers[driver.name]
             if given.turn is None:
                 seeds[trace.position(Input("slide", driver.name).name)] = given.rate
@@ -181,7 +180,7 @@ class Named:
             quality = placed[group.name].quality
             total = quality if total is None else minimum(total, quality)
         if total is None:
-            raise RequestError(Sentence("study.no_closed_form", name=name))
+            raise RequestError("study.no_closed_form", name=name)
         return total
 
     def transmission_angle(self, name: str, output: Output) -> Scalar:
@@ -247,9 +246,7 @@ class Named:
     def _dyad(self, name: str, output: Output) -> Group:
         group = self._group(name, output)
         if len(group.unknowns) != 2 or group not in closable(self.motion.structure):
-            raise RequestError(
-                Sentence("study.no_dyad", name=name, links=tuple(group.links), group=group.signature)
-            )
+            raise RequestError("study.no_dyad", name=name, links=tuple(group.links), group=group.signature)
         return group
 
     def _group(self, name: str, output: Output) -> Group:
@@ -258,7 +255,7 @@ class Named:
         inner |= {c.joint: g for g in self.motion.structure.groups for c in g.inner_joints}
         if joint not in inner:
             hint = offered(joint, inner, "study.inner_joints")
-            raise RequestError(Sentence("study.not_inner", name=name, joint=joint, hint=hint))
+            raise RequestError("study.not_inner", name=name, joint=joint, hint=hint)
         return inner[joint]
 
 

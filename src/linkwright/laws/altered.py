@@ -9,7 +9,6 @@ import numpy as np
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
 from linkwright.laws.base import MotionLaw
-from linkwright.words.sentence import Sentence
 
 
 @dataclass(frozen=True)
@@ -42,7 +41,7 @@ class Portion(MotionLaw):
 
     def __post_init__(self) -> None:
         if not 0.0 <= self.start < self.end <= 1.0 or abs(self._rise) < 1e-9:
-            raise RequestError(Sentence("laws.portion", start=self.start, end=self.end))
+            raise RequestError("laws.portion", start=self.start, end=self.end)
 
     @property
     def _rise(self) -> float:
@@ -76,7 +75,7 @@ class Shifted(MotionLaw):
         size = max(1.0, float(np.abs(near[1]).max()))
         uneven = max(np.abs(near[0] + far[0] - 1.0).max(), np.abs(near[1] - far[1]).max() / size)
         if not 0.05 <= self.crossover <= 0.95 or uneven > 1e-9:
-            raise RequestError(Sentence("laws.crossover", crossover=self.crossover))
+            raise RequestError("laws.crossover", crossover=self.crossover)
 
     @property
     def breaks(self) -> tuple[float, ...]:

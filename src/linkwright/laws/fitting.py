@@ -9,7 +9,6 @@ from linkwright.errors import RequestError
 from linkwright.laws.altered import Backwards, Portion, Shifted
 from linkwright.laws.base import END_KINDS, MOTION_LAWS, Ends, MotionLaw
 from linkwright.registry import UnknownName, no_such
-from linkwright.words.sentence import Sentence
 
 
 def motion_law(
@@ -34,7 +33,7 @@ def motion_law(
     if unknown or missing:
         key = "laws.unknown_value" if unknown else "laws.missing_value"
         raise RequestError(
-            Sentence(key, law=name, names=", ".join(unknown or missing), known=", ".join(kind.fields) or "–")
+            key, law=name, names=", ".join(unknown or missing), known=", ".join(kind.fields) or "–"
         )
     return altered(kind(**values), crossover, portion, backwards)
 
@@ -82,7 +81,7 @@ def laws_for(start: str, end: str) -> tuple[FittingLaw, ...]:
     """
     for each in (start, end):
         if each not in END_KINDS:
-            raise RequestError(Sentence("laws.end_kind", kind=each, known=tuple(END_KINDS)))
+            raise RequestError("laws.end_kind", kind=each, known=tuple(END_KINDS))
     own: dict[FittingLaw, None] = {}
     any_ends = []
     for name, kind in MOTION_LAWS.items():

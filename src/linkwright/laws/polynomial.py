@@ -15,7 +15,6 @@ from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
 from linkwright.fields.base import Quantities, Quantity, given
 from linkwright.laws.base import MOTION_LAWS, MeetingLaw, MotionLaw
-from linkwright.words.sentence import Sentence
 
 Coefficients = tuple[float, ...]
 
@@ -130,7 +129,7 @@ class PolynomialOf(Polynomial):
 
     def __post_init__(self) -> None:
         if max(len(self.start), len(self.end)) > 8:
-            raise RequestError(Sentence("laws.too_many_conditions"))
+            raise RequestError("laws.too_many_conditions")
 
     @cached_property
     def coefficients(self) -> Coefficients:
@@ -154,7 +153,7 @@ class Polydyne(Polynomial):
 
     def __post_init__(self) -> None:
         if self.ratio <= 0 or not 0 <= self.damping_ratio < 1:
-            raise RequestError(Sentence("laws.polydyne"))
+            raise RequestError("laws.polydyne")
 
     @cached_property
     def coefficients(self) -> Coefficients:

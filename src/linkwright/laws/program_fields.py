@@ -107,7 +107,7 @@ class LawField(Field):
             found, value = {"crossover": value.crossover, **found}, value.law
         fields = MOTION_LAWS[value.key].fields if value.key in MOTION_LAWS else None
         if fields is None or value.meeting(Ends(), 1.0) is not None:
-            raise RequestError(Sentence("laws.not_written", law=value.key))
+            raise RequestError("laws.not_written", law=value.key)
         own = {key: each.written(getattr(value, key)) for key, each in fields.items()
                if getattr(value, key) not in (None, ())}  # fmt: skip
         return {"kind": value.key, **own, **found} if own or found else value.key

@@ -14,7 +14,6 @@ from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
 from linkwright.fields.base import Quantity, given
 from linkwright.laws.base import MOTION_LAWS, MotionLaw
-from linkwright.words.sentence import Sentence
 
 _SHARE = "dimensionless"
 
@@ -98,7 +97,7 @@ class SineConstantCosine(Family):
     def __post_init__(self) -> None:
         used = self.sine + self.constant + self.cosine
         if min(self.sine, self.constant, self.cosine) < 0 or not 0 < used <= 1 + 1e-12:
-            raise RequestError(Sentence("laws.shares", total=used))
+            raise RequestError("laws.shares", total=used)
 
     @property
     def shares(self) -> tuple[float, float, float, float]:

@@ -15,7 +15,6 @@ from linkwright.loads import base
 from linkwright.loads.base import AT_REST, LOADS, Load, Output, Phase, Table
 from linkwright.loads.marks import Push, sign_of
 from linkwright.loads.site import Site, Wrench
-from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.kinematics.motion import Motion
@@ -93,7 +92,7 @@ class Force(Load):
         p, q = self.normal_to or self.along or (self.at, self.at)
         points = site.motion.mechanism.link(self.on).points
         if points[p] == points[q]:
-            raise LinkwrightError(Sentence("loads.no_ray", name=self.name, p=p, q=q, on=self.on))
+            raise LinkwrightError("loads.no_ray", name=self.name, p=p, q=q, on=self.on)
         ray = site.place(self.on, q) - site.place(self.on, p)
         unit = ray * (1.0 / site.distance(self.on, p, q))
         return unit.perp if self.normal_to else unit

@@ -47,7 +47,7 @@ def named_column(name: str, signals: Signals) -> Any:
     found = output_named(name, signals.mechanism)
     if found is None:
         known = ["t", "input", *mechanism.parameters, *mechanism.links, *mechanism.joints]
-        raise LinkwrightError(Sentence("loads.unknown_in_magnitude", name=name, hint=offered(name, known)))
+        raise LinkwrightError("loads.unknown_in_magnitude", name=name, hint=offered(name, known))
     return signals.output(found)[0]
 
 

@@ -92,7 +92,7 @@ class CycleCourse:
         for each in strokes(phase, self.signals):
             rise = each.end[1] - each.begin[1]
             if self._ramp and abs(rise) < NEAR * (1.0 + abs(each.end[1])):
-                raise LinkwrightError(Sentence("loads.ramp_without_length", output=phase.output))
+                raise LinkwrightError("loads.ramp_without_length", output=phase.output)
             inside, passed = place_on(each, self.signals)
             where, share = where | inside, np.where(inside, passed, share)
             if isinstance(phase, SwingPhase) and phase.part is not None:
@@ -116,7 +116,7 @@ def evaluate(load: Load, signals: Signals) -> Floats:
     try:
         return magnitudes(load, signals)
     except LinkwrightError as error:
-        raise LinkwrightError(Sentence("loads.of_load", name=load.name, cause=error)) from None
+        raise LinkwrightError("loads.of_load", name=load.name, cause=error) from None
 
 
 def magnitudes(load: Load, signals: Signals) -> Floats:
@@ -184,7 +184,7 @@ def _refuse_interval(phase: InputPhase, signals: Signals) -> None:
         key = "loads.phase_too_long"
     else:
         return
-    raise LinkwrightError(Sentence(key, start=shown(start, "angle"), end=shown(end, "angle")))
+    raise LinkwrightError(key, start=shown(start, "angle"), end=shown(end, "angle"))
 
 
 def _part_too_long(phase: SwingPhase, course: CycleCourse, index: int) -> str:
@@ -219,11 +219,9 @@ def _refuse_table(table: Table, course: CycleCourse, where: Flags) -> None:
         high = shown(float(short.max()), dimension)
         ranges.append(Sentence("loads.stretch", low=shown(last, dimension), high=high))
     raise LinkwrightError(
-        Sentence(
-            "loads.table_too_short",
-            over=table.over,
-            first=shown(first, dimension),
-            last=shown(last, dimension),
-            ranges=together(ranges),
-        )
+        "loads.table_too_short",
+        over=table.over,
+        first=shown(first, dimension),
+        last=shown(last, dimension),
+        ranges=together(ranges),
     )

@@ -41,7 +41,7 @@ def strokes(phase: MovingPhase | SwingPhase, signals: Signals) -> list[Stretch]:
     """
     limits = signals.limits(phase.output)
     if not limits:
-        raise LinkwrightError(Sentence("loads.never_reverses", output=phase.output))
+        raise LinkwrightError("loads.never_reverses", output=phase.output)
     if isinstance(phase, SwingPhase):
         return _swings(phase, limits, signals)
     return stretches(limits, phase.start, phase.end, signals.whole)
@@ -61,13 +61,11 @@ def _swings(phase: SwingPhase, limits: Sequence[Limit], signals: Signals) -> lis
         for each in extreme
     )
     raise LinkwrightError(
-        Sentence(
-            "loads.no_such_swing",
-            output=phase.output,
-            start=Sentence(f"loads.{phase.start}"),
-            end=Sentence(f"loads.{phase.end}"),
-            places=places,
-        )
+        "loads.no_such_swing",
+        output=phase.output,
+        start=Sentence(f"loads.{phase.start}"),
+        end=Sentence(f"loads.{phase.end}"),
+        places=places,
     )
 
 

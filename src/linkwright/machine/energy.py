@@ -13,7 +13,6 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.piecewise import Piecewise, increasing
 from linkwright.errors import LinkwrightError
 from linkwright.machine.torque_curve import TorqueCurve
-from linkwright.words.sentence import Sentence
 
 #: Driver and load must do equal work over a cycle to this share of the work done.
 BALANCE = 1e-9
@@ -69,12 +68,10 @@ def energy_fluctuation(driver: TorqueCurve, load: TorqueCurve | None = None) -> 
     done = max(abs(driver.mean), abs(load.mean)) * excess.period
     if abs(work.total) > BALANCE * max(done, float(np.abs(work(work.edges)).max())):
         raise LinkwrightError(
-            Sentence(
-                "running.speeds_up" if work.total > 0 else "running.slows_down",
-                total=work.total,
-                mean=driver.mean,
-                load=load.mean,
-            )
+            "running.speeds_up" if work.total > 0 else "running.slows_down",
+            total=work.total,
+            mean=driver.mean,
+            load=load.mean,
         )
     return of_energy(Piecewise(work.edges, work.at_nodes), balance=work.total)
 
@@ -106,12 +103,12 @@ def fluctuation_from_areas(
     """
     given = np.asarray(areas, dtype=float)
     if given.ndim != 1 or not given.size or not np.isfinite(given).all():
-        raise LinkwrightError(Sentence("running.areas_list"))
+        raise LinkwrightError("running.areas_list")
     if not (torque_scale > 0 and angle_scale > 0):
-        raise LinkwrightError(Sentence("running.scales"))
+        raise LinkwrightError("running.scales")
     energy = np.concatenate([[0.0], np.cumsum(given)]) * torque_scale * angle_scale
     if abs(given.sum()) > BALANCE * np.abs(given).sum():
-        raise LinkwrightError(Sentence("running.areas_sum", total=given.sum()))
+        raise LinkwrightError("running.areas_sum", total=given.sum())
     low, high = int(energy.argmin()), int(energy.argmax())
     value = float(energy[high] - energy[low])
     diagram = partial(_areas, energy)

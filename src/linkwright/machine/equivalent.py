@@ -160,7 +160,7 @@ def equivalent(forces: Forces) -> Equivalent:
     analysis.ask_rows(chain.from_iterable(_rates_of_centres(motion.mechanism).values()))
     grid = analysis.grid
     if grid is None:
-        raise LinkwrightError(Sentence("running.not_between", name=motion.mechanism.name))
+        raise LinkwrightError("running.not_between", name=motion.mechanism.name)
 
     edges = abs(rate) * (grid.edges - begin)
     between, slope = _inertia_and_slope(grid.motion)
@@ -185,15 +185,15 @@ def steady_rate(motion: Motion) -> float:
     """The input's constant speed, rad/s; raises as :func:`equivalent`."""
     name = motion.mechanism.name
     if len(motion.mechanism.drivers) != 1 or not next(iter(motion.positions.rotary.values())):
-        raise LinkwrightError(Sentence("running.one_driver", name=name))
+        raise LinkwrightError("running.one_driver", name=name)
     rate = _rates(motion)[0]
     if rate[0] == 0 or np.ptp(rate) > 1e-9 * abs(rate[0]):
-        raise LinkwrightError(Sentence("running.not_constant", name=name))
+        raise LinkwrightError("running.not_constant", name=name)
     turned = abs(rate[0]) * (motion.positions.period or 0.0)
     if not motion.positions.closed or not turned or abs(turned / TURN - round(turned / TURN)) > 1e-9:
         raise LinkwrightError(_not_whole_turns(motion.mechanism))
     if not motion.ok.all():
-        raise LinkwrightError(Sentence("running.not_all_reached", name=name))
+        raise LinkwrightError("running.not_all_reached", name=name)
     return float(rate[0])
 
 

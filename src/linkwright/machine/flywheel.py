@@ -28,7 +28,7 @@ def flywheel_inertia(energy: float, speed: float, fluctuation: float, *, present
 def speed_fluctuation(energy: float, speed: float, inertia: float) -> float:
     """Coefficient of speed fluctuation δ = ΔE/(J ω²) that an inertia gives, by the same formula."""
     if not inertia > 0:
-        raise RequestError(Sentence("running.bad_inertia", inertia=inertia))
+        raise RequestError("running.bad_inertia", inertia=inertia)
     _require(1.0, speed)
     return energy / (inertia * speed * speed)
 
@@ -39,7 +39,7 @@ def on_faster_shaft(inertia: float, ratio: float) -> float:
     Raises LinkwrightError for a ratio of zero.
     """
     if not abs(ratio) > 0:
-        raise RequestError(Sentence("running.bad_ratio"))
+        raise RequestError("running.bad_ratio")
     return inertia / (ratio * ratio)
 
 
@@ -83,9 +83,9 @@ def rim(
     given = (inertia, density, width_ratio, thickness_ratio)
     for name, value in zip(("inertia", "density", "width", "thickness"), given, strict=True):
         if not value > 0:
-            raise RequestError(Sentence("running.bad_size", name=Sentence(f"running.{name}"), value=value))
+            raise RequestError("running.bad_size", name=Sentence(f"running.{name}"), value=value)
     if thickness_ratio > 0.5:
-        raise RequestError(Sentence("running.bad_rim", thickness_ratio=thickness_ratio))
+        raise RequestError("running.bad_rim", thickness_ratio=thickness_ratio)
     hole = 1.0 - 2.0 * thickness_ratio
     diameter = (32 * inertia / (density * pi * width_ratio * (1 - hole**4))) ** 0.2
     width = width_ratio * diameter
@@ -95,6 +95,6 @@ def rim(
 
 def _require(fluctuation: float, speed: float) -> None:
     if not fluctuation > 0:
-        raise RequestError(Sentence("running.bad_coefficient", fluctuation=fluctuation))
+        raise RequestError("running.bad_coefficient", fluctuation=fluctuation)
     if not abs(speed) > 0:
-        raise LinkwrightError(Sentence("running.still_shaft"))
+        raise LinkwrightError("running.still_shaft")

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
-from linkwright.words.sentence import Sentence
 
 
 @dataclass(frozen=True)
@@ -29,7 +28,7 @@ def motor(mean_torque: float, speed: float, *, efficiency: float = 1.0, margin: 
     Raises LinkwrightError for values out of range.
     """
     if not 0 < efficiency <= 1:
-        raise RequestError(Sentence("running.bad_efficiency", efficiency=efficiency))
+        raise RequestError("running.bad_efficiency", efficiency=efficiency)
     if not margin >= 1:
-        raise RequestError(Sentence("running.bad_margin", margin=margin))
+        raise RequestError("running.bad_margin", margin=margin)
     return Motor(mean_torque, mean_torque * speed, efficiency, margin)

@@ -168,4 +168,4 @@ def require_steady(forces: Forces) -> None:
 def _require_load(mean: float, forces: Forces) -> None:
     largest = float(np.abs(forces.input_torque).max())
     if abs(mean) <= NOTHING * largest or largest == 0:
-        raise LinkwrightError(Sentence("running.no_work", name=forces.mechanism.name))
+        raise LinkwrightError("running.no_work", name=forces.mechanism.name)

@@ -23,7 +23,6 @@ from linkwright.core.piecewise import (
 from linkwright.errors import LinkwrightError
 from linkwright.machine.speeds import Speeds, SteadyCycles, in_pieces
 from linkwright.machine.torque_curve import TorqueCurve
-from linkwright.words.sentence import Sentence
 
 #: A machine whose kinetic energy falls below this share of that at its mean speed stops, and one whose inertia falls
 #: below this share of the largest has none.
@@ -92,7 +91,7 @@ def true_speed(
     from linkwright.machine.energy import energy_fluctuation
 
     if not speed > 0:
-        raise LinkwrightError(Sentence("running.bad_speed", speed=speed))
+        raise LinkwrightError("running.bad_speed", speed=speed)
     given = TorqueCurve.constant(load.mean, period=load.period) if driver is None else driver
     if driver is not None:
         energy_fluctuation(driver, load)
@@ -140,7 +139,7 @@ class SteadyCycle:
         for _ in range(ROUNDS):
             size = float(cycles.flywheel(fluctuation, np.array([first]))[0])
             if np.isnan(size):
-                raise LinkwrightError(Sentence("running.no_flywheel", fluctuation=fluctuation))
+                raise LinkwrightError("running.no_flywheel", fluctuation=fluctuation)
             finer = self._solved(size).edges
             if len(finer) == len(edges):
                 break
@@ -172,10 +171,10 @@ class SteadyCycle:
         """The energy at the period's begin, J."""
         most, unit = float(found.inertia.max()), 0.5 * self.speed * self.speed
         if not min(float(found.inertia.min()), flywheel + self._lightest) > STOPPED * most:
-            raise LinkwrightError(Sentence("running.no_inertia"))
+            raise LinkwrightError("running.no_inertia")
         energy = unit * float(found.energy[0])
         if energy + self._least <= STOPPED * unit * most:
-            raise LinkwrightError(Sentence("running.would_stop"))
+            raise LinkwrightError("running.would_stop")
         return energy
 
     def _at_edges(self, edges: Floats) -> SteadyCycles:
@@ -204,7 +203,7 @@ class _Solved:
 
 def _constant(inertia: float) -> Function:
     if not inertia > 0:
-        raise LinkwrightError(Sentence("running.bad_inertia", inertia=inertia))
+        raise LinkwrightError("running.bad_inertia", inertia=inertia)
     return partial(_same, float(inertia))
 
 

@@ -381,16 +381,16 @@ class Mechanism(Frozen):
     def _unknown(self, address: str) -> LinkwrightError:
         offer = nearest(address, self._dimensions)
         hint = Sentence("names.did_you_mean", offer=offer) if offer else Sentence("model.see_addresses")
-        return LinkwrightError(Sentence("model.no_dimension", address=address, hint=hint))
+        return LinkwrightError("model.no_dimension", address=address, hint=hint)
 
     def _checked(self, address: str, value: float) -> float:
         if address not in self._dimensions:
             raise self._unknown(address)
         value = float(value)
         if not math.isfinite(value):
-            raise RequestError(Sentence("model.set_not_finite", address=address, value=value))
+            raise RequestError("model.set_not_finite", address=address, value=value)
         if abs(value) > LARGEST_OF_ALL:
-            raise RequestError(Sentence("model.set_beyond", address=address, value=value))
+            raise RequestError("model.set_beyond", address=address, value=value)
         sort, name = self._owners.get(address, ("", ""))
         if sort == "joint":
             limit = self.joints[name].limit(address, value)
@@ -399,7 +399,7 @@ class Mechanism(Frozen):
         if limit is not None:
             unit = SI_UNITS.get(getattr(self.declared(address), "dimension", ""), "")
             told = f"{value:g} {unit}".rstrip()
-            raise RequestError(Sentence("model.set_outside", address=address, value=told, limit=limit))
+            raise RequestError("model.set_outside", address=address, value=told, limit=limit)
         return value
 
     def __repr__(self) -> str:

@@ -20,7 +20,6 @@ from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Metric, MetricValue, Number, Remark
 from linkwright.metrics.outputs import coupler_points
 from linkwright.metrics.quantities import shown
-from linkwright.words.sentence import Sentence
 
 #: A path stops in a cusp where its speed falls below this share of its mean speed.
 STANDING = 1e-6
@@ -63,7 +62,7 @@ def coupler_curve(result: Motion | Forces | Analysis, point: str) -> CouplerCurv
 def _curve(analysis: Analysis, point: str) -> CouplerCurve:
     motion = analysis.motion
     if not analysis.whole:
-        raise LinkwrightError(Sentence("metrics.path_open", point=point, name=motion.mechanism.name))
+        raise LinkwrightError("metrics.path_open", point=point, name=motion.mechanism.name)
     lap, number = _lap(analysis, point), slice(0, len(motion.time[analysis.once]) // _rounds(analysis, point))
     path, speed = motion.point(point).position[number], np.hypot(*motion.point(point).velocity[number].T)
     length, area = (each(point, lap).measured(analysis)[0] for each in (_length, _area))

@@ -14,7 +14,6 @@ from linkwright.errors import RequestError
 from linkwright.kinematics.names import PHRASES
 from linkwright.kinetostatics.named import Quantity
 from linkwright.registry import offered
-from linkwright.words.sentence import Sentence
 
 #: Kinds of summaries, and the engine's reductions they need.
 KINDS: Mapping[str, tuple[str, ...]] = {
@@ -60,7 +59,7 @@ def wanted(outputs: Iterable[str | tuple[str, str]]) -> tuple[Summary, ...]:
         for summary in _one(each):
             found[summary] = None
     if not found:
-        raise RequestError(Sentence("study.no_outputs"))
+        raise RequestError("study.no_outputs")
     return tuple(found)
 
 
@@ -102,7 +101,7 @@ def _one(each: str | tuple[str, str]) -> list[Summary]:
     output, kind = each
     if kind not in KINDS:
         hint = offered(kind, KINDS, "names.one_of")
-        raise RequestError(Sentence("study.no_summary", output=output, kind=kind, hint=hint))
+        raise RequestError("study.no_summary", output=output, kind=kind, hint=hint)
     return [Summary(output, kind)]
 
 
@@ -111,9 +110,7 @@ def reductions(summaries: Iterable[Summary], quantities: Mapping[str, Quantity])
     found: dict[Reduction, None] = {}
     for summary in summaries:
         if quantities[summary.output].reference is not None and summary.kind not in _GROWING:
-            raise RequestError(
-                Sentence("study.angle_summary", name=summary.name, kinds=tuple(sorted(_GROWING)))
-            )
+            raise RequestError("study.angle_summary", name=summary.name, kinds=tuple(sorted(_GROWING)))
         for kind in KINDS[summary.kind]:
             found[Reduction(summary.output, kind)] = None  # type: ignore[arg-type]
     return list(found)

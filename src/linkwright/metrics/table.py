@@ -12,7 +12,7 @@ from linkwright.metrics.base import CELLS, METRICS, MetricValue
 from linkwright.registry import offered
 from linkwright.words import say
 from linkwright.words.characters import aligned
-from linkwright.words.sentence import Sentence, in_language, in_words, together
+from linkwright.words.sentence import in_language, in_words, together
 
 if TYPE_CHECKING:
     import pandas
@@ -89,7 +89,7 @@ class MetricsTable(Plotted, Sequence[MetricValue]):
         if found:
             return found
         METRICS[name]
-        raise RequestError(Sentence("metrics.not_in_table", name=name))
+        raise RequestError("metrics.not_in_table", name=name)
 
     def _one(self, name: str, subject: str) -> MetricValue:
         rows = self._of(name)
@@ -98,7 +98,7 @@ class MetricsTable(Plotted, Sequence[MetricValue]):
                 return row
         subjects = [row.subject for row in rows]
         hint = offered(subject, subjects)
-        raise RequestError(Sentence("metrics.no_value", name=name, subject=subject, hint=hint))
+        raise RequestError("metrics.no_value", name=name, subject=subject, hint=hint)
 
     def text(self, language: str = "en") -> str:
         """The table with aligned columns: name, subject, value, unit, where; then the sentences."""
@@ -120,7 +120,7 @@ class MetricsTable(Plotted, Sequence[MetricValue]):
         try:
             import pandas
         except ImportError:
-            raise RequestError(Sentence("metrics.needs_pandas")) from None
+            raise RequestError("metrics.needs_pandas") from None
         return pandas.DataFrame(self.data())
 
     def _repr_html_(self) -> str:

@@ -33,7 +33,6 @@ from linkwright.study.design_numbers import Numbers, side_by_side
 from linkwright.study.kept import identity, surrounding
 from linkwright.study.terms import OWN, Asked, Term, metric_of
 from linkwright.study.vary import refuse_moved_positions
-from linkwright.words.sentence import Sentence
 
 #: Designs that a worker of a cluster takes at a time where they go one by one.
 FEW = 4
@@ -86,12 +85,12 @@ class Measures:
         names = {name: defined.get(name, name) for name in found.names}
         for name in names.values():
             if not self._is_number(name):
-                raise RequestError(Sentence("optimize.no_number", text=name))
+                raise RequestError("optimize.no_number", text=name)
         if not names:
-            raise RequestError(Sentence("optimize.no_number", text=text))
+            raise RequestError("optimize.no_number", text=text)
         for name in set(names.values()) & set(self._dimensions):
             if name in self.mechanism.expressions and name not in self.problem.addresses:
-                raise RequestError(Sentence("optimize.derived", name=name))
+                raise RequestError("optimize.derived", name=name)
         return found, names
 
     def _is_number(self, name: str) -> bool:

@@ -126,7 +126,7 @@ def _source(
         mechanism = document.mechanism
     given = dict(mechanism.optimize) | {key: value for key, value in settings.items() if value is not None}
     if not given:
-        raise RequestError(Sentence("optimize.no_section", name=partial(title_said, mechanism.name)))
+        raise RequestError("optimize.no_section", name=partial(title_said, mechanism.name))
     return mechanism, document, given
 
 

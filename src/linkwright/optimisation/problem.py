@@ -230,7 +230,7 @@ class _Reading:
             if key == "whole":
                 choices = np.arange(np.ceil(found.low), np.floor(found.high) + 1)
             if len(choices) < 1:
-                raise RequestError(Sentence("optimize.no_choice", address=address))
+                raise RequestError("optimize.no_choice", address=address)
             return Variable(address, float(choices[0]), float(choices[-1]), choices, found.unit)
         if (
             isinstance(value, (list, tuple))
@@ -244,18 +244,16 @@ class _Reading:
             try:
                 value = np.array(value, float)
             except (TypeError, ValueError):
-                raise RequestError(
-                    Sentence("optimize.no_bounds", address=address, given=str(value))
-                ) from None
+                raise RequestError("optimize.no_bounds", address=address, given=str(value)) from None
         found = parse_range(self.mechanism, address, value)
         if len(found.values) > 2 and not (isinstance(value, str) and ".." in value):
             return Variable(address, found.low, found.high, np.unique(found.values), found.unit)
         _rising(found)
         if not found.low < found.high:
-            raise RequestError(Sentence("optimize.bounds", address=address))
+            raise RequestError("optimize.bounds", address=address)
         if gives_part_of_tooth(self.mechanism, address, between(found)):
             low, high = math.ceil(found.low), math.floor(found.high)
-            raise RequestError(Sentence("optimize.whole_teeth", address=address, low=low, high=high))
+            raise RequestError("optimize.whole_teeth", address=address, low=low, high=high)
         return Variable(address, found.low, found.high, None, found.unit)
 
     def _demands(self) -> list[Demand]:
@@ -284,7 +282,7 @@ def _rising(found: Range) -> None:
     first, last = float(found.values[0]), float(found.values[-1])
     if first > last:
         said = {"first": found.shown(first), "last": found.shown(last)}
-        raise RequestError(Sentence("optimize.falling", address=found.address, **said))
+        raise RequestError("optimize.falling", address=found.address, **said)
 
 
 _USUAL = {"yield": 0.99, "fluctuation": 0.02, "steps": 360, "evaluations": 4000, "population": 0, "seed": 0}

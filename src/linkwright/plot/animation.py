@@ -32,7 +32,6 @@ from linkwright.plot.svg.element import Element, circle, group
 from linkwright.plot.svg.render import png
 from linkwright.whole_files import write_whole
 from linkwright.words import say
-from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.engine.sweep import Progress
@@ -82,9 +81,9 @@ def animate(
     """
     require_language(language)
     if not 2 <= frames <= 2000:
-        raise RequestError(Sentence("picture.bad_frames", frames=frames))
+        raise RequestError("picture.bad_frames", frames=frames)
     if seconds is not None and not 0.05 <= seconds <= 3600:
-        raise RequestError(Sentence("picture.bad_seconds", seconds=seconds))
+        raise RequestError("picture.bad_seconds", seconds=seconds)
     motion = source if isinstance(source, Motion) else solve_motion(source, steps=STEPS, failures="mark")
     run = frame_indices(motion, frames)
     scene = laid_out(motion, run[0], centres=centres)
@@ -190,9 +189,7 @@ class Animation:
         """
         suffix = Path(path).suffix.lower()
         if suffix != ".svg" and not WIDTHS[0] <= width <= WIDTHS[1]:
-            raise RequestError(
-                Sentence("picture.bad_film_width", width=width, least=WIDTHS[0], most=WIDTHS[1])
-            )
+            raise RequestError("picture.bad_film_width", width=width, least=WIDTHS[0], most=WIDTHS[1])
         if suffix == ".svg":
             return write_whole(path, self.svg.encode())
         if suffix == ".gif":
@@ -203,7 +200,7 @@ class Animation:
         if suffix == ".mp4":
             run = [self.run[k] for k in self._film()]
             return write_whole(path, mp4(self._pictures(run, width, fonts, progress), FILM_RATE))
-        raise RequestError(Sentence("picture.no_film_suffix", path=path, suffix=suffix))
+        raise RequestError("picture.no_film_suffix", path=path, suffix=suffix)
 
     def _pictures(
         self, run: Sequence[int], width: int, fonts: Sequence[str | Path], progress: Progress | None

@@ -22,7 +22,7 @@ from linkwright.report.settings import Settings
 from linkwright.structure.group import Structure
 from linkwright.units import parse
 from linkwright.words import Say, speaker
-from linkwright.words.sentence import Sentence, in_language
+from linkwright.words.sentence import in_language
 
 if TYPE_CHECKING:
     from linkwright.machine.running import SteadyRunning
@@ -85,7 +85,7 @@ class Case:
     def forces(self) -> Forces:
         """Joint forces over the cycle; raises Missing where nothing acts."""
         if not self.mechanism.has_loads:
-            raise Missing(Sentence("report.no_loads"))
+            raise Missing("report.no_loads")
         return solve_forces(self.motion)
 
     @cached_property
@@ -255,7 +255,7 @@ class Case:
     def numbered_forces(self) -> Forces:
         """Forces at the numbered positions."""
         if not self.mechanism.has_loads:
-            raise Missing(Sentence("report.no_loads"))
+            raise Missing("report.no_loads")
         return solve_forces(self.numbered.motion)
 
     @cached_property

@@ -13,7 +13,6 @@ from dataclasses import field
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError
 from linkwright.words.characters import cells
-from linkwright.words.sentence import Sentence
 
 SYMBOLS = {
     "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "Delta": "Δ", "varepsilon": "ε", "eta": "η",
@@ -111,7 +110,7 @@ class _Reader:
 
     def error(self) -> LinkwrightError:
         place = self.tokens[self.at] if self.more else "…"
-        return LinkwrightError(Sentence("report.no_formula", sign=place, text=self.text))
+        return LinkwrightError("report.no_formula", sign=place, text=self.text)
 
     def next(self) -> str:
         if not self.more:

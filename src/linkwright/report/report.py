@@ -78,7 +78,7 @@ class Report:
             from linkwright.report.typst_pages import pages
 
             return pages(self.document)[0].encode()
-        raise RequestError(Sentence("report.bad_ending", ending=ending, endings=ENDINGS))
+        raise RequestError("report.bad_ending", ending=ending, endings=ENDINGS)
 
     def _miss(self, sentence: str) -> None:
         """Notes what the report lacks, once."""
@@ -155,7 +155,7 @@ def _told_apart(machines: Machine | Sequence[Machine]) -> tuple[list[Mechanism |
 
     given = [machines] if isinstance(machines, Mechanism | Problem | str | Path) else list(machines)
     if not given:
-        raise RequestError(Sentence("report.no_machine"))
+        raise RequestError("report.no_machine")
     found: list[Mechanism | str] = []
     problems = []
     for each in given:
@@ -203,7 +203,7 @@ def _cases(
             _ = found[-1].asked_place
         except QuantityError as error:
             name = "position" if position else "report.position"
-            raise RequestError(Sentence("cli.about", name=name, cause=error)) from None
+            raise RequestError("cli.about", name=name, cause=error) from None
     names = [case.mechanism.name for case in found]
     for number, case in enumerate(found, 1):
         if names.count(case.mechanism.name) > 1:
@@ -227,7 +227,7 @@ def _chosen(names: Iterable[str]) -> list[str]:
     for name in asked:
         if name not in SECTIONS:
             ordered = sorted(SECTIONS, key=lambda each: SECTIONS[each].rank)
-            raise RequestError(Sentence("report.no_section", name=name, hint=listed(name, ordered)))
+            raise RequestError("report.no_section", name=name, hint=listed(name, ordered))
     return asked
 
 

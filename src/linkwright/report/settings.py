@@ -10,7 +10,6 @@ from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
 from linkwright.registry import offered
 from linkwright.words import LANGUAGES
-from linkwright.words.sentence import Sentence
 
 KEYS = (
     "title", "author", "course", "date", "sections", "position", "positions", "numbered_from", "fluctuation",
@@ -82,21 +81,21 @@ def _known(given: Mapping[str, Any], keys: tuple[str, ...], place: str) -> None:
     for key in given:
         if key not in keys:
             raise RequestError(
-                Sentence("report.unknown_key", place=f"{place}.{key}", name=key, hint=offered(str(key), keys))
+                "report.unknown_key", place=f"{place}.{key}", name=key, hint=offered(str(key), keys)
             )
 
 
 def _sequence(given: Mapping[str, Any], key: str) -> list[Any]:
     found = given.get(key) or []
     if not isinstance(found, list | tuple):
-        raise RequestError(Sentence("report.not_a_list", place=f"report.{key}"))
+        raise RequestError("report.not_a_list", place=f"report.{key}")
     return list(found)
 
 
 def _mapping(given: Mapping[str, Any], key: str) -> Mapping[str, Any]:
     found = given.get(key) or {}
     if not isinstance(found, Mapping):
-        raise RequestError(Sentence("report.not_a_mapping", place=f"report.{key}"))
+        raise RequestError("report.not_a_mapping", place=f"report.{key}")
     return found
 
 
@@ -106,7 +105,7 @@ def _count(value: Any) -> int:
     except ValueError:
         found = 0
     if not 2 <= found <= MOST:
-        raise RequestError(Sentence("report.bad_positions", text=str(value), most=MOST))
+        raise RequestError("report.bad_positions", text=str(value), most=MOST)
     return found
 
 
@@ -116,16 +115,16 @@ def _fluctuation(value: Any) -> float:
     except (TypeError, ValueError):
         found = 0.0
     if not 0.0 < found < 1.0:
-        raise RequestError(Sentence("report.bad_fluctuation", text=str(value)))
+        raise RequestError("report.bad_fluctuation", text=str(value))
     return found
 
 
 def _erratum(each: Any, index: int) -> Erratum:
     place = f"report.errata.{index}"
     if not isinstance(each, Mapping):
-        raise RequestError(Sentence("report.not_a_mapping", place=place))
+        raise RequestError("report.not_a_mapping", place=place)
     _known(each, ERRATUM, place)
     for key in ERRATUM[:3]:
         if key not in each:
-            raise RequestError(Sentence("report.lacks", place=place, name=key))
+            raise RequestError("report.lacks", place=place, name=key)
     return Erratum(**{key: str(each[key]) for key in ERRATUM if key in each})

@@ -40,7 +40,6 @@ from linkwright.report.formula import (
     width,
 )
 from linkwright.words.characters import cells
-from linkwright.words.sentence import Sentence
 
 _ACCENTS = {"dot": "dot", "ddot": "dot.double", "vec": "arrow", "overrightarrow": "arrow", "bar": "macron"}
 _SPACES = {",": "thin", ";": "med", ":": "med", " ": "med", "quad": "quad"}
@@ -201,7 +200,7 @@ def compiled(document: Document, form: str) -> bytes:
     try:
         import typst as program
     except ImportError:
-        raise LinkwrightError(Sentence("report.needs_typst")) from None
+        raise LinkwrightError("report.needs_typst") from None
     text, pictures = pages(document)
     given: Any = form
     try:
@@ -209,10 +208,10 @@ def compiled(document: Document, form: str) -> bytes:
             text.encode(), sys_inputs={**pictures, "form": form}, format=given
         )
     except program.TypstError as error:
-        raise LinkwrightError(Sentence("report.typst_says", sentence=str(error))) from None
+        raise LinkwrightError("report.typst_says", sentence=str(error)) from None
     said = [w.message for w in warnings if not any(each in w.message for each in _EXPECTED)]
     if said:
-        raise LinkwrightError(Sentence("report.typst_says", sentence="; ".join(dict.fromkeys(said))))
+        raise LinkwrightError("report.typst_says", sentence="; ".join(dict.fromkeys(said)))
     assert isinstance(found, bytes)
     return found if form == "pdf" else _styled(found, document)
 

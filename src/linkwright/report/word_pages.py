@@ -36,7 +36,6 @@ from linkwright.report.formula import (
     set_lines,
 )
 from linkwright.words.characters import cells, printable
-from linkwright.words.sentence import Sentence
 
 SPACE = "http://schemas.openxmlformats.org/officeDocument/2006/math"
 _SPACES = {",": "\u2009", ";": "\u2005", ":": "\u2005", " ": "\u2005", "quad": "\u2003"}
@@ -117,7 +116,7 @@ def word(document: Document) -> bytes:
     try:
         import docx
     except ImportError:
-        raise LinkwrightError(Sentence("report.needs_word")) from None
+        raise LinkwrightError("report.needs_word") from None
     writer = _Writer(document, docx.Document())
     return writer.content()
 

@@ -17,7 +17,6 @@ from linkwright.joints.cam import CamJoint
 from linkwright.joints.rack import RackPair
 from linkwright.server.draft import Draft
 from linkwright.units import number
-from linkwright.words.sentence import Sentence
 
 #: A roller's radius as share of its centre's distance from the cam's; lengths are written to this, m.
 ROLLER, FINEST = 0.2, 1e-4
@@ -36,7 +35,7 @@ def add_cam(draft: Draft, action: Mapping[str, Any]) -> None:
     centre = _pin(shown, cam)
     follower = _link_with(shown, at, cam)
     if centre is None or follower is None:
-        raise LinkwrightError(Sentence("studio.no_cam", cam=cam, at=at))
+        raise LinkwrightError("studio.no_cam", cam=cam, at=at)
     away = _place(shown, at) - _place(shown, centre)
     roller = _nice(ROLLER * abs(away))
     entry: Plain = {
@@ -53,7 +52,7 @@ def add_cam(draft: Draft, action: Mapping[str, Any]) -> None:
         entry["side"] = "left" if (line.conjugate() * lever).imag > 0 else "right"
         arm = abs(lever)
     else:
-        raise LinkwrightError(Sentence("studio.no_cam", cam=cam, at=at))
+        raise LinkwrightError("studio.no_cam", cam=cam, at=at)
     phase = _drawn_angle(shown, cam)
     if phase:
         entry["phase"] = f"{number(phase, 6)} deg"
@@ -76,10 +75,10 @@ def add_rack(draft: Draft, action: Mapping[str, Any]) -> None:
     through = shown["links"].get(rack, [None])[0]
     way = None if guide is None else _direction(guide)
     if centre is None or way is None or through not in shown["points"]:
-        raise LinkwrightError(Sentence("studio.no_rack", pinion=pinion, rack=rack))
+        raise LinkwrightError("studio.no_rack", pinion=pinion, rack=rack)
     gap = (_place(shown, centre) - _place(shown, through)) * way.conjugate()
     if abs(gap.imag) < FINEST:
-        raise LinkwrightError(Sentence("studio.rack_through", pinion=pinion, rack=rack))
+        raise LinkwrightError("studio.rack_through", pinion=pinion, rack=rack)
     entry = {
         "kind": RackPair.kind, "pinion": pinion, "rack": rack, "through": through,
         "radius": f"{number(1e3 * abs(gap.imag), 10)} mm",
@@ -129,7 +128,7 @@ def _lead_away(draft: Draft, name: str, guide: MappingNode, away: complex) -> No
     """Turns a guide round that leads towards the cam: the lift grows along its direction."""
     way, node = _direction(guide), guide.get("direction")
     if way is None or node is None:
-        raise LinkwrightError(Sentence("studio.no_guide_angle", name=name))
+        raise LinkwrightError("studio.no_guide_angle", name=name)
     if (away * way.conjugate()).real < 0:
         angle = math.degrees(cmath.phase(-way))
         draft.write(node, f"{number(round(angle, 3))} deg")
@@ -154,7 +153,7 @@ def _lift(text: str, arm: float) -> str:
     except QuantityError:
         share = units.parse(text, "length") / (2 * arm)
         if not 0 < share < 1:
-            raise LinkwrightError(Sentence("studio.long_lift", lift=text, arm=_length(arm))) from None
+            raise LinkwrightError("studio.long_lift", lift=text, arm=_length(arm)) from None
         return f"{number(round(math.degrees(2 * math.asin(share)), 1))} deg"
     return text
 

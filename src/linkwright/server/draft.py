@@ -14,7 +14,6 @@ from linkwright.fields.nodes import Node, Scalar, Sequence
 from linkwright.files.compose import compose
 from linkwright.files.document import Document, content_end
 from linkwright.files.write import flow, scalar
-from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.kinematics.motion import Motion
@@ -42,9 +41,9 @@ class Draft(Document):
         if root is None:
             return MappingNode(0, 0, 0, 0)
         if not isinstance(root, MappingNode):
-            raise LinkwrightError(Sentence("studio.no_mapping"))
+            raise LinkwrightError("studio.no_mapping")
         if root.flow:
-            raise LinkwrightError(Sentence("studio.braces"))
+            raise LinkwrightError("studio.braces")
         return root
 
     def section(self, name: str) -> MappingNode | None:

@@ -18,7 +18,6 @@ from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.server.contacts import add_cam, add_rack
 from linkwright.server.draft import Draft, fresh, picture, texts
 from linkwright.units import number
-from linkwright.words.sentence import Sentence
 
 #: Drawn coordinates are whole multiples of this, m.
 _FINEST = 1e-4
@@ -35,7 +34,7 @@ def edited(text: str, action: Mapping[str, Any]) -> str:
     draft = Draft(text, dict(action.get("places") or {}))
     act = _ACTIONS.get(str(action.get("do")))
     if act is None:
-        raise LinkwrightError(Sentence("studio.no_action", name=str(action.get("do"))))
+        raise LinkwrightError("studio.no_action", name=str(action.get("do")))
     act(draft, action)
     return draft.text
 
@@ -90,7 +89,7 @@ def _slot(draft: Draft, action: Mapping[str, Any]) -> None:
     shown = draft.shown()
     ends = shown["links"].get(action["along"], [])
     if len(ends) < 2 or not all(point in shown["points"] for point in (*ends, action["at"])):
-        raise LinkwrightError(Sentence("studio.no_slot", name=str(action["along"])))
+        raise LinkwrightError("studio.no_slot", name=str(action["along"]))
     (ax, ay), (bx, by), (x, y) = (shown["points"][point] for point in (ends[0], ends[-1], action["at"]))
     across = ((bx - ax) * (y - ay) - (by - ay) * (x - ax)) / math.dist((ax, ay), (bx, by))
     block = fresh("slider", list(shown["links"]))
@@ -108,7 +107,7 @@ def _gear(draft: Draft, action: Mapping[str, Any]) -> None:
     """Two links as gears with numbers of teeth ``20:40``."""
     teeth = [each.strip() for each in str(action["teeth"]).split(":")]
     if len(teeth) != 2 or not all(each.isdigit() and int(each) for each in teeth):
-        raise LinkwrightError(Sentence("studio.no_teeth", text=str(action["teeth"])))
+        raise LinkwrightError("studio.no_teeth", text=str(action["teeth"]))
     entry = {"kind": GearPair.kind, "links": list(action["links"]), "teeth": [int(z) for z in teeth]}
     draft.put_new("joints", "mesh", entry)
 
@@ -122,7 +121,7 @@ def _mass(draft: Draft, action: Mapping[str, Any]) -> None:
     links = draft.section("links")
     link = links.get(action["link"]) if links is not None else None
     if not isinstance(link, MappingNode):
-        raise LinkwrightError(Sentence("studio.no_link", name=str(action["link"])))
+        raise LinkwrightError("studio.no_link", name=str(action["link"]))
     draft.write_key(link, "mass", action["mass"])
 
 
@@ -142,7 +141,7 @@ def _remove(draft: Draft, action: Mapping[str, Any]) -> None:
     name = str(action["name"])
     if action.get("what") == "link":
         if name not in picture(draft.text)["links"]:
-            raise LinkwrightError(Sentence("studio.no_link", name=name))
+            raise LinkwrightError("studio.no_link", name=name)
         draft.take_out("links", name)
         _remove_what_names(draft, name)
     links = picture(draft.text)["links"].values()

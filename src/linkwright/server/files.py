@@ -12,7 +12,7 @@ from linkwright.core.plain import Plain
 from linkwright.errors import LinkwrightError
 from linkwright.files.source import decode
 from linkwright.whole_files import make_folder, write_whole
-from linkwright.words.sentence import Sentence, reason_of
+from linkwright.words.sentence import reason_of
 
 _ENDINGS = (".yaml", ".yml", ".json")
 _DRAFTS = ".linkwright"
@@ -34,9 +34,9 @@ class Files:
         with suppress(OSError, RuntimeError):  # links that lead in a circle
             path = (self.folder / name).resolve()
         if not path.is_relative_to(self.folder) or path.suffix.lower() not in _ENDINGS or "\0" in name:
-            raise LinkwrightError(Sentence("studio.outside", name=name))
+            raise LinkwrightError("studio.outside", name=name)
         if any(part.startswith(".") for part in path.relative_to(self.folder).parts):
-            raise LinkwrightError(Sentence("studio.outside", name=name))
+            raise LinkwrightError("studio.outside", name=name)
         return path
 
     def disk(self, name: str) -> Plain:
@@ -44,14 +44,14 @@ class Files:
         path = self.path(name)
         try:
             if path.is_dir():
-                raise LinkwrightError(Sentence("file.is_folder", path=name))
+                raise LinkwrightError("file.is_folder", path=name)
             if not path.is_file():
                 return {"text": "", "version": ""}
             if path.stat().st_size > LARGEST:
-                raise LinkwrightError(Sentence("studio.large", most=LARGEST))
+                raise LinkwrightError("studio.large", most=LARGEST)
             text = decode(path.read_bytes(), name)
         except OSError as problem:
-            raise LinkwrightError(Sentence("model.unreadable", reason=reason_of(problem))) from None
+            raise LinkwrightError("model.unreadable", reason=reason_of(problem)) from None
         return {"text": text, "version": hashlib.sha256(text.encode()).hexdigest()[:24]}
 
     def names(self) -> list[str]:
@@ -154,4 +154,4 @@ def _plain(text: str) -> str:
 
 def _small(text: str) -> None:
     if len(text.encode()) > LARGEST:
-        raise LinkwrightError(Sentence("studio.large", most=LARGEST))
+        raise LinkwrightError("studio.large", most=LARGEST)

@@ -20,7 +20,6 @@ from linkwright.optimisation.problem import problem
 from linkwright.optimisation.report import comparison
 from linkwright.server.background import Job
 from linkwright.study.criteria import criterion
-from linkwright.words.sentence import Sentence
 
 #: Designs of a front that are shown.
 SHOWN = 8
@@ -31,7 +30,7 @@ def optimised(text: str) -> Callable[[Job], None]:
     document = Document(text, "model", read_text)
     mechanism = document.mechanism
     if not mechanism.optimize:
-        raise RequestError(Sentence("studio.no_optimize"))
+        raise RequestError("studio.no_optimize")
     problem(mechanism, mechanism.optimize, document.name)
     return partial(_optimise, document)
 

@@ -13,7 +13,6 @@ from linkwright.errors import LinkwrightError
 from linkwright.files.write import dump
 from linkwright.server.background import Job
 from linkwright.synthesis.result import Candidate, Synthesis
-from linkwright.words.sentence import Sentence
 
 #: Times of the searches that follow on each other, s; points of a curve that is sent, and of one that is sought.
 SECONDS, SENT, CORNERS = (1.0, 6.0), 180, 48
@@ -26,9 +25,9 @@ def linkages(points: Sequence[Sequence[float]], closed: bool) -> Callable[[Job],
     """The search for linkages whose coupler curve goes through ``points`` (m)."""
     curve = np.array(points, dtype=float)
     if curve.ndim != 2 or curve.shape[1] != 2 or not _FEWEST <= len(curve) <= _MOST:
-        raise LinkwrightError(Sentence("studio.no_curve"))
+        raise LinkwrightError("studio.no_curve")
     if not np.isfinite(curve).all() or not np.ptp(curve, axis=0).max() > 0:
-        raise LinkwrightError(Sentence("studio.no_curve"))
+        raise LinkwrightError("studio.no_curve")
     return partial(_search, _even(curve, closed), closed)
 
 

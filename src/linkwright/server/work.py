@@ -21,7 +21,7 @@ from linkwright.server.edits import edited, with_values
 from linkwright.server.files import Files
 from linkwright.server.search import linkages
 from linkwright.words import LANGUAGES
-from linkwright.words.sentence import Sentence, in_language
+from linkwright.words.sentence import in_language
 
 #: What the studio hands out, by the ending of the file.
 TAKEN = (".report.pdf", ".report.html", ".html", ".xlsx", ".csv", ".json", ".svg", ".pdf", ".png", ".dxf")
@@ -118,7 +118,7 @@ class Work:
         """A report, or an export, of a text: its bytes in base64."""
         text, ending, language = _text(asked, "text"), _text(asked, "ending"), language_of(asked)
         if ending not in TAKEN:
-            raise LinkwrightError(Sentence("studio.no_ending", ending=ending))
+            raise LinkwrightError("studio.no_ending", ending=ending)
         document = Document(text, "model", read_text)
         with TemporaryDirectory() as folder:
             path = Path(folder) / f"machine{ending.removeprefix('.report')}"

@@ -99,16 +99,16 @@ def explain_excess(
         train = blocked[0]
         loop = tuple(map(repr, _loop_of(mechanism, train)))
         return StructureError(
-            Sentence("mobility.blocked", why=why, pairs=loop, carrier=train.carrier, pair=train.blocked[0])
+            "mobility.blocked", why=why, pairs=loop, carrier=train.carrier, pair=train.blocked[0]
         )
     pairs = blocking_pairs(mechanism)
     if pairs:
         named, uneven = tuple(map(repr, pairs)), [each for each in pairs if mechanism.joints[each].uneven]
         key = "mobility.blocked_by_lift" if uneven else "mobility.blocked_pairs"
         pair = next((each for each in reversed(pairs) if each not in uneven), pairs[-1])
-        return StructureError(Sentence(key, why=why, pairs=named, pair=pair, cams=tuple(map(repr, uneven))))
+        return StructureError(key, why=why, pairs=named, pair=pair, cams=tuple(map(repr, uneven)))
     links, extra = tuple(map(repr, bodies)), tuple(_source(mechanism, each) for each in sources)
-    return StructureError(Sentence("mobility.excess", why=why, links=links, extra=extra))
+    return StructureError("mobility.excess", why=why, links=links, extra=extra)
 
 
 def _source(mechanism: Mechanism, source: str) -> Sentence | str:

@@ -127,7 +127,7 @@ def alternatives(
         LinkwrightError: fewer than two machines, an unknown output, or none that all share.
     """
     if isinstance(sources, str | Path | Mechanism) or len(sources) < 2:
-        raise RequestError(Sentence("study.two_or_more"))
+        raise RequestError("study.two_or_more")
     flywheel_inertia(1.0, 1.0, fluctuation)
     machines = [each if isinstance(each, Mechanism) else load(each) for each in sources]
     labels = _labels(machines)
@@ -160,7 +160,7 @@ def _outputs(
         return [_mapped(output, label, source) for label, source in zip(labels, sources, strict=True)]
     if output is not None:
         if len(output) != len(machines):
-            raise RequestError(Sentence("study.outputs_for", outputs=len(output), machines=len(machines)))
+            raise RequestError("study.outputs_for", outputs=len(output), machines=len(machines))
         return list(output)
     own = [[str(each) for each in mechanism_outputs(machine)] for machine in machines]
     shared = [name for name in own[0] if all(name in names for names in own[1:])]
@@ -182,7 +182,7 @@ def _mapped(output: Mapping[str, str], label: str, source: Mechanism | str | Pat
     for key in keys:
         if key in output:
             return output[key]
-    raise RequestError(Sentence("study.no_output_for", label=label, named=tuple(map(repr, output))))
+    raise RequestError("study.no_output_for", label=label, named=tuple(map(repr, output)))
 
 
 def _nothing_shared(labels: Sequence[str], own: Sequence[Sequence[str]]) -> str:
@@ -213,4 +213,4 @@ def output_of_machine(machine: Mechanism, name: str) -> Output:
     except LinkwrightError:
         own = [str(each) for each in mechanism_outputs(machine)]
         hint = offered(name, own, "names.it_has")
-        raise RequestError(Sentence("study.no_output", machine=machine.name, name=name, hint=hint)) from None
+        raise RequestError("study.no_output", machine=machine.name, name=name, hint=hint) from None

@@ -12,7 +12,6 @@ from typing import Any
 from linkwright.engine.threads import cores
 from linkwright.errors import LinkwrightError
 from linkwright.study.kept import identity, surrounding
-from linkwright.words.sentence import Sentence
 
 #: Parts that wait on the cluster for every thread of a worker, so that memory stays the same however many there are.
 WAITING = 3
@@ -34,16 +33,14 @@ def connected(cluster: Any) -> Any:
     try:
         return dask.Client(cluster, timeout=PATIENCE, set_as_default=False)
     except (OSError, ValueError, TypeError) as error:
-        raise LinkwrightError(
-            Sentence("study.no_cluster", address=cluster, reason=str(error)[:200])
-        ) from None
+        raise LinkwrightError("study.no_cluster", address=cluster, reason=str(error)[:200]) from None
 
 
 def _dask() -> Any:
     try:
         return import_module("distributed")
     except ImportError:
-        raise LinkwrightError(Sentence("study.needs_distributed")) from None
+        raise LinkwrightError("study.needs_distributed") from None
 
 
 @contextmanager

@@ -152,9 +152,7 @@ class Comparison(Plotted, Frozen):
 
     def _index(self, label: str) -> int:
         if label not in self.labels:
-            raise RequestError(
-                Sentence("study.no_alternative", label=label, labels=tuple(map(repr, self.labels)))
-            )
+            raise RequestError("study.no_alternative", label=label, labels=tuple(map(repr, self.labels)))
         return self.labels.index(label)
 
     def evaluation(self, language: str = "en") -> str:
@@ -261,9 +259,7 @@ def compare(
             continue
         if metrics is not None and all(value is None for value in values):
             known = "; ".join(note for a in found for note in a.notes)
-            raise RequestError(
-                Sentence("study.applies_to_none", name=each.name, known=known or "leave it out")
-            )
+            raise RequestError("study.applies_to_none", name=each.name, known=known or "leave it out")
         rows.append(Row(each, values, given.get(each.name, 1.0)))
     return Comparison(tuple(found), tuple(rows), fluctuation)
 
@@ -274,12 +270,12 @@ def _weights(weights: Mapping[str, float], asked: Sequence[Criterion]) -> Mappin
     for name, weight in weights.items():
         if name not in known:
             hint = offered(name, known, "study.compared_are")
-            raise RequestError(Sentence("study.stray_weight", name=name, hint=hint))
+            raise RequestError("study.stray_weight", name=name, hint=hint)
         if not weight >= 0.0 or weight == float("inf"):
-            raise RequestError(Sentence("study.bad_weight_value", name=name, weight=weight))
+            raise RequestError("study.bad_weight_value", name=name, weight=weight)
         if known[name].better is None and weight > 0.0:
-            raise RequestError(Sentence("study.no_direction", name=name))
+            raise RequestError("study.no_direction", name=name)
     judged = [each.name for each in asked if each.better]
     if judged and all(weights.get(name, 1.0) == 0.0 for name in judged):
-        raise RequestError(Sentence("study.all_zero"))
+        raise RequestError("study.all_zero")
     return weights

@@ -58,7 +58,7 @@ def criteria(names: Iterable[str] | str) -> list[Criterion]:
     """The criteria of the given names; raises LinkwrightError for an unknown one, the nearest offered."""
     asked = [names] if isinstance(names, str) else list(names)
     if not asked:
-        raise RequestError(Sentence("study.no_metric_named"))
+        raise RequestError("study.no_metric_named")
     return [criterion(name) for name in dict.fromkeys(asked)]
 
 
@@ -73,7 +73,7 @@ def criterion(name: str) -> Criterion:
         kind, subject = known
         return Criterion(name, kind.better, lambda each: _metric(each, kind(), subject), kind.needs_forces)
     hint = offered(name, [*OWN, *METRICS])
-    raise RequestError(Sentence("study.no_metric", name=name, hint=hint))
+    raise RequestError("study.no_metric", name=name, hint=hint)
 
 
 def _better(name: str) -> str | None:
@@ -103,7 +103,7 @@ def _metric(each: Alternative, metric: Metric, subject: str) -> Measured | None:
         if subject and values:
             hint = offered(subject, subjects)
             raise NoSuchSubject(
-                Sentence("study.no_value_for", name=metric.name, label=each.label, subject=subject, hint=hint)
+                "study.no_value_for", name=metric.name, label=each.label, subject=subject, hint=hint
             )
         return None
     worst = governing(found, metric.better)

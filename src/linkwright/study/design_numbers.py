@@ -19,7 +19,6 @@ from linkwright.study.metric_cycle import MetricCycle, metric_cycle
 from linkwright.study.range_designs import RangeDesigns, range_designs
 from linkwright.study.swept_designs import SweptDesigns, swept_designs
 from linkwright.study.terms import Asked, Term, measured
-from linkwright.words.sentence import Sentence
 
 #: What finds design numbers of all designs at once.
 Numbers: TypeAlias = MetricCycle | SweptDesigns | RangeDesigns
@@ -84,8 +83,9 @@ def numbers_of(
             values[name][index], dimensions[name] = value, dimension
     idle = [name for name in names if name not in dimensions] if len(designs) > len(failed) else []
     if idle:
-        said = Sentence("study.sweep_metric", names=tuple(idle), name=mechanism.name)
-        raise RequestError(unloaded(mechanism, idle) or said)
+        if (missing := unloaded(mechanism, idle)) is not None:
+            raise RequestError(missing)
+        raise RequestError("study.sweep_metric", names=tuple(idle), name=mechanism.name)
     return values, dimensions, failed
 
 

@@ -27,7 +27,6 @@ from linkwright.study.design_numbers import numbers_of
 from linkwright.study.failures import Failure, explained
 from linkwright.study.sweep_run import Manner, SweepRun
 from linkwright.study.vary import design_values, refuse_moved_positions
-from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     import pandas
@@ -81,7 +80,7 @@ class Sweep(Plotted, Frozen):
         (found, *more) = wanted([key])
         if found not in self.summaries or more:
             raise RequestError(
-                Sentence("study.not_asked", summary=key, summaries=tuple(s.name for s in self.summaries))
+                "study.not_asked", summary=key, summaries=tuple(s.name for s in self.summaries)
             )
         return self.summaries[found]
 

@@ -132,7 +132,7 @@ class Kept:
             raise self._bad(problem) from None
         if found != digest:
             self.parts.close()
-            raise RequestError(Sentence("optimize.other_state", path=path))
+            raise RequestError("optimize.other_state", path=path)
 
     def part(self, key: str) -> tuple[Any] | None:
         """What is kept under a key, alone in a tuple; None: nothing."""
@@ -188,7 +188,7 @@ class Kept:
         return None if row is None else str(row[0])
 
     def _bad(self, problem: Exception) -> RequestError:
-        return RequestError(Sentence("study.bad_state", path=self.path, reason=str(problem)[:200]))
+        return RequestError("study.bad_state", path=self.path, reason=str(problem)[:200])
 
 
 def _bytes(value: Any) -> int:

@@ -33,7 +33,6 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.study.iterated_groups import limits_beside
 from linkwright.study.limit_stages import constants, limit_stages, whole_turns
 from linkwright.study.traced import Traced
-from linkwright.words.sentence import Sentence
 
 
 @dataclass(frozen=True)
@@ -59,7 +58,7 @@ def known_loads(plain: Traced, fields: Iterable[str], by: tuple[str, ...]) -> Kn
     rubbing = any(kind_of(name) == "friction" for name in fields)
     terms = plain.forces.friction.terms if rubbing else ()
     if rubbing and not can_be_traced(plain.forces.friction):
-        raise LinkwrightError(Sentence("study.friction_slope", most=MOST))
+        raise LinkwrightError("study.friction_slope", most=MOST)
     given = [
         name
         for name in (plain.forces.fields_needed() if rubbing else fields)
@@ -72,7 +71,7 @@ def known_loads(plain: Traced, fields: Iterable[str], by: tuple[str, ...]) -> Kn
     loads = [plain.mechanism.loads[name] for name in named]
     for load in loads:
         if not has_formula(load):
-            raise LinkwrightError(Sentence("study.cycle_load_slope", name=load.name, kind=load.kind))
+            raise LinkwrightError("study.cycle_load_slope", name=load.name, kind=load.kind)
     signals = MotionSignals(plain.nominal)
     known = _middles(plain.mechanism, loads, signals)
     along = numbers_of_loads(loads, plain.mechanism)
@@ -145,6 +144,6 @@ def _phase(load: Load, signals: MotionSignals) -> dict[str, Floats]:
     """Where a load acts, and the share of its phase; raises for a ramp whose ends are limit positions that move."""
     phase, ramp = getattr(load, "phase", None), getattr(load, "ramp", None)
     if ramp is not None and not isinstance(phase, InputPhase):
-        raise LinkwrightError(Sentence("study.ramp_slope", name=load.name))
+        raise LinkwrightError("study.ramp_slope", name=load.name)
     active = activity(load, signals)
     return {f"{ACTS}:{load.name}": active.where.astype(float), f"share:{load.name}": active.share}

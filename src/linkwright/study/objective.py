@@ -180,9 +180,7 @@ class Objective:
     def _columns(self, values: ArrayLike) -> dict[str, Floats]:
         given = np.asarray(values, dtype=float)
         if given.ndim != 2 or given.shape[1] != len(self.names):
-            raise RequestError(
-                Sentence("study.objective_shape", names=self.names, shape=str(np.shape(values)))
-            )
+            raise RequestError("study.objective_shape", names=self.names, shape=str(np.shape(values)))
         return dict(zip(self.names, given.T, strict=True))
 
     def __repr__(self) -> str:
@@ -233,7 +231,7 @@ def objective(
         parts.append(_of_positions(mechanism, names, others, steps, at, compiled))
     idle = [name for name in names if not any(name in part.names for part in parts)]
     if idle:
-        raise RequestError(Sentence("study.objective_idle", names=tuple(idle)))
+        raise RequestError("study.objective_idle", names=tuple(idle))
     known = mechanism.dimensions()
     return Objective(names, np.array([known[name] for name in names]), parts)
 
@@ -248,19 +246,19 @@ def of_metrics(
     if any(swept(name, mechanism) for name in weights):
         hulls = swept_designs(mechanism, names, weights)
         if hulls is None:
-            raise RequestError(Sentence("study.objective_swept", names=tuple(weights), name=mechanism.name))
+            raise RequestError("study.objective_swept", names=tuple(weights), name=mechanism.name)
         return OverMetrics(hulls.dimensions, hulls, weights, backend)
     cycle = metric_cycle(mechanism, names, weights, steps=steps)
     if cycle is None:
         raise RequestError(_refusal(mechanism, steps))
     missing = [name for name in weights if name not in {term.name for term in cycle.terms}]
     if missing:
-        raise RequestError(Sentence("study.objective_metric", names=tuple(missing), name=mechanism.name))
+        raise RequestError("study.objective_metric", names=tuple(missing), name=mechanism.name)
     for name in weights:
         refuse_obstacle(name, cycle.analysis)
     start = {name: np.array([mechanism.dimension(name)]) for name in names}
     if cycle.running and not cycle.evaluate(start).certain.all():
-        raise RequestError(Sentence("study.objective_speed", name=mechanism.name))
+        raise RequestError("study.objective_speed", name=mechanism.name)
     own = tuple(name for name in names if name in cycle.dimensions)
     return OverMetrics(own, cycle, weights, backend)
 
@@ -299,12 +297,12 @@ def _of_positions(
     targets = [np.asarray(term.target, dtype=float) for term in given if isinstance(term, PathError)]
     counts = {len(target) for target in targets}
     if any(target.ndim != 2 or target.shape[1] != 2 for target in targets) or len(counts) > 1:
-        raise RequestError(Sentence("study.objective_target"))
+        raise RequestError("study.objective_target")
     positions = (
         at_inputs(mechanism, at) if at is not None else over_cycle(mechanism, next(iter(counts), steps))
     )
     if counts and positions.count not in counts:
-        raise RequestError(Sentence("study.objective_count", points=counts.pop(), positions=positions.count))
+        raise RequestError("study.objective_count", points=counts.pop(), positions=positions.count)
     known = mechanism.dimensions()
     if at is None:
         refuse_moved_positions(
@@ -341,7 +339,7 @@ class _Builder:
         outputs = [summary.output for summary in self.summaries]
         loads = along_input(plain, names, plain.program(plain.quantities(outputs)).fields)
         if loads is None:
-            raise RequestError(Sentence("study.objective_loads", name=mechanism.name))
+            raise RequestError("study.objective_loads", name=mechanism.name)
         self.loads = loads
         self.traced = with_loads(plain, loads)
         if self.following is not None:
@@ -353,7 +351,7 @@ class _Builder:
         signals = MotionSignals(plain.nominal)
         more = any(len(signals.limits(output)) != 2 for output in self.loads.outputs)
         if more or plain.nominal.modes or plain.positions.key != cycle.key:
-            raise RequestError(Sentence("study.objective_iterates", name=plain.mechanism.name))
+            raise RequestError("study.objective_iterates", name=plain.mechanism.name)
 
     @cached_property
     def summaries(self) -> dict[Summary, float]:
@@ -462,11 +460,8 @@ def counted_turns(traced: Traced) -> Stage | None:
     program = Program.of(trace, {**carried, VALID: passed}, carried)
     stage = Stage(program, valid=VALID, complete=True, starts=starts, keep=tuple(carried))
     if any(np.nanmax(np.abs(np.diff(known[name])), initial=0.0) >= CLEAR for name in carried):
-        raise RequestError(
-            Sentence(
-                "study.objective_turns", name=traced.mechanism.name, links=tuple(motion.angles.counted),
-            )
-        )  # fmt: skip
+        links = tuple(motion.angles.counted)
+        raise RequestError("study.objective_turns", name=traced.mechanism.name, links=links)
     return stage
 
 
@@ -474,13 +469,13 @@ def refuse_turns(traced: Traced, stages: Iterable[Stage], names: Collection[str]
     """Refuses loads whose limits are found between positions by rotations that are counted at positions alone."""
     if any(set(names) & set(stage.program.states) for stage in stages):
         links = tuple(traced.solver.motion.angles.counted)
-        raise RequestError(Sentence("study.objective_turned_loads", name=traced.mechanism.name, links=links))
+        raise RequestError("study.objective_turned_loads", name=traced.mechanism.name, links=links)
 
 
 def _summary(t: Trace, summary: Summary, quantity: Quantity) -> Scalar:
     """A summary in its unit from the reductions of its carrier."""
     if summary.kind in ("argmin", "argmax"):
-        raise RequestError(Sentence("study.place_without_slope", name=summary.name))
+        raise RequestError("study.place_without_slope", name=summary.name)
     parts = [t.parameter(f"{summary.output}.{kind}") for kind in KINDS[summary.kind]]
     shown = [replace(quantity, carrier=part).value for part in parts]
     if summary.kind == "range":

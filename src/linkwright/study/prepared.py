@@ -36,7 +36,6 @@ from linkwright.registry import offered
 from linkwright.study.limit_stages import CONVERGED, agree, constants, limit_stages, near_limits
 from linkwright.study.loaded_cycle import along_input, with_loads
 from linkwright.study.traced import Traced
-from linkwright.words.sentence import Sentence
 
 #: The row of how near a group is to a change point or a gap; 0 where it cannot be assembled, where a load has no
 #: value, and where limit positions do not agree with the rates.
@@ -77,9 +76,7 @@ class Prepared:
         for address in vary:
             if address not in known:
                 hint = offered(address, known, "study.such_as", most=6)
-                raise RequestError(
-                    Sentence("study.no_dimension", address=address, name=mechanism.name, hint=hint)
-                )
+                raise RequestError("study.no_dimension", address=address, name=mechanism.name, hint=hint)
         self.mechanism = mechanism
         self.vary = vary
         self.positions = positions
@@ -123,7 +120,7 @@ class Prepared:
             if compiled is not None:
                 return compiled.repeated(arrays, tables=self._loads.tables)
             if backend == "llvm":
-                raise LinkwrightError(Sentence("study.not_compiled"))
+                raise LinkwrightError("study.not_compiled")
         evaluator = numpy_program(self.program)
         return lambda table: evaluator.run(table, arrays, length=self.positions.count)
 
@@ -159,7 +156,7 @@ class Prepared:
     def _refuse_fixed(self, address: str) -> None:
         """Refuses a dimension that the programs hold as a known zero, or do not know."""
         if self.mechanism.dimension(address) == 0.0:
-            raise RequestError(Sentence("study.zero_not_named", address=address))
+            raise RequestError("study.zero_not_named", address=address)
 
     def _solve_alone(self, design: Design, failures: str) -> Forces:
         """As a machine by itself: where loads are not traced, or change points and gaps may lie between positions."""

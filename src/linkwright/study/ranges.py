@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from linkwright import units
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.errors import QuantityError, RequestError
+from linkwright.errors import RequestError, about
 from linkwright.fields.signals import PhaseField
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words.sentence import Sentence
@@ -54,11 +54,9 @@ def parse_range(mechanism: Mechanism, address: str, given: str | ArrayLike) -> R
     """
     if not isinstance(given, str):
         return Range(address, np.atleast_1d(np.asarray(given, dtype=float)))
-    try:
+    with about(f"{address}={given}"):
         found = _parsed(address, given.strip())
         _require_unit(mechanism, address, found.unit, given)
-    except QuantityError as error:
-        raise RequestError(Sentence("cli.about", name=f"{address}={given}", cause=error)) from None
     return found
 
 
@@ -85,12 +83,12 @@ def _quantity(part: str, unit: str, address: str, text: str) -> tuple[float, str
     """A number in SI and its unit; without a unit of its own that of ``unit``."""
     match = _QUANTITY.match(part.strip())
     if match is None:
-        raise RequestError(Sentence("study.no_quantity", address=address, text=text, part=part.strip()))
+        raise RequestError("study.no_quantity", address=address, text=text, part=part.strip())
     number, unit = match[1], match[2].strip() or unit
     factor = units.unit(unit)[0] if unit else 1.0
     value = float(number) * factor
     if not math.isfinite(value):
-        raise RequestError(Sentence("study.value_not_finite", address=address, text=text))
+        raise RequestError("study.value_not_finite", address=address, text=text)
     return value, unit
 
 
@@ -98,9 +96,9 @@ def _count(text: str | None, address: str, whole: str) -> int:
     if text is None:
         return USUAL_COUNT
     if not text.strip().isdigit() or int(text) < 1:
-        raise RequestError(Sentence("study.no_count", address=address, whole=whole, text=text.strip()))
+        raise RequestError("study.no_count", address=address, whole=whole, text=text.strip())
     if int(text) > 1_000_000:
-        raise RequestError(Sentence("study.count_large", address=address, whole=whole, count=text))
+        raise RequestError("study.count_large", address=address, whole=whole, count=text)
     return int(text)
 
 
@@ -114,9 +112,7 @@ def _require_unit(mechanism: Mechanism, address: str, unit: str, text: str) -> N
         need, example = units.name_of(expected), units.si_symbol(expected)
         told = Sentence("study.has_unit", unit=unit) if unit else Sentence("study.has_no_unit")
         write = Sentence("study.with_unit" if example else "study.without_unit", example=example)
-        raise RequestError(
-            Sentence("study.wrong_unit", address=address, text=text, need=need, told=told, write=write)
-        )
+        raise RequestError("study.wrong_unit", address=address, text=text, need=need, told=told, write=write)
 
 
 def dimension_of(mechanism: Mechanism, address: str) -> units.Dimension | None:

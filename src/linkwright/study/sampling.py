@@ -9,7 +9,6 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.study.ranges import Range
-from linkwright.words.sentence import Sentence
 
 #: Designs of one study, at most.
 MOST = 1_000_000
@@ -21,7 +20,7 @@ def grid(ranges: Sequence[Range]) -> dict[str, Floats]:
     for each in ranges:
         count *= len(each.values)
     if count > MOST:
-        raise RequestError(Sentence("study.grid_large", count=count, most=MOST))
+        raise RequestError("study.grid_large", count=count, most=MOST)
     mesh = np.meshgrid(*(each.values for each in ranges), indexing="ij")
     return {each.address: rows.ravel() for each, rows in zip(ranges, mesh, strict=True)}
 
@@ -32,15 +31,15 @@ def sobol(ranges: Sequence[Range], samples: int, seed: int, sampling: str) -> di
     Raises LinkwrightError for another sampling, fewer than one sample, and where scipy is missing.
     """
     if sampling != "sobol":
-        raise RequestError(Sentence("study.no_sampling", sampling=sampling))
+        raise RequestError("study.no_sampling", sampling=sampling)
     if not 1 <= samples <= MOST:
-        raise RequestError(Sentence("study.bad_samples", samples=samples, most=MOST))
+        raise RequestError("study.bad_samples", samples=samples, most=MOST)
     if seed < 0:
-        raise RequestError(Sentence("study.bad_seed", seed=seed))
+        raise RequestError("study.bad_seed", seed=seed)
     try:
         from scipy.stats import qmc
     except ImportError as error:
-        raise LinkwrightError(Sentence("study.needs_scipy")) from error
+        raise LinkwrightError("study.needs_scipy") from error
     power = max(0, (samples - 1).bit_length())
     unit = qmc.Sobol(len(ranges), seed=seed).random_base2(power)[:samples]
     return {each.address: each.low + unit[:, i] * (each.high - each.low) for i, each in enumerate(ranges)}

@@ -26,7 +26,6 @@ from linkwright.study.objective import of_metrics
 from linkwright.study.slopes import Slopes
 from linkwright.study.traced import Traced
 from linkwright.study.vary import checked_addresses, refuse_misfits
-from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     import pandas
@@ -64,7 +63,7 @@ class Sensitivity(Plotted, Frozen):
         """Derivative of an output with respect to a dimension at fixed input, (n,)."""
         self._asked(output)
         if by not in self.by:
-            raise RequestError(Sentence("study.not_a_dimension", name=by, names=tuple(self.by)))
+            raise RequestError("study.not_a_dimension", name=by, names=tuple(self.by))
         return self.slopes[output, by]
 
     def value(self, output: str, kind: str | None = None) -> float:
@@ -122,13 +121,13 @@ class Sensitivity(Plotted, Frozen):
 
     def _asked(self, output: str) -> None:
         if output not in self.curves:
-            raise RequestError(Sentence("study.no_curve", output=output, curves=tuple(self.curves)))
+            raise RequestError("study.no_curve", output=output, curves=tuple(self.curves))
 
     def _summary(self, output: str, kind: str | None) -> Summary:
         found = split(output if kind is None else (output, kind))
         if not isinstance(found, Summary) or found not in self.values:
             raise RequestError(
-                Sentence("study.no_summary_asked", output=output, names=tuple(s.name for s in self.values))
+                "study.no_summary_asked", output=output, names=tuple(s.name for s in self.values)
             )
         return found
 
@@ -169,12 +168,12 @@ def sensitivity(
     positions = over_cycle(mechanism, steps)
     dimensions = checked_addresses(mechanism, by)
     if not dimensions:
-        raise RequestError(Sentence("study.nothing_to_differentiate"))
+        raise RequestError("study.nothing_to_differentiate")
     _refuse_input(dimensions)
     refuse_misfits(mechanism, dimensions)
     asked = [split(each) for each in ([of] if isinstance(of, str) else of)]
     if not asked:
-        raise RequestError(Sentence("study.no_outputs"))
+        raise RequestError("study.no_outputs")
     traced = Traced(mechanism, dimensions, positions, turning=True)
     if not traced.nominal.ok.all():
         raise refusal(traced.nominal)
@@ -192,14 +191,14 @@ def split(each: str | tuple[str, str]) -> str | Summary:
     if len(found) == 2 and output is not None:
         return output
     if found[0].kind in ("argmin", "argmax"):
-        raise RequestError(Sentence("study.place_without_slope", name=found[0].name))
+        raise RequestError("study.place_without_slope", name=found[0].name)
     return found[0]
 
 
 def _refuse_input(by: Iterable[str]) -> None:
     for address in by:
         if address.startswith("cycle.") or address.endswith(".start"):
-            raise RequestError(Sentence("study.moves_input", address=address))
+            raise RequestError("study.moves_input", address=address)
 
 
 class _Derivation:
@@ -220,7 +219,7 @@ class _Derivation:
         self.quantities = traced.quantities(names)
         self.work = Slopes(traced, self.quantities, by, backend, loads)
         if not self.work.certain:
-            raise LinkwrightError(Sentence("study.friction_slope", most=MOST))
+            raise LinkwrightError("study.friction_slope", most=MOST)
         self.back = way == "reverse" or (way == "auto" and len(by) >= REVERSE_PAYS)
 
     def result(self) -> Sensitivity:

@@ -19,7 +19,6 @@ from linkwright.kinetostatics.site import middle_name
 from linkwright.study.known_loads import KnownLoads
 from linkwright.study.loaded_cycle import RUBBING, friction_doubt
 from linkwright.study.traced import VALID, Traced
-from linkwright.words.sentence import Sentence
 
 
 class Slopes:
@@ -119,7 +118,7 @@ class Slopes:
 
             compiled = compile_program(program)
             if compiled is None:
-                raise LinkwrightError(Sentence("study.no_llvmlite"))
+                raise LinkwrightError("study.no_llvmlite")
             rows = {name: row[None, :] for name, row in inputs.items()}
             return np.array(compiled.store(numbers[None, :], arrays, rows, length=count, tables=tables)[0])
         return NumpyProgram(program).run(numbers, arrays, inputs, length=count, tables=tables)

@@ -96,9 +96,9 @@ class Study(Plotted, Frozen):
         """
         values, better = self[metric], self.better.get(metric)
         if better is None:
-            raise RequestError(Sentence("study.no_best", metric=metric))
+            raise RequestError("study.no_best", metric=metric)
         if not np.isfinite(values).any():
-            raise LinkwrightError(Sentence("study.no_value", metric=metric))
+            raise LinkwrightError("study.no_value", metric=metric)
         sizes = np.abs(values)
         return int(np.nanargmax(sizes) if better == "higher" else np.nanargmin(sizes))
 
@@ -403,7 +403,7 @@ class _Work:
                     raise RequestError(missing)
                 told = Sentence("study.does_not_apply", name=name, mechanism=self.mechanism.name)
                 if self.notes:
-                    raise RequestError(Sentence("cli.about", name=told, cause=list(self.notes)))
+                    raise RequestError("cli.about", name=told, cause=list(self.notes))
                 raise RequestError(with_remedy(told, Sentence("study.leave_out")))
 
     def _troubles(self) -> list[Failure]:

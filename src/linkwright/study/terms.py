@@ -19,7 +19,6 @@ from linkwright.metrics.base import Metric, MetricValue, Number
 from linkwright.metrics.flywheel import SIZED
 from linkwright.metrics.outputs import turns_fully
 from linkwright.registry import offered
-from linkwright.words.sentence import Sentence
 
 
 @dataclass(frozen=True)
@@ -71,7 +70,7 @@ def refuse_obstacle(name: str, analysis: Analysis) -> None:
     found = metric_of(name)
     why = None if found is None else found[0]().obstacle(analysis)
     if why is not None:
-        raise RequestError(Sentence("cli.about", name=name, cause=why))
+        raise RequestError("cli.about", name=name, cause=why)
 
 
 @dataclass(frozen=True)
@@ -186,9 +185,7 @@ def governing(found: Sequence[MetricValue], better: str | None) -> MetricValue:
 
 def _no_subject(name: str, subject: str, known: Iterable[str]) -> RequestError:
     metric, _, _ = name.partition(" ")
-    return RequestError(
-        Sentence("metrics.no_value", name=metric, subject=subject, hint=offered(subject, known))
-    )
+    return RequestError("metrics.no_value", name=metric, subject=subject, hint=offered(subject, known))
 
 
 def _chosen(

@@ -28,7 +28,6 @@ from linkwright.kinetostatics.solver import ForceSolver
 from linkwright.kinetostatics.traced_loads import TURNING
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.study.vary import positions_steps
-from linkwright.words.sentence import Sentence
 
 #: The truth output that says which positions of a design are solved.
 VALID = "valid"
@@ -185,7 +184,7 @@ class Traced:
         if high - low <= TURNING:
             return 0.5 * (low + high)
         if not self.turning:
-            raise TurnsThrough(Sentence("study.turns_through", link=link))
+            raise TurnsThrough("study.turns_through", link=link)
         around = np.sort(angle % (2 * np.pi))
         gaps = np.diff(np.append(around, around[0] + 2 * np.pi))
         widest = int(np.argmax(gaps))

@@ -30,9 +30,7 @@ def checked_addresses(mechanism: Mechanism, addresses: Iterable[str]) -> tuple[s
     for address in wanted:
         if address not in known:
             hint = offered(address, known, "study.such_as", most=6)
-            raise RequestError(
-                Sentence("study.no_dimension", address=address, name=mechanism.name, hint=hint)
-            )
+            raise RequestError("study.no_dimension", address=address, name=mechanism.name, hint=hint)
     return wanted
 
 
@@ -47,16 +45,14 @@ def varied_ranges(
     checked_addresses(mechanism, vary)
     ranges = tuple(parse_range(mechanism, address, given) for address, given in vary.items())
     if not ranges:
-        raise RequestError(Sentence("study.nothing_varies"))
+        raise RequestError("study.nothing_varies")
     for each in ranges:
         if gives_part_of_tooth(mechanism, each.address, between(each)) and (
             sampled or any(gives_part_of_tooth(mechanism, each.address, value) for value in each.values)
         ):
             low, high = math.ceil(each.low), math.floor(each.high)
             count = max(1, high - low + 1)
-            raise RequestError(
-                Sentence("study.whole_teeth", address=each.address, low=low, high=high, count=count)
-            )
+            raise RequestError("study.whole_teeth", address=each.address, low=low, high=high, count=count)
     return ranges
 
 
@@ -84,18 +80,18 @@ def design_values(mechanism: Mechanism, vary: Mapping[str, ArrayLike]) -> dict[s
     """
     checked_addresses(mechanism, vary)
     if not vary:
-        raise RequestError(Sentence("study.nothing_varied"))
+        raise RequestError("study.nothing_varied")
     columns = {
         address: np.atleast_1d(np.asarray(values, dtype=np.float64)) for address, values in vary.items()
     }
     lengths = {len(column) for column in columns.values() if len(column) != 1}
     for address, column in columns.items():
         if column.ndim != 1:
-            raise RequestError(Sentence("study.bad_shape", address=address, shape=str(column.shape)))
+            raise RequestError("study.bad_shape", address=address, shape=str(column.shape))
         _check(mechanism, address, column)
     if len(lengths) > 1:
         told = ", ".join(f"{address}: {len(column)}" for address, column in columns.items())
-        raise RequestError(Sentence("study.uneven", told=told))
+        raise RequestError("study.uneven", told=told)
     count = lengths.pop() if lengths else 1
     return {address: np.broadcast_to(column, (count,)) for address, column in columns.items()}
 
@@ -103,12 +99,10 @@ def design_values(mechanism: Mechanism, vary: Mapping[str, ArrayLike]) -> dict[s
 def _check(mechanism: Mechanism, address: str, column: Floats) -> None:
     """Every value on its own must be one that the mechanism takes."""
     if not len(column):
-        raise RequestError(Sentence("study.no_values", address=address))
+        raise RequestError("study.no_values", address=address)
     bad = np.flatnonzero(~np.isfinite(column))
     if len(bad):
-        raise RequestError(
-            Sentence("study.bad_value", place=int(bad[0]), address=address, value=column[bad[0]])
-        )
+        raise RequestError("study.bad_value", place=int(bad[0]), address=address, value=column[bad[0]])
     for extreme in (column.min(), column.max()):
         mechanism.with_dimensions({address: float(extreme)})
 
@@ -135,7 +129,7 @@ def refuse_misfits(mechanism: Mechanism, addresses: Iterable[str]) -> None:
     for address in addresses:
         wrong = misfits(mechanism, address, SMALL * max(abs(mechanism.dimension(address)), size))
         if wrong:
-            raise RequestError(Sentence("study.fixed_by_wheels", address=address, why=wrong[0]))
+            raise RequestError("study.fixed_by_wheels", address=address, why=wrong[0])
 
 
 def refuse_moved_positions(mechanism: Mechanism, positions: Positions, columns: Mapping[str, Floats]) -> None:
@@ -149,9 +143,7 @@ def refuse_moved_positions(mechanism: Mechanism, positions: Positions, columns: 
                 continue
             if not _same(mechanism, positions, moved):
                 wheels = mechanism.cycle is None and changed.drivers == mechanism.drivers
-                raise RequestError(
-                    Sentence(f"study.moves_{'cycle' if wheels else 'positions'}", address=address)
-                )
+                raise RequestError(f"study.moves_{'cycle' if wheels else 'positions'}", address=address)
 
 
 def positions_steps(positions: Positions) -> int:

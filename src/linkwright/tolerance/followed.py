@@ -26,7 +26,6 @@ from linkwright.loads.base import Load
 from linkwright.mechanism.mechanism import Link, Mechanism
 from linkwright.study.designs import sweep_curves
 from linkwright.tolerance.turned import TurnedByReaction
-from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.tolerance.problem import Clearance, ToleranceStudy
@@ -98,7 +97,7 @@ def follow(study: ToleranceStudy, nominal: Forces) -> FollowedPins:
     """
     positions = nominal.motion.positions
     if not positions.closed or positions.period is None:
-        raise LinkwrightError(Sentence("tolerance.open_cycle"))
+        raise LinkwrightError("tolerance.open_cycle")
     holes = {pin: study.clearances[pin].on for pin in study.holes("pressed")}
     angles = {pin: _angles(nominal, pin, on) for pin, on in holes.items()}
     jumps = {pin: _jumps(study, nominal, pin, on) for pin, on in holes.items()}
@@ -188,7 +187,7 @@ def _refuse_attached(elements: Mapping[str, object], pin: str, on: str) -> None:
     """Raises LinkwrightError where a joint, or a load of two links, uses the hole's point of the link as well."""
     for name, each in elements.items():
         if getattr(each, "on", None) != on and {pin, on} <= set(_words(each)):
-            raise LinkwrightError(Sentence("tolerance.attached", what=name, pin=pin, link=on))
+            raise LinkwrightError("tolerance.attached", what=name, pin=pin, link=on)
 
 
 def _words(value: object) -> Iterator[str]:

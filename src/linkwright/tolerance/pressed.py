@@ -18,7 +18,6 @@ from linkwright.core.outputs import PLACES
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.names import output_meant
 from linkwright.kinetostatics.forces import Forces, solve_forces
-from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.tolerance.problem import ToleranceStudy
@@ -46,7 +45,7 @@ def require_forces(study: ToleranceStudy) -> Forces:
     forces = solve_forces(study.prepared, steps=study.steps)
     for pin, way in directions(study, forces).items():
         if not way.any():
-            raise LinkwrightError(Sentence("tolerance.no_force", pin=pin))
+            raise LinkwrightError("tolerance.no_force", pin=pin)
     return forces
 
 

@@ -13,7 +13,6 @@ from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.structure.group import Group
 from linkwright.words import speaker
-from linkwright.words.sentence import Sentence
 from linkwright.worked.applied import KnownForces
 from linkwright.worked.higher_pairs import closures
 from linkwright.worked.page import Equation, Step
@@ -157,19 +156,17 @@ def worked(
 def _solved_at(source: Forces | Motion, at: float) -> Forces | Motion:
     mechanism = source.mechanism
     if not mechanism.drivers:
-        raise RequestError(Sentence("worked.no_input", name=mechanism.name))
+        raise RequestError("worked.no_input", name=mechanism.name)
     motion = solve_motion(mechanism, at=np.array([at]))
     return solve_forces(motion, static=source.static) if isinstance(source, Forces) else motion
 
 
 def _refuse_missing(motion: Motion, position: int) -> None:
     if not -motion.steps <= position < motion.steps:
-        raise RequestError(
-            Sentence("worked.no_position", position=position, steps=motion.steps, last=motion.steps - 1)
-        )
+        raise RequestError("worked.no_position", position=position, steps=motion.steps, last=motion.steps - 1)
     if not motion.ok[position]:
         raise LinkwrightError(
-            Sentence("worked.not_reached", position=position, sentence=motion.outcomes[position].sentence)
+            "worked.not_reached", position=position, sentence=motion.outcomes[position].sentence
         )
 
 

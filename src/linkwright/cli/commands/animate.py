@@ -19,7 +19,6 @@ from linkwright.cli.pictures import (
     vector_arguments,
 )
 from linkwright.cli.session import Session
-from linkwright.words import Say
 
 if TYPE_CHECKING:
     from linkwright.kinematics.motion import Motion
@@ -54,8 +53,8 @@ def run(options: argparse.Namespace, session: Session) -> int:
     from linkwright.plot.animation import animate
     from linkwright.plot.drawing.panel import named
 
-    refuse_output(options.output, ENDINGS, session.say, force=options.force)
-    seconds = _seconds(options.seconds, session.say)
+    refuse_output(options.output, ENDINGS, force=options.force)
+    seconds = _seconds(options.seconds)
     mechanism, _ = read_model(options.file, session)
     motion = cycle(mechanism, max(options.steps, options.frames), session)
     refuse_unknown_vectors(motion, options)
@@ -95,7 +94,7 @@ def _forces(motion: Motion, options: argparse.Namespace) -> Forces | None:
     return solve_forces(motion, static=options.static)
 
 
-def _seconds(text: str | None, say: Say) -> float | None:
+def _seconds(text: str | None) -> float | None:
     """The time of one cycle; a bare number is in seconds."""
     if text is None:
         return None
@@ -104,7 +103,7 @@ def _seconds(text: str | None, say: Say) -> float | None:
     try:
         return float(text)
     except ValueError:
-        values = quantities(text, "time", say, "--seconds")
+        values = quantities(text, "time", "--seconds")
     if len(values) > 1:
-        raise UsageError(say("draw.one_position", option="--seconds", text=text))
+        raise UsageError("draw.one_position", option="--seconds", text=text)
     return values[0]

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options, did_you_mean, number_of
 from linkwright.cli.session import Session
-from linkwright.words import Say
+from linkwright.errors import about
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
@@ -38,11 +38,10 @@ def run(options: argparse.Namespace, session: Session) -> int:
     from linkwright.cli.source import read_model
     from linkwright.kinetostatics.balancing import balance
 
-    say = session.say
-    refuse_output(options.output, ENDINGS, say, force=options.force)
-    share = _share(options.share, say)
+    refuse_output(options.output, ENDINGS, force=options.force)
+    share = _share(options.share)
     mechanism, _ = read_model(options.file, session)
-    radius = _radius(options.radius, mechanism, say)
+    radius = _radius(options.radius, mechanism)
     found = balance(mechanism, radius=radius, share=share, steps=options.steps)
     if options.output is not None:
         write_whole(Path(options.output), _model_text(found), force=options.force)
@@ -54,37 +53,33 @@ def run(options: argparse.Namespace, session: Session) -> int:
     return 0
 
 
-def _share(text: str, say: Say) -> float:
+def _share(text: str) -> float:
     share = number_of(text)
     if not 0.0 <= share <= 1.0:
-        raise UsageError(say("balance.bad_share", text=text))
+        raise UsageError("balance.bad_share", text=text)
     return share
 
 
-def _radius(text: str, mechanism: Mechanism, say: Say) -> float | dict[str, float]:
+def _radius(text: str, mechanism: Mechanism) -> float | dict[str, float]:
     """One radius, or radii by link from ``crank=80 mm, rod=40 mm``; raises UsageError."""
     if "=" not in text:
-        return _length(text, say)
+        return _length(text)
     radii: dict[str, float] = {}
     for part in text.split(","):
         link, _, given = (piece.strip() for piece in part.partition("="))
         if link not in mechanism.links:
-            hint = did_you_mean(link, mechanism.links, say)
-            raise UsageError(say("balance.no_link", link=link) + hint)
-        radii[link] = _length(given, say)
+            raise UsageError(did_you_mean(Sentence("balance.no_link", link=link), link, mechanism.links))
+        radii[link] = _length(given)
     return radii
 
 
-def _length(text: str, say: Say) -> float:
+def _length(text: str) -> float:
     from linkwright import units
-    from linkwright.errors import QuantityError
 
-    try:
+    with about("--radius", UsageError):
         value = units.parse(text, "length")
-    except QuantityError as error:
-        raise UsageError(Sentence("cli.about", name="--radius", cause=error)) from None
     if not value > 0:
-        raise UsageError(say("balance.bad_radius", text=text))
+        raise UsageError("balance.bad_radius", text=text)
     return value
 
 

@@ -33,10 +33,10 @@ def run(options: argparse.Namespace, session: Session) -> int:
     from linkwright.cli.files import refuse_output
 
     refuse_outputs(options, session)
-    refuse_output(options.profile, PROFILES, session.say, force=options.force)
-    refuse_output(options.draw, DRAWINGS, session.say, force=options.force)
+    refuse_output(options.profile, PROFILES, force=options.force)
+    refuse_output(options.draw, DRAWINGS, force=options.force)
     if not math.isfinite(options.at):
-        raise UsageError(session.say("cam.bad_angle", angle=options.at))
+        raise UsageError("cam.bad_angle", angle=options.at)
     from linkwright.cams.cam import Cam
 
     problem = read(options.file, "cam", session)

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options, number_of
 from linkwright.cli.session import Session
-from linkwright.words import Say
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
@@ -34,22 +33,21 @@ def arguments(option: Options) -> None:
 
 def run(options: argparse.Namespace, session: Session) -> int:
     """Compares the machines and prints or writes what came out."""
-    say = session.say
     if len(options.files) < 2:
-        raise UsageError(Sentence("cli.about", name="linkwright compare", cause=Sentence("compare.too_few")))
-    weights, fluctuation = _weights(options.weights or [], say), _fluctuation(options.fluctuation, say)
+        raise UsageError("cli.about", name="linkwright compare", cause=Sentence("compare.too_few"))
+    weights, fluctuation = _weights(options.weights or []), _fluctuation(options.fluctuation)
     from linkwright.cli.files import PICTURES, refuse_output
     from linkwright.cli.source import read_model
     from linkwright.study.compare import compare
 
     for path in (options.output, options.curves):
-        refuse_output(path, ENDINGS, say, force=options.force)
-    refuse_output(options.plot, PICTURES, say, force=options.force)
+        refuse_output(path, ENDINGS, force=options.force)
+    refuse_output(options.plot, PICTURES, force=options.force)
     found = compare(
         [read_model(name, session)[0] for name in options.files],
         metrics=options.metrics,
         weights=weights,
-        output=_outputs(options, say),
+        output=_outputs(options),
         fluctuation=fluctuation,
         steps=options.steps,
     )
@@ -57,15 +55,15 @@ def run(options: argparse.Namespace, session: Session) -> int:
     return 0
 
 
-def _outputs(options: argparse.Namespace, say: Say) -> str | list[str] | None:
+def _outputs(options: argparse.Namespace) -> str | list[str] | None:
     if options.of is None or len(options.of) == 1:
         return None if options.of is None else str(options.of[0])
     if len(options.of) != len(options.files):
-        raise UsageError(say("compare.bad_count", count=len(options.of), files=len(options.files)))
+        raise UsageError("compare.bad_count", count=len(options.of), files=len(options.files))
     return list(options.of)
 
 
-def _weights(texts: list[str], say: Say) -> dict[str, float]:
+def _weights(texts: list[str]) -> dict[str, float]:
     found = {}
     for text in texts:
         name, _, value = text.rpartition("=")
@@ -74,14 +72,14 @@ def _weights(texts: list[str], say: Say) -> dict[str, float]:
         except ValueError:
             name = ""
         if not name:
-            raise UsageError(say("compare.bad_weight", text=text))
+            raise UsageError("compare.bad_weight", text=text)
     return found
 
 
-def _fluctuation(text: str, say: Say) -> float:
+def _fluctuation(text: str) -> float:
     value = number_of(text)
     if not 0.0 < value < float("inf"):
-        raise UsageError(say("compare.bad_fluctuation", text=text))
+        raise UsageError("compare.bad_fluctuation", text=text)
     return value
 
 

@@ -20,7 +20,7 @@ from linkwright.cli.pictures import (
     vector_arguments,
 )
 from linkwright.cli.session import Session
-from linkwright.words import Say
+from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.kinematics.motion import Motion
@@ -55,15 +55,15 @@ def run(options: argparse.Namespace, session: Session) -> int:
     from linkwright.cli.source import read_model
     from linkwright.plot.drawing.draw import draw
 
-    refuse_output(options.output, ENDINGS, session.say, force=options.force)
+    refuse_output(options.output, ENDINGS, force=options.force)
     mechanism, _ = read_model(options.file, session)
     motion = cycle(mechanism, options.steps, session)
     dimensions = _dimensions(options.dimensions)
     _refuse_unknown_names(motion, options, dimensions)
     drawing = draw(
         motion,
-        at=_inputs(mechanism, options.at, session.say),
-        time=_time(options.time, session.say),
+        at=_inputs(mechanism, options.at),
+        time=_time(options.time),
         overlay=options.overlay or (),
         paths=names(options.paths),
         velocities=names_or_all(options.velocities),
@@ -83,7 +83,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     return 0
 
 
-def _inputs(mechanism: Mechanism, text: str | None, say: Say) -> dict[str, float] | None:
+def _inputs(mechanism: Mechanism, text: str | None) -> dict[str, float] | None:
     """One coordinate for every driver that ``--at`` names."""
     if text is None:
         return None
@@ -91,21 +91,21 @@ def _inputs(mechanism: Mechanism, text: str | None, say: Say) -> dict[str, float
     from linkwright.kinematics.cycle import rotary
 
     if not mechanism.drivers:
-        raise UsageError(say("cli.about", name="--at", cause=say("solve.no_input")))
-    given = inputs(text, rotary(mechanism), say)
+        raise UsageError("cli.about", name="--at", cause=Sentence("solve.no_input"))
+    given = inputs(text, rotary(mechanism))
     if any(len(values) > 1 for values in given.values()):
-        raise UsageError(say("draw.one_position", option="--at", text=text))
+        raise UsageError("draw.one_position", option="--at", text=text)
     return {name: values[0] for name, values in given.items()}
 
 
-def _time(text: str | None, say: Say) -> float | None:
+def _time(text: str | None) -> float | None:
     if text is None:
         return None
     from linkwright.cli.positions import quantities
 
-    values = quantities(text, "time", say, "--time")
+    values = quantities(text, "time", "--time")
     if len(values) > 1:
-        raise UsageError(say("draw.one_position", option="--time", text=text))
+        raise UsageError("draw.one_position", option="--time", text=text)
     return values[0]
 
 

@@ -9,8 +9,9 @@ from linkwright.cli.errors import UsageError
 from linkwright.cli.files import write_whole
 from linkwright.cli.parser import Options, did_you_mean
 from linkwright.cli.session import Session
+from linkwright.errors import with_remedy
 from linkwright.registry import nearest
-from linkwright.words import Say
+from linkwright.words.sentence import Sentence
 
 
 def arguments(option: Options) -> None:
@@ -24,11 +25,11 @@ def run(options: argparse.Namespace, session: Session) -> int:
     """Lists the gallery, prints one of its files or copies it."""
     actions = {"list": _list, "show": _show, "copy": _copy}
     if options.action not in actions:
-        say = session.say
-        offer = nearest(options.action, list(actions))
-        hint = say("cli.did_you_mean", name=f"gallery {offer}") if offer else ""
-        choices = say("finding.comma").join(actions)
-        raise UsageError(say("cli.bad_choice", name="gallery", value=options.action, choices=choices) + hint)
+        choices = tuple(actions)
+        said = Sentence("cli.bad_choice", name="gallery", value=options.action, choices=choices)
+        offer = nearest(options.action, choices)
+        hint = Sentence("names.did_you_mean", offer=f"gallery {offer}") if offer else ""
+        raise UsageError(with_remedy(said, hint))
     return actions[options.action](options, session)
 
 
@@ -60,7 +61,7 @@ def _list(options: argparse.Namespace, session: Session) -> int:
 
 
 def _show(options: argparse.Namespace, session: Session) -> int:
-    name, text = _text(options, session.say)
+    name, text = _text(options)
     if session.json:
         session.show_data({**_heading(name), "text": text})
     else:
@@ -69,7 +70,7 @@ def _show(options: argparse.Namespace, session: Session) -> int:
 
 
 def _copy(options: argparse.Namespace, session: Session) -> int:
-    name, text = _text(options, session.say)
+    name, text = _text(options)
     path = Path(options.folder) / f"{name}.yaml"
     write_whole(path, text, force=options.force)
     if session.json:
@@ -79,17 +80,17 @@ def _copy(options: argparse.Namespace, session: Session) -> int:
     return 0
 
 
-def _text(options: argparse.Namespace, say: Say) -> tuple[str, str]:
+def _text(options: argparse.Namespace) -> tuple[str, str]:
     """Name and text of the model that is asked for; raises UsageError with the nearest name."""
     from linkwright import gallery
 
     if options.name is None:
-        raise UsageError(say("gallery.which", action=options.action))
+        raise UsageError("gallery.which", action=options.action)
     name = options.name.removeprefix("gallery:").removesuffix(".yaml")
     known = (*gallery.names(), *gallery.calculations(), *gallery.tasks())
     if name not in known:
-        hint = did_you_mean(name, known, say, say("cli.see_help", command="linkwright gallery"))
-        raise UsageError(say("gallery.unknown", name=name) + hint)
+        hint = Sentence("cli.see_help_of", command="linkwright gallery")
+        raise UsageError(did_you_mean(Sentence("gallery.unknown", name=name), name, known, hint))
     return name, gallery.file(name).read_text(encoding="utf-8")
 
 

@@ -26,7 +26,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     from linkwright.course.questions import csv_bytes
     from linkwright.words.characters import aligned
 
-    refuse_output(options.output, ENDINGS, session.say, force=options.force)
+    refuse_output(options.output, ENDINGS, force=options.force)
     grades = grade(options.key, options.answers)
     names = [each["name"] for each in json.loads(Path(options.key).read_text("utf-8"))["questions"]]
     rows = text(grades, names, session.language)

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
-from linkwright.words import Say
 
 if TYPE_CHECKING:
     from linkwright.cli.machine_options import Wanted
@@ -47,35 +46,34 @@ def run(options: argparse.Namespace, session: Session) -> int:
     """Lays out motor and flywheel and prints them."""
     from linkwright.cli.machine_options import wanted
 
-    say = session.say
-    _refuse_contradictions(options, say)
+    _refuse_contradictions(options)
     if options.file is not None and options.fluctuation is None:
         options.fluctuation = FLUCTUATION
-    asked = wanted(options, say)
+    asked = wanted(options)
     if options.file is not None:
         return _mechanism(options, asked, session)
     if asked.speed is None and (asked.fluctuation is not None or asked.inertia):
-        raise UsageError(say("machine.needs_speed"))
+        raise UsageError("machine.needs_speed")
     if asked.size is not None and asked.fluctuation is None:
-        raise UsageError(say("machine.shape_needs_fluctuation"))
+        raise UsageError("machine.shape_needs_fluctuation")
     title, blocks = _curves(options, asked, session)
     _show(title, blocks, [], session)
     return 0
 
 
-def _refuse_contradictions(options: argparse.Namespace, say: Say) -> None:
+def _refuse_contradictions(options: argparse.Namespace) -> None:
     curves = "--areas" if options.areas is not None else "--torque" if options.torque is not None else None
     if options.file is None and curves is None:
-        raise UsageError(say("machine.nothing_given"))
+        raise UsageError("machine.nothing_given")
     from_curves = [f"--{name}" for name in CURVE_OPTIONS if getattr(options, name) is not None]
     if options.file is not None and (curves or from_curves):
-        raise UsageError(say("machine.not_with_file", option=curves or from_curves[0]))
+        raise UsageError("machine.not_with_file", option=curves or from_curves[0])
     if options.file is None and options.output is not None:
-        raise UsageError(say("machine.output_needs_file"))
+        raise UsageError("machine.output_needs_file")
     only = {"--areas": ("load", "period"), "--torque": ("scale",)}
     for name in only.get(curves or "", ()):
         if getattr(options, name) is not None:
-            raise UsageError(say("cli.not_together", name=str(curves), other=f"--{name}"))
+            raise UsageError("cli.not_together", name=str(curves), other=f"--{name}")
 
 
 def _mechanism(options: argparse.Namespace, asked: Wanted, session: Session) -> int:
@@ -86,7 +84,7 @@ def _mechanism(options: argparse.Namespace, asked: Wanted, session: Session) -> 
     from linkwright.kinetostatics.forces import solve_forces
     from linkwright.machine.running import steady_running
 
-    refuse_output(options.output, ENDINGS, session.say, force=options.force)
+    refuse_output(options.output, ENDINGS, force=options.force)
     mechanism, _ = read_model(options.file, session)
     forces = solve_forces(mechanism, steps=options.steps)
     running = steady_running(
@@ -116,11 +114,11 @@ def _curves(options: argparse.Namespace, asked: Wanted, session: Session) -> tup
 
     say = session.say
     if options.areas is not None:
-        given, (torque, angle) = areas(options.areas, say), scale(options.scale, say)
+        given, (torque, angle) = areas(options.areas), scale(options.scale)
         energy = fluctuation_from_areas(given, torque_scale=torque, angle_scale=angle)
         return say("machine.areas_title", count=len(given)), of_areas(energy, asked)
-    driver = curve("--torque", options.torque, options.period, say)
-    load = None if options.load is None else curve("--load", options.load, options.period, say)
+    driver = curve("--torque", options.torque, options.period)
+    load = None if options.load is None else curve("--load", options.load, options.period)
     against = say("machine.its_mean") if options.load is None else options.load
     title = say("machine.torque_title", torque=options.torque, load=against)
     return title, of_curves(driver, load, asked, say)

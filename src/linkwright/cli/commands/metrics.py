@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
-from linkwright.words import Say, say
-from linkwright.words.sentence import Sentence
+from linkwright.errors import about
+from linkwright.words import say
 
 if TYPE_CHECKING:
     from linkwright.errors import LinkwrightError
@@ -36,9 +36,8 @@ def run(options: argparse.Namespace, session: Session) -> int:
     from linkwright.cli.files import csv_of, refuse_output, write_table
     from linkwright.cli.source import read_model
 
-    say = session.say
-    refuse_output(options.output, ENDINGS, say, force=options.force)
-    names = _names(options.names, say)
+    refuse_output(options.output, ENDINGS, force=options.force)
+    names = _names(options.names)
     mechanism, _ = read_model(options.file, session)
     table, trouble = _evaluated(mechanism, names, options)
     data = _data(table, trouble, session.language)
@@ -55,21 +54,18 @@ def run(options: argparse.Namespace, session: Session) -> int:
     return int(trouble is not None)
 
 
-def _names(texts: list[str] | None, say: Say) -> list[str] | None:
+def _names(texts: list[str] | None) -> list[str] | None:
     """Names that were asked for; raises UsageError for one that no number has, with the nearest."""
     if texts is None:
         return None
     from linkwright.metrics.base import METRICS
-    from linkwright.registry import UnknownName
 
     names = [name.strip() for text in texts for name in text.split(",")]
     if not all(names):
-        raise UsageError(say("metrics.no_names", text=" ".join(texts)))
+        raise UsageError("metrics.no_names", text=" ".join(texts))
     for name in names:
-        try:
+        with about("--names", UsageError):
             METRICS[name]
-        except UnknownName as error:
-            raise UsageError(Sentence("cli.about", name="--names", cause=error)) from None
     return names
 
 

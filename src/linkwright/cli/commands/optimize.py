@@ -52,15 +52,15 @@ def _searched(options: argparse.Namespace, session: Session) -> int:
     from linkwright.optimisation.optimum import OptimizeError
     from linkwright.study.cluster import on_cluster
 
-    refuse_output(options.output, ENDINGS, session.say, force=options.force)
-    refuse_output(options.plot, PICTURES, session.say, force=options.force)
+    refuse_output(options.output, ENDINGS, force=options.force)
+    refuse_output(options.plot, PICTURES, force=options.force)
     if options.seed is not None and options.seed < 0:
-        raise UsageError(session.say("study.bad_seed", seed=options.seed))
+        raise UsageError("study.bad_seed", seed=options.seed)
     settings = {
-        "vary": _pairs(options.vary, session.say),
-        "keep": _pairs(options.keep, session.say),
-        "define": _pairs(options.define, session.say),
-        "tolerance": _pairs(options.tolerance, session.say),
+        "vary": _pairs(options.vary),
+        "keep": _pairs(options.keep),
+        "define": _pairs(options.define),
+        "tolerance": _pairs(options.tolerance),
         "robust": options.robust,
         "yield": options.least_yield,
         "minimize": options.minimize,
@@ -77,7 +77,7 @@ def _searched(options: argparse.Namespace, session: Session) -> int:
     return 0
 
 
-def _pairs(texts: list[str] | None, say: Say) -> dict[str, str] | None:
+def _pairs(texts: list[str] | None) -> dict[str, str] | None:
     """``NAME=TEXT`` by name; None where nothing is given."""
     if texts is None:
         return None
@@ -85,9 +85,9 @@ def _pairs(texts: list[str] | None, say: Say) -> dict[str, str] | None:
     for text in texts:
         name, sign, value = text.partition("=")
         if not sign or not name.strip() or not value.strip():
-            raise UsageError(say("optimize.bad_pair", text=text))
+            raise UsageError("optimize.bad_pair", text=text)
         if name.strip() in found:
-            raise UsageError(say("optimize.given_twice", name=name.strip()))
+            raise UsageError("optimize.given_twice", name=name.strip())
         found[name.strip()] = value.strip()
     return found
 

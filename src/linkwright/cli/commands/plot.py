@@ -12,8 +12,7 @@ from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options
 from linkwright.cli.positions import quantities
 from linkwright.cli.session import Session
-from linkwright.words import Say
-from linkwright.words.sentence import Sentence
+from linkwright.errors import about
 
 if TYPE_CHECKING:
     from linkwright.kinematics.motion import Motion
@@ -48,11 +47,9 @@ def arguments(option: Options) -> None:
 def run(options: argparse.Namespace, session: Session) -> int:
     """Draws a diagram and writes it; 1 where a position is not reached."""
     _require_kind(options)
-    fluctuation = options.fluctuation and _number(
-        options.fluctuation, "fluctuation", 0.0, math.inf, session.say
-    )
-    dpi = _number(options.dpi, "dpi", 9.999, 2400.0, session.say)
-    path = _path(options, session.say)
+    fluctuation = options.fluctuation and _number(options.fluctuation, "fluctuation", 0.0, math.inf)
+    dpi = _number(options.dpi, "dpi", 9.999, 2400.0)
+    path = _path(options)
     motions = _solved(options, session)
     diagram = _drawn(options, session, motions, fluctuation)
     _write(diagram, path, dpi, options, session)
@@ -60,27 +57,24 @@ def run(options: argparse.Namespace, session: Session) -> int:
 
 
 def _require_kind(options: argparse.Namespace) -> None:
-    from linkwright.errors import LinkwrightError
     from linkwright.plot.diagrams.base import OPTIONS
     from linkwright.plot.diagrams.diagram_by_name import require_kind, require_options
 
     option = "kind"
-    try:
+    with about(f"--{option}", UsageError):
         require_kind(options.kind)
         for option in OPTIONS:
             if getattr(options, option):
                 require_options(options.kind, [option])
-    except LinkwrightError as error:
-        raise UsageError(Sentence("cli.about", name=f"--{option}", cause=error)) from None
 
 
-def _path(options: argparse.Namespace, say: Say) -> Path:
+def _path(options: argparse.Namespace) -> Path:
     """Where the diagram goes; refused before any work is done."""
     from linkwright.cli.files import refuse_output
 
     source = options.files[0].removeprefix("gallery:")
     path = Path(options.output or f"{Path(source).stem}-{options.kind}.svg")
-    refuse_output(str(path), ENDINGS, say, force=options.force)
+    refuse_output(str(path), ENDINGS, force=options.force)
     return path
 
 
@@ -98,7 +92,7 @@ def _solved(options: argparse.Namespace, session: Session) -> dict[str, Motion]:
         motion = solve_motion(mechanism, steps=options.steps, failures="mark")
         failed = [outcome for outcome in motion.outcomes if not outcome.ok]
         if len(failed) == motion.steps:
-            raise LinkwrightError(Sentence("cli.about", name=file, cause=failed[0].sentence))
+            raise LinkwrightError("cli.about", name=file, cause=failed[0].sentence)
         if failed:
             session.tell(session.say("plot.not_reached", file=file, count=len(failed), of=motion.steps,
                                      sentence=failed[0].sentence))  # fmt: skip
@@ -134,9 +128,9 @@ def _place(text: str | None, motions: dict[str, Motion], session: Session) -> fl
     first = Source(next(iter(motions.values())))
     if text is None or not first.mechanism.drivers:
         return text
-    values = quantities(text, first.input_dimension, session.say, "--at")
+    values = quantities(text, first.input_dimension, "--at")
     if len(values) > 1:
-        raise UsageError(session.say("draw.one_position", option="--at", text=text))
+        raise UsageError("draw.one_position", option="--at", text=text)
     return values[0]
 
 
@@ -151,8 +145,8 @@ def _write(diagram: Diagram, path: Path, dpi: float, options: argparse.Namespace
         session.show_written(path)
 
 
-def _number(text: str, name: str, above: float, most: float, say: Say) -> float:
+def _number(text: str, name: str, above: float, most: float) -> float:
     good = re.fullmatch(r"\d*\.?\d+(e[+-]?\d+)?", text.strip(), re.IGNORECASE)
     if good is None or not above < float(text) <= most:
-        raise UsageError(say(f"plot.bad_{name}", text=text))
+        raise UsageError(f"plot.bad_{name}", text=text)
     return float(text)

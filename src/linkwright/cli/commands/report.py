@@ -8,7 +8,6 @@ from pathlib import Path
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
-from linkwright.words import Say
 
 FORMS = ("pdf", "html", "docx")
 #: Names of the sections in their usual order.
@@ -37,7 +36,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     from linkwright.parts.file import kind_of, load
     from linkwright.report.report import report
 
-    path = _path(options, session.say)
+    path = _path(options)
     machines = [load(file) if kind_of(file) else read_model(file, session)[0] for file in options.files]
     sources = [file for file in options.files if not kind_of(file)]
     with progress(session.say("report.working")) as told:
@@ -63,18 +62,18 @@ def run(options: argparse.Namespace, session: Session) -> int:
     return int(found.broken)
 
 
-def _path(options: argparse.Namespace, say: Say) -> Path:
+def _path(options: argparse.Namespace) -> Path:
     """Where the report goes; refused before any work is done."""
     from linkwright.cli.files import refuse_existing
 
     if options.to is not None and options.to not in FORMS:
-        raise UsageError(say("report.bad_form", text=options.to))
+        raise UsageError("report.bad_form", text=options.to)
     source = Path(options.files[0].removeprefix("gallery:")).stem
     path = Path(options.output or f"{source}-report.{options.to or 'pdf'}")
     if path.suffix.lower().lstrip(".") not in FORMS or (
         options.to and path.suffix.lower() != f".{options.to}"
     ):
-        endings = f".{options.to}" if options.to else say("finding.comma").join(f".{form}" for form in FORMS)
-        raise UsageError(say("cli.bad_suffix", path=path, endings=endings))
+        endings = tuple(f".{form}" for form in FORMS if options.to in (None, form))
+        raise UsageError("cli.bad_suffix", path=path, endings=endings)
     refuse_existing(path, force=options.force)
     return path

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
-from linkwright.words import Say
 
 if TYPE_CHECKING:
     from linkwright.cli.solving import Solved
@@ -37,11 +36,11 @@ def arguments(option: Options) -> None:
 
 def run(options: argparse.Namespace, session: Session) -> int:
     """Solves a model and prints or writes the results; 1 where a position or the forces failed."""
-    _refuse_contradictions(options, session.say)
+    _refuse_contradictions(options)
     from linkwright.cli.solving import solve
     from linkwright.cli.source import read_model
 
-    solved = solve(*read_model(options.file, session), options, session.say)
+    solved = solve(*read_model(options.file, session), options)
     if options.worked and solved.trouble is None:
         _show_worked(solved, options, session)
         return 0
@@ -50,7 +49,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     if session.json:
         from linkwright.cli.solve_data import data
 
-        session.show_data(data(solved, options, session.say))
+        session.show_data(data(solved, options))
     elif options.output is None:
         from linkwright.cli.solve_text import report
 
@@ -73,15 +72,15 @@ def _show_worked(solved: Solved, options: argparse.Namespace, session: Session) 
         session.show("\n\n\n".join(page.text() for page in pages))
 
 
-def _refuse_contradictions(options: argparse.Namespace, say: Say) -> None:
+def _refuse_contradictions(options: argparse.Namespace) -> None:
     if options.worked and options.output is not None:
-        raise UsageError(say("cli.not_together", name="--worked", other="--output"))
+        raise UsageError("cli.not_together", name="--worked", other="--output")
     if options.static and options.forces is False:
-        raise UsageError(say("cli.not_together", name="--static", other="--no-forces"))
+        raise UsageError("cli.not_together", name="--static", other="--no-forces")
     if options.output is not None:
         from linkwright.cli.files import refuse_output
 
-        refuse_output(options.output, ENDINGS, say, force=options.force)
+        refuse_output(options.output, ENDINGS, force=options.force)
 
 
 def _write(solved: Solved, options: argparse.Namespace, session: Session) -> None:
@@ -90,7 +89,7 @@ def _write(solved: Solved, options: argparse.Namespace, session: Session) -> Non
     from linkwright.cli.files import write_table
     from linkwright.cli.solve_data import csv_text, data
 
-    asked = solved, options, session.say
+    asked = solved, options
     write_table(options.output, lambda: csv_text(*asked), lambda: data(*asked), force=options.force)
     if not session.json:
         session.show_written(Path(options.output))

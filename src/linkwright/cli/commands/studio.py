@@ -32,12 +32,10 @@ def run(options: argparse.Namespace, session: Session) -> int:
     if options.file is not None:
         path = (folder / options.file).resolve()
         if not path.is_relative_to(folder.resolve()):
-            raise UsageError(session.say("studio.outside", name=options.file))
+            raise UsageError("studio.outside", name=options.file)
         name = path.relative_to(folder.resolve()).as_posix()
     if not 0 <= options.port <= LAST_PORT:
-        raise UsageError(
-            Sentence("studio.no_port", port=options.port, reason=Sentence("studio.ports", last=LAST_PORT))
-        )
+        raise UsageError("studio.no_port", port=options.port, reason=Sentence("studio.ports", last=LAST_PORT))
     known = recalled(folder)
     studio = None
     if known is not None and options.port in (0, known.port):
@@ -46,7 +44,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     try:
         studio = studio or Studio(folder, name, port=options.port, language=session.language)
     except OSError as problem:
-        raise UsageError(Sentence("studio.no_port", port=options.port, reason=reason_of(problem))) from None
+        raise UsageError("studio.no_port", port=options.port, reason=reason_of(problem)) from None
     remember(folder, Address(studio.server_port, studio.token))
     with studio:
         if name is not None:

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
-from linkwright.words import Say
 
 if TYPE_CHECKING:
     from linkwright.study.study import Study
@@ -43,9 +42,9 @@ def run(options: argparse.Namespace, session: Session) -> int:
     from linkwright.study.cluster import on_cluster
     from linkwright.study.study import study
 
-    refuse_output(options.output, ENDINGS, session.say, force=options.force)
-    refuse_output(options.plot, PICTURES, session.say, force=options.force)
-    vary = ranges_of(options.vary, session.say)
+    refuse_output(options.output, ENDINGS, force=options.force)
+    refuse_output(options.plot, PICTURES, force=options.force)
+    vary = ranges_of(options.vary)
     mechanism, _ = read_model(options.file, session)
     settings = {
         "metrics": options.metrics, "sampling": options.sampling, "samples": options.samples, "seed": options.seed,
@@ -57,15 +56,15 @@ def run(options: argparse.Namespace, session: Session) -> int:
     return 0
 
 
-def ranges_of(texts: list[str], say: Say) -> dict[str, str]:
+def ranges_of(texts: list[str]) -> dict[str, str]:
     """Ranges by address from texts ``ADDRESS=RANGE``."""
     found: dict[str, str] = {}
     for text in texts:
         address, sign, given = text.partition("=")
         if not sign or not address.strip() or not given.strip():
-            raise UsageError(say("study.bad_vary", text=text))
+            raise UsageError("study.bad_vary", text=text)
         if address.strip() in found:
-            raise UsageError(say("study.twice", name=address.strip()))
+            raise UsageError("study.twice", name=address.strip())
         found[address.strip()] = given.strip()
     return found
 

@@ -33,7 +33,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     from linkwright.cli.source import read_model
     from linkwright.export.sweep_parts import sweep_parts
 
-    vary = ranges_of(options.vary, session.say)
+    vary = ranges_of(options.vary)
     mechanism, _ = read_model(options.file, session)
     with progress(session.say("sweep.computing")) as report:
         found = sweep_parts(

@@ -34,11 +34,10 @@ def run(options: argparse.Namespace, session: Session) -> int:
     from linkwright.cli.files import PICTURES, refuse_output
     from linkwright.synthesis.result import SynthesisError
 
-    say = session.say
-    refuse_output(options.plot, PICTURES, say, force=options.force)
+    refuse_output(options.plot, PICTURES, force=options.force)
     if options.output is not None and not Path(options.output).is_dir():
-        raise UsageError(say("synthesize.no_folder", path=options.output))
-    mass = _mass(options.mass, say)
+        raise UsageError("synthesize.no_folder", path=options.output)
+    mass = _mass(options.mass)
     try:
         found = _solve(options, session)
     except SynthesisError as error:
@@ -70,7 +69,7 @@ def _asked(options: argparse.Namespace, session: Session) -> tuple[str, dict[str
         return asked_in(*read_source(options.task))
     for text in options.demands:
         if not text.partition("=")[1]:
-            raise UsageError(session.say("synthesize.bad_demand", text=text))
+            raise UsageError("synthesize.bad_demand", text=text)
     pairs = (text.partition("=") for text in options.demands)
     lines = [f"  {key.strip()}: {value.strip()}" for key, _, value in pairs]
     return asked_in("\n".join(["synthesis:", f"  task: {options.task}", *lines]), "synthesize")
@@ -124,10 +123,10 @@ def _effort_lines(efforts: list[dict[str, float]], say: Say) -> list[str]:
     return aligned(rows, ">>>")
 
 
-def _mass(text: str | None, say: Say) -> float | None:
+def _mass(text: str | None) -> float | None:
     if text is None:
         return None
     value = number_of(text)
     if not 0 < value < float("inf"):
-        raise UsageError(say("synthesize.bad_mass", text=text))
+        raise UsageError("synthesize.bad_mass", text=text)
     return value

@@ -23,7 +23,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     wanted = options.case.casefold()
     cases = [each for each in published() if wanted in f"{each.case} {each.source}".casefold()]
     if not cases:
-        raise UsageError(session.say("validate.no_case", text=options.case))
+        raise UsageError("validate.no_case", text=options.case)
     with progress(session.say("validate.working")) as told:
         found = validate(cases, None if told is None else lambda done: told(done, len(cases)))
     if session.json:

@@ -33,10 +33,10 @@ def run(options: argparse.Namespace, session: Session) -> int:
     say = session.say
     unknown = next((form for form in options.to if form not in FORMS), None)
     if unknown is not None:
-        raise UsageError(say("course.no_form", name=unknown, forms=say("finding.comma").join(FORMS)))
+        raise UsageError("course.no_form", name=unknown, forms=tuple(FORMS))
     folder = Path(options.output or f"{Path(options.file.removeprefix('gallery:')).stem}-variants")
     if os.path.exists(folder) and not options.force:
-        raise UsageError(say("variants.folder_exists", path=folder))
+        raise UsageError("variants.folder_exists", path=folder)
     mechanism, _ = read_model(options.file, session)
     with progress(say("variants.working")) as told:
         found = variants(mechanism, options.count, seed=options.seed, told=told)

@@ -10,7 +10,6 @@ import numpy as np
 from linkwright.errors import RequestError
 from linkwright.export.dxf.sheet import content_of, new_document
 from linkwright.whole_files import refuse_target, write_whole
-from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.cams.result import CamDesign
@@ -24,7 +23,7 @@ _MM = 1e3
 def save_profile(design: CamDesign, path: Path, points: int, *, force: bool) -> Path:
     """Writes the profile as the file's ending says; raises LinkwrightError where that cannot be."""
     if path.suffix.lower() not in ENDINGS:
-        raise RequestError(Sentence("cams.profile_ending", path=path, endings=tuple(ENDINGS)))
+        raise RequestError("cams.profile_ending", path=path, endings=tuple(ENDINGS))
     refuse_target(path, force=force, remedy="force=True")
     if path.suffix.lower() == ".dxf":
         return write_whole(path, _drawing(design, points))

@@ -23,7 +23,6 @@ from linkwright.plot.drawing.view import moved
 from linkwright.plot.svg.element import Element
 from linkwright.plot.symbols.base import PIN, Vec, points
 from linkwright.words.characters import one_line
-from linkwright.words.sentence import Sentence
 
 #: Layers with their colours (numbers of the AutoCAD colour index), each with a contrast of 3 or more on a white, a
 #: dark grey and a black sheet; 7 is white or black, as the sheet demands.
@@ -188,7 +187,7 @@ def check_unit(unit: str) -> tuple[float, int]:
     """Units per metre, and DXF's number of the unit; raises LinkwrightError."""
     known = {"mm": (1000.0, 4), "m": (1.0, 6)}
     if unit not in known:
-        raise RequestError(Sentence("export.bad_unit", unit=unit))
+        raise RequestError("export.bad_unit", unit=unit)
     return known[unit]
 
 

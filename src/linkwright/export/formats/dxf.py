@@ -16,7 +16,6 @@ from linkwright.export.dxf.sheet import (
     prepare,
 )
 from linkwright.export.results import Results
-from linkwright.words.sentence import Sentence
 
 
 def content(
@@ -38,7 +37,7 @@ def content(
     """
     factor, code = check_unit(unit)
     if curve not in ("polyline", "spline"):
-        raise RequestError(Sentence("export.bad_curve", curve=curve))
+        raise RequestError("export.bad_curve", curve=curve)
     index = _index(results, position)
     document = new_document(LAYERS, code)
     sheet = Sheet(document, results, index, factor)
@@ -58,12 +57,10 @@ def _index(results: Results, position: int | None) -> int:
         return results.first_ok()
     steps = results.motion.steps
     if not -steps <= position < steps:
-        raise RequestError(Sentence("export.no_position", position=position, last=steps - 1))
+        raise RequestError("export.no_position", position=position, last=steps - 1)
     if not results.motion.ok[position]:
         raise LinkwrightError(
-            Sentence(
-                "export.not_drawn", position=position, sentence=results.motion.outcomes[position].sentence
-            )
+            "export.not_drawn", position=position, sentence=results.motion.outcomes[position].sentence
         )
     return position % steps
 

@@ -9,7 +9,6 @@ from linkwright.export.modelica.equations import Equations, indented
 from linkwright.export.modelica.names import identifier, number, quoted
 from linkwright.export.modelica.rates import Rates
 from linkwright.export.results import Results
-from linkwright.words.sentence import Sentence
 
 INTERVALS = 360
 FORMS = ("positions", "rates")
@@ -35,7 +34,7 @@ def content(
     motion, mechanism = results.motion, results.mechanism
     index = results.first_ok()
     if form not in FORMS:
-        raise RequestError(Sentence("export.bad_form", form=form))
+        raise RequestError("export.bad_form", form=form)
     if form == "rates":
         text = Rates(results, index, seconds(motion) / RELAXATIONS).write()
     else:

@@ -19,7 +19,6 @@ from linkwright.study.ranges import dimension_of
 from linkwright.units import NONE, si_symbol
 from linkwright.words import say
 from linkwright.words.characters import printable
-from linkwright.words.sentence import Sentence
 
 Cell = str | float | int | bool | None
 LONGEST_TEXT = 32767
@@ -104,7 +103,7 @@ class Workbook:
         sheet = self._sheet(table.subject)
         columns = [*leading, *self._turned(table.columns)]
         if len(columns) > MOST_COLUMNS or len(columns[0].values) > MOST_ROWS:
-            raise RequestError(Sentence("export.sheet_full", columns=MOST_COLUMNS, rows=MOST_ROWS))
+            raise RequestError("export.sheet_full", columns=MOST_COLUMNS, rows=MOST_ROWS)
         for index, column in enumerate(columns):
             sheet.write_string(0, index, self._heading(column), self.head)
             sheet.set_column(

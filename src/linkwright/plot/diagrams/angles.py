@@ -11,7 +11,6 @@ from linkwright.plot.diagrams.base import DIAGRAMS, Request
 from linkwright.plot.diagrams.outputs import known_link, main_output, turning_links
 from linkwright.plot.diagrams.panels import Curve, OverInput, Panel, look
 from linkwright.plot.diagrams.source import TURN, Source
-from linkwright.words.sentence import Sentence
 
 
 @DIAGRAMS.register("angles")
@@ -29,7 +28,7 @@ class Angles(OverInput):
         motion, say = source.motion, request.say
         links = [known_link(motion.mechanism, name) for name in request.of] or turning_links(motion)
         if not links:
-            raise RequestError(Sentence("picture.none_turns", name=motion.mechanism.name))
+            raise RequestError("picture.none_turns", name=motion.mechanism.name)
         shown = [source.closed(motion.link(name).angle, turns=True) for name in links]
         change = _flat(shown)
         omega = [source.closed(motion.link(name).angular_velocity) for name in links]

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import TypeAlias, cast
 
 from linkwright.core.plotted import Plotted
-from linkwright.errors import QuantityError, RequestError, require_language
+from linkwright.errors import RequestError, about, require_language
 from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import Forces
 from linkwright.machine.running import SteadyRunning
@@ -17,7 +17,6 @@ from linkwright.plot.diagrams.source import Result, Source
 from linkwright.registry import listed
 from linkwright.units import parse
 from linkwright.words.characters import printable
-from linkwright.words.sentence import Sentence
 
 _Solved: TypeAlias = Result | Sequence[Result] | Mapping[str, Result]
 
@@ -87,7 +86,7 @@ def plot(
         name, [option for option, value in given.items() if value not in (None, (), "", [], False)]
     )
     if size is not None and not all(1.0 <= each <= 100.0 for each in size):
-        raise RequestError(Sentence("picture.bad_inches", wide=size[0], tall=size[1]))
+        raise RequestError("picture.bad_inches", wide=size[0], tall=size[1])
     request = Request(
         kind=name,
         of=(of,) if isinstance(of, str) else tuple(of),
@@ -117,7 +116,7 @@ def require_kind(name: str) -> None:
     """Raises LinkwrightError, with the nearest kind and the list of all, where there is no kind of that name."""
     if name in DIAGRAMS:
         return
-    raise RequestError(Sentence("picture.no_kind", name=name, hint=listed(name, DIAGRAMS, "one_of")))
+    raise RequestError("picture.no_kind", name=name, hint=listed(name, DIAGRAMS, "one_of"))
 
 
 def require_options(name: str, given: Sequence[str]) -> None:
@@ -126,7 +125,7 @@ def require_options(name: str, given: Sequence[str]) -> None:
     for option in given:
         if option not in known:
             users = tuple(each for each in DIAGRAMS if option in DIAGRAMS[each].options)
-            raise RequestError(Sentence("picture.no_use", kind=name, option=option, users=users))
+            raise RequestError("picture.no_use", kind=name, option=option, users=users)
 
 
 def _own_kind(result: object, kind: str | None) -> str | None:
@@ -139,7 +138,7 @@ def _own_kind(result: object, kind: str | None) -> str | None:
     if kind is None:
         return next(name for name in own if RESULT_DIAGRAMS[name].usual)
     if kind not in own:
-        raise RequestError(Sentence("picture.not_of_this", kind=kind, names=tuple(own)))
+        raise RequestError("picture.not_of_this", kind=kind, names=tuple(own))
     return kind
 
 
@@ -151,9 +150,9 @@ def _sources(result: _Solved, *, static: bool) -> list[Source]:
     else:
         found = [Source(result, static=static)]
     if not found:
-        raise RequestError(Sentence("picture.nothing_given"))
+        raise RequestError("picture.nothing_given")
     if len(found) > 1 and len({source.label for source in found}) < len(found):
-        raise RequestError(Sentence("picture.equal_names"))
+        raise RequestError("picture.equal_names")
     return found
 
 
@@ -168,8 +167,6 @@ def _place(at: float | str | None, source: Source) -> float | None:
     if not isinstance(at, str):
         return at
     if not source.mechanism.drivers:
-        raise RequestError(Sentence("picture.no_driver", name=source.mechanism.name))
-    try:
+        raise RequestError("picture.no_driver", name=source.mechanism.name)
+    with about("at"):
         return parse(at, source.input_dimension)
-    except QuantityError as error:
-        raise RequestError(Sentence("cli.about", name="at", cause=error)) from None

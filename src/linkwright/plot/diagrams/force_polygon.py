@@ -35,7 +35,6 @@ from linkwright.plot.diagrams.scaled_page import (
 )
 from linkwright.plot.diagrams.source import Source
 from linkwright.plot.force_names import link_numbers, reaction_index
-from linkwright.words.sentence import Sentence
 
 #: Longest extent of a polygon on the paper, mm, and how many pictures stand in a row.
 EXTENT, IN_ROW = 58.0, 3
@@ -127,7 +126,7 @@ class ForcePolygon(Kind):
 
     def draw(self, sources: Sequence[Source], request: Request) -> Figure:
         if len(sources) > 1:
-            raise RequestError(Sentence("picture.one_mechanism_forces"))
+            raise RequestError("picture.one_mechanism_forces")
         source, say = sources[0], request.say
         forces = source.forces_at(request.at)
         require_forces(forces)

@@ -35,7 +35,6 @@ from linkwright.plot.diagrams.scaled_page import (
 )
 from linkwright.plot.diagrams.source import Source
 from linkwright.words import Say
-from linkwright.words.sentence import Sentence
 
 #: Longest extent of the polygon on the paper, mm.
 POLYGON = 110.0
@@ -66,12 +65,12 @@ class MotionPolygons(Kind):
 
     def draw(self, sources: Sequence[Source], request: Request) -> Figure:
         if len(sources) > 1:
-            raise RequestError(Sentence("picture.one_mechanism"))
+            raise RequestError("picture.one_mechanism")
         motion = sources[0].at(request.at)
         polygon = self.polygon(motion)
         images = np.array([np.zeros(2), *polygon.images.values(), *(step.end for step in polygon.steps)])
         if float(np.ptp(images, axis=0).max()) <= 0:
-            raise LinkwrightError(Sentence("picture.nothing_moves"))
+            raise LinkwrightError("picture.nothing_moves")
         return self._sheet(sources[0], motion, polygon, scale_of_picture(images, POLYGON), request)
 
     def _sheet(

@@ -14,7 +14,6 @@ from linkwright.kinetostatics.forces import Forces
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.outputs import free_points, mechanism_outputs, output_link
 from linkwright.plot.force_names import reaction_pairs
-from linkwright.words.sentence import Sentence
 
 
 def output_named(mechanism: Mechanism, name: str) -> Output | str:
@@ -109,7 +108,7 @@ def joint_and_link(forces: Forces, joint: str | None, on: str | None) -> tuple[s
         if on is not None:
             on_frame = pairs = [p for p in pairs if p[1] == known_link(mechanism, on)]
         if not pairs:
-            raise RequestError(Sentence("picture.no_force_there", name=mechanism.name))
+            raise RequestError("picture.no_force_there", name=mechanism.name)
         return max(on_frame or pairs, key=lambda pair: largest(forces.reaction(pair[0], on=pair[1])))
     if on is None and joint in mechanism.joints:
         on = [link for link in mechanism.joints[joint].joined if link != "frame"][-1]

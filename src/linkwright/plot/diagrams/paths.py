@@ -17,7 +17,6 @@ from linkwright.plot.diagrams.panels import DASHES
 from linkwright.plot.diagrams.picture import COLOURS, INK, Axes, Figure, new_figure
 from linkwright.plot.diagrams.position import LINK, draw_position, reach
 from linkwright.plot.diagrams.source import Source
-from linkwright.words.sentence import Sentence
 
 
 @DIAGRAMS.register("paths")
@@ -108,5 +107,5 @@ def _worth_marks(source: Source, curve: Floats) -> bool:
 def _point(source: Source, name: str) -> str:
     found = output_named(source.mechanism, name)
     if isinstance(found, Output):
-        raise RequestError(Sentence("picture.no_path", name=name))
+        raise RequestError("picture.no_path", name=name)
     return found

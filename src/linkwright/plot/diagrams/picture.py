@@ -57,7 +57,7 @@ def families(language: str) -> list[str]:
     chinese = chinese_font()
     if language == "zh":
         if chinese is None:
-            raise LinkwrightError(Sentence("picture.boxes", remedy=REMEDY))
+            raise LinkwrightError("picture.boxes", remedy=REMEDY)
         return [chinese, LATIN]
     return [LATIN] if chinese is None else [LATIN, chinese]
 
@@ -116,7 +116,7 @@ def style(language: str) -> Iterator[None]:
     try:
         import matplotlib
     except ImportError:
-        raise LinkwrightError(Sentence("picture.diagrams_need")) from None
+        raise LinkwrightError("picture.diagrams_need") from None
     settings: Any = {**_STYLE, "font.family": families(language)}
     with matplotlib.rc_context():
         matplotlib.rcdefaults()
@@ -144,16 +144,14 @@ class Diagram:
         wide, tall = self.figure.get_size_inches()
         if ending == ".png" and not 0 < dpi * dpi * wide * tall <= MOST_PIXELS:
             raise RequestError(
-                Sentence(
-                    "picture.bad_dots",
-                    wide=wide,
-                    tall=tall,
-                    dpi=dpi,
-                    most=int((MOST_PIXELS / (wide * tall)) ** 0.5),
-                )
+                "picture.bad_dots",
+                wide=wide,
+                tall=tall,
+                dpi=dpi,
+                most=int((MOST_PIXELS / (wide * tall)) ** 0.5),
             )
         if ending not in ENDINGS:
-            raise RequestError(Sentence("picture.no_ending", ending=ending, names=ENDINGS))
+            raise RequestError("picture.no_ending", ending=ending, names=ENDINGS)
         return self._bytes(ending[1:], dpi)
 
     def svg(self) -> str:
@@ -202,7 +200,7 @@ def _no_boxes() -> Iterator[None]:
         try:
             yield
         except UserWarning as problem:
-            raise RequestError(Sentence("picture.no_glyph", problem=problem, remedy=REMEDY)) from None
+            raise RequestError("picture.no_glyph", problem=problem, remedy=REMEDY) from None
 
 
 @contextmanager

@@ -17,7 +17,6 @@ from linkwright.plot.diagrams.panels import Curve, OverInput, Panel, look
 from linkwright.plot.diagrams.picture import COLOURS
 from linkwright.plot.diagrams.source import Extremes, Source
 from linkwright.plot.force_names import chosen_pairs
-from linkwright.words.sentence import Sentence
 
 
 @DIAGRAMS.register("reactions")
@@ -48,7 +47,7 @@ class Reactions(OverInput):
 def require_forces(forces: Forces) -> None:
     """Raises LinkwrightError where no joint carries anything."""
     if not loaded(forces):
-        raise RequestError(Sentence("picture.no_forces", name=forces.mechanism.name))
+        raise RequestError("picture.no_forces", name=forces.mechanism.name)
 
 
 def _of_all(source: Source, request: Request) -> Panel:

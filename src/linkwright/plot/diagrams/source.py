@@ -21,7 +21,6 @@ from linkwright.metrics.analysis import Analysis, Extreme, Kind
 from linkwright.plot.diagrams.axes import Unit, unit_of
 from linkwright.words import Say
 from linkwright.words.characters import one_line
-from linkwright.words.sentence import Sentence
 
 Result: TypeAlias = Mechanism | Motion | Forces | SteadyRunning
 STEPS = 720
@@ -57,7 +56,7 @@ class Source:
 
     def __init__(self, result: Result, label: str | None = None, *, static: bool = False) -> None:
         if static and isinstance(result, Forces) and not result.static:
-            raise RequestError(Sentence("picture.with_inertia"))
+            raise RequestError("picture.with_inertia")
         self.result_running = result if isinstance(result, SteadyRunning) else None
         self._forces = result if isinstance(result, Forces) else None
         self._static = static
@@ -79,7 +78,7 @@ class Source:
     def motion(self) -> Motion:
         """The motion."""
         if isinstance(self._result, SteadyRunning):
-            raise RequestError(Sentence("picture.no_motion"))
+            raise RequestError("picture.no_motion")
         if isinstance(self._result, Forces):
             return self._result.motion
         found = (
@@ -89,9 +88,7 @@ class Source:
         )
         if not found.ok.any():
             raise LinkwrightError(
-                Sentence(
-                    "picture.reaches_none", name=found.mechanism.name, sentence=found.outcomes[0].sentence
-                )
+                "picture.reaches_none", name=found.mechanism.name, sentence=found.outcomes[0].sentence
             )
         return found
 
@@ -169,9 +166,9 @@ class Source:
         """The input, or the time where drivers follow laws of their own, up to the cycle's end."""
         motion = self.motion
         if not motion.mechanism.drivers:
-            raise RequestError(Sentence("picture.no_input", name=motion.mechanism.name))
+            raise RequestError("picture.no_input", name=motion.mechanism.name)
         if motion.steps < 2:
-            raise RequestError(Sentence("picture.one_position_only", name=motion.mechanism.name))
+            raise RequestError("picture.one_position_only", name=motion.mechanism.name)
         name, driver = next(iter(motion.mechanism.drivers.items()))
         if not motion.mechanism.steady:
             end = [] if self._end is None else [self._end]

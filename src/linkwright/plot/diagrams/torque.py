@@ -13,7 +13,6 @@ from linkwright.plot.diagrams.base import DIAGRAMS, Request
 from linkwright.plot.diagrams.outputs import main_output
 from linkwright.plot.diagrams.panels import Curve, OverInput, Panel, with_mean
 from linkwright.plot.diagrams.source import Source
-from linkwright.words.sentence import Sentence
 
 
 @DIAGRAMS.register("torque")
@@ -28,7 +27,7 @@ class Torque(OverInput):
     def panels(self, source: Source, request: Request) -> list[Panel]:
         motion, forces, say = source.motion, source.forces, request.say
         if not motion.mechanism.drivers:
-            raise RequestError(Sentence("picture.no_torque", name=motion.mechanism.name))
+            raise RequestError("picture.no_torque", name=motion.mechanism.name)
         found = []
         several = len(motion.mechanism.drivers) > 1
         for name in motion.mechanism.drivers:

@@ -16,7 +16,6 @@ from linkwright.plot.drawing.labels import Label, Obstacles
 from linkwright.plot.drawing.machine import Machine
 from linkwright.plot.drawing.view import moved
 from linkwright.plot.symbols.base import SYMBOLS, Shape, Vec, placed, points, vec
-from linkwright.words.sentence import Sentence
 
 Dimension = str | tuple[str, str]
 _OFFSETS = (24.0, -24.0, 40.0, -40.0, 58.0, -58.0)
@@ -82,7 +81,7 @@ def _measures(machine: Machine, wanted: Iterable[Dimension] | bool, index: int) 
         if isinstance(each, str):
             found = list(_of_link(machine, each.removesuffix(".length"), index))
             if not found:
-                raise RequestError(Sentence("picture.no_length", link=each))
+                raise RequestError("picture.no_length", link=each)
             yield from found
         else:
             start, end = (machine.paper(*find_point(machine.motion.mechanism, name), index) for name in each)

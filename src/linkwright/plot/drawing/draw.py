@@ -31,7 +31,6 @@ from linkwright.plot.drawing.view import DIAGONAL
 from linkwright.plot.svg.element import Element, group
 from linkwright.plot.symbols.base import points
 from linkwright.words import say
-from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.kinetostatics.forces import Forces
@@ -226,7 +225,7 @@ def laid_out_beside(
 
 def _shown(motion: Motion, position: int | None, at: At | None, time: float | None) -> Shown:
     if sum(each is not None for each in (position, at, time)) > 1:
-        raise RequestError(Sentence("picture.one_position"))
+        raise RequestError("picture.one_position")
     if at is not None:
         return at_input(motion, at).checked()
     if time is not None:
@@ -239,15 +238,11 @@ def _shown(motion: Motion, position: int | None, at: At | None, time: float | No
 def _index(motion: Motion, position: int) -> int:
     if not -motion.steps <= position < motion.steps:
         raise RequestError(
-            Sentence(
-                "picture.no_position", position=position, name=motion.mechanism.name, last=motion.steps - 1
-            )
+            "picture.no_position", position=position, name=motion.mechanism.name, last=motion.steps - 1
         )
     index = int(position) % motion.steps
     if not motion.ok[index]:
-        raise LinkwrightError(
-            Sentence("picture.not_drawn", position=index, sentence=motion.outcomes[index].sentence)
-        )
+        raise LinkwrightError("picture.not_drawn", position=index, sentence=motion.outcomes[index].sentence)
     return index
 
 
@@ -260,7 +255,7 @@ def _overlay(motion: Motion, overlay: Sequence[int] | str) -> tuple[list[Shown],
         return [Shown(denser, each) for each in indices], "lw-dashed"
     if word == "faded" and rest.isdecimal() and 1 <= int(rest) <= MOST_FADED:
         return [Shown(motion, each) for each in _spread(motion, int(rest))], "lw-faded"
-    raise RequestError(Sentence("picture.bad_overlay", overlay=overlay, most=MOST_FADED))
+    raise RequestError("picture.bad_overlay", overlay=overlay, most=MOST_FADED)
 
 
 def _spread(motion: Motion, count: int) -> list[int]:

@@ -10,7 +10,6 @@ from linkwright.joints.lower import SlidingJoint
 from linkwright.kinematics.motion import Motion
 from linkwright.plot.drawing.machine import Machine
 from linkwright.plot.symbols.base import LINE, Vec
-from linkwright.words.sentence import Sentence
 
 
 def frame_indices(motion: Motion, frames: int) -> list[int]:
@@ -99,5 +98,5 @@ def _longest_stretch(ok: np.ndarray) -> tuple[int, int]:
     edges = np.flatnonzero(np.diff(np.concatenate([[0], ok.astype(int), [0]])))
     runs = [(int(a), int(b)) for a, b in zip(edges[::2], edges[1::2], strict=True)]
     if not runs:
-        raise LinkwrightError(Sentence("picture.nothing_reached"))
+        raise LinkwrightError("picture.nothing_reached")
     return max(runs, key=lambda run: run[1] - run[0])

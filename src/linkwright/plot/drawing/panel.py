@@ -15,7 +15,6 @@ from linkwright.plot.svg.element import Element, element, path
 from linkwright.plot.svg.text import text_element, width
 from linkwright.plot.symbols.base import points
 from linkwright.registry import offered
-from linkwright.words.sentence import Sentence
 
 HEIGHT, GAP, SIZE = 78.0, 26.0, 12.0
 
@@ -78,4 +77,4 @@ def named(results: Collection[Output], name: str) -> Output:
         if name in (each.column, each.heading):
             return each
     hint = offered(name, [each.column for each in results])
-    raise RequestError(Sentence("picture.no_result", name=name, hint=hint))
+    raise RequestError("picture.no_result", name=name, hint=hint)

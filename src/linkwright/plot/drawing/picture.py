@@ -15,7 +15,6 @@ from linkwright.plot.svg.element import Element, element, number
 from linkwright.plot.svg.render import png, save_picture
 from linkwright.plot.svg.text import text_element
 from linkwright.plot.svg.text import width as text_width
-from linkwright.words.sentence import Sentence
 
 MARGIN, SIZE = 12.0, 13.0
 #: Smallest and largest longer side of a drawing, pixels.
@@ -78,7 +77,7 @@ def _paper(left: float, top: float, width: float, height: float) -> Element:
 def document(content: Sequence[Element], box: Box, title: str, size: float | None) -> str:
     """A whole SVG document over a box; ``size`` is its longer side in pixels."""
     if size is not None and not SIZES[0] <= size <= SIZES[1]:
-        raise RequestError(Sentence("picture.bad_size", size=size, least=SIZES[0], most=SIZES[1]))
+        raise RequestError("picture.bad_size", size=size, least=SIZES[0], most=SIZES[1])
     left, top = box[0] - MARGIN, box[1] - MARGIN
     width, height = box[2] - left + MARGIN, box[3] - top + MARGIN
     factor = 1.0 if size is None else size / max(width, height)

@@ -13,7 +13,6 @@ from linkwright.kinematics.cycle import at_inputs
 from linkwright.kinematics.limits import LimitPosition, limit_positions
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
-from linkwright.words.sentence import Sentence
 
 At = float | Mapping[str, float]
 
@@ -29,7 +28,7 @@ class Shown:
         """The same; raises LinkwrightError where the position was not reached."""
         if not self.motion.ok[self.index]:
             sentence = self.motion.outcomes[self.index].sentence
-            raise LinkwrightError(Sentence("picture.the_position", sentence=sentence))
+            raise LinkwrightError("picture.the_position", sentence=sentence)
         return self
 
 
@@ -93,7 +92,7 @@ def limits_of(motion: Motion, output: str | None = None) -> tuple[LimitPosition,
     name = output or _last_to_and_fro(motion)
     found = limit_positions(motion, name)
     if not found:
-        raise RequestError(Sentence("picture.no_limit_positions", name=name))
+        raise RequestError("picture.no_limit_positions", name=name)
     high, low = max(found, key=lambda each: each.value), min(found, key=lambda each: each.value)
     return (high,) if high is low else (high, low)
 
@@ -111,4 +110,4 @@ def _last_to_and_fro(motion: Motion) -> str:
                 angle = motion.link(link).angle
                 if np.nanmax(angle) - np.nanmin(angle) < 1.9 * np.pi:
                     return link
-    raise RequestError(Sentence("picture.none_to_and_fro", name=motion.mechanism.name))
+    raise RequestError("picture.none_to_and_fro", name=motion.mechanism.name)

@@ -19,7 +19,6 @@ from linkwright.plot.drawing.labels import Label
 from linkwright.plot.drawing.view import View
 from linkwright.plot.force_names import Symbol, reaction_index, reaction_pairs
 from linkwright.plot.symbols.base import EMPTY, SYMBOLS, Shape, joined, vec
-from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.kinematics.motion import Motion
@@ -410,4 +409,4 @@ def _drivers(forces: Forces) -> tuple[Vectors, Torques]:
 def same_motion(motion: Motion, forces: Forces) -> None:
     """Refuse forces that belong to another motion."""
     if forces.motion is not motion:
-        raise RequestError(Sentence("picture.other_motion"))
+        raise RequestError("picture.other_motion")

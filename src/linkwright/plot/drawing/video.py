@@ -8,7 +8,6 @@ from typing import Any
 
 from linkwright.errors import LinkwrightError
 from linkwright.plot.drawing.style import COLOURS
-from linkwright.words.sentence import Sentence
 
 
 def gif(frames: Iterator[bytes], seconds_per_frame: float) -> bytes:
@@ -16,7 +15,7 @@ def gif(frames: Iterator[bytes], seconds_per_frame: float) -> bytes:
     try:
         from PIL import Image
     except ImportError:
-        raise LinkwrightError(Sentence("picture.gif_needs")) from None
+        raise LinkwrightError("picture.gif_needs") from None
     pictures = [Image.open(io.BytesIO(each)).convert("RGB") for each in frames]
     palette = Image.new("P", (1, 1))
     palette.putpalette(_palette())
@@ -47,7 +46,7 @@ def mp4(frames: Iterator[bytes], rate: int) -> bytes:
         import numpy as np
         from PIL import Image
     except ImportError:
-        raise LinkwrightError(Sentence("picture.mp4_needs")) from None
+        raise LinkwrightError("picture.mp4_needs") from None
     stream = io.BytesIO()
     with av.open(stream, "w", format="mp4") as container:
         track: Any = None

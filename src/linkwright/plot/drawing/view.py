@@ -11,7 +11,6 @@ from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.motion import Motion
 from linkwright.plot.symbols.base import Vec
-from linkwright.words.sentence import Sentence
 
 DIAGONAL = 620.0
 SHORTEST_BAR = 26.0
@@ -94,7 +93,7 @@ def fitted(motion: Motion, placed: Mapping[str, Placement], diagonal: float = DI
     everything = np.concatenate([*cloud, *pins])
     everything = everything[np.isfinite(everything).all(axis=1)]
     if not len(everything):
-        raise LinkwrightError(Sentence("picture.no_position_reached", name=mechanism.name))
+        raise LinkwrightError("picture.no_position_reached", name=mechanism.name)
     low, high = everything.min(axis=0), everything.max(axis=0)
     reach = float(np.hypot(*(high - low))) or 1.0
     scale = diagonal / reach

@@ -12,7 +12,6 @@ from linkwright.errors import RequestError
 from linkwright.plot.diagrams.base import Request, result_diagram
 from linkwright.plot.diagrams.picture import FAINT, INK, Figure
 from linkwright.plot.result_diagrams.part_axes import Line, Pane, panes, plane
-from linkwright.words.sentence import Sentence
 
 #: Points of the coloured profile, and speeds of the vibration's diagram.
 _POINTS, _SPEEDS = 1440, 240
@@ -97,7 +96,7 @@ def _coloured(result: CamDesign, request: Request) -> tuple[np.ndarray, str]:
 def draw_cam_vibration(result: CamDesign, request: Request) -> Figure:
     """What the follower does beside the cam's motion, over the speed."""
     if result.cam.elasticity is None:
-        raise RequestError(Sentence("cams.no_elasticity"))
+        raise RequestError("cams.no_elasticity")
     top = 2.0 * (result.loading.speed or 0.25 * result.own_frequency)
     speeds = np.linspace(top / _SPEEDS, top, _SPEEDS)
     left = result.residual_vibration(speeds)

@@ -16,7 +16,6 @@ from linkwright.registry import offered
 from linkwright.study.compare import Comparison
 from linkwright.study.overlay import Overlay
 from linkwright.words import say
-from linkwright.words.sentence import Sentence
 
 HODOGRAPH = "hodograph"
 #: What a motion is called and measured in, for an output that turns and for one that slides.
@@ -52,7 +51,7 @@ def draw_pivot_hodograph(result: Comparison, request: Request) -> Figure:
     """Hodographs of the reaction at the output's pivot, all alternatives from one origin, in the frame's axes."""
     overlay = next((each for each in result.curves if each.name == HODOGRAPH), None)
     if overlay is None:
-        raise RequestError(Sentence("picture.no_pivot_reactions"))
+        raise RequestError("picture.no_pivot_reactions")
     unit = unit_of("force", [values for line in overlay.lines.values() for values in line])
     figure = new_figure(request.size or (6.4, 5.4))
     axes, legend = figure.subplots(), Legend()
@@ -74,7 +73,7 @@ def _chosen(result: Comparison, names: Sequence[str]) -> list[Overlay]:
     known = {each.name: each for each in result.curves if each.name != HODOGRAPH}
     for name in names:
         if name not in known:
-            raise RequestError(Sentence("picture.no_curve", name=name, hint=offered(name, known)))
+            raise RequestError("picture.no_curve", name=name, hint=offered(name, known))
     return [known[name] for name in names or known]
 
 
@@ -82,7 +81,7 @@ def _axis(result: Comparison) -> InputAxis:
     """The input passed; raises LinkwrightError where one input turns and another slides."""
     turning = {next(iter(each.motion.positions.rotary.values())) for each in result.alternatives}
     if len(turning) > 1:
-        raise RequestError(Sentence("picture.turn_and_slide"))
+        raise RequestError("picture.turn_and_slide")
     lines = [x for x, _ in result.curves[0].lines.values()]
     return InputAxis(
         "", "angle" if turning.pop() else "length", max(lines, key=lambda x: float(np.nanmax(x)))

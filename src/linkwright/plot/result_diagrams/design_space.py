@@ -12,7 +12,6 @@ from linkwright.plot.diagrams.axes import Legend, framed, significant
 from linkwright.plot.diagrams.base import Request
 from linkwright.plot.diagrams.picture import COLOURS, Axes, Figure, new_figure
 from linkwright.plot.result_diagrams.design_table import Column, DesignTable
-from linkwright.words.sentence import Sentence
 
 FAILED = "#c0392b"
 #: From so many designs on, points would hide each other, and their number in cells is shown.
@@ -29,7 +28,7 @@ def draw_designs(table: DesignTable, request: Request) -> Figure:
     Raises LinkwrightError where nothing varies.
     """
     if not table.moving:
-        raise RequestError(Sentence("picture.same_designs"))
+        raise RequestError("picture.same_designs")
     legend = Legend()
     if len(table.moving) == 1:
         figure = _over_one(table, request, legend)

@@ -14,7 +14,6 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.plot.diagrams.axes import Unit, unit_of
 from linkwright.registry import offered
 from linkwright.study.ranges import dimension_of
-from linkwright.words.sentence import Sentence
 
 
 @dataclass(frozen=True)
@@ -75,7 +74,7 @@ def chosen(asked: tuple[str, ...], known: Mapping[str, object]) -> list[str]:
     """The metrics that are asked for, all by default; raises LinkwrightError for one that is not there."""
     for name in asked:
         if name not in known:
-            raise RequestError(Sentence("picture.no_metric", name=name, hint=offered(name, known)))
+            raise RequestError("picture.no_metric", name=name, hint=offered(name, known))
     return list(asked or known)
 
 

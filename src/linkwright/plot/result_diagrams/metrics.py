@@ -41,14 +41,14 @@ def _groups(result: MetricsTable, request: Request) -> list[Group]:
     if not names:
         first = result.names[:1]
         hint = Sentence("picture.name_one", name=first[0]) if first else Sentence("picture.no_numbers")
-        raise RequestError(Sentence("picture.no_limit", hint=hint))
+        raise RequestError("picture.no_limit", hint=hint)
     found: dict[tuple[str, str], list[MetricValue]] = {}
     for name in names:
         for row in result[name]:
             if np.isfinite(row.value):
                 found.setdefault((name, row.dimension), []).append(row)
     if not found:
-        raise RequestError(Sentence("picture.not_finite", names=names))
+        raise RequestError("picture.not_finite", names=names)
     return [(name, tuple(rows)) for (name, _), rows in found.items()]
 
 

@@ -18,7 +18,6 @@ from linkwright.plot.diagrams.source import InputAxis
 from linkwright.plot.result_diagrams.design_table import chosen
 from linkwright.study.ranges import dimension_of
 from linkwright.study.sensitivity import Sensitivity
-from linkwright.words.sentence import Sentence
 
 #: Steps in which a dimension that is zero is changed, with their texts, by its kind.
 _STEPS = {"length": (1e-3, "1 mm"), "angle": (math.radians(1.0), "1°")}
@@ -34,7 +33,7 @@ def draw_sensitivity(result: Sensitivity, request: Request) -> Figure:
     names = chosen(request.of, known)
     table = {name: result.relative(known[name].output, known[name].kind) for name in names}
     if not any(np.isfinite(row).any() for row in table.values()):
-        raise RequestError(Sentence("picture.zero_summaries"))
+        raise RequestError("picture.zero_summaries")
     figure = new_figure(request.size or (7.2, 1.3 + len(result.by) * (0.22 + 0.16 * len(names))))
     axes, legend = figure.subplots(), Legend()
     places, thick = np.arange(len(result.by)), 0.8 / len(names)
@@ -66,7 +65,7 @@ def _axis(result: Sensitivity) -> InputAxis:
     from linkwright.kinematics.cycle import over_cycle
 
     if len(result.input) < 2:
-        raise RequestError(Sentence("picture.no_curves_here", name=result.mechanism.name))
+        raise RequestError("picture.no_curves_here", name=result.mechanism.name)
     turning = next(iter(over_cycle(result.mechanism, 1).rotary.values()))
     return InputAxis("", "angle" if turning else "length", result.input)
 

@@ -12,7 +12,6 @@ from typing import Any
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.plot.svg.text import check_fonts
 from linkwright.whole_files import write_whole
-from linkwright.words.sentence import Sentence
 
 Paths = Sequence[str | Path]
 #: Most pixels of one picture, and smallest width.
@@ -29,7 +28,7 @@ def png(svg: str, *, width: int | None = None, zoom: float = 2.0, fonts: Paths =
     try:
         import resvg_py
     except ImportError:
-        raise LinkwrightError(Sentence("picture.png_needs")) from None
+        raise LinkwrightError("picture.png_needs") from None
     files = _font_files(fonts)
     check_fonts(svg, files)
     check_width(width, *natural_size(svg), zoom)
@@ -44,7 +43,7 @@ def png(svg: str, *, width: int | None = None, zoom: float = 2.0, fonts: Paths =
             )
         )
     except ValueError as problem:
-        raise RequestError(Sentence("picture.cannot_be_made", problem=problem)) from None
+        raise RequestError("picture.cannot_be_made", problem=problem) from None
 
 
 def check_width(width: int | None, wide: float, tall: float, zoom: float = 1.0) -> None:
@@ -52,7 +51,7 @@ def check_width(width: int | None, wide: float, tall: float, zoom: float = 1.0) 
     across = zoom * wide if width is None else float(width)
     most = math.floor(math.sqrt(MOST_PIXELS * wide / tall))
     if not LEAST_WIDTH <= across <= most:
-        raise RequestError(Sentence("picture.bad_width", across=across, least=LEAST_WIDTH, most=most))
+        raise RequestError("picture.bad_width", across=across, least=LEAST_WIDTH, most=most)
 
 
 def natural_size(svg: str) -> tuple[float, float]:
@@ -68,7 +67,7 @@ def pdf(svg: str, *, fonts: Paths = ()) -> bytes:
     try:
         typst: Any = importlib.import_module("typst")
     except ImportError:
-        raise LinkwrightError(Sentence("picture.pdf_needs")) from None
+        raise LinkwrightError("picture.pdf_needs") from None
     files = _font_files(fonts)
     check_fonts(svg, files)
     source = (
@@ -87,12 +86,12 @@ def save_picture(svg: str, path: str | Path, **options: Any) -> Path:
         return write_whole(path, png(svg, **options))
     if suffix == ".pdf":
         return write_whole(path, pdf(svg, **options))
-    raise RequestError(Sentence("picture.no_picture_suffix", path=path, suffix=suffix))
+    raise RequestError("picture.no_picture_suffix", path=path, suffix=suffix)
 
 
 def _font_files(fonts: Paths) -> list[Path]:
     files = [Path(font) for font in fonts]
     for file in files:
         if not file.is_file():
-            raise RequestError(Sentence("picture.no_font_file", file=file))
+            raise RequestError("picture.no_font_file", file=file)
     return files

@@ -133,6 +133,6 @@ def check_fonts(text: str, given: Sequence[Path]) -> None:
     if given:
         return
     if needs_chinese(text) and not chinese_fonts(system_fonts()):
-        raise RequestError(Sentence("picture.no_chinese_font", remedy=remedy))
+        raise RequestError("picture.no_chinese_font", remedy=remedy)
     if "<text" in text and not system_fonts():
-        raise LinkwrightError(Sentence("picture.no_font", remedy=remedy))
+        raise LinkwrightError("picture.no_font", remedy=remedy)

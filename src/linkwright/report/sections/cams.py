@@ -18,7 +18,6 @@ from linkwright.report.case import Case, Missing
 from linkwright.report.document import Block, Heading, Paragraph, Table, literal
 from linkwright.report.section import section
 from linkwright.words import has
-from linkwright.words.sentence import Sentence
 
 
 @section("cams", 8.6, optional=True)
@@ -26,7 +25,7 @@ def blocks(case: Case) -> Iterator[Block]:
     """Every cam with its motion program, its profile, and the checks that a cam is designed by."""
     joints = [joint for joint in case.mechanism.joints.values() if isinstance(joint, CamJoint)]
     if not joints:
-        raise Missing(Sentence("report.no_cams"))
+        raise Missing("report.no_cams")
     for joint in joints:
         cam = cam_of(case.mechanism, joint.name, speed=_speed(case, joint))
         yield Heading(literal(joint.name), 2)

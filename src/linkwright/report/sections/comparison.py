@@ -9,7 +9,6 @@ from linkwright.report.case import Case, Missing
 from linkwright.report.document import Block, Figure, Heading, Paragraph, Table, literal
 from linkwright.report.section import section
 from linkwright.study.evaluation import evaluation, ranking, table_rows
-from linkwright.words.sentence import Sentence
 
 
 @section("comparison", 20.0, optional=True, common=True)
@@ -18,7 +17,7 @@ def blocks(cases: Sequence[Case]) -> Iterator[Block]:
     from linkwright.study.compare import compare
 
     if len(cases) < 2:
-        raise Missing(Sentence("report.one_machine"))
+        raise Missing("report.one_machine")
     first = cases[0]
     say = first.say
     found = compare([case.mechanism for case in cases], fluctuation=first.settings.fluctuation)

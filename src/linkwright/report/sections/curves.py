@@ -8,7 +8,6 @@ from linkwright.errors import LinkwrightError
 from linkwright.report.case import Case, Missing
 from linkwright.report.document import Block, Figure, Paragraph, literal
 from linkwright.report.section import section
-from linkwright.words.sentence import Sentence
 
 KINDS = ("sva", "angles", "paths")
 #: Share of the text's width of a diagram, and its height, mm: two of them share a page.
@@ -19,7 +18,7 @@ SHARE, TALLEST = 0.78, 104.0
 def blocks(case: Case) -> Iterator[Block]:
     """Diagrams of the motion."""
     if not case.mechanism.drivers:
-        raise Missing(Sentence("report.no_motion"))
+        raise Missing("report.no_motion")
     yield Paragraph(case.say("report.curves_text"))
     yield from pictures(case, KINDS)
 

@@ -7,7 +7,6 @@ from collections.abc import Iterator
 from linkwright.report.case import Case, Missing
 from linkwright.report.document import Block, Paragraph, Table, literal
 from linkwright.report.section import section
-from linkwright.words.sentence import Sentence
 
 
 @section("errata", 13.0, optional=True)
@@ -15,7 +14,7 @@ def blocks(case: Case) -> Iterator[Block]:
     """What is printed in the source, what is right, and why."""
     say, found = case.say, case.settings.errata
     if not found:
-        raise Missing(Sentence("report.no_errata"))
+        raise Missing("report.no_errata")
     yield Paragraph(say("report.errata_text", source=literal(case.origin or "–")))
     head = tuple(say(f"report.{key}") for key in ("where", "printed", "right", "why"))
     rows = tuple(tuple(map(literal, (e.where, e.printed, e.right, e.why))) for e in found)

@@ -13,7 +13,6 @@ from linkwright.report.case import Case, Missing
 from linkwright.report.document import Block, Figure, Formula, Heading, Paragraph, Table, literal
 from linkwright.report.section import section
 from linkwright.structure.trains import GearTrain, written
-from linkwright.words.sentence import Sentence
 from linkwright.worked.symbols import tex
 
 
@@ -24,7 +23,7 @@ def blocks(case: Case) -> Iterator[Block]:
     found = {joint.name: joint.wheel_sizes(mechanism) for joint in mechanism.joints.values()}
     pairs = {name: sizes for name, sizes in found.items() if sizes is not None}
     if not pairs:
-        raise Missing(Sentence("report.no_gears"))
+        raise Missing("report.no_gears")
     yield Paragraph(case.say("report.gears_text"))
     yield _sizes(case, pairs)
     for train in case.structure.trains:

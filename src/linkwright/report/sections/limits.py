@@ -9,7 +9,6 @@ from linkwright.metrics.quantities import number
 from linkwright.report.case import Case, Missing
 from linkwright.report.document import Block, Formula, Paragraph, Table, literal
 from linkwright.report.section import section
-from linkwright.words.sentence import Sentence
 
 #: Numbers that other sections print.
 ELSEWHERE = ("peak_reaction", "rms_reaction", "flywheel")
@@ -23,7 +22,7 @@ def blocks(case: Case) -> Iterator[Block]:
     say = case.say
     rows = [row for row in case.metrics if row.metric not in ELSEWHERE]
     if not rows:
-        raise Missing(Sentence("report.no_numbers"))
+        raise Missing("report.no_numbers")
     yield Paragraph(say("report.limits_text"))
     yield from _quick_return(case, rows)
     for metric in dict.fromkeys(row.metric for row in rows):

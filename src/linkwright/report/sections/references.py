@@ -13,7 +13,6 @@ from linkwright.report.case import Case, Missing
 from linkwright.report.document import Block, Paragraph, Table, literal
 from linkwright.report.section import section
 from linkwright.structure.group import Group
-from linkwright.words.sentence import Sentence
 
 
 @section("references", 31.0, common=True)
@@ -26,7 +25,7 @@ def blocks(cases: Sequence[Case]) -> Iterator[Block]:
         for group in _groups(case):
             found.update(dict.fromkeys(_of_group(group.signature)))
     if not found:
-        raise Missing(Sentence("report.no_references"))
+        raise Missing("report.no_references")
     for number, source in enumerate(found, 1):
         yield Paragraph(literal(f"[{number}] {source}"))
     yield from _definitions(cases)

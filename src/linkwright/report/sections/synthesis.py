@@ -7,7 +7,6 @@ from collections.abc import Iterator
 from linkwright.report.case import Case, Missing
 from linkwright.report.document import Block, Paragraph, literal
 from linkwright.report.section import section
-from linkwright.words.sentence import Sentence
 
 
 @section("synthesis", 12.0, optional=True)
@@ -16,7 +15,7 @@ def blocks(case: Case) -> Iterator[Block]:
     from linkwright.synthesis.tasks import synthesize
 
     if not case.mechanism.synthesis or not case.source:
-        raise Missing(Sentence("report.no_synthesis"))
+        raise Missing("report.no_synthesis")
     found = synthesize(case.source)
     for line in found.text(case.language).splitlines():
         if line.strip():

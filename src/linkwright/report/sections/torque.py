@@ -11,14 +11,13 @@ from linkwright.report.document import Block, Formula, Paragraph, Table
 from linkwright.report.numbers import column, small, typeset
 from linkwright.report.section import section
 from linkwright.report.sections.curves import pictures
-from linkwright.words.sentence import Sentence
 
 
 @section("torque", 9.0)
 def blocks(case: Case) -> Iterator[Block]:
     """Effort from the joint forces beside effort from the powers of all forces."""
     if not case.mechanism.drivers:
-        raise Missing(Sentence("report.no_motion"))
+        raise Missing("report.no_motion")
     say, forces, numbered = case.say, case.forces, case.numbered
     unit = "N·m" if case.rotary else "N"
     letter = "M" if case.rotary else "F"

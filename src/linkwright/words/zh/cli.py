@@ -42,8 +42,6 @@ Linkwright 读取描述平面机构的简短文本文件，回答设计者的问
     "unknown_command": "没有命令“{name}”",
     "unknown_option": "没有选项“{name}”",
     "unknown_argument": "此处不应有参数“{name}”",
-    "did_you_mean": "；是不是“{name}”？",
-    "see_help": "；参见 {command} --help",
     "missing": "缺少 {names}",
     "needs_value": "{name} 需要一个值",
     "bad_choice": "{name} 不能是“{value}”；可选：{choices}",
