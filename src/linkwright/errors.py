@@ -76,15 +76,6 @@ class RequestError(LinkwrightError):
     """What was asked for does not exist or is out of range: the call is wrong, not the model."""
 
 
-@contextmanager
-def about(name: str, kind: type[LinkwrightError] = RequestError) -> Iterator[None]:
-    """Errors of the user inside become errors of a kind that begin with a name: of an option, of a key."""
-    try:
-        yield
-    except LinkwrightError as error:
-        raise kind("cli.about", name=name, cause=error) from None
-
-
 class ModelError(LinkwrightError):
     """A model that cannot be used; ``findings`` lists every remark, not only the first."""
 
@@ -115,3 +106,17 @@ def require_language(language: str) -> None:
     """Raises RequestError for a language without words."""
     if language not in LANGUAGES:
         raise RequestError("names.no_language", language=language, languages=tuple(LANGUAGES))
+
+
+@contextmanager
+def about(
+    name: str, kind: type[LinkwrightError] = RequestError, of: type[LinkwrightError] = QuantityError
+) -> Iterator[None]:
+    """Errors inside become errors of a kind that begin with a name, of an option or a key.
+
+    ``of``: the errors that do.
+    """
+    try:
+        yield
+    except of as error:
+        raise kind("cli.about", name=name, cause=error) from None

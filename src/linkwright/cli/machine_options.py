@@ -12,7 +12,7 @@ from linkwright import units
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import did_you_mean, number_of
 from linkwright.core.dataclass import dataclass
-from linkwright.errors import about
+from linkwright.errors import LinkwrightError, about
 from linkwright.machine.flywheel import FlywheelSize, disk, flywheel_inertia, on_faster_shaft, rim
 from linkwright.machine.motor import motor
 from linkwright.machine.torque_curve import TURN, TorqueCurve
@@ -174,5 +174,5 @@ def _checked(option: str, trial: Callable[[], object], given: object = True) -> 
     """Runs what refuses a value out of range; raises UsageError with the option's name."""
     if given is None:
         return
-    with about(option, UsageError):
+    with about(option, UsageError, LinkwrightError):
         trial()

@@ -9,7 +9,7 @@ from pathlib import Path
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options, whole_number
 from linkwright.cli.session import Session
-from linkwright.errors import about
+from linkwright.errors import LinkwrightError, about
 from linkwright.kinematics.motion import Motion
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import no_such
@@ -65,7 +65,7 @@ def refuse_unknown(find: Callable[[str], object], option: str, given: Sequence[s
     """Raises UsageError where ``find`` does not know a name that follows an option."""
 
     for name in given:
-        with about(option, UsageError):
+        with about(option, UsageError, LinkwrightError):
             find(name)
 
 

@@ -8,7 +8,7 @@ from dataclasses import replace
 from linkwright.cli.columns import Column
 from linkwright.cli.errors import UsageError
 from linkwright.cli.solving import Solved
-from linkwright.errors import about
+from linkwright.errors import LinkwrightError, about
 from linkwright.kinematics.motion import Motion
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.structure import Structure
@@ -47,7 +47,7 @@ def blocks(solved: Solved, columns: Mapping[str, Column], points: Iterable[str])
 
 def point_keys(motion: Motion, names: Sequence[str] | None) -> list[str]:
     """Names that the columns have for points that are asked for; raises UsageError for an unknown one."""
-    with about("--points", UsageError):
+    with about("--points", UsageError, LinkwrightError):
         return [motion.point(name).name for name in names or ()]
 
 

@@ -8,11 +8,10 @@ from typing import TYPE_CHECKING, Any
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
-from linkwright.errors import about
+from linkwright.errors import LinkwrightError, about
 from linkwright.words import say
 
 if TYPE_CHECKING:
-    from linkwright.errors import LinkwrightError
     from linkwright.mechanism.mechanism import Mechanism
     from linkwright.metrics.base import MetricValue
     from linkwright.metrics.table import MetricsTable
@@ -64,7 +63,7 @@ def _names(texts: list[str] | None) -> list[str] | None:
     if not all(names):
         raise UsageError("metrics.no_names", text=" ".join(texts))
     for name in names:
-        with about("--names", UsageError):
+        with about("--names", UsageError, LinkwrightError):
             METRICS[name]
     return names
 
@@ -73,7 +72,7 @@ def _evaluated(
     mechanism: Mechanism, names: list[str] | None, options: argparse.Namespace
 ) -> tuple[MetricsTable, LinkwrightError | None]:
     """The numbers, and why there are no forces where they failed."""
-    from linkwright.errors import LinkwrightError, RequestError
+    from linkwright.errors import RequestError
     from linkwright.kinematics.solve import solve_motion
     from linkwright.kinetostatics.forces import solve_forces
     from linkwright.metrics import metrics

@@ -12,7 +12,7 @@ from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options
 from linkwright.cli.positions import quantities
 from linkwright.cli.session import Session
-from linkwright.errors import about
+from linkwright.errors import LinkwrightError, about
 
 if TYPE_CHECKING:
     from linkwright.kinematics.motion import Motion
@@ -61,7 +61,7 @@ def _require_kind(options: argparse.Namespace) -> None:
     from linkwright.plot.diagrams.diagram_by_name import require_kind, require_options
 
     option = "kind"
-    with about(f"--{option}", UsageError):
+    with about(f"--{option}", UsageError, LinkwrightError):
         require_kind(options.kind)
         for option in OPTIONS:
             if getattr(options, option):
@@ -81,7 +81,6 @@ def _path(options: argparse.Namespace) -> Path:
 def _solved(options: argparse.Namespace, session: Session) -> dict[str, Motion]:
     """The motion of every model by a name that tells it from the others; says how far the work is."""
     from linkwright.cli.source import read_model
-    from linkwright.errors import LinkwrightError
     from linkwright.kinematics.solve import solve_motion
 
     found: dict[str, Motion] = {}
