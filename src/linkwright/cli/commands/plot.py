@@ -60,11 +60,11 @@ def _require_kind(options: argparse.Namespace) -> None:
     from linkwright.plot.diagrams.base import OPTIONS
     from linkwright.plot.diagrams.diagram_by_name import require_kind, require_options
 
-    option = "kind"
-    with about(f"--{option}", UsageError, LinkwrightError):
+    with about("--kind", UsageError, LinkwrightError):
         require_kind(options.kind)
-        for option in OPTIONS:
-            if getattr(options, option):
+    for option in OPTIONS:
+        if getattr(options, option):
+            with about(f"--{option}", UsageError, LinkwrightError):
                 require_options(options.kind, [option])
 
 
