@@ -892,10 +892,13 @@ def test_saving_asks_before_it_overwrites_and_a_drag_that_the_file_refuses_goes_
         agreed = "() => desk.session.value?.data.text === desk.text.value"
         tab.wait_for_function(agreed)
         tab.locator("summary", has_text="Show").click()
+        tab.evaluate("() => (window.before = desk.session.value, null)")
         tab.locator('.handle[data-key="O2"]').focus()
         tab.keyboard.press("Shift+ArrowRight")
         tab.locator(".said", has_text="the external pair needs 0.18 m").wait_for()
+        tab.wait_for_function("() => desk.session.value !== before")
         tab.wait_for_function(agreed)
+        tab.evaluate("() => new Promise((go) => requestAnimationFrame(() => requestAnimationFrame(go)))")
         field = tab.get_by_label("Value of c1.length")
         for wrong, limit in (("", False), ("-5", True)):
             field.evaluate(
