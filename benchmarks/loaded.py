@@ -11,12 +11,12 @@ from benchmarks.cases import sixbar
 from benchmarks.sweeps import SweepWork
 from benchmarks.timing import Candidate
 from linkwright.core.outputs import Output
+from linkwright.cycle_programs.metric_cycle import MetricCycle, metric_cycle
+from linkwright.cycle_programs.terms import Asked
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.metrics import METRICS
 from linkwright.metrics.summary import wanted
-from linkwright.study.metric_cycle import MetricCycle, metric_cycle
 from linkwright.study.sweep_run import Manner, SweepRun
-from linkwright.study.terms import Asked
 
 PLAIN, ALL, STUDIED = (
     "six-bar without load, six metrics",

@@ -12,9 +12,9 @@ from benchmarks import by_numpy
 from benchmarks.cases import sixbar
 from benchmarks.kernels_alone import HAND
 from benchmarks.timing import Candidate
+from linkwright.cycle_programs.metric_cycle import MetricCycle, metric_cycle
 from linkwright.kinematics.motion import Rows
 from linkwright.metrics import METRICS
-from linkwright.study.metric_cycle import MetricCycle, metric_cycle
 
 METRICS_OF, RUNNING, COMPARED, STUDIED = (
     "metrics",

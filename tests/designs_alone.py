@@ -15,10 +15,10 @@ import numpy as np
 from tests.invariants.test_friction_of_designs import rubbing
 
 import linkwright as lw
+from linkwright.cycle_programs.terms import measured
 from linkwright.errors import LinkwrightError
 from linkwright.metrics import METRICS, Analysis
 from linkwright.study.design_numbers import side_by_side
-from linkwright.study.terms import measured
 
 FACTORS = np.array([1.0, 1.002, 0.998])
 MANY = 64

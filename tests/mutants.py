@@ -32,7 +32,7 @@ from tests.mutation.trial import killed, preload
 
 PACKAGES = (
     "kinematics", "groups", "structure", "kinetostatics", "loads", "drivers", "joints", "metrics", "machine",
-    "engine", "study", "units.py",
+    "engine", "cycle_programs", "study", "units.py",
 )  # fmt: skip
 EQUIVALENT = Path(__file__).parent / "equivalent_mutants.txt"
 WANTED = 0.9

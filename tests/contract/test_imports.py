@@ -35,6 +35,7 @@ STAGES = (
     ("kinematics",),
     ("kinetostatics",),
     ("metrics", "machine", "worked"),
+    ("cycle_programs",),
     ("study", "optimisation", "synthesis", "cams", "gears", "parts", "tolerance"),
     ("report", "plot", "export", "page", "validation", "course"),
     ("cli", "server", "__main__"),

@@ -10,11 +10,11 @@ from tests.invariants.test_friction_of_designs import dense
 
 import linkwright as lw
 from linkwright.core.arrays import Floats
+from linkwright.cycle_programs.metric_cycle import metric_cycle
+from linkwright.cycle_programs.terms import measured
 from linkwright.files.model_file import read_text
 from linkwright.metrics import METRICS, Analysis
 from linkwright.study.design_numbers import numbers_of
-from linkwright.study.metric_cycle import metric_cycle
-from linkwright.study.terms import measured
 
 GEARED = """
 format: 1

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 import linkwright as lw
+from linkwright.cycle_programs.change_points import ChangePoints, near_enough
+from linkwright.cycle_programs.traced import Traced
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinematics.passing import NEAR
-from linkwright.study.change_points import ChangePoints, near_enough
-from linkwright.study.traced import Traced
 
 FOURBAR = """
 format: 1
@@ -57,7 +57,7 @@ def test_blocks_of_designs_and_compiled_ones_are_numbered_through(monkeypatch: p
     text = FOURBAR.replace("SPEED", "3").replace("START", "5")
     frames = [4.0, 5.0, 4.0, 4.0, 4.5, 5.0, 4.0]
     assert found(text, "frame.Q.x", frames, 36, "llvm") == [1, 5]
-    monkeypatch.setattr("linkwright.study.change_points.BLOCK", 3)
+    monkeypatch.setattr("linkwright.cycle_programs.change_points.BLOCK", 3)
     assert found(text, "frame.Q.x", frames, 36) == [1, 5]
     assert found(text, "frame.Q.x", [], 36) == []
 

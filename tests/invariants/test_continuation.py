@@ -13,6 +13,7 @@ from tests.reference.test_branch_cases import STEPHENSON
 from tests.reference.test_branches import fault
 
 import linkwright as lw
+from linkwright.cycle_programs import iterated_groups
 from linkwright.kinematics.assembly import AssemblyError
 from linkwright.kinematics.between import Between
 from linkwright.kinematics.branch import CORRECTION, MISFIT, Branch, Way, _Walk, follow, straight
@@ -23,7 +24,6 @@ from linkwright.kinematics.design import Design
 from linkwright.kinematics.explain import branch_notes
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solver import MotionSolver
-from linkwright.study import iterated_groups
 
 Floats = NDArray[np.float64]
 

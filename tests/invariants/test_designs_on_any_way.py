@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 import linkwright as lw
+from linkwright.cycle_programs.metric_cycle import metric_cycle
+from linkwright.cycle_programs.terms import Term, term
 from linkwright.metrics import METRICS, Analysis, metrics
-from linkwright.study.metric_cycle import metric_cycle
-from linkwright.study.terms import Term, term
 
 #: Machines with what varies: an expression, a table and an expression of three cylinders, a part of a turn, two
 #: drivers of speeds 1 : -2, a driven slide.

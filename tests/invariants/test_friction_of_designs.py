@@ -8,9 +8,9 @@ import pytest
 from tests.reference.random_mechanisms import random_mechanism
 
 import linkwright as lw
+from linkwright.cycle_programs.metric_cycle import metric_cycle
+from linkwright.cycle_programs.one_by_one import OneByOne
 from linkwright.metrics import Analysis
-from linkwright.study.metric_cycle import metric_cycle
-from linkwright.study.one_by_one import OneByOne
 from linkwright.study.prepared import Prepared
 
 STEPS = 48

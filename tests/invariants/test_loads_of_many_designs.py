@@ -5,6 +5,9 @@ import pytest
 
 import linkwright as lw
 from linkwright.core.outputs import Output
+from linkwright.cycle_programs.limit_stages import constants, limit_stages, near_limits
+from linkwright.cycle_programs.metric_cycle import metric_cycle
+from linkwright.cycle_programs.traced import Traced
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.kinematics.cycle import over_cycle
@@ -13,10 +16,7 @@ from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinetostatics.run import forces_at_once, run_forces
 from linkwright.metrics import metrics
 from linkwright.metrics.summary import wanted
-from linkwright.study.limit_stages import constants, limit_stages, near_limits
-from linkwright.study.metric_cycle import metric_cycle
 from linkwright.study.sweep_run import Manner, SweepRun
-from linkwright.study.traced import Traced
 
 MODEL = """
 format: 1

@@ -7,7 +7,7 @@ import pytest
 from tests.unit.test_load_magnitudes import SLIDER
 
 import linkwright as lw
-from linkwright.study.one_by_one import OneByOne
+from linkwright.cycle_programs.one_by_one import OneByOne
 
 GALLERY = files("linkwright.gallery")
 TO_AND_FRO, UNEVEN, SEVERAL_TURNS = (

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 import linkwright as lw
+from linkwright.cycle_programs.metric_cycle import metric_cycle
 from linkwright.metrics import METRICS, metrics
 from linkwright.metrics.base import METRICS as REGISTRY
 from linkwright.metrics.base import Metric, Number
-from linkwright.study.metric_cycle import metric_cycle
 
 NAMES = [name for name, metric in METRICS.items() if not metric.on_request]
 

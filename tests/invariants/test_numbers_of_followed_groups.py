@@ -8,9 +8,9 @@ import pytest
 
 import linkwright as lw
 from linkwright.core.arrays import Floats
+from linkwright.cycle_programs.terms import measured
 from linkwright.metrics import METRICS, Analysis
 from linkwright.study.design_numbers import side_by_side
-from linkwright.study.terms import measured
 
 PHASE = "{of: plate, from: min, to: max}"
 PUSH = f"{{kind: force, on: plate, at: R, direction: 90 deg, ramp: [50 N, 200 N], phase: {PHASE}}}"

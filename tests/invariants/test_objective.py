@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.study.path_curvature import path_curvature
+from linkwright.cycle_programs.path_curvature import path_curvature
 
 SIXBAR = "gallery:jaw_crusher_sixbar"
 LENGTHS = ["crank.length", "pitman.length", "rocker.length", "toggle.length", "jaw.length"]

@@ -10,9 +10,9 @@ from scipy.optimize import brentq
 from scipy.special import ellipkm1
 
 import linkwright as lw
+from linkwright.cycle_programs.metric_cycle import metric_cycle
 from linkwright.machine import equivalent_inertia, steady_running, true_speed
 from linkwright.metrics import METRICS, metrics
-from linkwright.study.metric_cycle import metric_cycle
 
 OWN = ["speed_fluctuation", "slowest_speed", "fastest_speed"]
 SIZED = ["exact_flywheel", "reached_fluctuation"]

@@ -12,6 +12,8 @@ import pytest
 from tests.ui.node import in_node, needs_node, work
 
 import linkwright as lw
+from linkwright.cycle_programs.loaded_cycle import loaded_cycle
+from linkwright.cycle_programs.traced import Traced
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
@@ -24,8 +26,6 @@ from linkwright.engine.wasm import wasm_module
 from linkwright.gallery import names
 from linkwright.kinetostatics.run import run_forces
 from linkwright.kinetostatics.solver import ForceSolver
-from linkwright.study.loaded_cycle import loaded_cycle
-from linkwright.study.traced import Traced
 
 pytestmark = needs_node
 CLOSE = 1e-12

@@ -9,6 +9,7 @@ import pytest
 from tests.invariants.test_certificate import SLOTTED
 
 import linkwright as lw
+from linkwright.cycle_programs.traced import Traced
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
 from linkwright.engine.vector import Vec
@@ -16,7 +17,6 @@ from linkwright.kinematics.branch import CORRECTION, MISFIT
 from linkwright.kinematics.cycle import at_times
 from linkwright.kinematics.step_rule import LARGEST, StepRule, _angle
 from linkwright.mechanism.geometry import mechanism_size
-from linkwright.study.traced import Traced
 
 BEGIN = 0.21
 

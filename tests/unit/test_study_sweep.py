@@ -9,10 +9,10 @@ import pytest
 from numpy.typing import NDArray
 
 import linkwright as lw
+from linkwright.cycle_programs.one_by_one import OneByOne
 from linkwright.engine.sweep import Backend
 from linkwright.study import sweep
 from linkwright.study.designs import sweep_curves
-from linkwright.study.one_by_one import OneByOne
 
 Floats = NDArray[np.float64]
 

@@ -156,14 +156,13 @@ def parts(solver: MotionSolver, positions: Positions) -> int:
     mechanism, ways = solver.mechanism, positions
     step = _step(positions)
     if any(driver.law.constant_speed is None for driver in mechanism.drivers.values()):
-        span = step * (positions.count if positions.closed else positions.count - 1)
+        span = step * positions.steps
         ways = at_times(mechanism, positions.time[0] + span * np.linspace(0.0, 1.0, SAMPLES + 1))
     farthest = max(
         pace * abs(step) / (1.0 if positions.rotary[name] else mechanism.size)
         for name, pace in ways.paces.items()
     )
-    steps = positions.count if positions.closed else positions.count - 1
-    wanted = max(ceil(farthest / FINE - 1e-9), ceil(FEWEST / max(steps, 1)))
+    wanted = max(ceil(farthest / FINE - 1e-9), ceil(FEWEST / positions.steps))
     return min(wanted, max(MOST // positions.count, 1))
 
 

@@ -58,6 +58,11 @@ class Positions:
         """Number of positions."""
         return len(self.time)
 
+    @property
+    def steps(self) -> int:
+        """The number of steps from which the positions of a cycle were made."""
+        return max(1, self.count if self.closed else self.count - 1)
+
     @cached_property
     def paces(self) -> dict[str, float]:
         """The largest rate of every driver, rad/s or m/s."""

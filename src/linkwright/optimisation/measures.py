@@ -13,6 +13,7 @@ from linkwright import units
 from linkwright.core.arrays import Floats
 from linkwright.core.expressions import Expression, parse
 from linkwright.core.outputs import Output
+from linkwright.cycle_programs.terms import OWN, Asked, Term, metric_of
 from linkwright.engine.machine_code import available
 from linkwright.engine.stage import Backend
 from linkwright.engine.trace import Scalar
@@ -31,7 +32,6 @@ from linkwright.study.cluster import current, in_turn
 from linkwright.study.criteria import criterion
 from linkwright.study.design_numbers import Numbers, side_by_side
 from linkwright.study.kept import identity, surrounding
-from linkwright.study.terms import OWN, Asked, Term, metric_of
 from linkwright.study.vary import refuse_moved_positions
 
 #: Designs that a worker of a cluster takes at a time where they go one by one.

@@ -10,11 +10,11 @@ import numpy as np
 
 from linkwright import units
 from linkwright.core.arrays import Floats, Indices
+from linkwright.cycle_programs.path_curvature import path_curvature
 from linkwright.engine.stage import Backend
 from linkwright.errors import QuantityError
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.study.objective import Part, PathError, of_path
-from linkwright.study.path_curvature import path_curvature
 from linkwright.words.sentence import Sentence
 
 #: Designs that one thread takes.

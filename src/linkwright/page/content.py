@@ -17,6 +17,7 @@ import numpy as np
 from linkwright.core.inputs import mode_inputs
 from linkwright.core.outputs import row_name
 from linkwright.core.plain import Plain
+from linkwright.cycle_programs.loaded_cycle import SIZES
 from linkwright.engine.javascript import javascript
 from linkwright.engine.portable import Kernels
 from linkwright.engine.wasm import wasm_module
@@ -34,7 +35,6 @@ from linkwright.page.programs import PagePrograms
 from linkwright.page.quantities import numbers, point_keys, signals, usual_curves
 from linkwright.plot.drawing.machine import Machine
 from linkwright.plot.drawing.view import fitted, placements
-from linkwright.study.loaded_cycle import SIZES
 from linkwright.words import LANGUAGES, catalogue, say
 
 #: What of a position's outcome a page can find itself.

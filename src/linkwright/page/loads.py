@@ -40,7 +40,7 @@ def _ramp(load: Load) -> bool:
 
 
 def traced_names(loads: Iterable[Load], motion: Motion) -> frozenset[str]:
-    """The loads as :class:`linkwright.study.traced.Traced` takes them: wholly traced, or but for their phases."""
+    """The loads as :class:`linkwright.cycle_programs.traced.Traced` takes them: wholly, or but for their phases."""
     return frozenset(
         f"{ACTS}:{each.name}" if _phase_per_position(each, motion) else each.name for each in loads
     )

@@ -11,6 +11,10 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.inputs import mode_groups
 from linkwright.core.outputs import SLIDE, owners_of, row_name, row_names
+from linkwright.cycle_programs.iterated_groups import ITERATIONS
+from linkwright.cycle_programs.limit_stages import constants, limit_stages
+from linkwright.cycle_programs.loaded_cycle import SIZES, along_input
+from linkwright.cycle_programs.traced import Traced
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.program import Program
 from linkwright.engine.stage import Stage
@@ -32,10 +36,6 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.page.dimensions import geometry_addresses
 from linkwright.page.loads import angles, fields, found_again, phases, traced_names
 from linkwright.structure.group import Group
-from linkwright.study.iterated_groups import ITERATIONS
-from linkwright.study.limit_stages import constants, limit_stages
-from linkwright.study.loaded_cycle import SIZES, along_input
-from linkwright.study.traced import Traced
 
 STEPS = 360
 

@@ -13,6 +13,7 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
+from linkwright.cycle_programs.terms import Asked, pivot
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.files.model_file import load
 from linkwright.kinematics.motion import Motion
@@ -24,7 +25,6 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import Analysis
 from linkwright.metrics.outputs import mechanism_outputs
 from linkwright.registry import offered
-from linkwright.study.terms import Asked, pivot
 from linkwright.words.sentence import Sentence
 
 #: A mean torque of this share of the largest one is zero but for rounding.

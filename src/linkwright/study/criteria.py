@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
+from linkwright.cycle_programs.terms import OWN, governing, metric_of, own, term
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.metrics import METRICS, Metric, MetricValue
 from linkwright.metrics.base import Number
@@ -14,7 +15,6 @@ from linkwright.metrics.flywheel import SIZED
 from linkwright.metrics.summary import is_summary, wanted
 from linkwright.registry import offered
 from linkwright.study.alternatives import Alternative
-from linkwright.study.terms import OWN, governing, metric_of, own, term
 from linkwright.words import say
 from linkwright.words.sentence import Sentence
 

@@ -8,6 +8,10 @@ from typing import TypeAlias
 import numpy as np
 
 from linkwright.core.arrays import Floats, Indices
+from linkwright.cycle_programs.metric_cycle import MetricCycle, metric_cycle
+from linkwright.cycle_programs.range_designs import RangeDesigns, range_designs
+from linkwright.cycle_programs.swept_designs import SweptDesigns, swept_designs
+from linkwright.cycle_programs.terms import Asked, Term, measured
 from linkwright.engine.stage import Backend
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.solve import solve_motion
@@ -15,10 +19,6 @@ from linkwright.kinetostatics.forces import solve_forces
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import Analysis
 from linkwright.metrics.evaluate import unloaded
-from linkwright.study.metric_cycle import MetricCycle, metric_cycle
-from linkwright.study.range_designs import RangeDesigns, range_designs
-from linkwright.study.swept_designs import SweptDesigns, swept_designs
-from linkwright.study.terms import Asked, Term, measured
 
 #: What finds design numbers of all designs at once.
 Numbers: TypeAlias = MetricCycle | SweptDesigns | RangeDesigns

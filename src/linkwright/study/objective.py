@@ -12,6 +12,14 @@ from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.cycle_programs.iterated_groups import Following, following, limits_beside
+from linkwright.cycle_programs.limit_stages import constants, limit_stages
+from linkwright.cycle_programs.loaded_cycle import along_input, friction_doubt, with_loads
+from linkwright.cycle_programs.metric_cycle import metric_cycle
+from linkwright.cycle_programs.range_designs import range_designs, ranged
+from linkwright.cycle_programs.swept_designs import swept, swept_designs
+from linkwright.cycle_programs.terms import refuse_obstacle
+from linkwright.cycle_programs.traced import CLEAR, VALID, Traced, design_table
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.cycle_gradient import CycleGradient, cycle_gradient
 from linkwright.engine.machine_code import available
@@ -31,15 +39,7 @@ from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.summary import KINDS, Summary, is_metric, reductions, wanted
 from linkwright.study.design_numbers import Numbers
-from linkwright.study.iterated_groups import Following, following, limits_beside
-from linkwright.study.limit_stages import constants, limit_stages
-from linkwright.study.loaded_cycle import along_input, friction_doubt, with_loads
-from linkwright.study.metric_cycle import metric_cycle
-from linkwright.study.range_designs import range_designs, ranged
-from linkwright.study.swept_designs import swept, swept_designs
-from linkwright.study.terms import refuse_obstacle
-from linkwright.study.traced import CLEAR, VALID, Traced, design_table
-from linkwright.study.vary import checked_addresses, positions_steps, refuse_moved_positions
+from linkwright.study.vary import checked_addresses, refuse_moved_positions
 from linkwright.units import LARGEST
 from linkwright.words.sentence import Sentence
 
@@ -347,7 +347,7 @@ class _Builder:
 
     def _refuse_ways(self, plain: Traced) -> None:
         """Refuses groups without closed form on other ways than the cycle, and loads by more limits than two."""
-        cycle = over_cycle(plain.mechanism, positions_steps(plain.positions))
+        cycle = over_cycle(plain.mechanism, plain.positions.steps)
         signals = MotionSignals(plain.nominal)
         more = any(len(signals.limits(output)) != 2 for output in self.loads.outputs)
         if more or plain.nominal.modes or plain.positions.key != cycle.key:

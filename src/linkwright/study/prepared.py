@@ -13,6 +13,9 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.outputs import row_name
+from linkwright.cycle_programs.limit_stages import CONVERGED, agree, constants, limit_stages, near_limits
+from linkwright.cycle_programs.loaded_cycle import along_input, with_loads
+from linkwright.cycle_programs.traced import Traced
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.llvm_backend import CompiledProgram, compile_program
 from linkwright.engine.machine_code import available
@@ -33,9 +36,6 @@ from linkwright.kinetostatics.solver import ForceSolver
 from linkwright.kinetostatics.traced_loads import AlongInput, traced_magnitude
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
-from linkwright.study.limit_stages import CONVERGED, agree, constants, limit_stages, near_limits
-from linkwright.study.loaded_cycle import along_input, with_loads
-from linkwright.study.traced import Traced
 
 #: The row of how near a group is to a change point or a gap; 0 where it cannot be assembled, where a load has no
 #: value, and where limit positions do not agree with the rates.

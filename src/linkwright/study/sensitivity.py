@@ -13,6 +13,9 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.frozen import Frozen, locked
 from linkwright.core.html import html_table
 from linkwright.core.plotted import Plotted
+from linkwright.cycle_programs.known_loads import known_loads
+from linkwright.cycle_programs.slopes import Slopes
+from linkwright.cycle_programs.traced import Traced
 from linkwright.engine.sweep import Backend
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.cycle import over_cycle
@@ -21,10 +24,7 @@ from linkwright.kinetostatics.friction_stage import MOST
 from linkwright.kinetostatics.named import Quantity
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.summary import Summary
-from linkwright.study.known_loads import known_loads
 from linkwright.study.objective import of_metrics
-from linkwright.study.slopes import Slopes
-from linkwright.study.traced import Traced
 from linkwright.study.vary import checked_addresses, refuse_misfits
 
 if TYPE_CHECKING:

@@ -16,6 +16,7 @@ from linkwright.core.frozen import Frozen
 from linkwright.core.html import columns_html
 from linkwright.core.outputs import Output
 from linkwright.core.plotted import Plotted
+from linkwright.cycle_programs.terms import Asked
 from linkwright.engine.machine_code import available
 from linkwright.engine.threads import chunks
 from linkwright.errors import LinkwrightError, RequestError, with_remedy
@@ -36,7 +37,6 @@ from linkwright.study.failures import Failure
 from linkwright.study.kept import identity, once
 from linkwright.study.ranges import Range
 from linkwright.study.sampling import grid, sobol
-from linkwright.study.terms import Asked
 from linkwright.study.vary import varied_ranges
 from linkwright.words.sentence import Sentence
 

@@ -11,6 +11,11 @@ import numpy as np
 from linkwright.core.arrays import Floats, Indices, Whole
 from linkwright.core.dataclass import dataclass
 from linkwright.core.inputs import Input, mode_groups
+from linkwright.cycle_programs.change_points import ChangePoints, near_enough
+from linkwright.cycle_programs.iterated_groups import MARGIN, following
+from linkwright.cycle_programs.loaded_cycle import LoadedCycle, loaded_cycle
+from linkwright.cycle_programs.one_by_one import OneByOne
+from linkwright.cycle_programs.traced import NEAREST, VALID, Traced
 from linkwright.engine.llvm_backend import compile_program
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
@@ -24,12 +29,7 @@ from linkwright.kinematics.cycle import Positions
 from linkwright.kinetostatics.named import Quantity
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.summary import Summary, finished, reductions
-from linkwright.study.change_points import ChangePoints, near_enough
-from linkwright.study.iterated_groups import MARGIN, following
 from linkwright.study.kept import identity, once, reporting
-from linkwright.study.loaded_cycle import LoadedCycle, loaded_cycle
-from linkwright.study.one_by_one import OneByOne
-from linkwright.study.traced import NEAREST, VALID, Traced
 
 #: Designs of one block, and of one whose inputs are found design by design.
 BLOCK, LOADED_BLOCK = 1 << 16, 1 << 9

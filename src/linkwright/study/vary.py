@@ -138,17 +138,12 @@ def refuse_moved_positions(mechanism: Mechanism, positions: Positions, columns: 
         for value in (column.min(), column.max()):
             changed = mechanism.with_dimensions({address: float(value)})
             try:
-                moved = over_cycle(changed, positions_steps(positions))
+                moved = over_cycle(changed, positions.steps)
             except AssemblyError:  # no position of its own; the design fails where all designs are solved
                 continue
             if not _same(mechanism, positions, moved):
                 wheels = mechanism.cycle is None and changed.drivers == mechanism.drivers
                 raise RequestError(f"study.moves_{'cycle' if wheels else 'positions'}", address=address)
-
-
-def positions_steps(positions: Positions) -> int:
-    """The number of steps from which the positions of a cycle were made."""
-    return max(1, positions.count if positions.closed else positions.count - 1)
 
 
 def _same(mechanism: Mechanism, a: Positions, b: Positions) -> bool:

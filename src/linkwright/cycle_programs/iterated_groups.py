@@ -9,6 +9,9 @@ import numpy as np
 
 from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.outputs import Output
+from linkwright.cycle_programs.limit_stages import Way, constants, limit_stages
+from linkwright.cycle_programs.loaded_cycle import along_input, doubtful, doubts, with_loads
+from linkwright.cycle_programs.traced import NEAREST, VALID, Traced, design_table
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.numpy_backend import numpy_program
 from linkwright.engine.program import Program
@@ -22,10 +25,6 @@ from linkwright.kinetostatics.friction import Swinging
 from linkwright.kinetostatics.traced_loads import AlongInput
 from linkwright.mechanism.geometry import mechanism_size
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.study.limit_stages import Way, constants, limit_stages
-from linkwright.study.loaded_cycle import along_input, doubtful, doubts, with_loads
-from linkwright.study.traced import NEAREST, VALID, Traced, design_table
-from linkwright.study.vary import positions_steps
 
 #: Newton steps per position, and of one attempt at the beginning; the change of a coordinate (rad, or share of the
 #: mechanism's size) in one step to which the known design is refined.
@@ -139,7 +138,7 @@ class _Way:
     def __init__(self, traced: Traced, names: tuple[str, ...], finer: int, loads: AlongInput) -> None:
         self.finer, self.loads = finer, loads
         mechanism, asked = traced.mechanism, traced.positions
-        self.positions: Positions = over_cycle(mechanism, positions_steps(asked) * finer)
+        self.positions: Positions = over_cycle(mechanism, asked.steps * finer)
         plain = Traced(mechanism, traced.solver.manner.free, self.positions, iterations=ITERATIONS)
         self.traced = with_loads(plain, loads)
         count = self.positions.count

@@ -27,7 +27,6 @@ from linkwright.kinetostatics.named import Named, Quantity
 from linkwright.kinetostatics.solver import ForceSolver
 from linkwright.kinetostatics.traced_loads import TURNING
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.study.vary import positions_steps
 
 #: The truth output that says which positions of a design are solved.
 VALID = "valid"
@@ -76,7 +75,7 @@ class Traced:
     @cached_property
     def nominal(self) -> Motion:
         """The motion of the mechanism as it is."""
-        return solve_motion(self.mechanism, steps=positions_steps(self.positions), failures="mark")
+        return solve_motion(self.mechanism, steps=self.positions.steps, failures="mark")
 
     @cached_property
     def arrays(self) -> dict[str, Floats]:

@@ -14,6 +14,7 @@ import numpy as np
 from linkwright.core.dataclass import dataclass
 from linkwright.core.inputs import Input
 from linkwright.core.outputs import Output
+from linkwright.cycle_programs.traced import VALID, Traced
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import Reduction
 from linkwright.engine.stage import Stage
@@ -26,7 +27,6 @@ from linkwright.kinetostatics.site import LAP, TracedSite, limit_name, output_va
 from linkwright.loads.base import Load
 from linkwright.loads.magnitude import part_ends, turned
 from linkwright.loads.phases import NEAR, TURN
-from linkwright.study.traced import VALID, Traced
 
 #: The step of the input between two positions, rad, and the number of positions that are reached.
 STEP, ASSEMBLED = "step of the input", "assembled at limits"

@@ -13,6 +13,10 @@ import numpy as np
 
 from linkwright.core.arrays import Flags, Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.cycle_programs.metric_cycle import Found
+from linkwright.cycle_programs.terms import Term, chosen_subjects, metric_of
+from linkwright.cycle_programs.timed_cycle import moves
+from linkwright.cycle_programs.traced import VALID, Traced, design_table
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.cycle_gradient import CycleGradient, cycle_gradient
 from linkwright.engine.numpy_backend import numpy_program
@@ -24,11 +28,6 @@ from linkwright.kinematics.assembly import modal_groups
 from linkwright.kinematics.cycle import at_times, over_cycle
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import Analysis
-from linkwright.study.metric_cycle import Found
-from linkwright.study.terms import Term, chosen_subjects, metric_of
-from linkwright.study.timed_cycle import moves
-from linkwright.study.traced import VALID, Traced, design_table
-from linkwright.study.vary import positions_steps
 
 #: Newton steps, the width of the difference that is their slope, and the last one's size, rad.
 STEPS, WIDTH, CONVERGED = 12, 1e-6, 1e-10
@@ -67,7 +66,7 @@ def range_designs(mechanism: Mechanism, varied: Iterable[str], names: Iterable[s
         chosen_subjects(name, name.partition(" ")[2], mechanism.drivers)
     traced = Traced(mechanism, addresses, over_cycle(mechanism, 360))
     analysis = Analysis.of(traced.nominal)
-    steps = positions_steps(traced.positions)
+    steps = traced.positions.steps
     if traced.solver.motion.next_states or traced.nominal.modes or not analysis.resolver.edges:
         return None
     if not analysis.resolver.stretches or any(moves(mechanism, address, steps) for address in addresses):

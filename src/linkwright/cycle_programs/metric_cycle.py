@@ -10,6 +10,27 @@ import numpy as np
 
 from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.dataclass import dataclass
+from linkwright.cycle_programs.followed_points import FollowedPoints, followed_points
+from linkwright.cycle_programs.gauss_cycle import PIECES, SHARE, GaussCycle, can_have_corners, reversing
+from linkwright.cycle_programs.iterated_groups import limits_beside
+from linkwright.cycle_programs.limit_stages import constants, limit_stages, rates, whole_turns
+from linkwright.cycle_programs.loaded_cycle import along_input, with_loads
+from linkwright.cycle_programs.piece_summaries import SIDES, PieceSummaries
+from linkwright.cycle_programs.seen import Seen
+from linkwright.cycle_programs.steady_designs import REST, SIGNALS, SteadyDesigns
+from linkwright.cycle_programs.term_parts import (
+    AT_LIMITS,
+    PLACES,
+    least_of,
+    of_sides,
+    outputs_of,
+    stroke_parts,
+    without_limits,
+    without_more_limits,
+)
+from linkwright.cycle_programs.terms import Asked, Term, all_parts, term
+from linkwright.cycle_programs.timed_cycle import TimedCycle, can_go_together, gauss_points
+from linkwright.cycle_programs.traced import VALID, Traced, TurnsThrough, design_table
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.cycle_gradient import CycleGradient, cycle_gradient
 from linkwright.engine.machine_code import available
@@ -27,27 +48,6 @@ from linkwright.kinetostatics.traced_loads import AlongInput
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import Analysis, strokes, true_speed
 from linkwright.metrics.summary import Summary, one
-from linkwright.study.followed_points import FollowedPoints, followed_points
-from linkwright.study.gauss_cycle import PIECES, SHARE, GaussCycle, can_have_corners, reversing
-from linkwright.study.iterated_groups import limits_beside
-from linkwright.study.limit_stages import constants, limit_stages, rates, whole_turns
-from linkwright.study.loaded_cycle import along_input, with_loads
-from linkwright.study.piece_summaries import SIDES, PieceSummaries
-from linkwright.study.seen import Seen
-from linkwright.study.steady_designs import REST, SIGNALS, SteadyDesigns
-from linkwright.study.term_parts import (
-    AT_LIMITS,
-    PLACES,
-    least_of,
-    of_sides,
-    outputs_of,
-    stroke_parts,
-    without_limits,
-    without_more_limits,
-)
-from linkwright.study.terms import Asked, Term, all_parts, term
-from linkwright.study.timed_cycle import TimedCycle, can_go_together, gauss_points
-from linkwright.study.traced import VALID, Traced, TurnsThrough, design_table
 
 #: Designs of one call.
 BLOCK = 2048

@@ -13,6 +13,9 @@ from functools import cached_property
 import numpy as np
 
 from linkwright.core.arrays import Flags, Floats, Indices
+from linkwright.cycle_programs.gauss_cycle import GaussCycle, at_point, iterated
+from linkwright.cycle_programs.iterated_groups import Following, following
+from linkwright.cycle_programs.traced import VALID, Traced, design_table
 from linkwright.engine.cycle import CycleProgram, Known
 from linkwright.engine.numpy_backend import numpy_program
 from linkwright.engine.program import Program
@@ -22,9 +25,6 @@ from linkwright.kinematics.branch import CORRECTION
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.loads.phases import TURN
 from linkwright.mechanism.geometry import mechanism_size
-from linkwright.study.gauss_cycle import GaussCycle, at_point, iterated
-from linkwright.study.iterated_groups import Following, following
-from linkwright.study.traced import VALID, Traced, design_table
 
 #: Newton steps from the cubic.
 ITERATIONS = 3

@@ -8,6 +8,8 @@ import numpy as np
 
 from linkwright.core.arrays import Flags, Floats
 from linkwright.core.piecewise import POINTS, TO_LAST, Peak, largest, weights_at
+from linkwright.cycle_programs.gauss_cycle import SHARE
+from linkwright.cycle_programs.piece_summaries import UP_TO, integral
 from linkwright.engine.cycle import Known
 from linkwright.engine.program import Program
 from linkwright.engine.stage import Run, Stage
@@ -15,8 +17,6 @@ from linkwright.machine.speeds import Slopes, Speeds, SteadyCycles
 from linkwright.metrics.flywheel import NOTHING
 from linkwright.metrics.summary import Summary
 from linkwright.metrics.true_speed import EFFORT, INERTIA, required
-from linkwright.study.gauss_cycle import SHARE
-from linkwright.study.piece_summaries import UP_TO, integral
 
 #: Polynomials whose last orders are below this share of a signal's size meet it.
 SMOOTH = 2e-11

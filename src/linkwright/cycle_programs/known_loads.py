@@ -15,6 +15,9 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import kind_of, owners_of
+from linkwright.cycle_programs.iterated_groups import limits_beside
+from linkwright.cycle_programs.limit_stages import constants, limit_stages, whole_turns
+from linkwright.cycle_programs.traced import Traced
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.cycle_gradient import cycle_gradient
 from linkwright.engine.table import Tables
@@ -30,9 +33,6 @@ from linkwright.loads.base import Load
 from linkwright.loads.magnitude import angles_of, by_rate, has_formula
 from linkwright.loads.over_cycle import activity
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.study.iterated_groups import limits_beside
-from linkwright.study.limit_stages import constants, limit_stages, whole_turns
-from linkwright.study.traced import Traced
 
 
 @dataclass(frozen=True)

@@ -9,6 +9,8 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.cycle_programs.limit_stages import constants
+from linkwright.cycle_programs.traced import VALID, Traced, design_table
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.derivative import forward
 from linkwright.engine.program import Program
@@ -20,8 +22,6 @@ from linkwright.engine.trace import Scalar
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinematics.names import point_key
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.study.limit_stages import constants
-from linkwright.study.traced import VALID, Traced, design_table
 
 
 @dataclass(frozen=True, eq=False)

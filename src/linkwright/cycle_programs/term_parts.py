@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
+from linkwright.cycle_programs.joint_bends import rests
+from linkwright.cycle_programs.limit_stages import extreme_name
+from linkwright.cycle_programs.piece_summaries import SIDES
+from linkwright.cycle_programs.terms import Term
 from linkwright.engine.trace import Scalar, absolute, maximum
 from linkwright.kinetostatics.site import limit_name
 from linkwright.metrics import Analysis, strokes, true_speed
 from linkwright.metrics.summary import Summary, one
-from linkwright.study.joint_bends import rests
-from linkwright.study.limit_stages import extreme_name
-from linkwright.study.piece_summaries import SIDES
-from linkwright.study.terms import Term
 
 #: Kinds of summaries that are places of an output's limit.
 PLACES = ("argmax", "argmin")

@@ -9,6 +9,8 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
+from linkwright.cycle_programs.limit_stages import whole_turns
+from linkwright.cycle_programs.traced import Traced
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import Reduction
 from linkwright.engine.stage import Stage
@@ -17,8 +19,6 @@ from linkwright.joints.base import Bends
 from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.loads.phases import TURN
-from linkwright.study.limit_stages import whole_turns
-from linkwright.study.traced import Traced
 
 #: The constant that is the input where the cycle begins.
 FIRST = "first input"

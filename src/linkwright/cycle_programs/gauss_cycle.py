@@ -20,6 +20,20 @@ from linkwright.core.expressions import Expression
 from linkwright.core.inputs import turned
 from linkwright.core.outputs import Output, owners_of
 from linkwright.core.piecewise import NODES, POINTS, WEIGHTS
+from linkwright.cycle_programs.corners import Corner, Signed, corner_stages, corners_of, signed_values
+from linkwright.cycle_programs.joint_bends import FIRST, bend_names, bend_stage
+from linkwright.cycle_programs.limit_stages import (
+    constants,
+    edge_name,
+    limit_stages,
+    part_edge,
+    part_edge_beside,
+    rates,
+    whole_turns,
+)
+from linkwright.cycle_programs.loaded_cycle import friction_doubt
+from linkwright.cycle_programs.traced import VALID, Traced
+from linkwright.cycle_programs.uneven_bends import MOST, UnevenBends, uneven_bends
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import Reduction
 from linkwright.engine.stage import Stage
@@ -31,20 +45,6 @@ from linkwright.kinetostatics.site import limit_name
 from linkwright.kinetostatics.traced_loads import AlongInput
 from linkwright.loads.base import Load
 from linkwright.loads.phases import TURN
-from linkwright.study.corners import Corner, Signed, corner_stages, corners_of, signed_values
-from linkwright.study.joint_bends import FIRST, bend_names, bend_stage
-from linkwright.study.limit_stages import (
-    constants,
-    edge_name,
-    limit_stages,
-    part_edge,
-    part_edge_beside,
-    rates,
-    whole_turns,
-)
-from linkwright.study.loaded_cycle import friction_doubt
-from linkwright.study.traced import VALID, Traced
-from linkwright.study.uneven_bends import MOST, UnevenBends, uneven_bends
 
 #: Numbers of pieces of the whole turn to try one after another, and the share of them that a stretch between two cuts
 #: has at least.

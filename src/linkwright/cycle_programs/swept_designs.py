@@ -10,6 +10,12 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.outputs import Output
 from linkwright.core.piecewise import POINTS, tails
+from linkwright.cycle_programs.followed_points import followed_points
+from linkwright.cycle_programs.gauss_cycle import GaussCycle
+from linkwright.cycle_programs.metric_cycle import Found
+from linkwright.cycle_programs.terms import Term, chosen_subjects, metric_of
+from linkwright.cycle_programs.timed_cycle import TimedCycle, can_go_together, gauss_points
+from linkwright.cycle_programs.traced import VALID, Traced, design_table
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.cycle_gradient import CycleGradient, cycle_gradient
 from linkwright.engine.program import Program
@@ -23,12 +29,6 @@ from linkwright.metrics import Analysis
 from linkwright.metrics.cycle_grid import PIECES
 from linkwright.metrics.swept_area import of_driver, points, turned
 from linkwright.metrics.swept_hull import Curves, SweptHull
-from linkwright.study.followed_points import followed_points
-from linkwright.study.gauss_cycle import GaussCycle
-from linkwright.study.metric_cycle import Found
-from linkwright.study.terms import Term, chosen_subjects, metric_of
-from linkwright.study.timed_cycle import TimedCycle, can_go_together, gauss_points
-from linkwright.study.traced import VALID, Traced, design_table
 
 #: Designs whose curves are kept at the same time.
 BLOCK = 256

@@ -13,6 +13,9 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.cycle_programs.joint_bends import FIRST, other_bends
+from linkwright.cycle_programs.limit_stages import CONVERGED, STEP, narrowed, rates
+from linkwright.cycle_programs.traced import Traced
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import Reduction
@@ -21,9 +24,6 @@ from linkwright.engine.table import Tables
 from linkwright.engine.trace import Scalar, Trace, absolute, floor, select, sign
 from linkwright.kinetostatics.friction import Swinging
 from linkwright.kinetostatics.site import LAP
-from linkwright.study.joint_bends import FIRST, other_bends
-from linkwright.study.limit_stages import CONVERGED, STEP, narrowed, rates
-from linkwright.study.traced import Traced
 
 #: Share of all joint forces below which a force is none.
 NONE = 1e-11

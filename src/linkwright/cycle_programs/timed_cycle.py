@@ -15,6 +15,9 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.core.piecewise import POINTS, WEIGHTS, nodes
+from linkwright.cycle_programs.gauss_cycle import SHARE, GaussCycle, certain, side_by_side
+from linkwright.cycle_programs.limit_stages import whole_turns
+from linkwright.cycle_programs.traced import VALID, Traced
 from linkwright.engine.stage import Stage
 from linkwright.engine.trace import Scalar, Trace
 from linkwright.errors import LinkwrightError
@@ -22,10 +25,6 @@ from linkwright.kinematics.cycle import at_times, over_cycle
 from linkwright.kinetostatics.traced_loads import AlongInput
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import Analysis
-from linkwright.study.gauss_cycle import SHARE, GaussCycle, certain, side_by_side
-from linkwright.study.limit_stages import whole_turns
-from linkwright.study.traced import VALID, Traced
-from linkwright.study.vary import positions_steps
 
 #: Halvings of all pieces for designs that are less smooth than the machine itself.
 HALVINGS = 3
@@ -102,7 +101,7 @@ def follows_times(traced: Traced, varied: Iterable[str]) -> bool:
     motion = traced.solver.motion
     if motion.next_states or not traced.nominal.ok.all() or traced.nominal.modes:
         return False
-    steps = positions_steps(traced.positions)
+    steps = traced.positions.steps
     return traced.positions.count > 2 and not any(
         moves(traced.mechanism, address, steps) for address in varied
     )

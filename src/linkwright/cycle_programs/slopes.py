@@ -8,6 +8,9 @@ from functools import cached_property
 import numpy as np
 
 from linkwright.core.arrays import Floats
+from linkwright.cycle_programs.known_loads import KnownLoads
+from linkwright.cycle_programs.loaded_cycle import RUBBING, friction_doubt
+from linkwright.cycle_programs.traced import VALID, Traced
 from linkwright.engine.derivative import forward, reverse
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
@@ -16,9 +19,6 @@ from linkwright.engine.sweep import Backend
 from linkwright.errors import LinkwrightError
 from linkwright.kinetostatics.named import Quantity
 from linkwright.kinetostatics.site import middle_name
-from linkwright.study.known_loads import KnownLoads
-from linkwright.study.loaded_cycle import RUBBING, friction_doubt
-from linkwright.study.traced import VALID, Traced
 
 
 class Slopes:

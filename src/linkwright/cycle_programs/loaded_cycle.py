@@ -10,6 +10,8 @@ import numpy as np
 from linkwright.core.arrays import Floats, Indices
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output, kind_of, owners_of
+from linkwright.cycle_programs.limit_stages import constants, limit_stages, whole_turns
+from linkwright.cycle_programs.traced import VALID, Traced, design_table
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.reductions import VALID_COUNT, Reduction, Results
 from linkwright.engine.stage import Backend, Stage
@@ -22,8 +24,6 @@ from linkwright.kinetostatics.traced_loads import AlongInput, numbers_of_loads
 from linkwright.loads.base import Load
 from linkwright.loads.magnitude import followed, within_turn
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.study.limit_stages import constants, limit_stages, whole_turns
-from linkwright.study.traced import VALID, Traced, design_table
 
 #: The output that is the sum of magnitudes which may not exist, and that is 1 where friction is not certain.
 SIZES, RUBBING = "sizes of loads", "doubt of friction"

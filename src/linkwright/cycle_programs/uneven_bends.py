@@ -14,12 +14,12 @@ import numpy as np
 
 from linkwright.core.arrays import Floats, Indices
 from linkwright.core.dataclass import dataclass
+from linkwright.cycle_programs.joint_bends import turning
+from linkwright.cycle_programs.traced import Traced
 from linkwright.engine.program import Program
 from linkwright.engine.trace import Mask, Scalar, Trace, absolute, atan, cos, select, sin, stop
 from linkwright.joints.base import Bends
 from linkwright.loads.phases import TURN
-from linkwright.study.joint_bends import turning
-from linkwright.study.traced import Traced
 
 #: Newton steps to a bend, and the last one that ends the search well, rad.
 STEPS, CONVERGED = 6, 1e-10

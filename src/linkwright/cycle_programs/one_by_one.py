@@ -8,6 +8,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.inputs import mode_inputs
+from linkwright.cycle_programs.traced import Traced
 from linkwright.engine.trace import Mask
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.design import Design
@@ -17,7 +18,6 @@ from linkwright.kinematics.solve import MotionRun
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinetostatics.run import run_forces
 from linkwright.kinetostatics.signals import STEPS
-from linkwright.study.traced import Traced
 from linkwright.words.sentence import Sentence
 
 #: The field that is 1 at the positions that a design reaches on its way through change points, else 0.

@@ -8,10 +8,10 @@ import numpy as np
 
 from linkwright.core.arrays import Flags, Floats
 from linkwright.core.piecewise import POINTS, WEIGHTS, Peak, weights_at, weights_up_to
+from linkwright.cycle_programs.piece_summaries import SIDES, Reduced
+from linkwright.cycle_programs.steady_designs import SMOOTH, SteadyDesigns
 from linkwright.metrics import true_speed
 from linkwright.metrics.summary import Summary
-from linkwright.study.piece_summaries import SIDES, Reduced
-from linkwright.study.steady_designs import SMOOTH, SteadyDesigns
 
 
 class Seen:
