@@ -1,6 +1,6 @@
 """Instant centres, jerk and ranges against independent constructions; numbers that cannot depend on the axes."""
 
-from math import acos, cos, pi, sin
+from math import acos, cos, inf, pi, sin
 
 import numpy as np
 import pytest
@@ -172,10 +172,8 @@ def test_bearing_value_of_a_pin() -> None:
     assert table.value("bearing_pv") == pytest.approx(4 * 0.05 * 20**2 * 0.01 * 20, rel=1e-9)
 
 
-@pytest.mark.parametrize("steps", [15, 30])
-def test_means_over_a_way_that_is_left_are_those_of_the_time_until_then(steps: int) -> None:
-    """The foot of a ladder of 1 m is pulled away at 0.1 m/s for 15 s; before the ladder falls it was on average half
-    as far out as where it is last seen."""
+def falling_ladder(steps: int) -> lw.Motion:
+    """The foot of a ladder of 1 m is pulled away at 0.1 m/s for 15 s; the ladder falls after 10 s."""
     model = Model("ladder")
     model.frame(O=(0, 0))
     model.link("foot", ["A"], mass=2)
@@ -195,10 +193,41 @@ def test_means_over_a_way_that_is_left_are_those_of_the_time_until_then(steps: i
     model.assemble(B="forward")
     model.slide("floor", speed=0.1, start=0)
     model.cycle(duration=15)
-    motion = lw.solve_motion(model.build(), steps=steps, failures="mark")
+    return lw.solve_motion(model.build(), steps=steps, failures="mark")
+
+
+@pytest.mark.parametrize("steps", [15, 30])
+def test_means_over_a_way_that_is_left_are_those_of_the_time_until_then(steps: int) -> None:
+    """Before the ladder falls its foot was on average half as far out as where it is last seen."""
+    motion = falling_ladder(steps)
     last = 1.5 / steps * (np.flatnonzero(motion.ok)[-1])
     assert 0.89 < last < 1.0
     assert Analysis.of(motion).part("A.x mean").value == pytest.approx(0.5 * last, rel=1e-13)
+
+
+@pytest.mark.parametrize("steps", [15, 60])
+def test_forces_of_a_way_that_is_left_grow_without_bound_and_have_no_mean(steps: int) -> None:
+    """The head falls with v²/h³ from its height h; before, the force of the floor on the foot changes its sense."""
+    table = metrics(lw.solve_forces(falling_ladder(steps)))
+    peaks = {row.subject: row.value for row in table if row.metric == "peak_reaction"}
+    assert peaks == dict.fromkeys(["A", "B", "floor", "wall"], inf)
+    assert not {"rms_reaction", "rms_input_torque"} & set(table.names)
+    assert "until it comes out of reach" in str(table.notes[0])
+
+
+@pytest.mark.parametrize("steps", [9, 61])
+def test_what_lies_behind_a_gap_between_two_positions_is_not_reached(steps: int) -> None:
+    """Crank 1 m, frame 4 m: coupler and rocker of 4.999 m together miss the pins' distance around half a turn."""
+    machine = four_bar().with_dimensions({"coupler.length": 2.5, "rocker.length": 2.499})
+    motion = lw.solve_motion(machine, steps=steps, failures="mark")
+    end = acos((1 + 16 - 4.999**2) / 8) / 10
+    assert np.flatnonzero(motion.ok).tolist() == list(range((steps + 1) // 2))
+    assert Analysis.of(motion).resolver.edges == (pytest.approx((end, -1), rel=1e-8),)
+    behind = Analysis.of(motion).resolver.motion(np.array([end - 1e-6, pi / 5 - end + 1e-6]))
+    assert behind.ok.tolist() == [True, False]
+    table = metrics(motion)
+    assert table["range_of_motion", "driver"].value == pytest.approx(10 * end, rel=1e-8)
+    assert table["peak_acceleration", "rocker"].value == inf
 
 
 TURNED_PLATE = """

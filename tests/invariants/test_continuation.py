@@ -24,6 +24,7 @@ from linkwright.kinematics.design import Design
 from linkwright.kinematics.explain import branch_notes
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solver import MotionSolver
+from linkwright.metrics import Analysis
 
 Floats = NDArray[np.float64]
 
@@ -199,6 +200,20 @@ def test_a_cycle_that_ends_on_both_sides_has_two_stops_and_does_not_come_back(sp
     )
     assert ends[0][0] <= first <= ends[0][1]
     assert any(ends[1][0] <= second + lap <= ends[1][1] for lap in (0.0, turn))
+
+
+@pytest.mark.parametrize("speed", ["1", "-1"])
+@pytest.mark.parametrize("steps", [20, 60])
+def test_what_is_reached_goes_on_to_both_its_ends(speed: str, steps: int) -> None:
+    """From the last position before a barred stretch, and backwards from the first one behind it."""
+    motion = lw.solve_motion(lw.loads(STEPHENSON.replace("SPEED", speed)), steps=steps, failures="mark")
+    edges = Analysis.of(motion).resolver.edges
+    laps = [
+        np.radians(160.0) + float(speed) * time - stop.inputs[0]
+        for (time, _), stop in zip(edges, followed(motion).stops, strict=True)
+    ]
+    assert [sense for _, sense in edges] == [-1, 1]
+    assert np.sin(laps) == pytest.approx([0.0, 0.0], abs=3e-7)
 
 
 def test_positions_in_any_order_are_reached_one_from_the_other(triad: Motion) -> None:

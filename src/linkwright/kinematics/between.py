@@ -37,6 +37,12 @@ class Between:
             return []
         return [p for p in passages(motion.solver, motion.positions, motion.followed) if p.touches]
 
+    @cached_property
+    def bars(self) -> list[Passage]:
+        """Where a group cannot be assembled though it can be at the positions beside."""
+        motion = self.motion
+        return [p for p in passages(motion.solver, motion.positions, motion.followed) if p.barred]
+
     @property
     def closes(self) -> bool:
         """Whether the last position is followed by the first, in the same assembly."""
@@ -109,11 +115,13 @@ class Between:
         assert followed is not None
         inputs = [positions.coordinates[name][0] for name in followed.follower.loops.drivers]
         found = followed.between(self._place(positions.time), np.stack(inputs, axis=1))
-        lost = ~np.isfinite(next(iter(found.values())))
-        for k in np.flatnonzero(lost):
-            moved = self._moved(int(before[k]), float(positions.time[k]))
-            for name, row in found.items():
-                row[k] = moved[name]
+        for beside in (before, (before + 1) % self.motion.steps):
+            lost = np.flatnonzero(~np.isfinite(next(iter(found.values()))))
+            for index in np.unique(beside[lost]):
+                these = lost[beside[lost] == index]
+                moved = self._moved(int(index), positions.time[these])
+                for name, row in found.items():
+                    row[these] = moved[name]
         return found
 
     def _place(self, time: Floats) -> Floats:
@@ -124,9 +132,13 @@ class Between:
         sense = 1.0 if self.motion.time[-1] >= start else -1.0
         return self.place(start + sense * ((sense * (time - start)) % period))
 
-    def _moved(self, index: int, time: float) -> dict[str, float]:
-        """States of groups without closed form, from a position to a time near it."""
-        motion = self.motion
+    def _moved(self, index: int, time: Floats) -> dict[str, Floats]:
+        """States of groups without closed form at times (m,) near a position, followed from there."""
+        motion, start, period = self.motion, float(self.motion.time[index]), self.motion.positions.period
         assert motion.followed is not None
-        way = at_times(motion.mechanism, [float(motion.time[index]), time])
-        return motion.solver.follower(motion.design).moved(motion.followed, index, way)
+        away = time - start
+        if motion.positions.closed and period:
+            away = away - period * np.round(away / period)
+        return motion.solver.follower(motion.design).moved(
+            motion.followed.coordinates[index], start, start + away
+        )

@@ -9,18 +9,21 @@ and the exact rates at both ends fit each other; else the way ends there.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import field
 
 import numpy as np
 
 from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.dataclass import dataclass
+from linkwright.drivers.base import Law
 from linkwright.kinematics.certificate import REFUSED, Certificate, End, certify, cubic
 from linkwright.kinematics.closed_loops import ClosedLoops
 
 Drive = Callable[[Floats], tuple[Floats, Floats, Floats]]
 
+#: Parts of the time of a way at which laws that are no straight lines are compared with their cubics.
+CHECKS = 720
 #: Longest and shortest step of a driver, rad or share of the mechanism's size.
 LONGEST, FLOOR = 0.5, 1e-7
 #: A certified step aims at this contraction.
@@ -207,3 +210,29 @@ def straight(begin: Floats, end: Floats, pace: Floats) -> Way:
         return begin + x[:, None] * delta, still + delta, still
 
     return Way(drive, 0.0, 1.0, np.array([1.0]), float(np.abs(delta / pace).max(initial=0.0)))
+
+
+def lawful(
+    laws: Sequence[Law], unit: Floats, begin: float, end: float, times: Floats, shift: float = 0.0
+) -> Way:
+    """The way of drivers by their laws from one time to another, s, through some between in this order.
+
+    ``unit`` (d,): of each driver, rad or size; ``shift``: of all times, by a period, with coordinates as they were
+    before it.
+    """
+    sense = 1.0 if end >= begin else -1.0
+    lap = np.array([float(np.diff(law.coordinate(np.array([begin, begin + shift]))[0])[0]) for law in laws])
+
+    def drive(x: Floats) -> tuple[Floats, Floats, Floats]:
+        t = sense * x
+        rows = [law.coordinate(t + shift) for law in laws]
+        q, first, second = (np.stack([row[k] for row in rows], axis=1) for k in range(3))
+        return q - lap, sense * first, second
+
+    checks: Floats = np.zeros(0)
+    samples = times * sense
+    if not all(law.constant_speed is not None for law in laws):
+        checks = np.linspace(sense * begin, sense * end, CHECKS + 1)
+        samples = np.concatenate([samples, checks])
+    pace = float(np.abs(drive(samples)[1] / unit).max(initial=0.0))
+    return Way(drive, sense * begin, sense * end, sense * times, pace, checks)

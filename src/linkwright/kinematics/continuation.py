@@ -18,7 +18,7 @@ from linkwright.core.outputs import row_name, row_names
 from linkwright.engine.scalar_backend import ScalarProgram
 from linkwright.kinematics.angles import geared, turn_state
 from linkwright.kinematics.assembly import AssemblyError
-from linkwright.kinematics.branch import CORRECTION, Branch, Way, follow, straight
+from linkwright.kinematics.branch import CORRECTION, Branch, Way, follow, lawful, straight
 from linkwright.kinematics.certificate import distance_to_others
 from linkwright.kinematics.closed_loops import ClosedLoops, counted, iterated
 from linkwright.kinematics.cycle import Positions, at_times
@@ -29,8 +29,6 @@ if TYPE_CHECKING:
     from linkwright.kinematics.design import Design
     from linkwright.kinematics.solver import MotionSolver
 
-#: Parts of the time of a way at which laws that are no straight lines are compared with their cubics.
-CHECKS = 720
 #: What a drawing may leave open (share of the size) to count as exact.
 EXACT = 1e-13
 
@@ -280,12 +278,25 @@ class Follower:
         turning = np.append([kind == "turn" for kind, _ in self.loops.unknowns], self.rotary)
         return np.asarray(way - np.where(turning, _turns(way), 0.0))
 
-    def moved(self, followed: Followed, index: int, positions: Positions) -> dict[str, float]:
-        """States at the second of two positions, of which the first is position ``index`` of a way; NaN if barred."""
-        q = np.stack([positions.coordinates[name][0] for name in self.loops.drivers], axis=1)
-        branch = self.between(q[0], q[1], followed.coordinates[index])
-        row = branch.last[None, : self.loops.n] if branch.complete else np.full((1, self.loops.n), np.nan)
-        return {name: float(value[0]) for name, value in self.states(row, q[1:]).items()}
+    def lawful(self, begin: float, end: float, times: Floats, shift: float) -> Way:
+        """The way by the drivers' laws, see :func:`branch.lawful`."""
+        laws = [driver.law for driver in self.mechanism.drivers.values()]
+        return lawful(laws, self.unit, begin, end, times, shift)
+
+    def moved(self, unknowns: Floats, start: float, time: Floats) -> dict[str, Floats]:
+        """States at some times (m,), s, followed by the drivers' laws from the unknowns (n,) at the time ``start``;
+        NaN where the way is barred."""
+        found = np.full((len(time), self.loops.n), math.nan)
+        q = np.empty((len(time), self.loops.d))
+        for sense in (1.0, -1.0):
+            these = np.flatnonzero(time >= start if sense > 0.0 else time < start)
+            if len(these):
+                order = these[np.argsort(sense * time[these], kind="stable")]
+                way = self.lawful(start, float(time[order[-1]]), time[order], 0.0)
+                branch = follow(self.loops, way, unknowns)
+                found[order[: len(branch.found)]] = branch.found[:, : self.loops.n]
+                q[order] = way.drive(way.places)[0]
+        return self.states(found, q)
 
 
 def _turns(way: Floats) -> Floats:
@@ -454,39 +465,13 @@ class _Journey:
         self, start: tuple[Floats, bool], time: Floats, end: float, order: Indices, shift: float
     ) -> Branch:
         """From the first of the positions in ``order``, at their times, to the time ``end``."""
-        begin = float(self.positions.time[0])
-        times = np.where(order == 0, begin, time[order])
-        sense = 1.0 if end >= begin else -1.0
-        follower = self.follower
-        laws = [driver.law for driver in follower.mechanism.drivers.values()]
-        lap = self._lap(shift)
-
-        def drive(x: Floats) -> tuple[Floats, Floats, Floats]:
-            t = sense * x
-            rows = [law.coordinate(t + shift) for law in laws]
-            q, first, second = (np.stack([row[k] for row in rows], axis=1) for k in range(3))
-            return q - lap, sense * first, second
-
-        checks: Floats = np.zeros(0)
-        samples = times * sense
-        if not all(law.constant_speed is not None for law in laws):
-            checks = np.linspace(sense * begin, sense * end, CHECKS + 1)
-            samples = np.concatenate([samples, checks])
-        pace = float(np.abs(drive(samples)[1] / follower.unit).max(initial=0.0))
-        way = Way(drive, sense * begin, sense * end, sense * times, pace, checks)
+        begin, follower = float(self.positions.time[0]), self.follower
+        way = follower.lawful(begin, end, np.where(order == 0, begin, time[order]), shift)
         branch = follow(follower.loops, way, start[0])
         found = order[: len(branch.found)]
         self.coordinates[found] = branch.found[:, : follower.loops.n]
         self.certified[found] = branch.certified & start[1]
         return branch
-
-    def _lap(self, shift: float) -> Floats:
-        """What the drivers' coordinates gain in one cycle, whole turns for a turning driver; (d,)."""
-        if not shift:
-            return np.zeros(self.q.shape[1])
-        begin = self.positions.time[:1]
-        laws = [driver.law for driver in self.follower.mechanism.drivers.values()]
-        return np.array([law.coordinate(begin + shift)[0][0] - law.coordinate(begin)[0][0] for law in laws])
 
     def _same(self, last: Floats, first: Floats) -> bool:
         """Whether a cycle ends in the assembly in which it began."""

@@ -10,12 +10,12 @@ from typing import Any, Literal, TypeAlias, overload
 
 import numpy as np
 
-from linkwright.core.arrays import Floats, Indices
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.once import cached_property
 from linkwright.core.outputs import Output
 from linkwright.core.piecewise import POINTS, Piecewise, largest
-from linkwright.core.search import lowest
+from linkwright.core.search import lowest, peaks
 from linkwright.engine.recent import Recent
 from linkwright.kinematics.limits import limit_positions
 from linkwright.kinematics.motion import Motion
@@ -28,7 +28,7 @@ from linkwright.loads.signals import Limit
 from linkwright.metrics import strokes, true_speed
 from linkwright.metrics.cycle_grid import PASSED, CycleGrid, cycle_grid
 from linkwright.metrics.outputs import mechanism_outputs
-from linkwright.metrics.passed import STEEPEST, limit
+from linkwright.metrics.range_ends import RangeEnds
 from linkwright.metrics.resolve import Resolver
 from linkwright.metrics.summary import Summary, one
 
@@ -127,8 +127,8 @@ class Analysis:
 
     @property
     def partial(self) -> bool:
-        """Whether the positions are a closed cycle, of which not all is reached."""
-        return self.closed and not self.resolver.passed.all()
+        """Whether the positions are those of the drivers' laws, of which not all are reached."""
+        return self.resolver.possible and not self.resolver.passed.all()
 
     def limits(self, output: Output) -> tuple[Limit, ...]:
         """Limit positions of an output, by increasing time; none where the positions follow no law in time."""
@@ -327,19 +327,24 @@ class Analysis:
         if kind == "range":
             known = np.concatenate([self.motion.read(output), self._ends_of(output)])
             known = np.append(known, [limit.value for limit in self.limits(output)])
-            way = np.ptp(known[np.isfinite(known)])
+            way = np.inf if np.isinf(known).any() else np.ptp(known[np.isfinite(known)])
             return Extreme(float(way), float("nan"), float("nan"), self.resolver.possible)
         end = next(each for each in self.outermost(output) if each.kind == kind.removeprefix("arg"))
         return Extreme(end.input, end.time, end.input, True)
 
     def _ends_of(self, output: Output) -> Floats:
         """Values of an output at the ends of what is reached, an angle's in the turn of the position beside each."""
-        ends = np.array(self._at_ends(lambda solved: solved.read(output), "motion"))
+        ends = np.array(self.ends.limits(lambda solved: solved.read(output), "motion"))
         if output.kind != "angle" or not len(ends):
             return ends
-        ok, times = self.motion.ok, np.array([[time] for time, _ in self.resolver.edges])
+        ok, times = self.motion.ok, np.array(self.ends.times)[:, None]
         beside = self.motion.read(output)[ok][np.abs(self.motion.time[ok] - times).argmin(axis=1)]
         return np.asarray(ends + 2 * np.pi * np.round((beside - ends) / (2 * np.pi)))
+
+    @cached_property
+    def ends(self) -> RangeEnds:
+        """The ends of what is reached."""
+        return RangeEnds(self.motion, self.resolver)
 
     @cached_property
     def grid(self) -> CycleGrid | None:
@@ -349,21 +354,25 @@ class Analysis:
     def mean_of(self, signal: Callable[..., Floats]) -> float:
         """Mean over the time of the cycle of what the forces (without them, the motion) give, (n,).
 
-        By integration between the positions, so that the jumps of loads fall where they are; NaN where not all of
-        a closed cycle is reached, but for what is the same everywhere; of the positions that are reached where
-        nothing can be solved between them.
+        By integration between the positions, so that the jumps of loads fall where they are. NaN where not all of
+        a closed cycle is reached, but for what is the same everywhere; of the positions that are reached of a way
+        that ends, if what grows without bound does not, and where nothing can be solved between positions.
         """
         of = "motion" if self.forces is None else "forces"
         if self.grid is None:
             values = signal(self.forces or self.motion)
-            known = values[np.isfinite(values)]
-            if self.partial and not (len(known) and np.ptp(known) <= ROUNDING * abs(known[0])):
-                return float("nan")
-            return self.mean(values)
+            return self.mean(values) if self._tells_mean(values, signal, of) else float("nan")
         for _, *ends in self.grid.limits_at_changes(signal, of):
             if np.isinf(ends).any():
                 return float(np.sum(ends))  # infinite, or undefined where it grows to both sides
         return self.grid.curve(signal, of, halve=True).total / (self.grid.end - self.grid.start)
+
+    def _tells_mean(self, values: Floats, signal: Callable[..., Floats], of: str) -> bool:
+        """Whether values (n,) that are not all known have a mean."""
+        known = values[np.isfinite(values)]
+        if not self.partial or (len(known) > 1 and np.ptp(known) <= ROUNDING * abs(known[0])):
+            return True
+        return not self.closed and len(known) > 1 and bool(np.isfinite(self.ends.limits(signal, of)).all())
 
     def rms_of(self, signal: Callable[..., Floats]) -> float:
         """Root of the mean square over the time of the cycle, found in the same way."""
@@ -398,26 +407,19 @@ class Analysis:
                 return Extreme(found.value, found.place, self.resolver.input_at(found.place), True)
             if len(self.grid.around):
                 return self._past_changes(self.grid, signal, of, sign)
-        for (end, _), value in zip(self.resolver.edges, self._at_ends(signal, of), strict=True):
+        for end, value in zip(self.ends.times, self.ends.limits(signal, of), strict=True):
             if sign * value > sign * sample.value:
                 sample = Extreme(value, end, self.resolver.input_at(end), True)
         if np.isinf(sample.value):
             return sample
         step = float(abs(time[1] - time[0]))
-        peaks = _peaks(sign * values, self.closed)[:4]
-        low, high = time[peaks] - step, time[peaks] + step
+        near = peaks(sign * values, self.closed)[:4]
+        low, high = time[near] - step, time[near] + step
         if not self.closed:
             low, high = np.maximum(low, time.min()), np.minimum(high, time.max())
-        return self._narrowed(lambda t: sign * signal(self.resolver.at(t, of)), low, high, sign, sample)
-
-    def _at_ends(self, signal: Callable[[Any], Floats], of: str) -> list[float]:
-        """Limits of a signal at the ends of what is reached, NaN where they are not known."""
-        if not (self.resolver.possible and self.resolver.edges):
-            return []
-        key, places = ("near_ends", of), self.resolver.near_edges
-        if key not in self.kept:
-            self.kept[key] = self.resolver.at(places.ravel(), of)
-        return [limit(row, STEEPEST) for row in np.reshape(signal(self.kept[key]), places.shape)]
+        best = self._narrowed(lambda t: sign * signal(self.resolver.at(t, of)), low, high, sign, sample)
+        told = self.ends.tell(lambda solved: sign * signal(solved), of, sign * best.value, best.time)
+        return best if told else replace(best, value=float("nan"))
 
     def _past_changes(
         self, grid: CycleGrid, signal: Callable[[Any], Floats], of: str, sign: float
@@ -486,15 +488,3 @@ class Analysis:
 
 
 _known: Recent[Motion | Forces, Analysis] = Recent(8)
-
-
-def _peaks(values: Floats, closed: bool) -> Indices:
-    """Samples not below their neighbours that may hold the largest value, the highest first."""
-    filled = np.where(np.isfinite(values), values, -np.inf)
-    before, after = np.roll(filled, 1), np.roll(filled, -1)
-    if not closed:
-        before[0] = after[-1] = -np.inf
-    local = np.flatnonzero((filled >= before) & (filled >= after) & np.isfinite(filled))
-    order = local[np.argsort(-filled[local], kind="stable")]
-    spread = float(np.nanmax(values) - np.nanmin(values))
-    return np.asarray(order[filled[order] >= filled[order[0]] - 0.05 * spread])

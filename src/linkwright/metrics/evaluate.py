@@ -58,7 +58,8 @@ def _notes(analysis: Analysis) -> tuple[Sentence, ...]:
         return (Sentence("metrics.none_reached", name=name),)
     if not analysis.partial:
         return ()
-    return (Sentence("metrics.part_reached", name=name, reached=int(ok.sum()), count=len(ok)),)
+    said = "metrics.part_reached" if analysis.closed else "metrics.part_of_way_reached"
+    return (Sentence(said, name=name, reached=int(ok.sum()), count=len(ok)),)
 
 
 def _without_rounding(rows: Sequence[MetricValue]) -> list[MetricValue]:

@@ -5,7 +5,9 @@ for ε/δ³, so nothing is solved in the middle. What is smooth on a side of the
 through the values on that side; forces that the change point cannot carry grow as 1/δ.
 
 At an end of its range a mechanism turns back on another branch, so that what it does is smooth in √δ, of which rates
-grow as the first power of the inverse, accelerations and what they cause as the third, jerks as the fifth.
+grow as the first power of the inverse, accelerations and what they cause as the third, jerks as the fifth. Where two
+guides become parallel, what slides on them goes away as 1/δ², its acceleration as the third power of that, and the
+torque that this takes, whose work it is, as the fifth.
 """
 
 from __future__ import annotations
@@ -19,11 +21,12 @@ from linkwright.core.piecewise import NODES, POINTS
 AGREE = 1e-6
 #: What grows does so over the nearest places, and its product with a power of δ has a limit that is this many times
 #: what is not sure of it.
-_GROWING, _SURE = 4, 1000.0
-#: Steepest growth towards an end of range: of a jerk against a rate.
-STEEPEST = 6
-#: Places near an end of range lie within this part, rad, of the half turn whose cosine runs through the stretch.
-_SLOWED = 0.2
+_GROWING, _SURE = 4, 100.0
+#: Steepest growth towards an end of range: where guides become parallel, of the torque that moves what slides away.
+STEEPEST = 10
+#: Places near an end of range lie within one of these parts, rad, of the half turn whose cosine runs through the
+#: stretch: the nearer ones where a size has a kink among the others, such as that of a force that passes zero.
+SLOWED = (0.2, 0.02)
 _HALF = POINTS // 2
 #: Distances of a side's places from the middle, the nearest first, as shares of the half width.
 _AWAY = NODES[_HALF:]
@@ -48,10 +51,10 @@ def sides(values: Floats) -> tuple[Floats, Floats]:
     return values[:_HALF][::-1], values[_HALF:]
 
 
-def towards(length: Floats) -> Floats:
+def towards(length: Floats, slowed: float) -> Floats:
     """Distances (..., k) from ends of range, the nearest first, of stretches of some lengths: squares, nearly, of
     distances as :func:`limit` takes them."""
-    return 0.5 * np.asarray(length)[..., None] * (1.0 - np.cos(_SLOWED * _AWAY))
+    return 0.5 * np.asarray(length)[..., None] * (1.0 - np.cos(slowed * _AWAY))
 
 
 def limit(values: Floats, steepest: int = 2) -> float:
@@ -63,11 +66,11 @@ def limit(values: Floats, steepest: int = 2) -> float:
         return found if abs(found) > nothing else 0.0
     if (np.diff(np.abs(values[:_GROWING])) < 0.0).all():
         for order in range(1, steepest + 1):
-            scaled = values * _AWAY**order
+            scaled = values * np.sign(values[0]) * _AWAY**order
             found = float(_ALL @ scaled)
             unsure = max(abs(found - float(_BUT_ONE @ scaled)), AGREE * float(np.abs(scaled).max()))
-            if abs(found) > _SURE * unsure:
-                return float(np.copysign(np.inf, found))
+            if found > _SURE * unsure:
+                return float(np.copysign(np.inf, values[0]))
     return float("nan")
 
 

@@ -13,6 +13,7 @@ from linkwright.core.outputs import Output
 from linkwright.core.search import ends
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.between import Between
+from linkwright.kinematics.change_points import Passage
 from linkwright.kinematics.cycle import at_times
 from linkwright.kinematics.motion import Motion, Rows
 from linkwright.kinetostatics.forces import Forces
@@ -20,7 +21,6 @@ from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.loads.base import Load
 from linkwright.loads.over_cycle import activity
 from linkwright.loads.signals import Limit, Whole
-from linkwright.metrics.passed import towards
 
 
 class _SameCycle(MotionSignals):
@@ -62,12 +62,20 @@ class Resolver:
     def changes(self) -> Floats:
         """Times of the change points that the motion passes, s."""
         passing = [] if self._between is None else self._between.passing
+        return np.array([self._time_at(p) for p in passing])
+
+    @cached_property
+    def _times(self) -> Floats:
+        """Times of the positions, s, with that at which the first one of a closed cycle comes again."""
         time, positions = self._motion.time, self._motion.positions
-        if positions.closed and positions.period:
-            sense = 1.0 if time[-1] >= time[0] else -1.0
-            time = np.append(time, time[0] + sense * positions.period)
-        places = [p.place for p in passing]
-        return np.asarray(np.interp(places, np.arange(float(len(time))), time)) if places else np.empty(0)
+        if not (positions.closed and positions.period):
+            return time
+        sense = 1.0 if time[-1] >= time[0] else -1.0
+        return np.append(time, time[0] + sense * positions.period)
+
+    def _time_at(self, passage: Passage) -> float:
+        """When it is passed, s."""
+        return float(np.interp(passage.place, np.arange(float(len(self._times))), self._times))
 
     @cached_property
     def passed(self) -> Flags:
@@ -81,27 +89,30 @@ class Resolver:
     @cached_property
     def edges(self) -> tuple[tuple[float, int], ...]:
         """Times, s, at which the mechanism comes into (+1) or gets out of (-1) reach, found by halving."""
-        time, passed = self._motion.time, self.passed
+        passed = self.passed
         if passed.all():
             return ()
-        change = np.diff(passed.astype(int))
+        time = self._motion.time if self._between is None or self._between.bars else self._times
+        change = np.diff(np.resize(passed, len(time)).astype(int))
         where = np.flatnonzero(change)
         inside = np.where(change[where] < 0, time[where], time[where + 1])
-        outside = np.where(change[where] < 0, time[where + 1], time[where])
         if self.possible and len(where):
-            inside = ends(lambda time: self.motion(time).ok, inside, outside)
+            brackets = [self._bracket(int(k), bool(change[k] < 0)) for k in where]
+            inside = ends(lambda time: self._solved(time).ok, *np.transpose(brackets))
         return tuple((float(t), int(s)) for t, s in zip(inside, change[where], strict=True))
 
-    @property
-    def near_edges(self) -> Floats:
-        """Times, s, near each edge at which positions are reached, the nearest first, (edges, k)."""
-        time, positions = self._motion.time, self._motion.positions
-        period = positions.period if positions.closed else None
-        at, sense = np.array([edge[0] for edge in self.edges]), np.array([edge[1] for edge in self.edges])
-        ends = [at - period, at, at + period] if period else [at, time[[0, -1]]]
-        way = sense[:, None] * (np.concatenate(ends) - at[:, None])
-        length = np.where(way > 0.0, way, np.inf).min(axis=1)
-        return np.asarray(at[:, None] + sense[:, None] * towards(length))
+    def _bracket(self, before: int, leaves: bool) -> tuple[float, float]:
+        """Times, s, in and out of reach around an end of it between a position and the next, of which the first is in
+        reach if it ``leaves``; the same twice where guides become parallel, as nothing is solved very near that."""
+        assert self._between is not None
+        time = self._times
+        bars = [p for p in self._between.bars if before <= p.place <= before + 1]
+        inside, outside = (before, before + 1) if leaves else (before + 1, before)
+        if not bars:
+            return float(time[inside]), float(time[outside])
+        bar = bars[0 if leaves else -1]
+        at = self._time_at(bar)
+        return at if bar.kind == "pole" else float(time[inside]), at
 
     @cached_property
     def stretches(self) -> tuple[tuple[float, float], ...]:
@@ -134,7 +145,7 @@ class Resolver:
 
         known = self._motion
         assert self._forces is not None
-        if known.modes:
+        if known.modes or not self.passed.all():
             return None
         positions = at_times(known.mechanism, time)
 
@@ -152,7 +163,22 @@ class Resolver:
         )
 
     def motion(self, time: Floats) -> Motion:
-        """Motion at some times; positions out of reach are NaN."""
+        """Motion at some times; positions out of reach are NaN, also those that could be assembled behind a gap."""
+        return self._solved(time, None if self.passed.all() else self._reached(time))
+
+    def _reached(self, time: Floats) -> Flags:
+        """Which times, s, of any turn lie within the stretches that are reached."""
+        start, positions = float(self._motion.time[0]), self._motion.positions
+        period = positions.period if positions.closed else None
+        laps = [time] if period is None else [start + (time - start) % period + k * period for k in (0, 1)]
+        found = np.zeros(len(time), dtype=np.bool_)
+        for begin, end in self.stretches:
+            for lap in laps:
+                found |= (lap >= begin) & (lap <= end)
+        return found
+
+    def _solved(self, time: Floats, reached: Flags | None = None) -> Motion:
+        """Motion at some times; NaN where it cannot be assembled or is not ``reached``."""
         assert self._between is not None
         known = self._motion
         positions = at_times(known.mechanism, time)
@@ -161,7 +187,7 @@ class Resolver:
         modes = known.modes and self._between._modes(positions)
         names = known.solver.outputs.standard
         values = known.solver.evaluate(names, positions, states, modes, known.design)
-        barred = np.zeros(positions.count)
+        barred = np.zeros(positions.count) if reached is None else np.where(reached, 0.0, 1.0)
         for row in states.values():
             barred = np.where(np.isfinite(row), barred, 1.0)
         rows = Rows(values, {name: i for i, name in enumerate(names)})

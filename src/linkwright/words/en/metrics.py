@@ -85,6 +85,8 @@ closeness to a singular position first.""",
     "none_reached": "{name!r} reaches none of the positions, so only numbers of its dimensions are known",
     "part_reached": "{name!r} reaches {reached} of {count} positions; numbers of the whole cycle, such as means, are "
     "left out",
+    "part_of_way_reached": "{name!r} reaches {reached} of {count} positions; means are those of the time "
+    "until it comes out of reach, and numbers that grow without bound there have none",
     "mean_power.label": "mean power",
     "mean_power.meaning": "Work of the drivers per cycle over the time of the cycle.",
     "peak_reaction.label": "peak reaction",

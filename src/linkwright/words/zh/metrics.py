@@ -69,6 +69,8 @@ WORDS = {
     "fastest_speed.meaning": "恒定驱动力矩下，仅凭机械现有转动惯量时原动件真实速度的最大值。",
     "none_reached": "“{name}”在所有位置都不能装配，因此只有由尺寸得出的指标",
     "part_reached": "“{name}”在 {count} 个位置中只能到达 {reached} 个，均值等整个循环的指标从略",
+    "part_of_way_reached": "“{name}”在 {count} 个位置中只能到达 {reached} 个，"
+    "均值按到达不了之前的时间计算，在那里无限增大的量没有均值",
     "mean_power.label": "平均功率",
     "mean_power.meaning": "原动件每循环所做的功除以循环时间。",
     "peak_reaction.label": "运动副反力峰值",
