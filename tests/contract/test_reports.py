@@ -435,3 +435,34 @@ def _chain(count: int) -> str:
         f"links:\n  crank: {{points: [O, P0], length: 0.05 m}}\n{links}"
         f"assembly: {{{modes}}}\ndriver: {{turn: crank, about: O, speed: 60 rpm}}\ngravity: [0, -9.81 m/s²]\n"
     )
+
+
+PRESS_AND_FEED = """
+format: 1
+name: Press and feed on one shaft
+frame: {points: {O: [0 mm, 0 mm], G: [0 mm, -300 mm], F: [300 mm, 0 mm]}}
+links:
+  shaft: {points: {O: [0 mm, 0 mm], A: [60 mm, 0 mm], C: [0 mm, 40 mm]}}
+  rod: {points: [A, B], length: 260 mm}
+  ram: {points: [B]}
+  bar: {points: [C, N], length: 240 mm}
+  feeder: {points: [N]}
+joints:
+  press: {kind: prismatic, guide: frame, through: G, direction: 90 deg, block: ram, at: B}
+  table: {kind: prismatic, guide: frame, through: F, direction: 0 deg, block: feeder, at: N}
+assembly: {B: backward, N: forward}
+driver: {turn: shaft, about: O, speed: 90 rpm}
+"""
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_a_machine_of_two_outputs_shows_the_motion_of_both(language: str) -> None:
+    found = report(lw.loads(PRESS_AND_FEED), sections=["curves"], language=language).document.blocks
+    captions = [block.caption for block in found if isinstance(block, Figure)]
+    assert [name for caption in captions for name in ("press", "table") if name in caption] == [
+        "press",
+        "table",
+    ]
+    assert len(captions) == 4  # the angles and the paths
+    one = report("gallery:shaper_quick_return", sections=["curves"], language=language).document.blocks
+    assert sum(isinstance(block, Figure) for block in one) == 3

@@ -209,6 +209,12 @@ def test_contact_that_would_have_to_pull_is_said_with_its_place() -> None:
     lost = 0.5 * (9.81 + program.curves(phi)[2] * speed**2) < 0
     first = math.degrees(forces.motion.input[lost][0])
     (note,) = (each for each in forces.notes if "would have to pull" in each)
+    missing = -0.5 * (9.81 + program.curves(phi)[2] * speed**2)
+    push = forces.reaction("lobe", on="slide")[:, 1]
+    assert np.allclose(push, -missing, rtol=0, atol=1e-9 * missing.max())
+    most = np.linalg.norm(forces.reaction("lobe", on="slide")[lost], axis=1)
+    where = math.degrees(forces.motion.input[lost][most.argmax()])
+    assert f"with up to {most.max():.4g} N at {where:g} deg;" in note
     assert f"from {first:g} deg" in note and note.startswith("the cam lobe cannot hold its follower")
     assert in_language(note, "zh").startswith("凸轮 lobe ")
     steady = lw.loads(text.replace("touch: roller", "closure: groove\n    touch: roller"))
@@ -254,7 +260,8 @@ def test_an_arm_reaches_base_circles_of_some_radii(
     if reached:
         assert lw.loads(text)
         return
-    with pytest.raises(ModelError, match="does not reach"):
+    least, most = {"flat": (0, 160), "knife": (30, 290), "roller": (20, 280)}[touch]
+    with pytest.raises(ModelError, match=f"does not reach .* above {least} mm and below {most} mm"):
         lw.loads(text)
 
 

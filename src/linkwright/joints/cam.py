@@ -198,9 +198,15 @@ class CamJoint(HigherPair):
     def _check(self, mechanism: Mechanism, report: Callable[[str, Sentence, Sentence], None]) -> None:
         from linkwright.joints.cam_cuts import Geometry
 
-        reach = Geometry.of(self, mechanism).reach
-        if not reach > 0:
-            report("base_radius", Sentence("joints.cam_reach"), Sentence("joints.cam_reach_remedy"))
+        found = Geometry.of(self, mechanism)
+        if not found.reach > 0:
+            word = "cam_reach_remedy" if found.most < math.inf else "cam_reach_above"
+            least, most = (f"{1e3 * each:.5g} mm" for each in (found.least, found.most))
+            report(
+                "base_radius",
+                Sentence("joints.cam_reach"),
+                Sentence(f"joints.{word}", least=least, most=most),
+            )
 
     def written(self) -> dict[str, Any]:
         if self.program is None:

@@ -30,7 +30,8 @@ class Geometry:
     """How a follower is held, as numbers: ``along`` its way in the carrier's and ``own`` in its own axes (rad; of a
     pivot: to the cam's centre, to ``at``), ``start`` d (m) or ψ₀ (rad), ``scale`` m per unit of the coordinate;
     ``reach`` positive where follower and base circle meet; ``aside``: of ``at`` to the left of the way through the
-    cam's centre, ``ahead``: where it is along the way when a guide's displacement is 0 (m)."""
+    cam's centre, ``ahead``: where it is along the way when a guide's displacement is 0 (m); ``least`` and ``most``:
+    between them base radii reach (m)."""
 
     along: float
     own: float
@@ -39,6 +40,8 @@ class Geometry:
     reach: float
     aside: float = 0.0
     ahead: float = 0.0
+    least: float = 0.0
+    most: float = math.inf
 
     @classmethod
     def of(cls, joint: CamJoint, mechanism: Mechanism) -> Geometry:
@@ -58,7 +61,10 @@ class Geometry:
         share = reached / whole if c and length else math.inf
         met = min(max(share, -1.0), 1.0)
         start = math.asin(met) if flat else math.acos(met)
-        return cls(cmath.phase(line), cmath.phase(arm), start, c if flat else length, 1.0 - abs(share))
+        least, most = (0.0, c) if flat else (abs(c - length), c + length)
+        own, beyond = cmath.phase(arm), radius - joint.base_radius
+        limits = {"least": max(least - beyond, 0.0), "most": most - beyond}
+        return cls(cmath.phase(line), own, start, c if flat else length, 1.0 - abs(share), **limits)
 
     @classmethod
     def _guided(
@@ -81,7 +87,8 @@ class Geometry:
         if joint.touch == "flat":
             return cls(along, own, radius, 1.0, radius, side, seen.real)
         square = radius**2 - side**2
-        return cls(along, own, math.sqrt(max(square, 0.0)), 1.0, square, side, seen.real)
+        least = max(abs(side) - radius + joint.base_radius, 0.0)
+        return cls(along, own, math.sqrt(max(square, 0.0)), 1.0, square, side, seen.real, least)
 
 
 def cut(joint: CamJoint, connection: Connection, dimensions: Dimensions) -> Cut:

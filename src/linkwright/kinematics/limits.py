@@ -253,12 +253,32 @@ class _Search:
         """The stretch between two positions, of which the second may be counted past the last one."""
         after, begin = last % self.count, float(self.motion.time[first])
         a, b = float(rate[first]), float(rate[after])
-        span = float(self.motion.time[after]) + (last >= self.count) * (self.period or 0.0) - begin
+        span = self._time_of(last) - begin
         if last - first > 2:
-            return Bracket(first, begin, span, 0.5, 0.5, a, b, 0.5)
+            middle = (self._middle(rate, first, last) - begin) / span
+            return Bracket(first, begin, span, middle, middle, a, b, middle)
         same = (a > 0.0) == (b > 0.0)
         start = 0.5 if same else _zero(a, b, float(second[first]) * span, float(second[after]) * span)
         return Bracket(first, begin, span, 0.0, 1.0, a, b, start)
+
+    def _middle(self, rate: Floats, first: int, last: int) -> float:
+        """The middle, s, of a rest that begins after the position ``first`` and is over before ``last``."""
+        times = [self._time_of(k) for k in (first, first + 1, last - 1, last)]
+        beside = _Columns(
+            [
+                Bracket(first, times[0], times[1] - times[0], 0.0, 1.0, 0.0, 0.0, 0.0),
+                Bracket((last - 1) % self.count, times[3], times[2] - times[3], 0.0, 1.0, 0.0, 0.0, 0.0),
+            ]
+        )
+        still = self._still(rate) or 0.0
+        moving = ends(lambda share: np.abs(self._rates(beside, share)[0]) > still, beside.low, beside.high)
+        return 0.5 * float((beside.begin + moving * beside.span).sum())
+
+    def _time_of(self, position: int) -> float:
+        """The time of a position, which may be counted past the last one."""
+        return float(self.motion.time[position % self.count]) + (position >= self.count) * (
+            self.period or 0.0
+        )
 
     def _together(self, rate: Floats, places: Sequence[int]) -> Callable[[int], bool]:
         """Whether no position out of reach lies between one of these positions and the next, by its number."""

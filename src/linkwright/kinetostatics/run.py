@@ -156,7 +156,16 @@ def _contacts_lost(forces: Forces) -> Iterable[Sentence]:
             Sentence("forces.from_to", first=spelled(first, *unit), last=spelled(last, *unit))
             for first, last in ends
         )
-        yield joint.said("forces.contact_lost", name=name, kind=joint.word(), places=together(places))
+        sizes = np.linalg.norm(forces.reaction(name, on=joint.joined[-1]), axis=1)[at]
+        most, where = float(sizes.max()), float(motion.input[at[sizes.argmax()]])
+        yield joint.said(
+            "forces.contact_lost",
+            name=name,
+            kind=joint.word(),
+            places=together(places),
+            most=f"{most:.4g} N",
+            where=spelled(where, *unit),
+        )
 
 
 def _indeterminate(motion: Motion) -> tuple[str, ...]:

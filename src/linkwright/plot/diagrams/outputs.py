@@ -56,6 +56,25 @@ def main_output(motion: Motion) -> Output | str:
     return Output("angle", moving[0]) if moving else Output("angle", order[-1])
 
 
+def main_outputs(motion: Motion) -> list[Output | str]:
+    """The main output, among the last one on the frame of every group that moves no other group."""
+    main, mechanism, geared = main_output(motion), motion.mechanism, _geared(motion)
+    groups, found = motion.structure.groups, dict[int, Output | str]()
+    place = {link: number for number, group in enumerate(groups) for link in group.links}
+    moving = {
+        place[link]
+        for number, group in enumerate(groups)
+        for each in group.joints
+        for link in mechanism.joints[each.joint].joined
+        if link != "frame" and place[link] < number
+    }
+    for output in mechanism_outputs(mechanism):
+        link = output_link(mechanism, output)
+        if place[link] not in moving and link not in geared:
+            found[place[link]] = output
+    return list(found.values()) if main in found.values() else [main]
+
+
 def _geared(motion: Motion) -> set[str]:
     """Driven links, and the wheels that turn in a fixed ratio to one."""
     found = {driver.link for driver in motion.mechanism.drivers.values()}

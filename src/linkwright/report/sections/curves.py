@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from linkwright.errors import LinkwrightError
+from linkwright.plot.diagrams.outputs import main_outputs
 from linkwright.report.case import Case, Missing
 from linkwright.report.document import Block, Figure, Paragraph, literal
 from linkwright.report.section import section
@@ -20,15 +21,23 @@ def blocks(case: Case) -> Iterator[Block]:
     if not case.mechanism.drivers:
         raise Missing("report.no_motion")
     yield Paragraph(case.say("report.curves_text"))
-    yield from pictures(case, KINDS)
+    outputs = main_outputs(case.motion)
+    if len(outputs) == 1:
+        outputs = []
+    for output in outputs:
+        yield _figure(case, "sva", case.say("report.caption_sva_of", output=str(output)), of=(str(output),))
+    yield from pictures(case, KINDS[bool(outputs) :])
 
 
-def pictures(case: Case, kinds: tuple[str, ...], share: float = SHARE) -> Iterator[Block]:
+def pictures(case: Case, kinds: tuple[str, ...]) -> Iterator[Block]:
     """A figure per kind of diagram, or why there is none."""
     for kind in kinds:
-        try:
-            shown = case.diagram(kind, case.motion if kind in KINDS else None)
-        except LinkwrightError as error:
-            yield Paragraph(f"{case.say(f'plot.kind.{kind}')}: {literal(case.told(error))}", "missing")
-            continue
-        yield Figure(case.say(f"report.caption_{kind}"), ((shown, share),), kind, TALLEST)
+        yield _figure(case, kind, case.say(f"report.caption_{kind}"))
+
+
+def _figure(case: Case, kind: str, caption: str, **options: object) -> Block:
+    try:
+        shown = case.diagram(kind, case.motion if kind in KINDS else None, **options)
+    except LinkwrightError as error:
+        return Paragraph(f"{case.say(f'plot.kind.{kind}')}: {literal(case.told(error))}", "missing")
+    return Figure(caption, ((shown, SHARE),), "" if options else kind, TALLEST)

@@ -21,9 +21,9 @@ WORDS = {
     "self_locking": "{name!r} is self-locking by friction near {where}: the friction in joint "
     "{joint!r} grows without bound in the iteration, so no driver effort moves it; reduce the friction "
     "coefficient or the pin radius, or improve the transmission angle there",
-    "contact_lost": "the pair {name} ({kind}) can only push, but would have to pull {places}; press its links "
-    "together with a spring or a load",
-    "contact_lost_cam": "the cam {name} cannot hold its follower {places}: it would have to pull; press it on with a "
-    "spring or a load, or run it in a groove",
+    "contact_lost": "the pair {name} ({kind}) can only push, but would have to pull {places}, with up to {most} at "
+    "{where}; press its links together with a spring or a load",
+    "contact_lost_cam": "the cam {name} cannot hold its follower {places}: it would have to pull, with up to "
+    "{most} at {where}; press it on with a spring or a load, or run it in a groove",
     "from_to": "from {first} to {last} of the input",
 }

@@ -64,7 +64,9 @@ WORDS = {
     "cam_guide_remedy": "add a prismatic joint between them; for an oscillating follower say on which side "
     "its arm lies: side: left",
     "cam_reach": "the follower does not reach the base circle",
-    "cam_reach_remedy": "take a larger base circle, or bring follower and cam nearer",
+    "cam_reach_remedy": "take a base_radius above {least} and below {most}, or change the distance of "
+    "follower and cam",
+    "cam_reach_above": "take a base_radius above {least}, or bring follower and cam nearer",
     "cam_sums": "the lift of a cam is no sum of rotations and displacements, which is all that can be said "
     "here: exports to MuJoCo and Modelica, worked solutions of a cam within a loop, and groups without closed form "
     "behind a cam, take gears, racks and belts only",

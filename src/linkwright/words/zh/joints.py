@@ -58,7 +58,8 @@ WORDS = {
     "cam_guide": "从动件 {follower!r} 与凸轮 {cam!r} 所在构件之间没有导路",
     "cam_guide_remedy": "请在二者之间加移动副；摆动从动件请说明摆杆在哪一侧：side: left",
     "cam_reach": "从动件达不到基圆",
-    "cam_reach_remedy": "请加大基圆，或使从动件与凸轮靠近",
+    "cam_reach_remedy": "base_radius 应大于 {least} 而小于 {most}，或改变从动件与凸轮的距离",
+    "cam_reach_above": "base_radius 应大于 {least}，或使从动件与凸轮靠近",
     "cam_sums": "凸轮的升程不是转角与位移之和，而此处只能表达这种和："
     "导出 MuJoCo 和 Modelica、回路之中凸轮的解题过程，以及凸轮之后没有闭式解的杆组，只支持齿轮、齿条和带",
 }
