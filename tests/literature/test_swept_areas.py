@@ -1,13 +1,18 @@
 """Hulls of what machines sweep: closed forms, and hulls of points that are placed here, finely sampled."""
 
+import re
 from math import acos, pi
 
 import numpy as np
 import pytest
 from scipy.spatial import ConvexHull
+from tests.reference.geared_mechanisms import geared_case
 
 import linkwright as lw
 from linkwright.metrics import metrics
+
+#: A point of a drawing: its name and coordinates.
+DRAWN = r"  (P\d+): \[(\S+) m, (\S+) m\]\n"
 
 SLIDER = """
 format: 1
@@ -201,3 +206,25 @@ def test_points_that_a_rocking_crank_runs_to_and_fro_are_taken_once(phase: float
         assert table.value("swept_area_of_link", "crank") == pytest.approx(0.5 * 0.3**2 * 2.4, rel=1e-9)
     swept = lw.sweep(crank, {"crank.length": np.array([0.25, 0.3])}, outputs="swept_area_of_link rod")
     assert swept["swept_area_of_link rod"][1] == pytest.approx(rod.volume, rel=1e-9)
+
+
+def test_points_that_pass_their_places_twice_are_taken_once() -> None:
+    case = geared_case(6007)  # a rack: one turn, in which a wheel makes one and a half
+    machine = lw.loads(case.text)
+    drawn = {key: complex(float(x), float(y)) for key, x, y in re.findall(DRAWN, case.text)}
+    turn = np.linspace(0.0, 2.0 * pi, 40001)
+    way = 0.1736864645474622 * turn * np.exp(1j * -0.7915244722085526)
+    places = [drawn["P2"] - way, drawn["P3"] - way, *([drawn[key]] for key in ("P0", "P6", "P8", "P10"))]
+    for point, centre, ratio in (
+        ("P1", "P0", 1.0),
+        ("P5", "P6", -1.5),
+        ("P7", "P8", -1.0),
+        ("P9", "P10", 1.5),
+    ):
+        places.append(drawn[centre] + (drawn[point] - drawn[centre]) * np.exp(1j * ratio * turn))
+    places.append([0.09630876339894974 + 0.19991572513015027j])
+    every = np.concatenate(places)
+    hull = ConvexHull(np.stack([every.real, every.imag], axis=1)).volume
+    swept = lw.sweep(machine, {"l1.mass": np.array([1.0])}, outputs=["swept_area"])
+    assert area(machine) == pytest.approx(hull, rel=1e-8)
+    assert swept["swept_area"][0] == pytest.approx(hull, rel=1e-8)

@@ -23,6 +23,8 @@ STEPS, CLOSE = 6, 1e-7
 BEYOND, NEAR = 0.02, 0.6
 #: Indices of contact nearer than this share of a side are one: a side of an arc, not one between two.
 SAME = 0.1
+#: Sides shorter than this share of the largest are none: the same place, passed twice.
+SHORT = 1e-9
 #: Nodes of a piece that are enough within an arc.
 _KEPT = np.isin(np.arange(POINTS), (0, 5, 10, POINTS - 1))
 #: Along the boundary where it is farthest to the left, the right, down and up.
@@ -68,8 +70,10 @@ class SweptHull:
         self.area = self._area()
 
     def _thinned(self, corners: Indices) -> Indices:
-        """Corners without those between others of the same curve that are no farther than its next nodes: those amid
-        arcs, which may have the nodes of several passages."""
+        """Corners at places of their own, without those between others of the same curve that are no farther than its
+        next nodes: those amid arcs, which may have the nodes of several passages."""
+        sides = _squares(self._nodes[corners] - self._nodes[np.roll(corners, 1)])
+        corners = corners[sides >= SHORT * SHORT * sides.max()]
         curve, place = corners // POINTS // self._pieces, self._nodes[corners]
         beside = (self._nodes.take(corners + k, axis=0, mode="clip") - place for k in (-1, 1))
         near = 2.0 * np.maximum(*map(_squares, beside))
