@@ -21,7 +21,7 @@ from linkwright.engine.sweep import Results
 from linkwright.study import kept
 from linkwright.study.criteria import Criterion
 from linkwright.study.designs import sweep_curves
-from linkwright.study.kept import Interrupted, _made, _plain, kept_in
+from linkwright.study.kept import _made, _plain
 from linkwright.study.study import PIECE, _Work
 from linkwright.study.sweep_run import SweepRun
 from linkwright.words.sentence import Sentence
@@ -52,10 +52,10 @@ def test_an_interrupted_study_goes_on_from_its_file_without_what_it_had(
             raise KeyboardInterrupt
 
     monkeypatch.setattr(_Work, "_measured", counted)
-    with pytest.raises(Interrupted) as stopped, kept_in(None, machine.name, "asked"):
+    with pytest.raises(lw.Interrupted) as stopped, lw.kept_in(None, machine.name, "asked"):
         lw.study(machine, vary, metrics=metrics, progress=interrupt)
     assert stopped.value.state.exists() and len(measured) == stop
-    with kept_in(stopped.value.state, machine.name, "asked"):
+    with lw.kept_in(stopped.value.state, machine.name, "asked"):
         resumed = lw.study(machine, vary, metrics=metrics)
     assert measured == vary["coupler.length"].tolist()  # each of them once, in both runs together
     assert resumed.data() == whole.data() and resumed.text("zh") == whole.text("zh")
@@ -128,17 +128,17 @@ def test_what_a_cluster_finds_is_kept_piece_by_piece(tmp_path: Path, monkeypatch
 
         monkeypatch.setattr(client, "submit", counted)
         state = tmp_path / "cluster.state"
-        with pytest.raises(Interrupted), kept_in(state, "crank", 1), lw.on_cluster(client):
+        with pytest.raises(lw.Interrupted), lw.kept_in(state, "crank", 1), lw.on_cluster(client):
             lw.study(crank, **asked, progress=interrupt)
         given.clear()
-        with kept_in(state, "crank", 1), lw.on_cluster(client):
+        with lw.kept_in(state, "crank", 1), lw.on_cluster(client):
             resumed, spread = lw.study(crank, **asked), [*sweep_curves(crank, columns, **curves)]
         pieces = -(-int(whole.ok.sum()) // PIECE)
         assert (
             len(given) == pieces - 3 + 2
         )  # three of the study and both of its sweep were there; two of curves
         given.clear()
-        with kept_in(state, "crank", 1), lw.on_cluster(client):
+        with lw.kept_in(state, "crank", 1), lw.on_cluster(client):
             again = lw.study(crank, **asked)
         assert given == []
     for name, column in whole.metrics.items():

@@ -19,7 +19,6 @@ import linkwright as lw
 from linkwright.cli import main
 from linkwright.engine import machine_code
 from linkwright.study import kept
-from linkwright.study.kept import Interrupted, kept_in
 from linkwright.synthesis.free_curve import search as free_curve
 from linkwright.synthesis.free_curve.nodes import FOUR_BAR, Design, flat
 from linkwright.synthesis.free_curve.search import Search, polished
@@ -83,11 +82,11 @@ def test_a_counted_search_goes_on_with_the_same_bits(
     every = len(calls)
     calls.clear()
     stop.append(max(1, every // 2))
-    with pytest.raises(Interrupted), kept_in(tmp_path / "a.state", task, demands):
+    with pytest.raises(lw.Interrupted), lw.kept_in(tmp_path / "a.state", task, demands):
         lw.synthesize(task, **demands)
     before = len(calls)
     stop.clear()
-    with kept_in(tmp_path / "a.state", task, demands):
+    with lw.kept_in(tmp_path / "a.state", task, demands):
         assert _data(task, demands) == whole
     assert len(calls) == every + 1 and before == max(1, every // 2)
 
@@ -115,7 +114,7 @@ def test_a_search_that_a_clock_ends_goes_on_with_the_time_that_is_left(tmp_path:
             raise KeyboardInterrupt
 
     def searched(progress: Callable[[float, float], None]) -> lw.Synthesis:
-        with kept_in(tmp_path / "four.state", "four", "asked"):
+        with lw.kept_in(tmp_path / "four.state"):
             return lw.free_curve(FOUR, joints=5, seconds=3.0, progress=progress)
 
     part = searched(stop)

@@ -43,15 +43,16 @@ class Interrupted(KeyboardInterrupt):
 
 @contextmanager
 def kept_in(
-    path: str | Path | None, name: str, *asked: object, progress: Progress | None = None
+    path: str | Path | None, name: str = "linkwright", *asked: object, progress: Progress | None = None
 ) -> Iterator[None]:
     """Within it the finished parts of studies, tolerance runs and syntheses are kept in a file, and those that it has
     already are not computed again: the results are equal to the bit. A search that a clock ends keeps what it has
-    found and the time that it has spent, and goes on from there.
+    found and the time that it has spent, and goes on from there. :func:`linkwright.optimize` has its own, ``state``.
 
     Args:
         path: the file; None: one named after ``name`` in the working directory, where the work is interrupted.
-        asked: all that the parts depend on, such as the machine's text and the ranges.
+        asked: what the file is for, such as the machine's text and the ranges; a file that was begun for something
+            else is refused. Without it work of several kinds can share a file.
         progress: called with (designs done, designs) of every sweep that the work consists of.
 
     Raises:
