@@ -350,7 +350,9 @@ def _unit_of(text: str, column: int, dimension: str) -> tuple[float, Dimension]:
 
 def _fitting_remedy(text: str, dimension: str) -> Sentence:
     """What was probably meant by an unknown unit where a quantity of this dimension is needed."""
-    wanted, offer = DIMENSIONS[dimension], suggestion(text)
+    wanted, product = DIMENSIONS[dimension], "·".join(text.split())
+    fits = suggestion(product) == product and unit(product)[1] == wanted
+    offer = product if fits else suggestion(text)
     if not offer or (unit(offer)[1] != wanted and _letters(offer) != _letters(text)):
         offer = nearest(text, [name for name, (_, kind) in UNITS.items() if kind == wanted])
     if offer:
@@ -406,6 +408,12 @@ def name_of(kind: Dimension) -> Sentence:
         if dimension == kind:
             return Sentence(f"nouns.a_{name}")
     return Sentence("nouns.in_units", unit=si_symbol(kind))
+
+
+def usual_symbol(kind: Dimension) -> str:
+    """The unit in which a dimension is mostly written: ``mm``, ``deg``, ``N·m/rad``; empty for a number."""
+    names = (name for name, dimension in DIMENSIONS.items() if dimension == kind)
+    return next((USUAL_UNITS[name] for name in names), si_symbol(kind))
 
 
 def si_symbol(kind: Dimension) -> str:

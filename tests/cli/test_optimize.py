@@ -83,3 +83,64 @@ def test_an_interruption_before_the_first_population_leaves_a_file_to_go_on_from
     whole = capsys.readouterr().out
     assert main([*asked, "--json", "--state", left.name]) == 0
     assert capsys.readouterr().out == whole
+
+
+PRESS = """
+format: 1
+name: Press
+frame: {points: {O: [0 mm, 0 mm]}}
+links:
+  crank: {points: [O, A], length: 60 mm}
+  rod: {points: [A, B], length: 260 mm, mass: 2 kg, inertia: 0.02 kg·m²}
+  ram: {points: [B], mass: 30 kg}
+joints: {guide: {kind: prismatic, guide: frame, through: O, direction: 90 deg, block: ram, at: B}}
+assembly: {B: forward}
+driver: {turn: crank, about: O, speed: 60 rpm}
+optimize:
+  vary:
+    rod.length: 200..300 mm
+  minimize: peak_reaction B
+  keep:
+    transmission_angle: at least 60 deg
+"""
+MISTAKES = [
+    ("rod.length: 200", "rod.lenght: 200", "13:17: optimize.vary.rod.lenght: ", 'did you mean "rod.length"?'),
+    ("200..300 mm", "200-300 mm", "13:17: optimize.vary.rod.length: ", "write 200..300 mm"),
+    ("200..300 mm", "200 mm ~ 300 mm", "13:17: optimize.vary.rod.length: ", "write 200 mm..300 mm"),
+    (
+        "at least 60 deg",
+        "at least 60",
+        "16:25: optimize.keep.transmission_angle: ",
+        "write its unit, as in 60 deg",
+    ),
+    ("at least 60 deg", "more than 60 deg", "16:25: optimize.keep.transmission_angle: ", "at least 40 deg"),
+    ("at least 60 deg", "> 60 deg", "16:27: ", "at least 30 deg"),
+    ("peak_reaction B", "peak_raction B", "12:3: optimize: ", 'did you mean "peak_reaction"?'),
+    ("minimize", "minimise", "14:13: optimize.minimise: ", 'did you mean "minimize"?'),
+]
+
+
+@pytest.mark.parametrize(("right", "wrong", "place", "remedy"), MISTAKES)
+def test_mistakes_in_the_section_are_found_at_their_lines(
+    right: str, wrong: str, place: str, remedy: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "press.yaml"
+    assert right in PRESS
+    file.write_text(PRESS.replace(right, wrong).lstrip(), encoding="utf-8")
+    assert main(["check", str(file)]) == 1
+    told = capsys.readouterr().out
+    assert f"press.yaml:{place}" in told and remedy in told
+
+
+def test_what_the_command_asks_has_no_line_and_the_section_keeps_its(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "press.yaml"
+    file.write_text(PRESS.lstrip().replace("at least 60 deg", "at least 60"), encoding="utf-8")
+    assert main(["optimize", str(file)]) == 1
+    assert "press.yaml:16:25: optimize.keep" in capsys.readouterr().err
+    assert main(["optimize", str(file), "--vary", "rod.lenght=200..300mm"]) == 1
+    told = capsys.readouterr().err
+    assert "press.yaml: optimize.vary.rod.lenght: " in told
+    file.write_text(PRESS.lstrip(), encoding="utf-8")
+    assert main(["check", str(file)]) == 0

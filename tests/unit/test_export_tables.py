@@ -176,6 +176,7 @@ def test_nothing_is_left_behind_when_writing_fails(tmp_path: Path) -> None:
     ("name", "options", "sentence"),
     [
         ("a.xslx", {}, r'ending "\.xslx"; did you mean "\.xlsx"'),
+        ("a.step", {}, r'ending "\.step"; use \.csv, \.dxf'),
         ("a", {}, "or say which format"),
         ("a.csv", {"format": "exel"}, 'there is no export format "exel"; did you mean "xlsx"'),
         ("a.csv", {"degree": True}, 'no option degree; did you mean "degrees"'),

@@ -108,6 +108,7 @@ def test_formatting_in_a_chosen_unit() -> None:
         ("5 N·mmx", "torque", 4, 'unknown unit "N·mmx"; did you mean "N·mm"?'),
         ("2 km/hh", "velocity", 5, 'unknown unit "km/hh"; did you mean "km/h"?'),
         ("5 m s", "length", 4, 'unknown unit "m s"; did you mean "ms"?'),
+        ("5 kg mm^2", "inertia", 5, 'unknown unit "kg mm^2"; did you mean "kg·mm^2"?'),
         ("5 r/h", "angular_velocity", 2, 'unknown unit "r/h"; did you mean "rev/h"?'),
         ("5 kgm2/s", "inertia", 2, 'unknown unit "kgm2/s"; did you mean "kg·m²/s"?'),
         ("5 newton*metre", "torque", 2, 'unknown unit "newton*metre"; did you mean "N·m"?'),

@@ -12,8 +12,9 @@ from linkwright.export.results import STEPS, Results
 from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import Forces
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.registry import offered
+from linkwright.registry import nearest, offered
 from linkwright.whole_files import refuse_target, write_whole
+from linkwright.words.sentence import Sentence
 
 
 def export(
@@ -63,7 +64,12 @@ def chosen_format(path: Path, name: str | None) -> str:
     suffix = path.suffix.lower()
     if suffix in by_suffix:
         return by_suffix[suffix]
-    hint = offered(suffix, sorted(by_suffix), "export.say_format")
+    names, near = tuple(sorted(by_suffix)), nearest(suffix[1:], [each[1:] for each in by_suffix])
+    hint = (
+        Sentence("names.near_one_of", offer=f".{near}", names=names)
+        if near
+        else Sentence("export.say_format", names=names)
+    )
     raise RequestError("export.no_ending", path=path, suffix=suffix, hint=hint)
 
 

@@ -85,6 +85,16 @@ class Remark:
     key: str = ""
 
 
+def towards(node: Node | None, path: str) -> Node | None:
+    """The node at a dotted path, whose keys may have dots themselves, or the last one on the way there."""
+    parts = path.split(".")
+    while parts and isinstance(node, Mapping):
+        keys = (".".join(parts[:k]) for k in range(len(parts), 0, -1))
+        key = next((each for each in keys if node.get(each) is not None), parts[0])
+        node, parts = node.get(key) or node, parts[key.count(".") + 1 :]
+    return node
+
+
 def below(node: Node | None, *keys: str) -> Node | None:
     """The node at a path of keys; None where there is none."""
     for key in keys:

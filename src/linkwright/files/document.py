@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Collection
+from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
 from linkwright.errors import Finding, LinkwrightError, ModelError, with_remedy
-from linkwright.fields.nodes import Entry, Mapping, Node, Scalar, Sequence
+from linkwright.fields.nodes import Entry, Mapping, Node, Scalar, Sequence, towards
 from linkwright.files.compose import compose
 from linkwright.files.write import flow
 from linkwright.mechanism.mechanism import Mechanism
@@ -37,6 +38,12 @@ class _Edit(NamedTuple):
         return text[: self.start] + self.written + text[self.end :]
 
 
+def located(finding: Finding, root: Node | None, name: str) -> Finding:
+    """A finding with line and column where its key stands in the text of a root."""
+    node = towards(root, finding.key) if finding.key else None
+    return finding if node is None else replace(finding, where=f"{name}:{node.line + 1}:{node.column + 1}")
+
+
 class Document:
     """The text of a model file, its mechanism, and changes of single values that keep comments and order."""
 
@@ -49,6 +56,16 @@ class Document:
         if mechanism is None:
             raise ModelError(findings)
         return mechanism
+
+    def located(self, error: ModelError, without: Collection[str] = ()) -> ModelError:
+        """The error with its findings at their lines; those below keys ``without`` are not about the text."""
+        root, other = _root(self.text), tuple(f"{key}." for key in without)
+        return ModelError(
+            [
+                each if f"{each.key}.".startswith(other) else located(each, root, self.name)
+                for each in error.findings
+            ]
+        )
 
     def set(self, address: str, value: str) -> None:
         """Write ``value`` (the text that stands in the file, such as ``"1.3 m"``) at a place of the file.

@@ -21,6 +21,8 @@ _MEANINGS: tuple[tuple[str, str], ...] = (
     ("expected '-' indicator", "indentation"),
     ("expected <document start>", "apart"),
     ("expected the node content", "no_value"),
+    ("expected comment or line break", "block"),
+    ("expected a comment or a line break", "block"),
     ("expected node content", "no_value"),
     ("Unicode character escape code", "half_character"),
     ("unacceptable character", "some_control"),

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -12,7 +13,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.engine.sweep import Progress
-from linkwright.errors import LinkwrightError, RequestError
+from linkwright.errors import LinkwrightError, ModelError, RequestError
 from linkwright.files.document import Document
 from linkwright.files.model_file import read_document
 from linkwright.files.write import dump
@@ -103,11 +104,13 @@ def optimize(
         LinkwrightError: a state of another problem; nothing moves.
     """
     mechanism, document, given = _source(source, settings)
-    asked = problem(mechanism, given, "" if document is None else document.name)
+    with _at_their_lines(document, settings):
+        asked = problem(mechanism, given, "" if document is None else document.name)
     machine = dump(replace(asked.mechanism, optimize={}))
     depends = {key: value for key, value in given.items() if key != "evaluations"}
     with kept_in(state, asked.mechanism.name, machine, depends):
-        task = Task(asked)
+        with _at_their_lines(document, settings):
+            task = Task(asked)
         if not task.measures.side_by_side and "evaluations" not in given:
             asked = replace(asked, evaluations=SLOW)
         size = asked.population or (
@@ -128,6 +131,18 @@ def _source(
     if not given:
         raise RequestError("optimize.no_section", name=partial(title_said, mechanism.name))
     return mechanism, document, given
+
+
+@contextmanager
+def _at_their_lines(document: Document | None, settings: Mapping[str, Any]) -> Iterator[None]:
+    """Findings about the section of a document get its lines; those about ``settings`` in its place get none."""
+    try:
+        yield
+    except ModelError as error:
+        if document is None:
+            raise
+        given = [f"optimize.{key}" for key, value in settings.items() if value is not None]
+        raise document.located(error, given) from None
 
 
 def _apart(judged: Judged) -> Judged:

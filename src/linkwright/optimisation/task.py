@@ -317,11 +317,14 @@ class Task:
         number, unit = _split(text)
         factor, given = units.unit(unit) if unit else (1.0, units.NONE)
         if given != kind:
-            example = units.si_symbol(kind)
-            key = "optimize.unit" if example else "optimize.no_unit"
-            raise QuantityError(
-                Sentence(key, text=name, need=units.name_of(kind), given=text, example=example)
-            )
+            symbol = units.usual_symbol(kind)
+            said = {
+                "text": name,
+                "need": units.name_of(kind),
+                "given": text,
+                "right": f"{number:.12g} {symbol}",
+            }
+            raise QuantityError(Sentence("optimize.unit" if symbol else "optimize.no_unit", **said))
         return number * factor
 
 

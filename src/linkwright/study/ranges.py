@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from linkwright import units
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.errors import RequestError, about
+from linkwright.errors import LinkwrightError, RequestError, about
 from linkwright.fields.signals import PhaseField
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words.sentence import Sentence
@@ -19,6 +19,9 @@ from linkwright.words.sentence import Sentence
 #: Values of a range without a number of its own.
 USUAL_COUNT = 11
 _RANGE = re.compile(r"^(?P<low>.+?)\s*\.\.\s*(?P<high>.+?)(?:\s*:\s*(?P<count>[^:]+))?$")
+_DASHED = re.compile(
+    r"^(?P<low>[+-]?[\d.]+)\s*(?P<unit>[^\W\d]\S*?)?\s*(?:-|–|—|~|～|to|至|到|…|\.\.\.)\s*(?P<high>\d.*)$"
+)
 _QUANTITY = re.compile(r"^([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*)$")
 
 
@@ -63,7 +66,13 @@ def parse_range(mechanism: Mechanism, address: str, given: str | ArrayLike) -> R
 def _parsed(address: str, text: str) -> Range:
     match = _RANGE.match(text)
     if match is None:
-        return _listed(address, text)
+        try:
+            return _listed(address, text)
+        except LinkwrightError:
+            if (dashed := _DASHED.match(text)) is None:
+                raise
+            first = " ".join(filter(None, (dashed["low"], dashed["unit"])))
+            raise RequestError("study.no_dots", right=f"{first}..{dashed['high']}") from None
     high, unit = _quantity(match["high"], "", address, text)
     low, unit = _quantity(match["low"], unit, address, text)
     count = _count(match["count"], address, text)

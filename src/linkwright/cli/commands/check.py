@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING
 
 from linkwright import gallery
@@ -15,7 +16,6 @@ from linkwright.errors import NO_FILE, Finding, LinkwrightError, ModelError
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
-    from linkwright.fields.nodes import Node
     from linkwright.fields.signals import MovingPhase, SwingPhase
     from linkwright.loads.base import Load
     from linkwright.mechanism.mechanism import Mechanism
@@ -47,6 +47,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
 
 def findings_of(name: str) -> tuple[list[Finding], dict[str, object]]:
     """What there is to say about a model file, and its structure in short where it has one."""
+    from linkwright.files.document import located
     from linkwright.files.model_file import declared_kind, read_root, read_tree
     from linkwright.files.source import GALLERY, read_source
     from linkwright.kinematics.analysed import analysed
@@ -80,9 +81,7 @@ def findings_of(name: str) -> tuple[list[Finding], dict[str, object]]:
         turned, notes = _turned(name, mechanism) if plain is None else ([], [])
     except LinkwrightError as error:
         parts = (isinstance(error, AssemblyError) and error.parts) or (("", error.sentence),)
-        told = [
-            _located(Finding("error", name, key, said, code="motion"), root, place) for key, said in parts
-        ]
+        told = [located(Finding("error", name, key, said, code="motion"), root, place) for key, said in parts]
         return [*found, *(replace(each, key="") for each in told)], {}
     sure = plain or [False] * len(swings)
     unsure = [
@@ -98,22 +97,10 @@ def findings_of(name: str) -> tuple[list[Finding], dict[str, object]]:
         *turned,
         *idle,
         *(_of_cams(name, mechanism) if mechanism.higher else ()),
-        *_of_settings(name, mechanism),
+        *_of_settings(name, mechanism, moves=not turned),
         *notes,
     ]
-    return [*found, *(_located(each, root, place) for each in mended)], fact
-
-
-def _located(finding: Finding, root: Node | None, place: str) -> Finding:
-    """A finding with line and column where its key stands in the text."""
-    from linkwright.fields.nodes import Mapping
-
-    node = root
-    for part in finding.key.split("."):
-        node = (node.get(part) if isinstance(node, Mapping) else None) or node
-    if not finding.key or node is None:
-        return finding
-    return replace(finding, where=f"{place}:{node.line + 1}:{node.column + 1}")
+    return [*found, *(located(each, root, place) for each in mended)], fact
 
 
 def _assumed(name: str, mechanism: Mechanism, structure: Structure) -> list[Finding]:
@@ -220,13 +207,18 @@ def _of_loads(name: str, mechanism: Mechanism, loads: Sequence[str], varying: Se
     return found
 
 
-def _of_settings(name: str, mechanism: Mechanism) -> list[Finding]:
-    """What is wrong with the sections that only some commands read, report and course."""
-    found = []
-    for key, given, read in (("report", mechanism.report, _report), ("course", mechanism.course, _course)):
+def _of_settings(name: str, mechanism: Mechanism, *, moves: bool) -> list[Finding]:
+    """What is wrong with the sections that only some commands read: report, course and optimize, the last one's
+    numbers where the machine ``moves``."""
+    found = list[Finding]()
+    reading: dict[str, Callable[[Mechanism], None]]
+    reading = {"report": _report, "course": _course, "optimize": partial(_optimize, moves=moves)}
+    for key, read in reading.items():
         try:
-            if given:
+            if getattr(mechanism, key):
                 read(mechanism)
+        except ModelError as error:
+            found += [replace(each, where=name) for each in error.findings]
         except LinkwrightError as error:
             found.append(Finding("error", name, key, error.sentence, code=key))
     return found
@@ -242,6 +234,15 @@ def _course(mechanism: Mechanism) -> None:
     from linkwright.course.task import task
 
     task(mechanism)
+
+
+def _optimize(mechanism: Mechanism, *, moves: bool) -> None:
+    from linkwright.optimisation.problem import problem
+    from linkwright.optimisation.task import Task
+
+    asked = problem(mechanism, mechanism.optimize)
+    if moves:
+        Task(asked)
 
 
 def _show(name: str, found: list[Finding], fact: dict[str, object], session: Session) -> None:

@@ -78,7 +78,7 @@ model file with everything else as it was. Several objectives give a front.""",
     "falling_demand": "the range falls from {low} to {high}; write the lower value first",
     "no_start": 'the start has no value of "{text}", so it cannot stay the same; demand a range',
     "no_unit": '"{text}" is {need}, and "{given}" is not; write a number without a unit',
-    "unit": '"{text}" is {need}, and "{given}" is not; write a value in {example}',
+    "unit": '"{text}" is {need}, and "{given}" is not; write its unit, as in {right}',
     "no_value": '"{text}" is no value; write a number with its unit, such as 40 deg',
     "no_number": 'there is no number "{text}"; name a design number (linkwright metrics), flywheel, a summary such '
     'as "jaw.angle range", a dimension, or an expression of names given by define:',

@@ -77,6 +77,7 @@ metrics of every design. Designs that cannot move are counted and explained.""",
     "not_compiled": "this mechanism cannot be compiled here: llvmlite is missing, or a group iterates",
     "zero_not_named": "{address!r} is zero and was not named when the mechanism was prepared; write "
     "prepare(mechanism, vary=[{address!r}, …])",
+    "no_dots": "a range has two dots between its ends; write {right}",
     "no_quantity": '{address}={text}: "{part}" is no quantity; write a range as 1.2..1.3 m:11, or values as '
     "1.2, 1.25, 1.3 m",
     "value_not_finite": "{address}={text}: a value is not finite",

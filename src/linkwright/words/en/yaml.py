@@ -50,6 +50,8 @@ WORDS = {
     "indentation_or_bracket_do": "indent entries of one level by the same number of spaces, and check the brackets",
     "apart": "this does not belong to what is above: a bracket too many, or an indentation that does not fit",
     "apart_do": "check brackets and indentation",
+    "block": "a value that begins with > or | is the text of the lines below it",
+    "block_do": "put a text that begins so in quotes; a bound is written at least 30 deg or at most 60 kN",
     "no_value": "a value is missing here",
     "no_value_do": "write the value",
     "half_character": "half of an escaped character",

@@ -70,7 +70,7 @@ WORDS = {
     "falling_demand": "范围由 {low} 降到 {high}；请先写较小的值",
     "no_start": '原设计没有 "{text}" 的值，不能要求保持不变；请给范围',
     "no_unit": '"{text}" 是{need}，而 "{given}" 不是；请写不带单位的数',
-    "unit": '"{text}" 是{need}，而 "{given}" 不是；请以 {example} 给值',
+    "unit": '"{text}" 是{need}，而 "{given}" 不是；请写明单位，如 {right}',
     "no_value": '"{text}" 不是值；请写带单位的数，如 40 deg',
     "no_number": '没有名为 "{text}" 的数；请给设计指标（linkwright metrics）、flywheel、汇总如 "jaw.angle range"、'
     "尺寸，或由 define: 所给名称的表达式",

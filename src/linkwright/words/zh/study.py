@@ -67,6 +67,7 @@ WORDS = {
     "no_such_output": "“{mechanism}”中没有输出“{name}”；{hint}",
     "not_compiled": "此处无法编译该机构：缺少 llvmlite，或有迭代求解的杆组",
     "zero_not_named": '“{address}”为零，而准备机构时没有列出它；请写 prepare(mechanism, vary=["{address}", …])',
+    "no_dots": "范围的两端之间写两个点；请写 {right}",
     "no_quantity": "{address}={text}：“{part}”不是带单位的量；范围请写成 1.2..1.3 m:11，各值请写成 1.2, "
     "1.25, 1.3 m",
     "value_not_finite": "{address}={text}：有一个值不是有限的数",

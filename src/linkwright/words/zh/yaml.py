@@ -49,6 +49,8 @@ WORDS = {
     "indentation_or_bracket_do": "同一层各项请用同样数目的空格缩进，并检查括号",
     "apart": "此处与上文不相连：括号多余，或缩进不符",
     "apart_do": "请检查括号和缩进",
+    "block": "以 > 或 | 开头的值是其下各行的文字",
+    "block_do": "以此开头的文字请加引号；界限请写成 at least 30 deg 或 at most 60 kN",
     "no_value": "此处缺少值",
     "no_value_do": "请写出值",
     "half_character": "转义字符只有一半",
