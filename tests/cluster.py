@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import math
 import os
 import random
 import shutil
@@ -20,8 +21,11 @@ import time
 from pathlib import Path
 
 import distributed
+import numpy as np
 
 import linkwright as lw
+from linkwright.synthesis.free_curve.search import Search
+from linkwright.synthesis.free_curve.target import Target
 
 VARY = {"pitman.length": "1.15..1.35 m", "toggle.length": "1.05..1.25 m", "crank.length": "0.08..0.12 m"}
 NUMBERS = ["driver.effort rms", "jaw.angle range", "reaction O5 on jaw max"]
@@ -90,6 +94,24 @@ def speed(base: Path, samples: int) -> None:
             seconds.append(swept(base / f"{workers} workers", samples, client, part))
     one, two = seconds
     print(f"{samples} designs: one worker {one:.2f} s, two {two:.2f} s, ratio {one / two:.2f}", flush=True)
+
+
+def search_speed(seconds: float) -> None:
+    """Attempts of two workers against those of one, in the time that a clock gives a search."""
+    target, attempts = Target(np.array([9, 9 + 17j, 6j, 13 + 6j]), False, math.radians(20.0), 6.0), []
+    for workers in (1, 2):
+        with (
+            distributed.LocalCluster(n_workers=workers, **OPTIONS) as cluster,
+            lw.on_cluster(cluster.get_client()),
+        ):
+            Search(target, 12, 0.2 * seconds, 0).run()
+            search = Search(target, 12, seconds, 0)
+            search.run()
+            attempts.append(search.attempts)
+    one, two = attempts
+    print(
+        f"free curve, {seconds:g} s: one worker {one} attempts, two {two}, ratio {two / one:.2f}", flush=True
+    )
 
 
 def worker_dies(base: Path, samples: int, wanted: dict[str, bytes], rounds: int) -> None:
@@ -231,6 +253,7 @@ def main() -> int:
     try:
         if options.speed:
             speed(base, options.samples)
+            search_speed(20.0)
             return 0
         if not options.searches:
             work_dies(base, options.rounds)
