@@ -1033,3 +1033,53 @@ def test_a_killed_server_loses_nothing(tmp_path: Path, monkeypatch: pytest.Monke
         again = asked(studio, "save", saving("a.yaml", "x: 1", saved["version"]))[1]
         assert not again["saved"]
         assert "from outside" in (tmp_path / "a.yaml").read_text()
+
+
+def test_a_file_that_is_not_there_yet_begins_as_a_new_mechanism(tmp_path: Path) -> None:
+    with serving(tmp_path) as studio:
+        status, found = asked(studio, "open", {"name": "wiper.yaml"})
+        assert (status, found["text"], found["version"]) == (200, NEW, "")
+        asked(studio, "keep", {"name": "wiper.yaml", "text": "", "window": "w", "serial": 0})
+        assert asked(studio, "open", {"name": "wiper.yaml"})[1]["text"] == NEW
+        (tmp_path / "empty.yaml").write_text("")
+        assert asked(studio, "open", {"name": "empty.yaml"})[1]["text"] == ""
+
+
+@needs_chromium
+def test_a_page_that_is_loaded_again_shows_the_same_file_in_the_same_language(tmp_path: Path) -> None:
+    """A file of the gallery that was never changed, a drawing that was saved and one that was not; the paper says
+    how wide its squares are and where the pointer is."""
+    with browser() as chromium, serving(tmp_path) as studio:
+        tab = chromium.new_page(viewport={"width": 1280, "height": 850})
+        tab.set_default_timeout(20_000)
+        tab.goto(studio.url)
+        tab.wait_for_selector("svg.drafting")
+        box = tab.locator("svg.drafting").bounding_box()
+        tab.mouse.move(box["x"] + 200, box["y"] + 200)
+        side, x, y = re.fullmatch(
+            r"□ ([\d.]+) mm · (\S+), (\S+) mm", tab.locator(".measures").text_content()
+        ).groups()
+        assert float(x) % float(side) == float(y) % float(side) == 0
+        for x, y in ((200, 200), (300, 200)):
+            tab.mouse.click(box["x"] + x, box["y"] + y)
+        tab.locator("textarea").and_(tab.get_by_label("Model file")).wait_for()
+        tab.wait_for_function("() => /O2: /.test(document.querySelector('textarea').value)")
+        places = yaml.safe_load(tab.locator("textarea").input_value())["frame"]["points"]
+        apart = float(places["O2"][0].split()[0]) - float(places["O1"][0].split()[0])
+        lines = tab.locator(".grid.fine").get_attribute("d")
+        columns = [float(each) for each in re.findall(r"M(\S+) 0V", lines)]
+        assert apart == pytest.approx(100 * float(side) / (columns[1] - columns[0]), abs=float(side))
+        tab.get_by_role("button", name="中文").click()
+        for named in (None, "press.yaml"):
+            if named:
+                tab.get_by_label("文件名").fill(named)
+                tab.get_by_role("button", name="保存", exact=True).click()
+                tab.wait_for_function("() => /press/.test(location.search)")
+            before = tab.locator("textarea").input_value()
+            tab.wait_for_function("() => desk.dirty.value === false || desk.serial > 0")
+            tab.reload()
+            tab.wait_for_function("text => document.querySelector('textarea')?.value === text", arg=before)
+            assert tab.get_by_role("button", name="English").is_visible()
+        tab.get_by_label("图库").select_option("crank_rocker")
+        tab.wait_for_selector(".plot")
+        tab.close()

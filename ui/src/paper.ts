@@ -54,6 +54,7 @@ export class Paper {
   private picked: string | null = null;
   private readonly behind: SVGElement;
   private readonly back: SVGElement;
+  private readonly measures: SVGElement;
   private readonly front: SVGElement;
 
   /** `act` carries out actions one after the other. */
@@ -62,6 +63,7 @@ export class Paper {
     this.behind = element("image", { preserveAspectRatio: "none", class: "photo" }, this.svg);
     this.back = element("path", { class: "grid fine" }, this.svg);
     this.front = element("g", {}, this.svg);
+    this.measures = element("text", { class: "measures", x: 8 }, this.svg);
     this.svg.addEventListener("pointerdown", (event) => this.down(event));
     this.svg.addEventListener("pointermove", (event) => this.moved(event));
     this.svg.addEventListener("pointerup", (event) => this.up(event));
@@ -327,7 +329,15 @@ export class Paper {
     this.draw();
   }
 
+  /** How wide a square of the grid is, and where the pointer is on it. */
+  private note(at?: Vec): void {
+    const mm = (value: number) => Number((1e3 * value).toPrecision(6)), place = at ? ` · ${this.world(at).map(mm).join(", ")} mm` : "";
+    this.measures.textContent = `□ ${mm(this.grid)} mm${place}`;
+    this.measures.setAttribute("y", String(this.size[1] - 8));
+  }
+
   private moved(event: PointerEvent): void {
+    this.note(this.local(event));
     if (this.drawing) {
       const at = this.local(event), [x, y] = this.screen(this.target[this.target.length - 1]);
       if (Math.hypot(at[0] - x, at[1] - y) >= APART) {
@@ -360,6 +370,7 @@ export class Paper {
     for (let x = this.shift[0] % step; x < w; x += step) d += `M${x.toFixed(1)} 0V${h}`;
     for (let y = this.shift[1] % step; y < h; y += step) d += `M0 ${y.toFixed(1)}H${w}`;
     this.back.setAttribute("d", d);
+    if (!this.dragged && !this.drawing) this.note();
     this.behind.setAttribute("visibility", this.photo ? "visible" : "hidden");
     if (this.photo) {
       const { href, corner, width, shape } = this.photo, [x, y] = this.screen(corner);
@@ -383,8 +394,10 @@ export class Paper {
       const text = corners.map(([x, y], k) => `${k ? "L" : "M"}${x.toFixed(1)} ${y.toFixed(1)}`).join("");
       element("path", { class: `${corners.length > 2 ? "lw-plate" : "lw-bar"}${name === driver ? " driven" : ""}${name === this.picked ? " chosen" : ""}`, d: corners.length > 2 ? `${text}Z` : text }, this.front);
     }
+    const blocks = guided.filter((name) => name in points).map((name) => this.screen(points[name]));
     for (const name in points) {
       const [x, y] = this.screen(points[name]);
+      if (fixed.includes(name) && blocks.some(([a, b]) => Math.hypot(a - x, b - y) < 1)) continue;
       if (fixed.includes(name)) element("path", { class: "lw-support", d: `M${x} ${y}l-9 16h18Z` }, this.front);
       if (guided.includes(name)) element("rect", { class: "lw-block", x: x - 14, y: y - 9, width: 28, height: 18 }, this.front);
       element("circle", { class: `lw-pin${this.chosen.includes(name) ? " chosen" : ""}`, cx: x, cy: y, r: 5, "data-point": name }, this.front);

@@ -202,6 +202,7 @@ function Room({ desk }: { desk: Desk }) {
   useEffect(() => {
     document.documentElement.lang = language === "zh" ? "zh-CN" : "en";
     document.title = `${desk.name.value || desk.say("new")} – Linkwright`;
+    if (desk.name.value) remember({ file: desk.name.value, lang: language });
   }, [language, desk.name.value]);
   return (
     <>
@@ -245,8 +246,17 @@ function Room({ desk }: { desk: Desk }) {
   );
 }
 
+/** The address leads to what is open, so that a page that is loaded again shows it. */
+function remember(values: Record<string, string>): void {
+  const known = new URLSearchParams(location.search);
+  for (const [name, value] of Object.entries(values)) known.set(name, value);
+  history.replaceState(null, "", `?${known}`);
+}
+
 async function open(): Promise<void> {
   const data = JSON.parse(document.getElementById("data")!.textContent!) as PageData & { file: string | null };
+  const known = new URLSearchParams(location.search), file = known.get("file") ?? data.file, language = known.get("lang");
+  if (language === "en" || language === "zh") data.language = language;
   const page = new Page(data, []), desk = new Desk(page);
   render(<Room desk={desk} />, document.getElementById("page")!);
   keys(page);
@@ -256,7 +266,7 @@ async function open(): Promise<void> {
     if (desk.name.value) void desk.save(desk.name.value);
   });
   Object.assign(globalThis, { linkwright: page, desk });
-  await desk.open(data.file ? { name: data.file } : {});
+  await desk.open(file ? { name: file } : {});
 }
 
 void open();

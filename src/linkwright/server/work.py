@@ -69,7 +69,8 @@ class Work:
             name = _text(asked, "gallery")
             return {**self.files.open(self.files.fresh(name)), "text": self._read(asked)}
         if asked.get("name"):
-            return self.files.open(_text(asked, "name"))
+            found = self.files.open(_text(asked, "name"))
+            return found if found["version"] or found["recovered"] else {**found, "text": NEW}
         unsaved = None if asked.get("fresh") else self.files.unsaved()
         if unsaved is not None:
             return self.files.open(unsaved)
