@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy.interpolate import CubicSpline
 
 import linkwright as lw
 from linkwright.metrics import Analysis
@@ -26,6 +27,20 @@ def test_polynomials_meet_the_motion_between_their_points(frame: float) -> None:
 
 TIMES = (0.0, 0.07, 0.19, 0.23, 0.36, 0.41, 0.52, 0.55, 0.68, 0.74, 0.83, 0.91, 1.0)
 PLACES = (0.3, 0.9, 0.2, 1.1, 2.5, 2.1, 3.4, 2.2, 2.9, 1.4, 1.8, 0.1, 0.3)
+SHARP_TIMES = (0.0, 0.158, 0.278, 0.354, 0.44, 0.578, 0.737, 0.809, 1.0)
+SHARP_INNER = (0.22, 0.8, 1.18, 0.5, 1.29, 1.8, 0.78, 0.96, 0.22)
+SHARP_OUTER = (1.22, 1.49, 1.01, 1.77, 0.31, 1.2, 0.19, 1.93, 1.22)
+SHARP = """
+format: 1
+frame: {points: {O: [0 m, 0 m]}}
+links:
+  crank: {points: [O, A], length: 1 m}
+  arm: {points: [A, B], length: 1 m, mass: 1 kg, mass_centre: [1 m, 0 m]}
+drivers:
+  inner: {turn: crank, about: O, table: {time: [TIMES], position: [INNER], interpolation: periodic}}
+  outer: {turn: arm, about: A, relative_to: crank, table: {time: [TIMES], position: [OUTER], interpolation: periodic}}
+gravity: [0, -9.81 m/s²]
+"""
 BY_LINES = """
 format: 1
 frame: {points: {O: [0 m, 0 m]}}
@@ -60,3 +75,17 @@ def test_laws_that_bend_between_the_positions_are_cut_where_they_bend() -> None:
     )
     assert swept["peak_input_torque"][1] == pytest.approx(peak, rel=1e-12)
     assert swept["rms_input_torque"][1] == pytest.approx(np.sqrt(squares), rel=1e-12)
+
+
+def test_peaks_of_sizes_that_polynomials_do_not_meet_are_found_whatever_the_positions() -> None:
+    """Two arms that periodic splines jerk to and fro: the pin between them carries m (a - g) of the outer's end."""
+    time, place = np.linspace(0.0, SHARP_TIMES[-1], 2_000_001), 0.0
+    force, text = 9.81j, SHARP.replace("TIMES", ", ".join(f"{t} s" for t in SHARP_TIMES))
+    for name, places in (("INNER", SHARP_INNER), ("OUTER", SHARP_OUTER)):
+        text = text.replace(name, ", ".join(f"{q} rad" for q in places))
+        place = place + np.array(places)
+        q = CubicSpline(SHARP_TIMES, place, bc_type="periodic")
+        force = force + (1j * q(time, 2) - q(time, 1) ** 2) * np.exp(1j * q(time))
+    for steps in (12, 48, 360):
+        table = lw.metrics(lw.solve_forces(lw.loads(text), steps=steps))
+        assert table.value("peak_reaction", "A") == pytest.approx(np.abs(force).max(), rel=1e-10)

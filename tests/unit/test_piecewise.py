@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from linkwright.core.piecewise import POINTS, Piecewise, nodes
+from linkwright.core.piecewise import POINTS, Piecewise, nodes, sought
 
 TURN = 2 * math.pi
 
@@ -62,6 +62,36 @@ def test_the_higher_of_two_nearly_equal_peaks():
     found = Piecewise.of(lambda x: np.sin(x) ** 2 + 1e-9 * np.sin(x), 0.0, TURN, pieces=24)
     assert found.extreme("max").place == pytest.approx(TURN / 4, abs=1e-7)
     assert found.extreme("max").value == pytest.approx(1 + 1e-9, abs=5e-14)
+
+
+def spikes(x):
+    return 1 / (1 + ((x - 2.0) / 0.02) ** 2) + 1.01 / (1 + ((x - 4.7) / 0.015) ** 2) + 0.2 * np.abs(np.sin(x))
+
+
+def test_the_highest_of_peaks_that_polynomials_do_not_meet():
+    found = Piecewise(edges := np.linspace(0.0, TURN, 25), spikes(nodes(edges)))
+    most, least = (sought(found, kind, spikes) for kind in ("max", "min"))
+    near = 4.7 + np.linspace(-1e-5, 1e-5, 20001)
+    assert not found.extreme("max").smooth
+    assert most.smooth
+    assert most.value == pytest.approx(spikes(near).max(), rel=1e-13)
+    assert most.place == pytest.approx(near[spikes(near).argmax()], abs=1e-7)
+    assert least.value == pytest.approx(spikes(math.pi * np.arange(3)).min(), rel=1e-10)
+    assert least.place in (
+        pytest.approx(0.0, abs=1e-11),
+        pytest.approx(math.pi, abs=1e-11),
+        pytest.approx(TURN),
+    )
+
+
+def test_the_larger_side_of_a_jump_at_an_unknown_place():
+    def step(x):
+        return np.where(x < 1.2345, np.sin(x), -np.cos(x))
+
+    found = Piecewise(edges := np.linspace(0.0, 2.0, 6), step(nodes(edges)))
+    most = sought(found, "max", step)
+    assert most.value == pytest.approx(math.sin(1.2345), rel=1e-11)
+    assert most.place == pytest.approx(1.2345, abs=1e-11)
 
 
 def test_a_part_has_the_extremes_between_its_ends():

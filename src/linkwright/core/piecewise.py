@@ -45,6 +45,9 @@ _NONE: Floats = np.empty(0)
 #: More pieces than this that want halving mean noise, which no halving smooths; so do more pieces than before where
 #: they miss less than this share of the function's size.
 _NOISE, _LOUDEST = 2000, 1e-9
+#: How many times the size of its last orders a piece that is not met may rise between its Gauss points, and the width
+#: of a piece that is halved no more.
+_HIDDEN, _LEAST = 8.0, 1e-13
 
 
 def nodes(edges: Floats) -> Floats:
@@ -232,6 +235,44 @@ def misses(values: Floats, meeting: Flags) -> Floats:
     for side in (found[..., 1:], found[..., :-1]):
         np.maximum(side, gap, out=side)
     return found
+
+
+def reach(values: Floats, tops: Floats, bounds: Floats) -> Floats:
+    """How high functions (k, m, POINTS), and their negatives, may rise in pieces that are not met to ``bounds`` (k,),
+    (2 k,); ``tops``: their largest values in each piece, (2, k, m)."""
+    off = tails(values)
+    return np.asarray(np.where(off > bounds[:, None], tops + _HIDDEN * off, -np.inf).max(axis=2).ravel())
+
+
+def sought(curve: Piecewise, kind: str, function: Function) -> Extreme:
+    """The ``max`` or ``min`` of a function that a curve may not meet everywhere: pieces that may hold it are halved
+    until they are met, or halving changes no more; of jumps the values at the Gauss points beside them count."""
+    sign = 1.0 if kind == "max" else -1.0
+    low, high, values = curve.edges[:-1], curve.edges[1:], sign * curve.values
+    bound, least = curve.tolerance * float(np.abs(values).max()), _LEAST * float(high[-1] - low[0])
+    before, many = np.inf, 1
+    for _ in range(_HALVINGS):
+        off = tails(values)
+        rough = off > bound
+        tops = np.where(rough, values.max(axis=1), (values @ TO_PLACES).max(axis=1))
+        kept = tops + rough * _HIDDEN * off >= tops.max() - bound
+        low, high, values, rough = low[kept], high[kept], values[kept], rough[kept]
+        level, count = float(np.median(off[kept][rough])) if rough.any() else 0.0, int(rough.sum())
+        if not count or (high - low)[rough].max() < least or (count > many and level > 0.25 * before):
+            break
+        before, many = level, count
+        middle = 0.5 * (low + high)[rough]
+        starts, ends = np.append(low[rough], middle), np.append(middle, high[rough])
+        places = 0.5 * (starts + ends)[:, None] + 0.5 * (ends - starts)[:, None] * NODES
+        new = sign * function(places.ravel()).reshape(-1, POINTS)
+        low, high = np.append(low[~rough], starts), np.append(high[~rough], ends)
+        values = np.concatenate([values[~rough], new])
+    jumps = rough & (high - low < 2.0 * least)
+    values[jumps] = values[jumps].max(axis=1, keepdims=True)
+    found = largest(values.T[None], values.max(axis=1)[None])
+    piece, share, value, _ = (each[0] for each in found)
+    place = 0.5 * (low[piece] + high[piece]) + 0.5 * share * (high[piece] - low[piece])
+    return Extreme(float(place), sign * float(value), not rough[piece])
 
 
 Peak = tuple[Indices, Floats, Floats, Floats]

@@ -14,7 +14,7 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.once import cached_property
 from linkwright.core.outputs import Output
-from linkwright.core.piecewise import POINTS, Piecewise, largest
+from linkwright.core.piecewise import POINTS, Piecewise, largest, reach, sought
 from linkwright.core.search import lowest, peaks
 from linkwright.engine.recent import Recent
 from linkwright.kinematics.limits import limit_positions
@@ -300,7 +300,8 @@ class Analysis:
         time = grid.edges[piece] + 0.5 * (place + 1.0) * np.diff(grid.edges)[piece]
         high, low = top[:count], -top[count:]
         time[np.tile(high - low <= ROUNDING * np.abs(high), 2)] = grid.start
-        smooth = rough <= np.tile(grid.tolerance * size, 2)
+        bound = np.tile(grid.tolerance * size, 2)
+        smooth = (rough <= bound) & (reach(pieces, tops.reshape(2, count, -1), bound[:count]) <= top + bound)
         first, last, never = time[:count], time[count:], np.full(count, np.nan)
         above, below, upwards = smooth[:count], smooth[count:], np.abs(high) >= np.abs(low)
         found = {
@@ -402,11 +403,11 @@ class Analysis:
         if not self.resolver.possible or self.motion.steps < 3:
             return sample
         if self.grid is not None:
-            found = self.grid.curve(signal, of).extreme(kind)
-            if found.smooth:
-                return Extreme(found.value, found.place, self.resolver.input_at(found.place), True)
-            if len(self.grid.around):
+            curve = self.grid.curve(signal, of)
+            if len(self.grid.around) and not curve.extreme(kind).smooth:
                 return self._past_changes(self.grid, signal, of, sign)
+            found = sought(curve, kind, self.grid.function(signal, of))
+            return Extreme(found.value, found.place, self.resolver.input_at(found.place), True)
         for end, value in zip(self.ends.times, self.ends.limits(signal, of), strict=True):
             if sign * value > sign * sample.value:
                 sample = Extreme(value, end, self.resolver.input_at(end), True)
@@ -446,12 +447,9 @@ class Analysis:
         solved between; None where none of them is reached."""
         grid = self.grid
         if wanted and grid is not None and all(grid.start <= start < end for _, (start, end) in wanted):
-            found = grid.extremes_between(kind, [(grid.curve(signal, of), span) for signal, span in wanted])
+            found = grid.extremes_between(kind, wanted, of)
             return [
-                Extreme(each.value, each.place, self.resolver.input_at(each.place), True)
-                if each.smooth
-                else self._extreme_between(signal, kind, of, *span)
-                for each, (signal, span) in zip(found, wanted, strict=True)
+                Extreme(each.value, each.place, self.resolver.input_at(each.place), True) for each in found
             ]
         return [self._extreme_between(signal, kind, of, *span) for signal, span in wanted]
 

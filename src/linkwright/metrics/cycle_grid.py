@@ -20,11 +20,11 @@ from linkwright.core.piecewise import (
     Extreme,
     Piecewise,
     edges_between,
-    extremes_of,
     increasing,
     joined,
     misses,
     nodes,
+    sought,
 )
 from linkwright.core.search import ends, zeros
 from linkwright.engine.recent import Recent
@@ -175,14 +175,18 @@ class CycleGrid:
         return mean, self.met(values, sizes)
 
     def extremes_between(
-        self, kind: str, wanted: Sequence[tuple[Piecewise, tuple[float, float]]]
+        self, kind: str, wanted: Sequence[tuple[Callable[[Any], Floats], tuple[float, float]]], of: str
     ) -> list[Extreme]:
-        """The largest or smallest values of curves between pairs of times, the second perhaps in the next cycle."""
-        period = self.end - self.start
-        whole = [curve if span[1] <= self.end else _twice(curve, period) for curve, span in wanted]
-        found = extremes_of(
-            [(curve.part(*span), kind) for curve, (_, span) in zip(whole, wanted, strict=True)]
-        )
+        """The largest or smallest values of signals between pairs of times, the second perhaps in the next cycle."""
+        period, found = self.end - self.start, []
+        for signal, span in wanted:
+            curve = self.curve(signal, of)
+            part = (curve if span[1] <= self.end else _twice(curve, period)).part(*span)
+            function = self.function(signal, of)
+            if not curve.smooth.all():
+                for k in (0, -1):
+                    part.values[k] = function(nodes(part.edges[:2] if k == 0 else part.edges[-2:])[0])
+            found.append(sought(part, kind, function))
         return [
             each if each.place <= self.end else replace(each, place=each.place - period) for each in found
         ]
