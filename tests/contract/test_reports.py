@@ -466,3 +466,15 @@ def test_a_machine_of_two_outputs_shows_the_motion_of_both(language: str) -> Non
     assert len(captions) == 4  # the angles and the paths
     one = report("gallery:shaper_quick_return", sections=["curves"], language=language).document.blocks
     assert sum(isinstance(block, Figure) for block in one) == 3
+
+
+def test_lengths_of_joints_and_loads_stand_in_mm_as_those_of_links() -> None:
+    text = PRESS_AND_FEED.replace("block: ram, at: B", "block: ram, at: B, offset: 12.5 mm") + (
+        "loads:\n  spring: {kind: spring, between: [frame.G, ram.B], stiffness: 2 N/mm, free_length: 0.25 m}\n"
+    )
+    found = report(lw.loads(text), sections=["task"]).document.blocks
+    shown = [
+        cell for block in found if isinstance(block, Table) for row in block.rows for cell in map(plain, row)
+    ]
+    assert any("offset: 12.5 mm" in cell for cell in shown)
+    assert any("stiffness: 2000 N/m; free_length: 250 mm" in cell for cell in shown)

@@ -217,3 +217,16 @@ def test_designs_barred_between_two_positions_are_said_to_be() -> None:
         "none of the 2 designs can pass its cycle: 2 fail between two positions, such as: "
     )
     assert str(none.value).endswith("; widen or move the ranges")
+
+
+def test_what_is_made_once_says_in_short_what_it_is() -> None:
+    """In a notebook a result stands in one line; the crank is half the stroke, the rod four cranks."""
+    found = lw.synthesize("slider_crank", stroke=0.4, rod_ratio=4.0, offset_ratio=0.0)
+    assert repr(found.best) == "Candidate(slider_crank: error 0, crank 0.2, rod 0.8)"
+    assert repr(found) == f"Synthesis(slider_crank: 1 candidates, the best {found.best!r})"
+    machine = found.best.mechanism("press")
+    assert (
+        repr(lw.prepare(machine, vary=["rod.length"], steps=36))
+        == "Prepared('press': rod.length; 36 positions)"
+    )
+    assert repr(lw.read_document("gallery:kite")).startswith("Document('kite.yaml': Mechanism('Kite linkage'")

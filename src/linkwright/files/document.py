@@ -51,6 +51,9 @@ class Document:
         self.name, self._read_text = name, read_text
         self.text, self.mechanism = text, self._checked(text)
 
+    def __repr__(self) -> str:
+        return f"Document({self.name!r}: {self.mechanism!r})"
+
     def _checked(self, text: str) -> Mechanism:
         mechanism, findings = self._read_text(text, self.name)
         if mechanism is None:

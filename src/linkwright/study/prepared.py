@@ -69,6 +69,9 @@ class Prepared:
     The assembly modes are those of the starting design; positions are those of its input.
     """
 
+    def __repr__(self) -> str:
+        return f"Prepared({self.mechanism.name!r}: {', '.join(self.vary)}; {self.positions.count} positions)"
+
     def __init__(
         self, mechanism: Mechanism, vary: tuple[str, ...], positions: Positions, backend: Backend
     ) -> None:

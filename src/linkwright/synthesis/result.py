@@ -52,6 +52,10 @@ class Candidate:
     curve: NDArray[Any] | None = field(default=None, repr=False)
     values: Mapping[str, float] = field(default_factory=dict)
 
+    def __repr__(self) -> str:
+        lengths = ", ".join(f"{name} {length:.6g}" for name, length in self.linkage.lengths().items())
+        return f"Candidate({self.grashof_type}: error {self.error:.3g}, {lengths})"
+
     def mechanism(self, name: str = "", *, speed: str = "60 rpm") -> Mechanism:
         """The candidate as a mechanism, its input link driven at constant speed."""
         return self.linkage.mechanism(name, speed=speed)
@@ -104,6 +108,10 @@ class Synthesis(Plotted):
     counts: Mapping[str, int] = field(default_factory=dict)
     notes: tuple[Sentence, ...] = ()
     curves: Mapping[str, Complexes] = field(default_factory=dict)
+
+    def __repr__(self) -> str:
+        best = f", the best {self.best!r}" if self.candidates else ""
+        return f"Synthesis({self.task}: {len(self)} candidates{best})"
 
     @property
     def best(self) -> Candidate:

@@ -104,7 +104,7 @@ def given(value: Any) -> str:
 
 
 def written(value: Any) -> str:
-    """A value of a model file in one line, angles in degrees, numbers with six digits; long lists by their ends."""
+    """A value of a model file in one line, angles in degrees, lengths in mm, six digits; long lists by their ends."""
     if isinstance(value, Mapping):
         return "; ".join(f"{key}: {written(each)}" for key, each in value.items())
     if isinstance(value, list | tuple):
@@ -116,12 +116,14 @@ def written(value: Any) -> str:
 
 
 def _rounded(text: str) -> str:
-    """A quantity with six digits, an angle in degrees; other texts as they are."""
+    """A quantity with six digits, an angle in degrees, a length in mm; other texts as they are."""
     found = _QUANTITY.fullmatch(text)
     if not found:
         return text
     value, unit = float(found[1]), found[2]
     if unit.strip() == "rad":
         value, unit = math.degrees(value), "°"
+    if unit.strip() == "m":
+        value, unit = 1e3 * value, " mm"
     turns = f" ({value * 30.0 / math.pi:.6g} rpm)" if unit.strip() == "rad/s" else ""
     return f"{value:.6g}{unit}{turns}"

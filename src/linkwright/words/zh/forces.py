@@ -17,9 +17,9 @@ WORDS = {
     "全部由那些移动副的力偶承受",
     "self_locking": "“{name}”在{where} 附近因摩擦自锁：运动副“{joint}”中的摩擦在迭代中无限增大，"
     "任何平衡力矩（力）都不能使其运动；请减小摩擦系数或销轴半径，或改善该处的传动角",
-    "contact_lost": "{kind} {name} 只能受压，在{places}却需要拉力（{where} 处最大，为 {most}）；"
+    "contact_lost": "{kind} {name} 只能受压，在{places} 却需要拉力（{where} 处最大，为 {most}）；"
     "请用弹簧或载荷把两构件压紧",
-    "contact_lost_cam": "凸轮 {name} 在{places}不能保持与从动件接触：需要拉力（{where} 处最大，为 {most}）；"
+    "contact_lost_cam": "凸轮 {name} 在{places} 不能保持与从动件接触：需要拉力（{where} 处最大，为 {most}）；"
     "请用弹簧或载荷压紧，或采用槽凸轮",
     "from_to": "输入 {first} 至 {last}",
 }
