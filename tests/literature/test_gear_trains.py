@@ -284,3 +284,35 @@ def test_a_path_that_a_cycle_runs_three_times_counts_once() -> None:
     for name, value in wanted.items():
         rows = [row.value for row in found if row.metric == name]
         assert rows == pytest.approx([value] * 3, rel=1e-9), name
+
+
+BEHIND_GEARS = """
+format: 1
+name: four-bar behind gears
+frame: {points: {M: [-0.3 m, 0 m], O: [0 m, 0 m], Q: [0.4 m, 0 m]}}
+links:
+  motor: {points: {M: [0 m, 0 m], N: [0.05 m, 0 m]}}
+  crank: {points: {O: [0 m, 0 m], A: [0.1 m, 0 m]}}
+  coupler: {points: {A: [0 m, 0 m], B: [0.35 m, 0 m], P: [0.17 m, 0.1 m]}}
+  rocker: {points: {Q: [0 m, 0 m], B: [0.3 m, 0 m]}}
+joints: {mesh: {kind: gear, links: [motor, crank], radii: [RADII], carrier: frame}}
+assembly: {B: left}
+driver: {turn: motor, about: M, speed: 2 rad/s}
+"""
+
+
+@pytest.mark.parametrize("radii", ["200 mm, 100 mm", "180 mm, 120 mm"])
+@pytest.mark.parametrize("steps", [48, 97, 360])
+def test_a_curve_that_a_cycle_runs_several_times_counts_once(radii: str, steps: int) -> None:
+    bare = (
+        BEHIND_GEARS.replace("joints", "#")
+        .replace("  motor", "  #")
+        .replace("motor, about: M", "crank, about: O")
+    )
+    once = lw.metrics(lw.solve_motion(lw.loads(bare), steps=360))
+    table = lw.metrics(lw.solve_motion(lw.loads(BEHIND_GEARS.replace("RADII", radii)), steps=steps))
+    assert table.value("coupler_curve_length") == pytest.approx(once.value("coupler_curve_length"), rel=1e-10)
+    area = abs(once.value("coupler_curve_area"))
+    assert abs(table.value("coupler_curve_area")) == pytest.approx(area, rel=1e-10)
+    for name in ("double_point", "cusp"):
+        assert table.value(name) == once.value(name)

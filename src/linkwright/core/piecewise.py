@@ -46,8 +46,8 @@ _NONE: Floats = np.empty(0)
 #: they miss less than this share of the function's size.
 _NOISE, _LOUDEST = 2000, 1e-9
 #: How many times the size of its last orders a piece that is not met may rise between its Gauss points, and the width
-#: of a piece that is halved no more.
-_HIDDEN, _LEAST = 8.0, 1e-13
+#: of a piece that is halved no more. So many pieces to be halved at once are no noise.
+_HIDDEN, _LEAST, _MANY = 8.0, 1e-13, 8
 
 
 def nodes(edges: Floats) -> Floats:
@@ -250,7 +250,7 @@ def sought(curve: Piecewise, kind: str, function: Function) -> Extreme:
     sign = 1.0 if kind == "max" else -1.0
     low, high, values = curve.edges[:-1], curve.edges[1:], sign * curve.values
     bound, least = curve.tolerance * float(np.abs(values).max()), _LEAST * float(high[-1] - low[0])
-    before, many = np.inf, 1
+    before, many = np.inf, _MANY
     for _ in range(_HALVINGS):
         off = tails(values)
         rough = off > bound
@@ -260,7 +260,7 @@ def sought(curve: Piecewise, kind: str, function: Function) -> Extreme:
         level, count = float(np.median(off[kept][rough])) if rough.any() else 0.0, int(rough.sum())
         if not count or (high - low)[rough].max() < least or (count > many and level > 0.25 * before):
             break
-        before, many = level, count
+        before, many = level, max(count, _MANY)
         middle = 0.5 * (low + high)[rough]
         starts, ends = np.append(low[rough], middle), np.append(middle, high[rough])
         places = 0.5 * (starts + ends)[:, None] + 0.5 * (ends - starts)[:, None] * NODES

@@ -98,13 +98,16 @@ class Force(Load):
         return unit.perp if self.normal_to else unit
 
     def reverses(self, mechanism: Mechanism) -> Output | None:
-        """With the motion of its link on the frame; no point of a link that others carry stops in general."""
+        """With the motion on the frame of its link, or of one pinned there; no other point stops in general."""
         if self.opposes is None:
             return None
-        for name, joint in mechanism.joints.items():
-            if {"frame", self.on} <= set(joint.joined) and joint.coordinate:
-                turns = joint.coordinate == "turn"
-                return Output("angle", self.on) if turns else Output("displacement", name)
+        pin = mechanism.joints.get(self.at)
+        pinned = () if pin is None or pin.coordinate != "turn" or self.on not in pin.joined else pin.joined
+        for link in (self.on, *pinned):
+            for name, joint in mechanism.joints.items():
+                if {"frame", link} <= set(joint.joined) and joint.coordinate and link != "frame":
+                    turns = joint.coordinate == "turn"
+                    return Output("angle", link) if turns else Output("displacement", name)
         return None
 
     @property

@@ -11,6 +11,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.core.piecewise import increasing
 from linkwright.core.plane import cross, crossings
 from linkwright.core.plotted import Plotted
 from linkwright.errors import LinkwrightError
@@ -23,13 +24,22 @@ from linkwright.metrics.quantities import shown
 
 #: A path stops in a cusp where its speed falls below this share of its mean speed.
 STANDING = 1e-6
+#: A speed below this share of the largest is zero.
+AT_REST = 1e-12
 #: A crossing meets within this share of the curve's length; two nearer than APART are one.
 SAME, APART = 1e-9, 1e-6
 #: Times closer than this many steps belong to a cusp or a fold, not to a crossing.
 NEIGHBOURS = 1e-3
 NEWTON = 8
+#: Positions of a turn of the first driver in which a curve is looked at, for so many turns at most.
+POSITIONS, MOST_TURNS = 360, 3
+#: Most times that a cycle may run the same curve, and shares of it at which that is looked at.
+ROUNDS = 120
+LOOKS = np.array([0.031, 0.117, 0.213, 0.289, 0.377, 0.441, 0.537, 0.618, 0.703, 0.789, 0.871, 0.953])
 #: Sine of the angle between two branches below which they run along each other, as on a way to and fro.
 ALONG = 1e-6
+#: A crossing this share of the curve's length beside a cusp is none.
+BESIDE_CUSPS = 1e-4
 Spot = tuple[float, float]
 
 
@@ -60,14 +70,35 @@ def coupler_curve(result: Motion | Forces | Analysis, point: str) -> CouplerCurv
 
 
 def _curve(analysis: Analysis, point: str) -> CouplerCurve:
-    motion = analysis.motion
     if not analysis.whole:
-        raise LinkwrightError("metrics.path_open", point=point, name=motion.mechanism.name)
-    lap, number = _lap(analysis, point), slice(0, len(motion.time[analysis.once]) // _rounds(analysis, point))
-    path, speed = motion.point(point).position[number], np.hypot(*motion.point(point).velocity[number].T)
+        raise LinkwrightError("metrics.path_open", point=point, name=analysis.motion.mechanism.name)
+    lap = _lap(analysis, point)
+    motion = _once(analysis, lap)
+    path = motion.point(point).position
     length, area = (each(point, lap).measured(analysis)[0] for each in (_length, _area))
-    doubles = tuple(_doubles(analysis, point, path, length, abs(lap))) if length > 0 else ()
-    return CouplerCurve(point, length, area, doubles, tuple(_cusps(analysis, point, speed)), path)
+    cusps = tuple(_cusps(analysis, point, motion, length)) if analysis.resolver.possible else ()
+    doubles = tuple(_doubles(analysis, point, path, length, lap)) if length > 0 else ()
+    doubles = tuple(each for each in doubles if not _among(each[0], cusps, BESIDE_CUSPS * length))
+    return CouplerCurve(point, length, area, doubles, cusps, path)
+
+
+def _once(analysis: Analysis, lap: float) -> Motion:
+    """The positions in which a curve is run once in the time ``lap``, s: as many whatever the solved ones."""
+    motion = analysis.motion
+    if not analysis.resolver.possible:
+        return motion
+    if ("lap", str(lap)) not in analysis.kept:
+        turns = abs(lap) * float(np.abs(analysis.input_rate).max()) / (2.0 * np.pi)
+        count = POSITIONS * int(np.clip(np.ceil(turns - SAME), 1, MOST_TURNS))
+        times = motion.time[0] + lap * np.arange(count) / count
+        analysis.kept["lap", str(lap)] = analysis.resolver.motion(times)
+    found: Motion = analysis.kept["lap", str(lap)]
+    return found
+
+
+def _among(spot: Spot, cusps: tuple[tuple[Spot, float], ...], near: float) -> bool:
+    """Whether a place is one of the cusps, from which a curve may run back on itself."""
+    return any(np.hypot(spot[0] - x, spot[1] - y) <= near for (x, y), _ in cusps)
 
 
 def _length(point: str, lap: float) -> Number:
@@ -88,40 +119,40 @@ def _lap(analysis: Analysis, point: str) -> float:
 
 
 def _rounds(analysis: Analysis, point: str) -> int:
-    """How many times a cycle runs the same curve, as far as its positions divide into so many."""
+    """How many times a cycle runs the same curve."""
     if ("rounds", point) not in analysis.kept:
-        path = analysis.motion.point(point).position[analysis.once]
-        analysis.kept["rounds", point] = _repeated(analysis, point, path)
+        analysis.kept["rounds", point] = _repeated(analysis, point) if analysis.resolver.possible else 1
     found: int = analysis.kept["rounds", point]
     return found
 
 
-def _repeated(analysis: Analysis, point: str, path: Floats) -> int:
-    count, size = len(path), float(np.ptp(path, axis=0).max())
-    for rounds in range(count // 3, 1, -1) if size else ():
-        shift, rest = divmod(count, rounds)
-        if rest or np.abs(path[shift] - path[0]).max() > SAME * size:
-            continue
-        if np.abs(path - np.roll(path, shift, axis=0)).max() > SAME * size:
-            continue
-        begin, following = analysis.motion.time[:2]
-        between = begin + (following - begin) * (np.array([0.0, shift]) + 0.37)
-        if (
-            analysis.resolver.possible
-            and np.ptp(analysis.resolver.motion(between).point(point).position, axis=0).max() <= SAME * size
-        ):
-            return rounds
+def _repeated(analysis: Analysis, point: str) -> int:
+    start, period = float(analysis.motion.time[0]), analysis.motion.positions.period or 0.0
+    near = SAME * float(np.ptp(analysis.motion.point(point).position, axis=0).max())
+    sense = float(np.sign(analysis.motion.time[-1] - start))
+
+    def gaps(share: Floats, shift: Floats) -> Floats:
+        """How far the point is apart at shares of the cycle, and shifts later."""
+        both = start + sense * period * (np.array([share, share + shift]) % 1.0)
+        place = analysis.resolver.motion(both.ravel()).point(point).position.reshape(2, -1, 2)
+        return np.asarray(np.abs(place[1] - place[0]).max(axis=1))
+
+    rounds = np.arange(ROUNDS, 1, -1)
+    again = gaps(np.zeros(len(rounds)), 1.0 / rounds) <= near
+    for each in rounds[again] if near else ():
+        if gaps(LOOKS, np.full(len(LOOKS), 1.0 / each)).max() <= near:
+            return int(each)
     return 1
 
 
 def _doubles(
-    analysis: Analysis, point: str, path: Floats, length: float, period: float
+    analysis: Analysis, point: str, path: Floats, length: float, lap: float
 ) -> Iterator[tuple[Spot, Spot]]:
     """Crossings of the polygon, sharpened to those of the curve by Newton steps in both times."""
     places = np.array(crossings(path))
     if not len(places) or not analysis.resolver.possible:
         return
-    begin, step = analysis.motion.time[0], analysis.motion.time[1] - analysis.motion.time[0]
+    begin, step, period = float(analysis.motion.time[0]), lap / len(path), abs(lap)
     times = begin + places * step
     for _ in range(NEWTON):
         position, velocity = _pairs(analysis, point, times)
@@ -151,21 +182,34 @@ def _pairs(analysis: Analysis, point: str, times: Floats) -> tuple[Floats, Float
     return track.position.reshape(-1, 2, 2), track.velocity.reshape(-1, 2, 2)
 
 
-def _cusps(analysis: Analysis, point: str, speed: Floats) -> Iterator[tuple[Spot, float]]:
-    """Local minima of the speed where it vanishes; fewer than three positions show none."""
-    if not analysis.resolver.possible or len(speed) < 3:
-        return
-    mean, step = float(np.mean(speed)), float(abs(analysis.motion.time[1] - analysis.motion.time[0]))
-    for i in np.flatnonzero(
-        (speed <= np.roll(speed, 1)) & (speed < np.roll(speed, -1)) & (speed < 0.3 * mean)
-    ):
-        t = float(analysis.motion.time[i])
-        (low,) = analysis.extremes_between(
-            "min", [(lambda m: np.hypot(*m.point(point).velocity.T), (t - step, t + step))]
+def _cusps(analysis: Analysis, point: str, motion: Motion, length: float) -> Iterator[tuple[Spot, float]]:
+    """Local minima of the speed where it vanishes; those at the same place are one."""
+    time, speed = _speeds(analysis, point, motion)
+    mean, apart, found = float(np.mean(speed)), float(np.ptp(time)) / POSITIONS, list[Spot]()
+    low = speed <= np.roll(speed, 1)
+    for i in np.flatnonzero(low & (speed < np.roll(speed, -1)) & (speed < 0.3 * mean)).tolist():
+        before, after = (time[i] - time[i - 1], time[(i + 1) % len(time)] - time[i])
+        ends = [float(time[i] + way * min(abs(gap), apart)) for way, gap in ((-1.0, before), (1.0, after))]
+        (least,) = analysis.extremes_between(
+            "min", [(lambda m: np.hypot(*m.point(point).velocity.T), (ends[0], ends[1]))]
         )
-        if low is not None and low.value <= STANDING * mean:
-            x, y = analysis.resolver.motion(np.array([low.time])).point(point).position[0]
-            yield (float(x), float(y)), low.input
+        if least is None or least.value > STANDING * mean:
+            continue
+        x, y = analysis.resolver.motion(np.array([least.time])).point(point).position[0].tolist()
+        if not any(np.hypot(x - a, y - b) <= APART * length for a, b in found):
+            found.append((x, y))
+            yield (x, y), least.input
+
+
+def _speeds(analysis: Analysis, point: str, motion: Motion) -> tuple[Floats, Floats]:
+    """Times of a motion and of the pieces of the cycle beside them, which are short where the speed changes sharply,
+    in order, with a point's speeds there."""
+    time = motion.time
+    if analysis.grid is not None:
+        inner = analysis.grid.motion.time
+        time = increasing(np.append(time, inner[(inner > time.min()) & (inner < time.max())]))
+    speed = np.hypot(*analysis.resolver.motion(time).point(point).velocity.T)
+    return time, np.where(speed <= AT_REST * speed.max(), 0.0, speed)
 
 
 class CurveMetric(Metric):
