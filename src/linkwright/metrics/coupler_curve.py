@@ -46,8 +46,9 @@ Spot = tuple[float, float]
 @dataclass(frozen=True)
 class CouplerCurve(Plotted):
     """Closed path of a point: ``length`` m, ``area`` m² (counter-clockwise positive, loops with their sign),
-    ``double_points`` and ``cusps`` as (x, y) in m with the inputs there; ``path`` (n, 2) m, its positions once. A
-    path that is run several times over a cycle, as by a planet over the turns of its train, counts once."""
+    ``double_points`` and ``cusps`` as (x, y) in m with the inputs there; ``path`` (n, 2) m, its positions once, or
+    360 a turn where these do not divide into rounds. A path that is run several times over a cycle, as by a planet
+    over the turns of its train, counts once."""
 
     point: str
     length: float
@@ -79,7 +80,9 @@ def _curve(analysis: Analysis, point: str) -> CouplerCurve:
     cusps = tuple(_cusps(analysis, point, motion, length)) if analysis.resolver.possible else ()
     doubles = tuple(_doubles(analysis, point, path, length, lap)) if length > 0 else ()
     doubles = tuple(each for each in doubles if not _among(each[0], cusps, BESIDE_CUSPS * length))
-    return CouplerCurve(point, length, area, doubles, cusps, path)
+    known, rounds = analysis.motion.point(point).position[analysis.once], _rounds(analysis, point)
+    drawn = path if len(known) % rounds else known[: len(known) // rounds]
+    return CouplerCurve(point, length, area, doubles, cusps, drawn)
 
 
 def _once(analysis: Analysis, lap: float) -> Motion:
