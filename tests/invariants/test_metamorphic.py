@@ -243,3 +243,20 @@ def test_the_machine_in_a_mirror(name: str) -> None:
     for joint in mechanism.joints.values():
         for link in joint.joined:
             close(one.reaction(joint.name, on=link) * (1.0, -1.0), other.reaction(joint.name, on=link), 1e-8)
+
+
+@pytest.mark.parametrize("steps", [7, 96, 230, 361])
+def test_a_planet_s_curve_has_one_length_whatever_the_steps(steps: int) -> None:
+    """Run three times a cycle: carrier (24·1200 + 72·200)/96 = 450 rpm, planet -300 rpm, so once in 60 s/150."""
+    t = np.arange(4096) * (0.4 / 4096)
+    centre, about = (k * 2 * math.pi / 60 for k in (450, -300))
+    z = 0.048 * np.exp(1j * centre * t), 0.02 * np.exp(1j * about * t)
+    velocity = 1j * centre * z[0] + 1j * about * z[1]
+    length = 0.4 * np.abs(velocity).mean()
+    area = 0.4 * np.imag(np.conj(z[0] + z[1]) * velocity).mean() / 2
+    found = lw.metrics(
+        lw.solve_motion(lw.load("gallery:planetary_two_inputs"), steps=steps),
+        ["coupler_curve_length", "coupler_curve_area"],
+    )
+    assert found.value("coupler_curve_length", "planet_1.P1") == pytest.approx(length, rel=1e-9)
+    assert found.value("coupler_curve_area", "planet_1.P1") == pytest.approx(area, rel=1e-9)
