@@ -1083,3 +1083,28 @@ def test_a_page_that_is_loaded_again_shows_the_same_file_in_the_same_language(tm
         tab.get_by_label("图库").select_option("crank_rocker")
         tab.wait_for_selector(".plot")
         tab.close()
+
+
+@needs_chromium
+def test_a_machine_goes_on_playing_when_another_one_is_opened(tmp_path: Path) -> None:
+    for name in ("crank_rocker", "kite"):
+        (tmp_path / f"{name}.yaml").write_text(lw.read_document(f"gallery:{name}").text, encoding="utf-8")
+    with browser() as chromium, serving(tmp_path, "crank_rocker.yaml") as studio:
+        tab = chromium.new_page(viewport={"width": 1280, "height": 850})
+        tab.set_default_timeout(20_000)
+        errors: list[str] = []
+        tab.on("pageerror", lambda error: errors.append(str(error)))
+        tab.goto(studio.url)
+        tab.wait_for_selector(".plot")
+        tab.get_by_role("button", name="Play", exact=True).click()
+        later = "await new Promise(go => setTimeout(go, 300)); return linkwright.phase.value !== a;"
+        moves = f"async () => {{ const a = linkwright.phase.value; {later} }}"
+        assert tab.evaluate(moves)
+        tab.get_by_role("button", name="New", exact=True).click()
+        tab.wait_for_selector("svg.drafting")
+        tab.wait_for_timeout(200)
+        tab.get_by_label("Open", exact=True).select_option("kite.yaml")
+        tab.wait_for_selector(".plot")
+        assert tab.evaluate(moves)
+        assert errors == []
+        tab.close()

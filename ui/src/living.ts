@@ -58,9 +58,8 @@ export class Page {
 
   private tick(now: number): void {
     if (!this.playing.value) return;
-    const phase = this.phase.value + ((now - this.last) / 1000 / this.seconds()) * this.pace.value;
+    if (this.sessions.length) this.phase.value = (this.phase.value + ((now - this.last) / 1000 / this.seconds()) * this.pace.value) % 1;
     this.last = now;
-    this.phase.value = phase % 1;
     requestAnimationFrame((next) => this.tick(next));
   }
 

@@ -67,7 +67,7 @@ export class View {
     model.data.glyphs.forEach((glyph, number) => this.drawn.push(this.glyph(glyph, number)));
     for (const { key, fixed, moved } of model.data.points) {
       const label = element("text", { class: "lw-name" }, this.layers.names);
-      label.textContent = key;
+      label.textContent = key.replace(/^frame\./, "");
       this.labels.set(key, label);
       if (!moved.length) continue;
       const handle = element("circle", { class: fixed ? "handle fixed" : "handle", r: 13, tabindex: 0, role: "button", "aria-label": key }, this.layers.handles);

@@ -21,11 +21,11 @@ from linkwright.core.plain import Plain
 from linkwright.joints.marks import CamContact, RackWay, Wheel, Wheels
 from linkwright.kinematics.names import canonical
 from linkwright.loads.base import Load
-from linkwright.loads.marks import Turn
+from linkwright.loads.marks import Press, Turn
 from linkwright.mechanism.mechanism import Link
 from linkwright.plot.drawing.guides import clear_shift, ground_side, is_cylinder, travel, welds
 from linkwright.plot.drawing.inputs import input_arrows
-from linkwright.plot.drawing.loads import named_points
+from linkwright.plot.drawing.loads import named_points, pressing
 from linkwright.plot.drawing.machine import Machine, Part, bodies, flat, support_direction
 from linkwright.plot.symbols.base import PIN, SYMBOLS, Shape, Vec
 
@@ -149,11 +149,12 @@ def _along(link: str) -> str | float:
 
 
 class _Following:
-    """Wheels, each once, then belts, racks and cams: by what the joints say of shapes that follow the dimensions."""
+    """Wheels, each once, and cams, then belts and racks: what joints say of shapes that follow the dimensions."""
 
     def __init__(self, machine: Machine) -> None:
         self.machine = machine
         self._wheels: list[tuple[Wheel, Plain]] = []
+        self._cams: list[tuple[float, Plain]] = []
         self._after: list[Plain] = []
         mechanism = machine.motion.mechanism
         for joint in mechanism.joints.values():
@@ -163,17 +164,16 @@ class _Following:
                 case RackWay() as found:
                     self._rack(found)
                 case CamContact() as found:
-                    self._after.append(self._cam(found))
+                    self._cams.append((found.base.value, self._cam(found)))
 
     @property
     def all(self) -> list[Plain]:
-        """Rings and large wheels first; ``mesh`` is a wheel's place in this list."""
-        order = sorted(
-            range(len(self._wheels)),
-            key=lambda k: (not self._wheels[k][0].inside, -self._wheels[k][0].nominal),
-        )
+        """Rings, large wheels and large cams first; ``mesh`` is a wheel's place in this list."""
+        sized = [(not wheel.inside, -wheel.nominal, glyph) for wheel, glyph in self._wheels]
+        sized += [(True, -size, glyph) for size, glyph in self._cams]
+        order = sorted(range(len(sized)), key=lambda k: sized[k][:2])
         place = {number: k for k, number in enumerate(order)}
-        found = [*(self._wheels[number][1] for number in order), *self._after]
+        found = [*(sized[number][2] for number in order), *self._after]
         return [{**each, "mesh": place[each["mesh"]]} if "mesh" in each else each for each in found]
 
     def _wheel(self, wheel: Wheel, **more: Any) -> tuple[int, bool]:
@@ -273,6 +273,9 @@ def _load(machine: Machine, load: Load) -> Iterator[Plain]:
     ends = [key_of(machine, each.link, each.point) for each in named_points(machine, load)]
     if load.kind in SYMBOLS and len(ends) == _LENGTHS:
         yield {"kind": load.kind, "layer": "bodies", "points": ends}
+    elif isinstance(press := load.mark(machine.motion, 0), Press):
+        shape = pressing(machine, press, (0.0, 0.0), (1.0, 0.0))
+        yield _stamp("marks", ends[0], row_name("guide_direction", press.joint), shape)
     elif load.kind in SYMBOLS and ends:
         yield _stamp("marks", ends[0], 0.0, SYMBOLS[load.kind]())
     elif load.kind in SYMBOLS:

@@ -133,10 +133,15 @@ def _pressed(machine: Machine, press: Press, index: int) -> Shape:
     joint = machine.guides[press.joint]
     c, s = machine.placed[joint.guide].direction[index]
     angle = math.atan2(s, c) + joint.direction
-    along = (math.cos(angle), -math.sin(angle))
-    sign = press.sense
+    at = machine.paper(joint.block, joint.at, index)
+    return pressing(machine, press, at, (math.cos(angle), -math.sin(angle)))
+
+
+def pressing(machine: Machine, press: Press, at: Vec, along: Vec) -> Shape:
+    """The symbol of a pressure on a block whose point is ``at`` and whose guide leads ``along``, on the paper."""
+    joint, sign = machine.guides[press.joint], press.sense
     way = (sign * along[0], sign * along[1])
-    x, y = machine.paper(joint.block, joint.at, index)
+    x, y = at
     if is_cylinder(machine, press.joint):
         return SYMBOLS["arrow"](start=(x - PUSH * way[0], y - PUSH * way[1]), end=(x, y), style="lw-load")
     shift = clear_shift(machine, press.joint, joint) - sign * LENGTH / 2
