@@ -7,9 +7,10 @@ Problems (duplicate keys, tags, a second document, too deep nesting) become rema
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import field
+from dataclasses import field, replace
 
 from linkwright.core.dataclass import dataclass
+from linkwright.errors import Finding
 from linkwright.words.sentence import Sentence
 
 MAX_DEPTH, MAX_NODES = 40, 30_000
@@ -93,6 +94,12 @@ def towards(node: Node | None, path: str) -> Node | None:
         key = next((each for each in keys if node.get(each) is not None), parts[0])
         node, parts = node.get(key) or node, parts[key.count(".") + 1 :]
     return node
+
+
+def located(finding: Finding, root: Node | None, name: str) -> Finding:
+    """A finding with line and column where its key stands in the text of a root."""
+    node = towards(root, finding.key) if finding.key else None
+    return finding if node is None else replace(finding, where=f"{name}:{node.line + 1}:{node.column + 1}")
 
 
 def below(node: Node | None, *keys: str) -> Node | None:

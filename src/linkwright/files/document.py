@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Collection
-from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
 from linkwright.errors import Finding, LinkwrightError, ModelError, with_remedy
-from linkwright.fields.nodes import Entry, Mapping, Node, Scalar, Sequence, towards
+from linkwright.fields.nodes import Entry, Mapping, Node, Scalar, Sequence, located
 from linkwright.files.compose import compose
 from linkwright.files.write import flow
 from linkwright.mechanism.mechanism import Mechanism
@@ -36,12 +35,6 @@ class _Edit(NamedTuple):
     def made(self, text: str) -> str:
         """The text with it."""
         return text[: self.start] + self.written + text[self.end :]
-
-
-def located(finding: Finding, root: Node | None, name: str) -> Finding:
-    """A finding with line and column where its key stands in the text of a root."""
-    node = towards(root, finding.key) if finding.key else None
-    return finding if node is None else replace(finding, where=f"{name}:{node.line + 1}:{node.column + 1}")
 
 
 class Document:

@@ -47,7 +47,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
 
 def findings_of(name: str) -> tuple[list[Finding], dict[str, object]]:
     """What there is to say about a model file, and its structure in short where it has one."""
-    from linkwright.files.document import located
+    from linkwright.fields.nodes import located
     from linkwright.files.model_file import declared_kind, read_root, read_tree
     from linkwright.files.source import GALLERY, read_source
     from linkwright.kinematics.analysed import analysed
