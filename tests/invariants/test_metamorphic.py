@@ -12,6 +12,7 @@ import re
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cache
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -260,3 +261,43 @@ def test_a_planet_s_curve_has_one_length_whatever_the_steps(steps: int) -> None:
     )
     assert found.value("coupler_curve_length", "planet_1.P1") == pytest.approx(length, rel=1e-9)
     assert found.value("coupler_curve_area", "planet_1.P1") == pytest.approx(area, rel=1e-9)
+
+
+def on_a_bracket(name: str) -> lw.Mechanism:
+    """A machine of the gallery whose frame's points are those of a link welded to the frame."""
+    path = Path(lw.__file__).parent / "gallery" / f"{name}.yaml"
+    data = numbered(yaml.load(path.read_text(encoding="utf-8"), Loader=yaml.BaseLoader))
+    for key in ("expected", "report"):
+        data.pop(key, None)
+
+    def moved(value: Any) -> Any:
+        if isinstance(value, dict):
+            return {key: moved(each) for key, each in value.items()}
+        return "bracket" if value == "frame" else value
+
+    data |= {key: moved(data[key]) for key in ("joints", "loads", "driver") if key in data}
+    points = data["frame"]["points"]
+    points |= {
+        "W": next(iter(points.values()))
+    }  # elsewhere it would be more of the room that the machine takes
+    data["frame"] = {"points": {"W": points["W"]}}
+    data["links"] = {"bracket": {"points": points}} | data["links"]
+    weld = {"kind": "weld", "links": ["frame", "bracket"], "at": "W", "angle": "0 rad"}
+    data.setdefault("joints", {})["foot"] = weld
+    data["driver"].setdefault("relative_to", "bracket")
+    return lw.loads(json.dumps(data))
+
+
+@pytest.mark.parametrize("name", ["jaw_crusher_sixbar", "shaper_quick_return", "whitworth", "dyad_rpr"])
+def test_what_is_welded_to_the_frame_is_part_of_it(name: str) -> None:
+    """All design numbers are those of the machine without the bracket; the weld's own are more."""
+    before, after = (
+        {(row.metric, row.subject): row.value for row in lw.metrics(lw.solve_forces(machine, steps=60))}
+        for machine in (lw.load(f"gallery:{name}"), on_a_bracket(name))
+    )
+    pinned = {key for key in before if key[0] == "grashof"}  # of loops of links that are pinned to the frame
+    assert {key for key, _ in before} >= {"limit_position", "dead_point"}
+    assert after.keys() - before.keys() == {("peak_reaction", "foot"), ("rms_reaction", "foot")}
+    assert before.keys() - after.keys() == pinned
+    for key in before.keys() - pinned:
+        assert after[key] == pytest.approx(before[key], rel=1e-6, abs=1e-8), key

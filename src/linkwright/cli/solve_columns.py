@@ -55,7 +55,9 @@ def _output_guides(mechanism: Mechanism) -> list[str]:
     """Guides on the frame that no driver moves."""
     driven = {driver.joint for driver in mechanism.drivers.values()}
     return [
-        name for name, joint in mechanism.guides.items() if "frame" in joint.joined and name not in driven
+        name
+        for name, joint in mechanism.guides.items()
+        if mechanism.grounded & set(joint.joined) and name not in driven
     ]
 
 
@@ -63,11 +65,11 @@ def _ranked_links(mechanism: Mechanism, structure: Structure) -> list[str]:
     """Links that turn: those joined to the frame, the last solved first; then the others; driven ones last."""
     order = [link for group in reversed(structure.groups) for link in reversed(group.links)]
     driven = {link for driver in mechanism.drivers.values() for link in (driver.link, driver.relative_to)}
-    at_frame = [joint for joint in mechanism.joints.values() if "frame" in joint.joined]
+    at_frame = [joint for joint in mechanism.joints.values() if mechanism.grounded & set(joint.joined)]
     sliding = {link for joint in at_frame if joint.coordinate == "slide" for link in joint.joined}
     hinged = {link for joint in at_frame for link in joint.joined}
 
     def rank(link: str) -> int:
         return 2 if link in driven else 0 if link in hinged else 1
 
-    return sorted((link for link in order if link not in sliding), key=rank)
+    return sorted((link for link in order if link not in sliding | mechanism.grounded), key=rank)

@@ -316,6 +316,14 @@ class Mechanism(Frozen):
         """The joints that make one of two links."""
         return FrozenDict({name: each for name, each in self.joints.items() if isinstance(each, RigidJoint)})
 
+    @cached_property
+    def grounded(self) -> frozenset[str]:
+        """The frame and the links welded to it, also through others."""
+        found, welds = {"frame"}, [set(weld.joined) for weld in self.welds.values()]
+        while touching := [each for each in welds if each & found and not each <= found]:
+            found = found.union(*touching)
+        return frozenset(found)
+
     def pin_links(self, name: str) -> tuple[str, ...]:
         """The links on the pin of that name; none where there is no such pin."""
         joint = self.joints.get(name)

@@ -12,14 +12,19 @@ from linkwright.mechanism.mechanism import Mechanism
 
 
 def mechanism_outputs(mechanism: Mechanism) -> tuple[Output, ...]:
-    """Angles of links that turn about the frame and displacements of blocks on it, driven ones left out."""
+    """Angles of links that turn about the frame and displacements of blocks on it, driven ones left out.
+
+    What is welded to the frame is part of it.
+    """
     driven = {(driver.joint, driver.link) for driver in mechanism.drivers.values()}
     driven |= {(driver.joint, driver.relative_to) for driver in mechanism.drivers.values()}
     found: dict[Output, None] = {}
     for name, joint in mechanism.joints.items():
-        if "frame" not in joint.joined:
+        if mechanism.grounded.isdisjoint(joint.joined):
             continue
-        links = [link for link in joint.joined if link != "frame" and (name, link) not in driven]
+        links = [
+            link for link in joint.joined if link not in mechanism.grounded and (name, link) not in driven
+        ]
         if joint.coordinate == "turn":
             found |= {Output("angle", link): None for link in links}
         elif joint.coordinate == "slide" and links:
@@ -32,7 +37,7 @@ def output_link(mechanism: Mechanism, output: Output) -> str:
     if output.kind == "angle":
         return output.owner
     joint = mechanism.joints[output.owner]
-    return next(link for link in joint.joined if link != "frame")
+    return next(link for link in joint.joined if link not in mechanism.grounded)
 
 
 def turns_fully(motion: Motion, output: Output) -> bool:
@@ -53,11 +58,12 @@ def free_points(mechanism: Mechanism, without: Collection[str] = ()) -> tuple[st
         f"{name}.{point}"
         for name, link in mechanism.links.items()
         for point in link.points
-        if name not in without and point not in used
+        if name not in without and name not in mechanism.grounded and point not in used
     )
 
 
 def coupler_points(mechanism: Mechanism) -> tuple[str, ...]:
     """Free points of links that no joint holds to the frame."""
-    held = {link for joint in mechanism.joints.values() if "frame" in joint.joined for link in joint.joined}
+    at_frame = (each for each in mechanism.joints.values() if mechanism.grounded & set(each.joined))
+    held = {link for joint in at_frame for link in joint.joined}
     return free_points(mechanism, held)
