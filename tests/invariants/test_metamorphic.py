@@ -301,3 +301,32 @@ def test_what_is_welded_to_the_frame_is_part_of_it(name: str) -> None:
     assert before.keys() - after.keys() == pinned
     for key in before.keys() - pinned:
         assert after[key] == pytest.approx(before[key], rel=1e-6, abs=1e-8), key
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_loads_add_up(seed: int) -> None:
+    """Without friction reactions and efforts are linear: all loads, less those of one, less those of none."""
+    data = told(seed).data
+    names = list(data.get("loads", {}))
+
+    def solved(loads: list[str]) -> tuple[lw.Motion, Any]:
+        changed = data | {"loads": {name: data["loads"][name] for name in loads}} if names else data
+        return Told(changed, told(seed).steps).solved()
+
+    motion, full = as_it_was(seed)
+    _, none = solved([])
+    parts = [solved([name])[1] for name in names]
+
+    def added(read: Callable[[Any], np.ndarray]) -> None:
+        one, bare = read(full)[motion.ok], read(none)[motion.ok]
+        own = [read(part)[motion.ok] for part in parts]
+        size = max(np.abs(each).max(initial=0.0) for each in (bare, *own))
+        assert bare + sum(each - bare for each in own) == pytest.approx(
+            one, rel=1e-6, abs=1e-6 * (1e-3 + size)
+        )
+
+    for name in motion.mechanism.drivers:
+        added(lambda forces: forces.driver_effort(name))  # noqa: B023
+    for name, joint in motion.mechanism.joints.items():
+        for link in joint.joined:
+            added(lambda forces: forces.reaction(name, on=link))  # noqa: B023
