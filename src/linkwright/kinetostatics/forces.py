@@ -73,13 +73,18 @@ class Forces(Plotted):
         return self.motion.steps
 
     @cached_property
-    def rounding(self) -> float:
-        """Size, N, below which a joint force is but rounding beside the largest of the machine."""
+    def roundings(self) -> Floats:
+        """Sizes (n,), N, below which a joint force is but rounding beside the largest of the machine there."""
         rows = self.rows
-        found = np.abs(
-            rows.values[[place for name, place in rows.index.items() if kind_of(name) == "reaction"]]
+        found = rows.values[[place for name, place in rows.index.items() if kind_of(name) == "reaction"]]
+        return np.asarray(
+            ROUNDING * np.where(np.isfinite(found), np.abs(found), 0.0).max(axis=0, initial=0.0)
         )
-        return ROUNDING * float(found[np.isfinite(found)].max(initial=0.0))
+
+    @cached_property
+    def rounding(self) -> float:
+        """The largest of them."""
+        return float(self.roundings.max(initial=0.0))
 
     def in_order(self) -> Forces:
         """The forces of ``motion.in_order()``."""

@@ -200,10 +200,20 @@ class Analysis:
         """
         if summary not in self._parts:
             found = self._summarised(one(summary))
-            if summary.startswith("reaction ") and self.forces and abs(found.value) < self.forces.rounding:
+            if summary.startswith("reaction ") and abs(found.value) < self._rounding(found.time):
                 found = replace(found, value=0.0)
             self._parts[summary] = found
         return self._parts[summary]
+
+    def _rounding(self, time: float) -> float:
+        """Size, N, below which a joint force is but rounding; of a machine that is partly reached beside the forces
+        at that time, s, as they may grow without bound at others."""
+        if self.forces is None:
+            return 0.0
+        if isnan(time) or not self.partial:
+            return self.forces.rounding
+        near = np.where(self.motion.ok, np.abs(self.motion.time - time), np.inf)
+        return float(self.forces.roundings[near.argmin()])
 
     def _summarised(self, summary: Summary) -> Extreme:
         kind = summary.kind
@@ -415,7 +425,7 @@ class Analysis:
             return sample
         step = float(abs(time[1] - time[0]))
         near = peaks(sign * values, self.closed)[:4]
-        low, high = time[near] - step, time[near] + step
+        low, high = self.ends.without(time[near] - step, time[near] + step)
         if not self.closed:
             low, high = np.maximum(low, time.min()), np.minimum(high, time.max())
         best = self._narrowed(lambda t: sign * signal(self.resolver.at(t, of)), low, high, sign, sample)

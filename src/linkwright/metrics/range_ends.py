@@ -48,9 +48,27 @@ class RangeEnds:
         if not unknown.any():
             return True
         ends, places = np.array(self.times), self._near(SLOWED[0])
-        among = np.abs(time - ends) < np.abs(places[:, -1] - ends)
+        among = np.abs(time + self._laps - ends).min(axis=0) < np.abs(places[:, -1] - ends)
         beside = np.reshape(signal(self._solved[of, SLOWED[0]]), places.shape)
         return not (unknown & (among | ~(beside <= value).all(axis=1))).any()
+
+    def without(self, low: Floats, high: Floats) -> tuple[Floats, Floats]:
+        """Stretches (k,) of time, s, without what is nearer to an end than all places from which limits are found:
+        there the digits of what does not grow are those of what does."""
+        low, high = low.copy(), high.copy()
+        if not self._edges:
+            return low, high
+        for (_, sense), nearest in zip(self._edges, self._near(SLOWED[0])[:, 0], strict=True):
+            for place in (nearest + self._laps).ravel():
+                bound = high if sense < 0 else low
+                bound[(low < place) & (high > place)] = place
+        return low, high
+
+    @property
+    def _laps(self) -> Floats:
+        """A turn of a closed cycle back, none and one ahead, (3, 1) s."""
+        positions = self._motion.positions
+        return np.array([[-1.0], [0.0], [1.0]]) * (positions.period or 0.0 if positions.closed else 0.0)
 
     def _near(self, slowed: float) -> Floats:
         """Times, s, near each end at which positions are reached, the nearest first, (ends, k); see ``towards``."""
