@@ -6,6 +6,7 @@ import pickle
 from collections.abc import Callable
 from functools import cache
 from itertools import islice
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -138,6 +139,7 @@ RESULTS: dict[str, Callable[[], Any]] = {
     "validation": lambda: lw.validate(islice(published(), 4)),
     "variants": variants,
     "grades": grades,
+    "interruption": lambda: lw.Interrupted(Path("crank.state")),
     "synthesis": lambda: lw.synthesize("slider_crank", stroke=0.3, rod_ratio=3.5),
     **{f"part {name}": lambda name=name: parts.load(f"gallery:{name}").solve() for name in part_names()},
 }

@@ -40,6 +40,9 @@ class Interrupted(KeyboardInterrupt):
         super().__init__(str(Sentence("study.interrupted", path=state)))
         self.state = state
 
+    def __reduce__(self) -> tuple[type[Interrupted], tuple[Path]]:
+        return Interrupted, (self.state,)
+
 
 @contextmanager
 def kept_in(
