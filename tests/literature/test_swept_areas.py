@@ -228,3 +228,25 @@ def test_points_that_pass_their_places_twice_are_taken_once() -> None:
     swept = lw.sweep(machine, {"l1.mass": np.array([1.0])}, outputs=["swept_area"])
     assert area(machine) == pytest.approx(hull, rel=1e-8)
     assert swept["swept_area"][0] == pytest.approx(hull, rel=1e-8)
+
+
+JERKED = (
+    "driver: {turn: crank, about: O, table: {time: [0 s, 0.1315 s, 0.1493 s, 0.285 s, 0.4976 s, 0.6554 s, 0.7525 s, "
+    "0.9254 s, 1 s], position: [20 deg, 75 deg, 108 deg, 143 deg, 120 deg, 99 deg, 112 deg, 60 deg, 20 deg], "
+    "interpolation: INTERPOLATION}}"
+)
+
+
+@pytest.mark.parametrize("law", ["cubic", "periodic"])
+def test_numbers_of_a_machine_whose_table_ends_with_the_cycle(law: str) -> None:
+    """Points go to and fro over the same ways; what goes on over the end of the cycle is asked at its beginning."""
+    text = FOUR_BAR.format(crank=1).replace("driver: {turn: crank, about: O, speed: 1 rad/s}", JERKED)
+    machine = lw.loads(text.replace("INTERPOLATION", law))
+    tables = [lw.metrics(lw.solve_motion(machine, steps=steps)) for steps in (24, 97)]
+    reached = lw.solve_motion(machine, steps=20000).input
+    hull = hull_of(1.0, np.linspace(reached.min(), reached.max(), 20001))
+    for table in tables:
+        assert table.value("swept_area") == pytest.approx(hull, rel=1e-6)
+    for one, other in zip(*tables, strict=True):
+        if one.metric in ("peak_acceleration", "coupler_curve_length", "transmission_angle"):
+            assert one.value == pytest.approx(other.value, rel=1e-9), one.metric

@@ -14,7 +14,7 @@ from linkwright.core.search import ends
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.between import Between
 from linkwright.kinematics.change_points import Passage
-from linkwright.kinematics.cycle import at_times
+from linkwright.kinematics.cycle import Positions, at_times
 from linkwright.kinematics.motion import Motion, Rows
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.signals import MotionSignals
@@ -147,7 +147,7 @@ class Resolver:
         assert self._forces is not None
         if known.modes or not self.passed.all():
             return None
-        positions = at_times(known.mechanism, time)
+        positions = self._positions(time)
 
         def motion(rows: Rows) -> Motion | None:
             found = Motion(known.solver, known.design, positions, {}, {}, rows)
@@ -161,6 +161,18 @@ class Resolver:
             asked=asked,
             signals_of=lambda each: _SameCycle(each, self._signals),
         )
+
+    def _positions(self, time: Floats) -> Positions:
+        """The drivers at some times, s; where a table ends with the cycle, behind it those at its beginning."""
+        mechanism, positions = self._motion.mechanism, self._motion.positions
+        try:
+            return at_times(mechanism, time)
+        except LinkwrightError:
+            if not (positions.closed and positions.period):
+                raise
+            start = min(float(self._times[0]), float(self._times[-1]))
+            outside = (time < start) | (time > start + positions.period)
+            return at_times(mechanism, np.where(outside, start + (time - start) % positions.period, time))
 
     def motion(self, time: Floats) -> Motion:
         """Motion at some times; positions out of reach are NaN, also those that could be assembled behind a gap."""
@@ -181,7 +193,7 @@ class Resolver:
         """Motion at some times; NaN where it cannot be assembled or is not ``reached``."""
         assert self._between is not None
         known = self._motion
-        positions = at_times(known.mechanism, time)
+        positions = self._positions(time)
         before = self._before(positions.time)
         states = self._between._states(positions, before)
         modes = known.modes and self._between._modes(positions)
@@ -228,7 +240,11 @@ class Resolver:
 
     def input_at(self, time: float) -> float:
         """Coordinate of the first driver at a time."""
-        return next(iter(self._motion.mechanism.drivers.values())).law.at(time)
+        name, driver = next(iter(self._motion.mechanism.drivers.items()))
+        try:
+            return driver.law.at(time)
+        except LinkwrightError:
+            return float(self._positions(np.array([time])).coordinates[name][0][0])
 
 
 def _between(motion: Motion) -> Between | None:

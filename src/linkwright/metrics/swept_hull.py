@@ -15,7 +15,7 @@ import numpy as np
 from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.dataclass import dataclass
 from linkwright.core.piecewise import NODES, POINTS, TO_SLOPE, weights_at
-from linkwright.core.plane import cross, hull_corners
+from linkwright.core.plane import area, convex_hull, cross, hull_corners
 
 #: Newton steps towards the places of contact at most, and the last one's size where they end before.
 STEPS, CLOSE = 6, 1e-7
@@ -29,6 +29,8 @@ SHORT = 1e-9
 _KEPT = np.isin(np.arange(POINTS), (0, 5, 10, POINTS - 1))
 #: Along the boundary where it is farthest to the left, the right, down and up.
 _ALONG = np.array([[0.0, -1.0], [0.0, 1.0], [1.0, 0.0], [-1.0, 0.0]])
+#: Places of a piece at which what has no lines that touch is looked at.
+_DENSE = np.linspace(-1.0, 1.0, 401)
 _INNER, _SHARES = np.polynomial.legendre.leggauss(3)
 
 
@@ -68,6 +70,8 @@ class SweptHull:
         self._corners = own[hull_corners(self._nodes.view(np.complex128)[own, 0])]
         self._first, self._last, self._outer = self._touched(self._thinned(self._corners))
         self.area = self._area()
+        if not self._found or self.area < area(self._nodes.view(np.complex128)[self._corners, 0]):
+            self.area = self._sampled()
 
     def _thinned(self, corners: Indices) -> Indices:
         """Corners at places of their own, without those between others of the same curve that are no farther than its
@@ -99,6 +103,8 @@ class SweptHull:
         begins, ends = np.concatenate([begin[free], outer]), np.concatenate([end[free], outer])
         begun, ended = self._touching(begins, ends, np.concatenate([along, _ALONG]), near)
         first[free], last[free] = begun[:-4], ended[:-4]
+        moved = np.maximum(np.abs(first - NODES[begin % POINTS]), np.abs(last - NODES[end % POINTS]))
+        self._found = bool(moved.max(initial=0.0) < NEAR - CLOSE)
         number, place = np.concatenate([begin, end, outer]), np.concatenate([first, last, begun[-4:]])
         point = _at(self._pieces_of(number), weights_at(place))
         ways = (slice(len(begin)), slice(len(begin), -4), slice(-4, None))
@@ -149,6 +155,18 @@ class SweptHull:
         values, at = self._pieces_of(number), weights_at(place)
         along = width @ cross(_at(values, at), _at(values, at @ TO_SLOPE.T))
         return 0.5 * float(along + cross(self._first.point, self._last.point).sum())
+
+    def _sampled(self) -> float:
+        """The area within many places of the curves, where lines that touch two arcs are not found: of a curve that
+        turns back on itself."""
+        numbers = np.unique(self._corners // POINTS)
+        curves, pieces = np.divmod(numbers, self._pieces)
+        beside = [(pieces + k) % self._pieces for k in (-1, 0, 1)]
+        numbers = np.unique(np.concatenate([curves * self._pieces + each for each in beside]))
+        curves, pieces = np.divmod(numbers, self._pieces)
+        place = np.einsum("kjp,np->knj", self._values[curves, :, pieces], weights_at(_DENSE)).reshape(-1, 2)
+        every = np.concatenate([place, self._nodes[self._corners]])
+        return area(convex_hull(np.ascontiguousarray(every).view(np.complex128)[:, 0]))
 
     @property
     def box(self) -> Floats:
