@@ -97,20 +97,29 @@ def speed(base: Path, samples: int) -> None:
 
 
 def search_speed(seconds: float) -> None:
-    """Attempts of two workers against those of one, in the time that a clock gives a search."""
-    target, attempts = Target(np.array([9, 9 + 17j, 6j, 13 + 6j]), False, math.radians(20.0), 6.0), []
+    """Attempts of two workers against those of one, in the time that a clock gives a search, and for each processor
+    second that the workers had of it: what else runs on the machine changes the first number only."""
+    target = Target(np.array([9, 9 + 17j, 6j, 13 + 6j]), False, math.radians(20.0), 6.0)
+    attempts, processor, load = list[int](), list[float](), os.getloadavg()[0]
     for workers in (1, 2):
         with (
             distributed.LocalCluster(n_workers=workers, **OPTIONS) as cluster,
-            lw.on_cluster(cluster.get_client()),
+            distributed.Client(cluster) as client,
+            lw.on_cluster(client),
         ):
             Search(target, 12, 0.2 * seconds, 0).run()
+            before = sum(client.run(time.process_time).values())
             search = Search(target, 12, seconds, 0)
             search.run()
             attempts.append(search.attempts)
-    one, two = attempts
+            processor.append(sum(client.run(time.process_time).values()) - before)
+    (one, two), (first, second) = attempts, processor
     print(
-        f"free curve, {seconds:g} s: one worker {one} attempts, two {two}, ratio {two / one:.2f}", flush=True
+        f"free curve, {seconds:g} s: one worker {one} attempts in {first:.1f} processor s, "
+        f"two {two} in {second:.1f}; ratio {two / one:.2f}, "
+        f"for each processor second {two * first / one / second:.2f}; "
+        f"load before {load:.1f} on {os.cpu_count()} cores",
+        flush=True,
     )
 
 
