@@ -180,12 +180,12 @@ class CycleGrid:
         """The largest or smallest values of signals between pairs of times, the second perhaps in the next cycle."""
         period, found = self.end - self.start, []
         for signal, span in wanted:
-            curve = self.curve(signal, of)
-            part = (curve if span[1] <= self.end else _twice(curve, period)).part(*span)
-            function = self.function(signal, of)
-            if not curve.smooth.all():
-                for k in (0, -1):
-                    part.values[k] = function(nodes(part.edges[:2] if k == 0 else part.edges[-2:])[0])
+            curve, function = self.curve(signal, of), self.function(signal, of)
+            whole = curve if span[1] <= self.end else _twice(curve, period)
+            part = whole.part(*span)
+            for k, outer in ((0, part.edges[:2]), (-1, part.edges[-2:])):
+                if not whole.smooth[np.searchsorted(whole.edges, outer.mean()) - 1]:
+                    part.values[k] = function(nodes(outer)[0])
             found.append(sought(part, kind, function))
         return [
             each if each.place <= self.end else replace(each, place=each.place - period) for each in found
