@@ -21,6 +21,7 @@ import yaml
 from tests.reference.general_case import general_case
 
 import linkwright as lw
+from linkwright.plot.diagrams.outputs import joint_and_link, main_output, traced_points
 
 SEEDS = range(400, 416)
 NUMBER = re.compile(r"(?<![\w.])(-?\d+\.?\d*(?:e[+-]?\d+)?) (m|mm|rad|deg|kg|s|N)(?![\w/·²])")
@@ -301,6 +302,16 @@ def test_what_is_welded_to_the_frame_is_part_of_it(name: str) -> None:
     assert before.keys() - after.keys() == pinned
     for key in before.keys() - pinned:
         assert after[key] == pytest.approx(before[key], rel=1e-6, abs=1e-8), key
+
+
+@pytest.mark.parametrize("name", ["jaw_crusher_sixbar", "shaper_quick_return", "whitworth", "dyad_rpr"])
+def test_diagrams_are_about_the_same_whatever_is_welded_to_the_frame(name: str) -> None:
+    def subjects(machine: lw.Mechanism) -> tuple[Any, ...]:
+        forces = lw.solve_forces(machine, steps=60)
+        main = str(main_output(forces.motion))
+        return main, traced_points(machine), joint_and_link(forces, None, None)
+
+    assert subjects(on_a_bracket(name)) == subjects(lw.load(f"gallery:{name}"))
 
 
 @pytest.mark.parametrize("seed", SEEDS)

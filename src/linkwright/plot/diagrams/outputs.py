@@ -23,7 +23,7 @@ def output_named(mechanism: Mechanism, name: str) -> Output | str:
     """
     if name in mechanism.links:
         for joint in mechanism.joints.values():
-            if joint.coordinate == "slide" and set(joint.joined) == {"frame", name}:
+            if joint.coordinate == "slide" and set(joint.joined) - mechanism.grounded == {name}:
                 return Output("displacement", joint.name, written=name)
         return Output("angle", name)
     link, _, point = name.rpartition(".")
@@ -106,7 +106,7 @@ def traced_points(mechanism: Mechanism) -> list[str]:
     pins = [
         name
         for name, joint in mechanism.joints.items()
-        if joint.coordinate == "turn" and "frame" not in joint.joined
+        if joint.coordinate == "turn" and mechanism.grounded.isdisjoint(joint.joined)
     ]
     return (
         pins
@@ -123,7 +123,10 @@ def joint_and_link(forces: Forces, joint: str | None, on: str | None) -> tuple[s
     if joint is None:
         pairs = reaction_pairs(mechanism)
         driven = {driver.joint for driver in mechanism.drivers.values()}
-        on_frame = [p for p in pairs if "frame" in mechanism.joints[p[0]].joined and p[0] not in driven]
+        held = {
+            name for name, each in mechanism.joints.items() if mechanism.grounded & {*each.joined}
+        } - driven
+        on_frame = [pair for pair in pairs if pair[0] in held and pair[1] not in mechanism.grounded]
         if on is not None:
             on_frame = pairs = [p for p in pairs if p[1] == known_link(mechanism, on)]
         if not pairs:
