@@ -144,3 +144,24 @@ driver: {{turn: shaft, about: O, speed: 60 rpm}}
     assert (low.kind, high.kind) == ("min", "max")
     assert degrees(low.input) == pytest.approx((33.3 - 30) / 2, abs=digits)
     assert degrees(high.input) == pytest.approx(33.3 + 95.1 + 71.3 / 2, abs=digits)
+
+
+@pytest.mark.parametrize("steps", [37, 45, 48, 360])
+def test_a_rest_between_two_positions_has_its_limit_in_its_middle(steps: int) -> None:
+    """A slide that a program moves up in 2 s, holds for 0.04 s and moves back in 2.5 s."""
+    model = lw.loads("""
+format: 1
+name: Feed
+frame: {points: {G: [0 mm, 0 mm]}}
+links: {slide: {points: [P]}}
+joints:
+  guide: {kind: prismatic, guide: frame, through: G, direction: 0 deg, block: slide, at: P, block_angle: 0 deg}
+driver:
+  slide: guide
+  program: [{rise: 20 mm, over: 2 s, law: cycloidal}, {dwell: 0.04 s}, {fall: 20 mm, over: 2.5 s, law: cycloidal}]
+""")
+    (high,) = (
+        each for each in limit_positions(lw.solve_motion(model, steps=steps), "guide") if each.kind == "max"
+    )
+    assert high.time == pytest.approx(2.02, abs=1e-6)
+    assert high.value == pytest.approx(0.02, rel=1e-12)

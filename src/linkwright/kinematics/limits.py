@@ -38,6 +38,8 @@ BLURRED = 1e-10
 BESIDE = 1e-4
 #: A way back of less than this share of the travel is what the digits of a table leave open, not a reversal.
 LEAST_WAY = 1e-7
+#: Share of the step between two positions to both sides of a zero at which an output that rests has no rate either.
+RESTING = 1e-3
 
 
 @dataclass(frozen=True)
@@ -62,7 +64,7 @@ def limit_positions(motion: Motion, output: Output | str) -> tuple[LimitPosition
     Exact to rounding in the input, independent of the steps, as long as at most two reversals lie between two
     neighbouring positions. In a closed cycle the way from the last position to the first counts as well; the
     ends of an open one are no limits, nor is a rate that touches zero without changing its sign. Of a rest
-    over several positions between opposite motions the middle is given. A way there and back of less than a ten
+    between opposite motions the middle is given. A way there and back of less than a ten
     millionth of the output's travel (a rest from a table of numbers with few digits) counts as none.
 
     Args:
@@ -198,7 +200,8 @@ class _Search:
             brackets = []
         else:
             brackets = self._brackets(rate, second, np.flatnonzero(np.abs(rate) > still))
-        return self._refined(brackets) if brackets else _Reversals([], [], [])
+        found = self._refined(brackets) if brackets else _Reversals([], [], [])
+        return self._in_rests(found, rate) if brackets and self._rests else found
 
     def _time(self, bracket: Bracket, share: float) -> float:
         """The time at a share of a bracket, within the cycle."""
@@ -273,6 +276,32 @@ class _Search:
         still = self._still(rate) or 0.0
         moving = ends(lambda share: np.abs(self._rates(beside, share)[0]) > still, beside.low, beside.high)
         return 0.5 * float((beside.begin + moving * beside.span).sum())
+
+    @property
+    def _rests(self) -> bool:
+        """Whether outputs may rest while the mechanism moves."""
+        mechanism = self.motion.mechanism
+        return any(joint.bends is not None for joint in mechanism.joints.values()) or any(
+            driver.law.constant_speed is None for driver in mechanism.drivers.values()
+        )
+
+    def _in_rests(self, found: _Reversals, rate: Floats) -> _Reversals:
+        """The same with those that lie in rests between two positions moved into the middle of these."""
+        columns, share, still = _Columns(found.brackets), np.array(found.shares), self._still(rate)
+        if still is None:
+            return found
+        near = [np.clip(share + way, columns.low, columns.high) for way in (-RESTING, RESTING)]
+        rests = (columns.low < share) & (share < columns.high)
+        for each in near:
+            rests &= np.abs(self._rates(columns, each)[0]) <= still
+        if not rests.any():
+            return found
+        moving = [
+            ends(lambda place: np.abs(self._rates(columns, place)[0]) > still, outer, share)
+            for outer in (columns.low, columns.high)
+        ]
+        share = np.where(rests, 0.5 * sum(moving), share)
+        return _Reversals(found.brackets, share.tolist(), self._rates(columns, share)[2:].T.tolist())
 
     def _time_of(self, position: int) -> float:
         """The time of a position, which may be counted past the last one."""
