@@ -30,6 +30,8 @@ from linkwright.registry import offered
 
 #: Rates below this share of the output's largest one, or of that of the whole mechanism, are rounding errors of zero.
 STILL, STILL_BESIDE = 1e-12, 1e-15
+#: The same beside the mechanism's, where cams or laws let an output rest while what moves them leaves its digits.
+STILL_IN_RESTS = 1e-13
 #: An output whose largest rate is below this share of the mechanism's does not move.
 CONSTANT = 1e-10
 #: Below this quality of a group rounding hides where a rate is zero: the limit is put on the change point.
@@ -38,7 +40,7 @@ BLURRED = 1e-10
 BESIDE = 1e-4
 #: A way back of less than this share of the travel is what the digits of a table leave open, not a reversal.
 LEAST_WAY = 1e-7
-#: Share of the step between two positions to both sides of a zero at which an output that rests has no rate either.
+#: Share of the step between two positions on a side of a zero at which an output that rests there has no rate either.
 RESTING = 1e-3
 
 
@@ -194,7 +196,7 @@ class _Search:
     def _reversals(self) -> _Reversals:
         rows = self.motion.rows.fetch(self.rate_names, self.motion.evaluate)
         rate, second = (row[: self.count] for row in rows)
-        if self._moves(rate):
+        if not self._rests and self._moves(rate):
             brackets = self._brackets(rate, second)
         elif (still := self._still(rate)) is None:
             brackets = []
@@ -227,7 +229,8 @@ class _Search:
         speed = max(_largest(rows.values[turning]), _largest(rows.values[moving]) / size)
         if self.output.kind != "angle":
             speed *= size
-        return None if largest <= CONSTANT * speed else max(STILL * largest, STILL_BESIDE * speed)
+        beside = STILL_IN_RESTS if self._rests else STILL_BESIDE
+        return None if largest <= CONSTANT * speed else max(STILL * largest, beside * speed)
 
     # where the rate changes its sign --------------------------------------------------------------
     def _brackets(self, rate: Floats, second: Floats, moving: Indices | None = None) -> list[Bracket]:
@@ -277,7 +280,7 @@ class _Search:
         moving = ends(lambda share: np.abs(self._rates(beside, share)[0]) > still, beside.low, beside.high)
         return 0.5 * float((beside.begin + moving * beside.span).sum())
 
-    @property
+    @cached_property
     def _rests(self) -> bool:
         """Whether outputs may rest while the mechanism moves."""
         mechanism = self.motion.mechanism
@@ -290,10 +293,9 @@ class _Search:
         columns, share, still = _Columns(found.brackets), np.array(found.shares), self._still(rate)
         if still is None:
             return found
-        near = [np.clip(share + way, columns.low, columns.high) for way in (-RESTING, RESTING)]
-        rests = (columns.low < share) & (share < columns.high)
-        for each in near:
-            rests &= np.abs(self._rates(columns, each)[0]) <= still
+        near = (np.clip(share + way, columns.low, columns.high) for way in (-RESTING, RESTING))
+        beside = np.minimum(*(np.abs(self._rates(columns, each)[0]) for each in near))
+        rests = (columns.low < share) & (share < columns.high) & (beside <= still)
         if not rests.any():
             return found
         moving = [
