@@ -200,7 +200,10 @@ class Analysis:
         """
         if summary not in self._parts:
             found = self._summarised(one(summary))
-            if summary.startswith("reaction ") and abs(found.value) < self._rounding(found.time):
+            small = (
+                self.forces and summary.startswith("reaction ") and abs(found.value) < self.forces.rounding
+            )
+            if small and abs(found.value) < self._rounding(found.time):
                 found = replace(found, value=0.0)
             self._parts[summary] = found
         return self._parts[summary]
