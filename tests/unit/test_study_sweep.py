@@ -527,3 +527,35 @@ driver: {turn: crank, about: O, speed: 2 rad/s}
 """)
     found = lw.sweep(still, {"one.length": np.array([0.9, 1.0])}, outputs="mechanical_advantage")
     assert np.isinf(found["mechanical_advantage"]).all()
+
+
+def test_a_follower_that_rests_all_the_time_has_an_infinite_advantage_beside_a_wheel_that_turns() -> None:
+    """A crank rocks within the dwell of its cam; a belt takes a wheel of half its radius along."""
+    resting = lw.loads("""
+format: 1
+frame: {points: {O: [0 m, 0 m], S: [-0.23 m, -0.03 m]}}
+links:
+  crank: {points: {O: [0 m, 0 m], A: [0.085 m, -0.018 m]}}
+  slide: {points: {T: [0 m, 0 m]}}
+  wheel: {points: {S: [0 m, 0 m], B: [0.04 m, 0 m]}}
+joints:
+  guide: {kind: prismatic, guide: frame, through: O, direction: 147.43 deg, block: slide, at: T}
+  lobe: {kind: cam, cam: crank, touch: roller, roller_radius: 9 mm, base_radius: 48 mm, phase: 146 deg,
+    follower: slide, at: T, program: [{rise: 11 mm, over: 121 deg}, {dwell: 112 deg}, {fall: 11 mm, over: 60 deg},
+    {dwell: 67 deg}]}
+  belt: {kind: belt, links: [crank, wheel], radii: [0.11 m, 0.055 m], carrier: frame, phase: 0 deg}
+driver: {turn: crank, about: O, position: "-20 deg + 17 deg*sin(3.7*t/(1 s))"}
+cycle: {duration: 1.698158191669375 s}
+""")
+    alone = lw.metrics(lw.solve_motion(resting, steps=48))
+    swept = lw.sweep(
+        resting,
+        {"crank.A.x": np.array([0.085, 0.09])},
+        outputs=["mechanical_advantage", "velocity_ratio guide"],
+    )
+    assert np.isinf(alone["mechanical_advantage", "guide"].value)
+    assert alone["velocity_ratio", "guide"].value == 0.0
+    assert not alone["mechanical_advantage", "guide"].remarks
+    assert alone.value("mechanical_advantage") == pytest.approx(0.5, rel=1e-12)
+    assert swept["mechanical_advantage"] == pytest.approx(0.5, rel=1e-12)
+    assert (swept["velocity_ratio guide"] == 0.0).all()

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
+from math import nan
 from typing import ClassVar
 
 import numpy as np
 
-from linkwright.engine.trace import Scalar, absolute, maximum, select
+from linkwright.engine.trace import Scalar, absolute, select
 from linkwright.kinetostatics.named import RATIO
 from linkwright.metrics.analysis import Analysis, Extreme
 from linkwright.metrics.base import METRICS, Better, Metric, Number
@@ -16,15 +18,22 @@ from linkwright.metrics.base import METRICS, Better, Metric, Number
 _BUT_ROUNDING = 1.0 - 1e-12
 
 
-def _largest(high: Scalar, low: Scalar) -> Scalar:
-    return select(absolute(high) >= _BUT_ROUNDING * absolute(low), high, low)
+#: An output stands still where its ratio, as that of the machine's sizes, is nowhere larger.
+_STANDING = 1e-12
 
 
-def _advantage(high: Scalar, low: Scalar) -> Scalar:
-    return 1.0 / maximum(absolute(high), absolute(low))
+def _largest(least: float, high: Scalar, low: Scalar) -> Scalar:
+    found = select(absolute(high) >= _BUT_ROUNDING * absolute(low), high, low)
+    return select(absolute(found) > least, found, np.float64(0.0))
 
 
-def _place(high: Extreme, low: Extreme) -> float:
+def _advantage(least: float, high: Scalar, low: Scalar) -> Scalar:
+    return 1.0 / absolute(_largest(least, high, low))
+
+
+def _place(least: float, high: Extreme, low: Extreme) -> float:
+    if max(abs(high.value), abs(low.value)) <= least:
+        return nan
     return high.input if abs(high.value) >= _BUT_ROUNDING * abs(low.value) else low.input
 
 
@@ -46,7 +55,10 @@ class VelocityRatio(Metric):
         for output in analysis.outputs:
             parts = tuple(f"velocity_ratio {output.owner} {kind}" for kind in ("max", "min"))
             kinds = output.dimension, analysis.input_dimension
-            yield Number(str(output), parts, self.formula, self.ratio(*kinds), _place)
+            sizes = [analysis.motion.mechanism.size if kind == "length" else 1.0 for kind in kinds]
+            least = _STANDING * sizes[0] / sizes[1]
+            formula, place = partial(self.formula, least), partial(_place, least)
+            yield Number(str(output), parts, formula, self.ratio(*kinds), place)
 
     def ratio(self, output: str, input_: str) -> str:
         """Name of the dimension."""
