@@ -239,6 +239,10 @@ def unknown_unit(text: str, column: int = 0) -> QuantityError:
 def suggestion(text: str) -> str | None:
     """A known spelling near ``text``, each factor of a product taken by itself."""
     whole = text.replace(" ", "")
+    if re.search(r"[^\x00-\u2fff]", whole):
+        from unicodedata import normalize
+
+        whole = normalize("NFKC", whole)
     if whole in SPELLINGS:
         return SPELLINGS[whole]
     parts = re.split(r"([*·⋅/.\-])", whole)
@@ -261,6 +265,8 @@ def _factor_suggestion(part: str) -> str | None:
         return SPELLINGS[part]
     base = part.rstrip("0123456789^²³")
     offer, exponent = nearest(base, list(UNITS)), part[len(base) :]
+    if exponent.lstrip("^") == "0":
+        return None
     return offer and offer + ("^" + exponent if exponent.isascii() and exponent.isdigit() else exponent)
 
 
@@ -292,12 +298,16 @@ def parse(text: str, dimension: str) -> float:
     if found is None:
         raise not_a_number(plain, dimension)
     sign, digits, rest = found.groups()
-    if re.match(r",\s?\d", rest):
+    if re.match(r"[,，]\s?\d", rest):
         raise decimal_comma(plain)
-    if re.match(r"(?!1/)\d", rest):
+    if "±" in rest:
         raise QuantityError(
-            Sentence("units.space", plain=plain),
-            Sentence("units.write_number", digits=digits, rest=rest),
+            Sentence("units.tolerance", plain=plain), Sentence("units.tolerance_do"), code="quantity"
+        )
+    if re.match(r"(?!1/)[_'’]?\d", rest):
+        raise QuantityError(
+            Sentence(f"units.{'space' if rest[0].isdigit() else 'separator'}", plain=plain),
+            Sentence("units.write_number", digits=digits, rest=rest.lstrip("_'’")),
             code="quantity",
         )
     value = float(sign + digits)
@@ -361,11 +371,14 @@ def _fitting_remedy(text: str, dimension: str) -> Sentence:
 
 
 def decimal_comma(text: str) -> QuantityError:
-    """The error for a decimal comma, with the same text written with a point."""
-    right = re.sub(r"(?<=\d),\s?(?=\d)", ".", text)
-    return QuantityError(
-        Sentence("units.decimal_comma", text=text), Sentence("units.point", right=right), code="decimal-comma"
-    )
+    """The error for a decimal comma, with the same text written with a point, or without where it may mean
+    thousands."""
+    right = re.sub(r"(?<=\d)[,，]\s?(?=\d)", ".", text)
+    remedy = Sentence("units.point", right=right)
+    if re.match(r"[+-]?[1-9]\d{0,2}([,，]\d{3})+(?!\d)", text):
+        way = "no_comma" if right.count(".") > 1 else "point_or_none"
+        remedy = Sentence(f"units.{way}", right=right, whole=re.sub("[,，]", "", text))
+    return QuantityError(Sentence("units.decimal_comma", text=text), remedy, code="decimal-comma")
 
 
 def not_a_number(text: str, dimension: str) -> QuantityError:

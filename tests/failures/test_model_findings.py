@@ -384,3 +384,59 @@ driver: {turn: crank, about: A, speed: 90 rpm}
         assert all(
             each.code != "doubtful" for each in read_text(text.replace("about: A", meant), "m.yaml")[1]
         )
+
+
+@pytest.mark.parametrize(
+    ("length", "remedy"),
+    [
+        ("“1 m”", 'write the quotation mark " in place of “, or none'),
+        ("1_000 mm", 'write "1000 mm"'),
+        ("1,000 mm", 'write a point: "1.000 mm"; or "1000 mm", if thousands are meant'),
+        ("1,000,000 mm", 'write "1000000 mm"'),
+        ("1，5 m", 'write a point: "1.5 m"'),
+        ("25 mm ± 0.1 mm", "write the value alone"),
+        ("5 ㎜", 'did you mean "mm"?'),
+        ("5 ｋｍ", 'did you mean "km"?'),
+    ],
+)
+def test_a_length_as_it_is_found_elsewhere_is_told_how_it_is_written(length: str, remedy: str) -> None:
+    (found,) = findings(
+        MODEL.replace("length: 1 m", f'length: "{length}"' if "," in length else f"length: {length}")
+    )
+    assert found.key == "links.crank.length" and remedy in found.remedy
+
+
+def test_parameters_that_need_one_another_are_told_once_with_their_circle() -> None:
+    told = findings(MODEL.replace("links:", "parameters: {a: d, b: a*2, d: e + 1 m, e: a, f: f}\nlinks:"))
+    assert [(each.key, each.message) for each in told if each.code == "circle"] == [
+        ("parameters.a", '"a" depends on itself: a → d → e → a'),
+        ("parameters.f", '"f" depends on itself: f → f'),
+    ]
+    assert not [each for each in told if each.severity == "error" and each.code != "circle"]
+
+
+@pytest.mark.parametrize("joined", ["length:1 m", "length=1 m", "length = 1 m"])
+def test_a_value_that_stands_with_its_key_as_one_word_is_told(joined: str) -> None:
+    (found,) = findings(MODEL.replace("length: 1 m", joined))
+    assert found.key == "links.crank.length" and found.remedy.endswith("length: 1 m")
+
+
+def test_an_unfinished_merge_is_told_at_its_marks() -> None:
+    text = MODEL.replace("links:", "<<<<<<< HEAD\nlinks:\n=======\nlinks:\n>>>>>>> other branch\n")
+    begin = MODEL.index("links:")
+    first = MODEL.count("\n", 0, begin) + 1
+    assert [(each.where, each.code) for each in findings(text)] == [
+        (f"m.yaml:{first + more}:1", "conflict") for more in (0, 2, 4)
+    ]
+    assert findings(MODEL.replace("name: ", "name: about ======= and <<<<<<< ")) == []
+
+
+@pytest.mark.parametrize("blank", ["\u00a0\u00a0", "\u3000", " \u00a0", "\u200b  "])
+def test_blanks_in_the_indentation_that_are_no_spaces_are_told(blank: str) -> None:
+    """As copying from web pages and Chinese keyboards make them; text may begin its paragraphs with them."""
+    lines = MODEL.split("\n")
+    numbers = [at + 1 for at, line in enumerate(lines) if line.startswith("  ") and line[2] != " "]
+    text = "\n".join(blank + line[2:] if at + 1 in numbers else line for at, line in enumerate(lines))
+    assert [each.where.split(":")[1] for each in findings(text)] == [str(each) for each in numbers][:10]
+    assert {each.code for each in findings(text)} == {"blank"}
+    assert findings(f"{MODEL}report:\n  text:\n    task: |\n      \u3000\u3000本设计的要求：\n") == []

@@ -19,7 +19,7 @@ from yaml.events import (
 
 from linkwright.fields.nodes import MAX_DEPTH, MAX_NODES, Entry, Mapping, Node, Remark, Scalar, Sequence
 from linkwright.files.events import Source, event_reader
-from linkwright.files.syntax import explain, tab_remarks, wide_remarks
+from linkwright.files.syntax import accident_remarks, explain, tab_remarks, wide_remarks
 from linkwright.words.characters import UNFIT
 from linkwright.words.sentence import Sentence
 
@@ -33,6 +33,8 @@ def compose(text: str) -> tuple[Node | None, list[Remark]]:
 
     The tree is None where the text is empty or cannot be read.
     """
+    if accidents := accident_remarks(text):
+        return None, accidents
     plain = text
     if "\t" in text:
         flow = text.lstrip("\ufeff \t\r\n").startswith(("{", "["))

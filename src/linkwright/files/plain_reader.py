@@ -12,7 +12,9 @@ from linkwright.fields.base import Field, Text
 from linkwright.fields.form import missing_remedy
 from linkwright.fields.nodes import Entry, Node, Scalar, Sequence, noun
 from linkwright.fields.nodes import Mapping as MappingNode
+from linkwright.files.syntax import wide_remedy
 from linkwright.registry import listed, nearest
+from linkwright.units import decimal_comma
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
@@ -89,6 +91,8 @@ class PlainReader:
         if len(self.findings) >= MOST_FINDINGS:
             raise TooManyFindings
         key = place if isinstance(place, str) else place.key
+        if severity == "error" and code != "decimal-comma" and isinstance(node, Scalar) and node.plain:
+            remedy = (not node.text.isascii() and wide_remedy(node.text)) or remedy
         self.findings.append(Finding(severity, self.where(node, column), key, message, remedy, code))
 
     def finding(
@@ -209,13 +213,17 @@ class PlainReader:
     def unknown_keys(self, mapping: MappingNode, place: Place, known: list[str]) -> set[str]:
         """A finding for each key that is not known, with the nearest that is.
 
-        Gives the keys whose value a decimal comma has split (``{length: 60,5 mm}`` has the key ``5 mm``).
+        Gives the keys whose value a decimal comma has split (``{length: 60,5 mm}`` has the key ``5 mm``), and those
+        that are one word with their value (``length:60 mm``).
         """
         present = {entry.key.text for entry in mapping.entries}
         split: set[str] = set()
         for index, entry in enumerate(mapping.entries):
             key = entry.key.text
             if key in known:
+                continue
+            if (joined := self._joined(entry, place, known)) is not None:
+                split.add(joined)
                 continue
             before = mapping.entries[index - 1] if index else None
             if before is not None and self._comma(before, entry, place):
@@ -226,15 +234,24 @@ class PlainReader:
             self.finding(entry.key, place.child(key), "unknown_key", "unknown-key", remedy, key_=key[:100])
         return split
 
+    def _joined(self, entry: Entry, place: Place, known: list[str]) -> str | None:
+        """The known key whose value stands behind it without a space after the colon, or behind another sign."""
+        found = re.fullmatch(r"(\w+)\s*[:=：]\s*(\S.*)", entry.key.text)
+        nothing = isinstance(entry.value, Scalar) and entry.value.empty
+        if found is None or found[1] not in known or not nothing:
+            return None
+        values = {"key_": found[1], "rest": found[2][:60]}
+        self.finding(entry.key, place.child(found[1]), "joined_key", "syntax", **values)
+        return found[1]
+
     def _comma(self, before: Entry, entry: Entry, place: Place) -> bool:
         whole, rest = before.value, entry.key.text
         if not (isinstance(whole, Scalar) and isinstance(entry.value, Scalar) and entry.value.empty):
             return False
         if not re.fullmatch(r"[+-]?\d+", whole.text) or not re.match(r"\d", rest):
             return False
-        self.finding(
-            whole, place.child(before.key.text), "comma_split", "decimal-comma", whole=whole.text, rest=rest
-        )
+        said = decimal_comma(f"{whole.text},{rest}")
+        self.error(whole, place.child(before.key.text), said.message, said.remedy, said.code)
         return True
 
     def free(self, node: Node) -> Any:

@@ -140,11 +140,11 @@ def read_parameters(reader: Reader, node: Node | None) -> dict[str, float]:
     """Values of the named quantities, in order; they are known to the reader afterwards."""
     mapping = None if node is None else reader.mapping(node, "parameters")
     entries = mapping.entries if mapping else []
-    waiting = {entry.key.text for entry in entries}
+    told = {name: node.text for name, node in mapping or [] if isinstance(node, Scalar)}
     for entry in entries:
         name, place = entry.key.text, Place(f"parameters.{entry.key.text}", entry.key.text)
-        waiting.discard(name)
-        value = _parameter(reader, entry.key, entry.value, place, waiting)
+        value = _parameter(reader, entry.key, entry.value, place, told)
+        told.pop(name, None)
         if value is None:
             reader.broken.add(name)
             reader.kinds.setdefault(name, units.NONE)
@@ -153,7 +153,8 @@ def read_parameters(reader: Reader, node: Node | None) -> dict[str, float]:
     }
 
 
-def _parameter(reader: Reader, key: Node, node: Node, place: Place, waiting: set[str]) -> float | None:
+def _parameter(reader: Reader, key: Node, node: Node, place: Place, told: Mapping[str, str]) -> float | None:
+    """The value of a parameter; ``told`` are the texts of this one and those below it."""
     name = place.address
     reserved = {*expressions.CONSTANTS, *expressions.FUNCTIONS, "t", "input"}
     if not re.fullmatch(r"[^\W\d]\w*", name) or name in reserved:
@@ -175,16 +176,37 @@ def _parameter(reader: Reader, key: Node, node: Node, place: Place, waiting: set
             return None
         kind, value = expression.dimension(reader.kinds), float(expression.evaluate(reader.values))
     except QuantityError as error:
-        later = sorted(waiting.intersection(re.findall(r"\w+", text)))
-        if later and error.code == "unknown-name":
-            reader.finding(node, place, "defined_below", "unknown-name", name=later[0])
-        else:
+        later = [each for each in _names(text) if each in told]
+        if not later or error.code != "unknown-name" or not reader.broken.isdisjoint(later):
             reader.quantity_error(error, node, place, text)
+        elif ring := _ring(name, told):
+            reader.finding(node, place, "in_circle", "circle", name=name, ring=" → ".join(ring))
+            reader.broken.update(ring)
+        else:
+            reader.finding(node, place, "defined_below", "unknown-name", name=later[0])
         return None
     reader.kinds[name], reader.values[name] = kind, value
     if expression.names:
         reader.expressions[name] = expression
     return value
+
+
+def _names(text: str) -> list[str]:
+    return sorted(set(re.findall(r"[^\W\d]\w*", text)))
+
+
+def _ring(name: str, told: Mapping[str, str]) -> list[str]:
+    """The names that lead from a parameter back to itself, the shortest way; none where nothing does."""
+    ways, seen = [[name]], set[str]()
+    while ways:
+        way = ways.pop(0)
+        for each in _names(told[way[-1]]):
+            if each == name:
+                return [*way, name]
+            if each in told and each not in seen:
+                seen.add(each)
+                ways.append([*way, each])
+    return []
 
 
 def _assembly(reader: Reader, node: Node | None) -> dict[str, str]:

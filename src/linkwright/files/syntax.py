@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
+from itertools import islice
 from typing import Any
 
 from linkwright.fields.nodes import Remark
@@ -69,20 +71,45 @@ def _place(error: Any, text: str) -> tuple[int, int]:
     return before.count("\n"), len(before) - before.rfind("\n") - 1
 
 
+#: Most remarks of one kind about a text.
+_MOST = 10
+#: What separates the two versions of a merge, alone in its line or with the name of a version.
+_CONFLICT = re.compile(r"^(<{7}|={7}|>{7}|\|{7})(?= |$)", re.M)
+#: What looks like the space of an indentation and is none, before a key or an item.
+_BLANK = re.compile(r"^ *([\xa0\u2000-\u200b\u202f\u205f\u3000\ufeff])(?=\s*(?:- |[\w.-]+ *:(?: |$)))", re.M)
+_TAB = re.compile(r"^ *(\t)(?=[ \t]*\S)", re.M)
+
+
+def _remarks(found: Iterable[re.Match[str]], text: str, key: str, code: str) -> list[Remark]:
+    """The remark ``yaml.KEY`` for the first places of a text."""
+    remarks = []
+    for each in islice(found, _MOST):
+        start = text.rfind("\n", 0, each.start(1)) + 1
+        line, values = text.count("\n", 0, start), {"sign": each[1], "code": f"U+{ord(each[1][0]):04X}"}
+        told, remedy = Sentence(f"yaml.{key}", **values), Sentence(f"yaml.{key}_do")
+        remarks.append(Remark(line, each.start(1) - start, told, remedy, code))
+    return remarks
+
+
+def accident_remarks(text: str) -> list[Remark]:
+    """Remarks about what no text should hold, whether it can be read or not: marks of an unfinished merge, blanks in
+    the indentation that are no spaces."""
+    if "<<<<<<<" in text or ">>>>>>>" in text:
+        conflicts = _remarks(_CONFLICT.finditer(text), text, "conflict", "conflict")
+        if conflicts:
+            return conflicts
+    return [] if text.isascii() else _remarks(_BLANK.finditer(text), text, "blank", "blank")
+
+
 def tab_remarks(text: str) -> list[Remark]:
     """A remark for each line that is indented with a tab, at most ten."""
-    found = []
-    for number, line in enumerate(text.split("\n")):
-        indentation = re.match(r"[ ]*\t[ \t]*(?=\S)", line)
-        if indentation:
-            found.append(
-                Remark(number, line.index("\t"), Sentence("yaml.tab"), Sentence("yaml.tab_do"), "tab")
-            )
-    return found[:10]
+    return _remarks(_TAB.finditer(text), text, "tab", "tab")
 
 
 #: Full-width punctuation with what YAML writes for it, in a key, and anywhere in braces and brackets.
-_HALF = {"：": ": ", "，": ",", "｛": "{", "｝": "}", "［": "[", "］": "]"}
+_HALF = {"：": ": ", "，": ",", "｛": "{", "｝": "}", "［": "[", "］": "]", "【": "[", "】": "]", "、": ","}
+_QUOTES = {"“": '"', "”": '"', "‘": "'", "’": "'"}
+_WIDE = re.compile("[" + "".join({**_HALF, **_QUOTES}) + "]")
 _KEY = re.compile(r"(?:^|[{,｛，])\s*(?:- )?[\w.]+\s*(：)")
 _QUOTED = re.compile(r"\"(?:[^\"\\]|\\.)*\"|'(?:[^']|'')*'|#.*")
 
@@ -94,13 +121,24 @@ def wide_remarks(text: str) -> list[Remark]:
     for number, line in enumerate(text.split("\n")):
         plain = _QUOTED.sub(lambda quoted: " " * len(quoted[0]), line)
         places = [key.start(1) for key in _KEY.finditer(plain)]
-        opened = min((plain.find(each) for each in "{[｛［" if each in plain), default=len(plain))
+        opened = min((plain.find(each) for each in "{[｛［【" if each in plain), default=len(plain))
         places += [
-            at for at, each in enumerate(plain) if each in "｛｝［］" or (each == "，" and at > opened)
+            at
+            for at, each in enumerate(plain)
+            if each in "｛｝［］【】" or (each in "，、“”‘’" and at > opened)
         ]
         if places:
             wide = line[min(places)]
-            values = {"wide": wide, "half": _HALF[wide]}
-            remedy = Sentence("yaml.wide_do", **values)
-            found.append(Remark(number, min(places), Sentence("yaml.wide", **values), remedy, "syntax"))
-    return found[:10]
+            told = Sentence("yaml.wide", wide=wide)
+            found.append(Remark(number, min(places), told, wide_remedy(wide), "syntax"))
+    return found[:_MOST]
+
+
+def wide_remedy(text: str) -> Sentence | None:
+    """What to write for the first full-width punctuation of a text."""
+    found = _WIDE.search(text)
+    if found is None:
+        return None
+    if found[0] in _QUOTES:
+        return Sentence("yaml.quotes_do", wide=found[0], half=_QUOTES[found[0]])
+    return Sentence("yaml.wide_do", half=_HALF[found[0]], wide=found[0])
