@@ -240,9 +240,9 @@ class PlainReader:
         nothing = isinstance(entry.value, Scalar) and entry.value.empty
         if found is None or found[1] not in known or not nothing:
             return None
-        values = {"key_": found[1], "rest": found[2][:60]}
-        self.finding(entry.key, place.child(found[1]), "joined_key", "syntax", **values)
-        return found[1]
+        key, rest = found[1], found[2][:60]
+        self.finding(entry.key, place.child(key), "joined_key", "syntax", key_=key, rest=rest)
+        return key
 
     def _comma(self, before: Entry, entry: Entry, place: Place) -> bool:
         whole, rest = before.value, entry.key.text

@@ -134,11 +134,11 @@ def wide_remarks(text: str) -> list[Remark]:
     return found[:_MOST]
 
 
-def wide_remedy(text: str) -> Sentence | None:
-    """What to write for the first full-width punctuation of a text."""
+def wide_remedy(text: str) -> str:
+    """What to write for the first full-width punctuation of a text, nothing where there is none."""
     found = _WIDE.search(text)
     if found is None:
-        return None
+        return ""
     if found[0] in _QUOTES:
         return Sentence("yaml.quotes_do", wide=found[0], half=_QUOTES[found[0]])
     return Sentence("yaml.wide_do", half=_HALF[found[0]], wide=found[0])
