@@ -68,6 +68,19 @@ def spikes(x):
     return 1 / (1 + ((x - 2.0) / 0.02) ** 2) + 1.01 / (1 + ((x - 4.7) / 0.015) ** 2) + 0.2 * np.abs(np.sin(x))
 
 
+@pytest.mark.parametrize("lobes", range(7, 12))
+def test_the_highest_of_many_nearly_equal_peaks(lobes):
+    dense = np.linspace(0.0, TURN, 50001)
+    for start, other in np.random.default_rng(lobes).uniform(0.0, TURN, (60, 2)):
+
+        def wave(x, start=start, other=other):
+            return np.cos(lobes * x + start) * (1.0 + 0.001 * np.cos(x + other))
+
+        found = Piecewise.of(wave, 0.0, TURN, pieces=26).extreme("max")
+        assert found.smooth and found.value == pytest.approx(wave(dense).max(), abs=1e-6)
+        assert wave(found.place) == pytest.approx(found.value, abs=1e-13)
+
+
 def test_the_highest_of_peaks_that_polynomials_do_not_meet():
     found = Piecewise(edges := np.linspace(0.0, TURN, 25), spikes(nodes(edges)))
     most, least = (sought(found, kind, spikes) for kind in ("max", "min"))

@@ -48,6 +48,11 @@ _NOISE, _LOUDEST = 2000, 1e-9
 #: How many times the size of its last orders a piece that is not met may rise between its Gauss points, and the width
 #: of a piece that is halved no more. So many pieces to be halved at once are no noise.
 _HIDDEN, _LEAST, _MANY = 8.0, 1e-13, 8
+#: How much higher than its nodes, as share of the span of these, a function may be in a piece that meets it: half of
+#: the gap between two nodes, squared, is 0.009 of it, and up to the ends it may rise by 0.025.
+SLACK = 0.03
+#: Share of a function's size by which a piece must be higher than that with the highest point to be taken for it.
+ROUNDING = 2e-15
 
 
 def nodes(edges: Floats) -> Floats:
@@ -281,24 +286,27 @@ Peak = tuple[Indices, Floats, Floats, Floats]
 def largest(values: Floats, tops: Floats) -> Peak:
     """The largest values of many functions (k, POINTS, pieces) at the Gauss points of their pieces.
 
-    ``tops``: the largest of the values in each piece, (k, pieces); the three pieces with the largest are looked at,
-    and the polynomials of the two that look highest are climbed, as either may have an extreme where they meet.
+    ``tops``: the largest of the values in each piece, (k, pieces); the polynomials of all pieces that may be higher
+    than the largest of these are climbed, as two of one height may differ between the points.
     Returns the piece, the place in it (-1 to 1), the value, and the size of the last orders there, (k,) each.
     """
-    rows = np.arange(len(values))[:, None]
-    order = np.argsort(-tops, axis=1)[:, :3]
-    near = values[rows, :, order]
-    seen = (near.reshape(-1, POINTS) @ TO_PLACES).reshape(*near.shape[:2], LOOKS)
-    looks, tops = seen.argmax(axis=2), seen.max(axis=2)
-    two = np.argsort(-tops, axis=1)[:, :2]
-    series, look, top = near[rows, two], looks[rows, two], tops[rows, two]
+    tops = np.where(np.isnan(tops), -np.inf, tops)
+    highest, least = tops.argmax(axis=1), values.min(axis=1)
+    with np.errstate(invalid="ignore"):
+        may = tops + SLACK * (tops - least) > tops.max(axis=1)[:, None]
+    may[np.arange(len(may)), highest] = True
+    rows, pieces = np.nonzero(may)
+    series = values[rows, :, pieces]
+    seen = series @ TO_PLACES
+    look, top = seen.argmax(axis=1), seen.max(axis=1)
     low, high = PLACES[np.maximum(look - 1, 0)], PLACES[np.minimum(look + 1, LOOKS - 1)]
-    slopes = (series.reshape(-1, POINTS) @ TO_SLOPE).reshape(series.shape)
-    place = _summits(slopes, low, high, PLACES[look])
+    place = _summits(series @ TO_SLOPE, low, high, PLACES[look])
     found = _at(series, place)
     place, found = np.where(found > top, place, PLACES[look]), np.maximum(found, top)
-    best = rows[:, 0], found.argmax(axis=1)
-    return order[rows, two][best], place[best], found[best], tails(series[best])
+    size = np.maximum(tops.max(axis=1), -least.min(axis=1))[rows]
+    doubt = np.where(pieces == highest[rows], 0.0, ROUNDING * size)
+    best = np.lexsort((found - doubt, rows))[np.append(rows[1:] != rows[:-1], True)]
+    return pieces[best], place[best], found[best], tails(series[best])
 
 
 def weights_at(place: Floats) -> Floats:

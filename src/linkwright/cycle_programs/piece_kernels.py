@@ -43,9 +43,8 @@ GAP = 0.1308996938995747
 #: Numbers found by a job, and whole numbers that it is given.
 FOUND, GIVEN = 5, 6
 PARAMETERS = Block.PARAMETERS
-#: How much higher than its nodes, as share of the span of these, a smooth function may be in a piece: half of the gap
-#: between two nodes, squared, is 0.009 of it.
-SLACK = 0.02
+#: As ``core.piecewise.SLACK``.
+SLACK = 0.03
 #: How much higher it may be where it is not met, as multiple of the size of its last orders.
 REACH = 10.0
 HUGE, TINY, BELOW_ONE = 1e300, 1e-40, 1.0 - 1e-15

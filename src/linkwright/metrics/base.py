@@ -146,7 +146,8 @@ class Metric(ABC):
     SI; ``source``: where definition and limit are from; ``needs_forces``: whether joint forces must be solved;
     ``rank``: what matters first stands first in tables (output 1, transmission 2, torque 3, reactions 4, shaking 5);
     ``on_request``: only where it is asked for by name; ``own_values``: one machine's ``values`` are found in a way of
-    their own, beside the ``numbers`` of many designs; ``input_ranges``: it is the extent of the input's ranges in
+    their own, beside the ``numbers`` of many designs; ``judged_last``: ``suits`` reads what is found of the machine,
+    which all others have asked for by then; ``input_ranges``: it is the extent of the input's ranges in
     which the mechanism can be assembled.
     """
 
@@ -159,6 +160,7 @@ class Metric(ABC):
     rank: ClassVar[float] = 9.0
     on_request: ClassVar[bool] = False
     own_values: ClassVar[bool] = False
+    judged_last: ClassVar[bool] = False
     input_ranges: ClassVar[bool] = False
 
     @property

@@ -37,10 +37,12 @@ def metrics(result: Motion | Forces, names: Iterable[str] | str | None = None) -
     rows: list[MetricValue] = []
     skipped: list[str] = []
     chosen = {name: metric() for name, metric in _chosen(asked).items()}
-    applying = [name for name, metric in chosen.items() if metric.applies(analysis)]
-    for name in applying:
-        if not chosen[name].own_values:
-            chosen[name].asked(analysis)
+    applying = set()
+    for name, metric in sorted(chosen.items(), key=lambda each: each[1].judged_last):
+        if metric.applies(analysis):
+            applying.add(name)
+            if not metric.own_values:
+                metric.asked(analysis)
     for name, metric in chosen.items():
         if name in applying:
             rows += metric.evaluate(analysis)

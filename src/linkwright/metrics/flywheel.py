@@ -29,6 +29,7 @@ class EnergyFluctuation(Metric):
     source = "Shigley, Theory of Machines; Norton, Design of Machinery, sec. 11.11: ∫ (mean - T) dφ"
     better: ClassVar[Better | None] = "lower"
     needs_forces = True
+    judged_last = True
     part: ClassVar[str] = "input_torque excess"
 
     def suits(self, analysis: Analysis) -> bool:
