@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from math import acos, cos, degrees, pi, radians, sin, sqrt
+import json
+from math import acos, cos, degrees, pi, radians, sin, sqrt, tan
 
 import numpy as np
 import pytest
+import yaml
 
 import linkwright as lw
 from linkwright.kinematics.input_range import InputRange, input_range, range_sentence
@@ -156,6 +158,24 @@ def test_tangent_mechanism_stops_at_parallel_guides() -> None:
     assert "has its guides parallel" in found.explain()
 
 
+def test_a_dyad_that_ends_the_range_just_before_guides_are_parallel_is_named() -> None:
+    """The tangent mechanism with a dyad far above on its rod, folded 0.4° before the guides are parallel."""
+    reach = 120 * tan(radians(89.6))
+    data = yaml.safe_load(lw.dump(lw.load("gallery:tangent_mechanism")))
+    for key in ("expected", "report"):
+        data.pop(key, None)
+    data["links"]["rod"]["points"] = {"B": [0, 0], "C": [0, 0]}
+    data["links"]["chain"] = {"points": ["C", "D"], "length": "12 m"}
+    data["links"]["tie"] = {"points": ["W", "D"], "length": "10 m"}
+    data["frame"]["points"]["W"] = ["120 mm", f"{reach + 2000!r} mm"]
+    data["driver"]["start"] = "80 deg"
+    data["assembly"] = {"D": "left"}
+    found = input_range(lw.loads(json.dumps(data)))
+    assert found.high is not None
+    assert found.high.value == pytest.approx(radians(89.6), abs=1e-9)
+    assert (str(found.high.group), str(found.high.how)) == ("group RRR (chain, tie)", "is folded")
+
+
 def test_kite_passes_the_point_where_its_pins_meet() -> None:
     """Crank and frame of 2 m, coupler and rocker of 1 m: A passes through O2 at 0°, the end is at 60°."""
     found = input_range(fourbar(2.0, 1.0, 1.0, 2.0, start=25))
@@ -284,8 +304,8 @@ def tied(end: float, side: int, begin: float = 160) -> Mechanism:
     x, y = turned(300, far)
     reach = sqrt(140**2 + 300**2 - 2 * 140 * 300 * cos(radians(75)))
     links = (
-        f"arm: {{points: [D, F], length: {0.6 * reach!r} mm}}\n"
-        f"  leg: {{points: [O5, F], length: {0.4 * reach!r} mm}}"
+        f"arm: {{points: [D, F], length: {0.5 * reach!r} mm}}\n"
+        f"  leg: {{points: [O5, F], length: {0.5 * reach!r} mm}}"
     )
     return lw.loads(triad(links, f", O5: [{x!r} mm, {y!r} mm]", "assembly: {F: left}", start=begin))
 

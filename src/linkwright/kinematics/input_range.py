@@ -317,11 +317,12 @@ class _Search:
         first = self.positions(np.array([self.begin]))
         return np.sign(self.solver.evaluate(names, first, self.solver.states(first), {}))
 
+    def _guides(self) -> list[str]:
+        """Groups whose mode is the sense of the angle between two guides."""
+        return [name for name, group in self.solver.motion.placed.items() if "sine" in group.facts]
+
     def _guided(self) -> tuple[str, ...]:
-        placed = self.solver.motion.placed
-        return tuple(
-            row_name("fact", name, on="sine") for name, group in placed.items() if "sine" in group.facts
-        )
+        return tuple(row_name("fact", name, on="sine") for name in self._guides())
 
     # refinement -----------------------------------------------------------------------------------
     def _narrowed(self, stop: _Stop, distance: float) -> tuple[float, float]:
@@ -375,9 +376,12 @@ class _Search:
         placed = solver.motion.placed
         modal = [name for name, p in placed.items() if p.dyad is not None]
         quality = solver.evaluate(tuple(row_name("quality", name) for name in modal), ends, states, modes)
+        left = self._sines(ends, states)[:, 1] > 0
+        gone = {name for name, fine in zip(self._guides(), left, strict=False) if not fine}
+        gone |= {name for name, row in zip(modal, quality, strict=True) if not row[1] > 0}
         least = {name: row[0] for name, row in zip(modal, quality, strict=True)}
-        stuck = min(least, key=least.__getitem__, default=None)
-        stuck = stop.group or stuck
+        first = next((name for name in modal if name in gone), None)
+        stuck = stop.group or first or min(least, key=least.__getitem__, default=None)
         assert stuck is not None
         told = getattr(placed[stuck].dyad, "at_end", None)
         if told is None:
