@@ -13,6 +13,7 @@ from linkwright.core.arrays import Floats
 from linkwright.cycle_programs.metric_cycle import metric_cycle
 from linkwright.cycle_programs.terms import measured
 from linkwright.files.model_file import read_text
+from linkwright.joints.cam import CamJoint
 from linkwright.metrics import METRICS, Analysis
 from linkwright.study.design_numbers import numbers_of
 
@@ -279,3 +280,17 @@ def test_designs_whose_cam_rocks_go_side_by_side() -> None:
         known = measured("peak_reaction", alone)
         assert known is not None
         assert found.values["peak_reaction"][k] == pytest.approx(known[0], rel=1e-10)
+
+
+@pytest.mark.parametrize("law", ["cycloidal", "modified_sine", "modified_trapezoidal", "polynomial_4567"])
+def test_lifts_come_to_rest_where_their_laws_do(law: str) -> None:
+    """At both sides of every bend, however short the pieces beside it."""
+    begin, _, rest = GEARED.partition("program:")
+    ways = [f"{{{way}: 4 mm, over: {over} deg, law: {law}}}" for way, over in (("rise", 5), ("fall", 345))]
+    segments = f"[{ways[0]}, {{dwell: 10 deg}}, {ways[1]}]"
+    joint = lw.loads(f"{begin}program: {segments}\ndriver:{rest.partition('driver:')[2]}").joints["lobe"]
+    assert isinstance(joint, CamJoint)
+    for bend in np.radians([0.0, 5.0, 15.0]):
+        rate = joint.lift.curves(np.array([np.nextafter(bend, -1.0), bend]))[1]
+        largest = 4e-3 * 2.0 / np.radians(5.0)
+        assert np.abs(rate).max() < 1e-13 * largest

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Collection, Mapping
+from collections.abc import Callable, Collection, Mapping
 from contextlib import suppress
 from dataclasses import field
 from typing import TYPE_CHECKING, Any
@@ -111,6 +111,22 @@ class Expression:
         along = {each: np.broadcast_to(values[each], shape).ravel() for each in self.names}
         program = _derivatives.get(self, (name, order), lambda: self._traced(name, order))
         return list(program.run((), along, length=math.prod(shape)).reshape(order, *shape))
+
+    def switches(self, values: Mapping[str, Any]) -> list[Any]:
+        """What changes its sign where the expression goes over to another formula, over arrays of the free names:
+        arguments of ``abs``, ``sign`` and ``step``, differences of those of ``min`` and ``max``."""
+        found = []
+
+        def seen(name: str) -> Callable[..., Any]:
+            def call(*of: Any) -> Any:
+                found.append(of[0] - of[1] if len(of) > 1 else of[0])
+                return ON_VALUES[name](*of)
+
+            return call
+
+        noted = {name: seen(name) for name in ("abs", "sign", "step", "min", "max")}
+        evaluate(self.tree, values, {**ON_VALUES, **noted})
+        return found
 
     def _traced(self, name: str, order: int) -> NumpyProgram:
         """A program of the free names whose outputs are the derivatives."""

@@ -12,8 +12,12 @@ from linkwright.drivers.base import LAWS, Law
 from linkwright.fields.base import Field, Formula
 
 if TYPE_CHECKING:
+    from linkwright.core.arrays import Flags
     from linkwright.drivers.base import Array
     from linkwright.export.modelica.laws import LawText
+
+#: Places between which an expression goes over to another formula once at most.
+LOOKS = 721
 
 
 @LAWS.register("position")
@@ -34,6 +38,21 @@ class ExpressionLaw(Law):
         q: Array = self.expression.over(values) + 0.0 * t
         qd, qdd = self.expression.derivatives(values, "t", 2)
         return q, qd, qdd
+
+    def breaks(self, start: float, end: float) -> Array:
+        import numpy as np
+
+        from linkwright.core.search import ends
+
+        def positive(t: Array) -> Flags:
+            values = {**self.parameters, "t": t}
+            signs = [np.broadcast_to(each >= 0.0, t.shape) for each in self.expression.switches(values)]
+            return np.array(signs, dtype=np.bool_).reshape(len(signs), len(t))
+
+        t = np.linspace(start, end, LOOKS)
+        rows, at = np.nonzero(np.diff(known := positive(t), axis=1))
+        before, taken = known[rows, at], np.arange(len(at))
+        return np.sort(ends(lambda at: positive(at)[rows, taken] == before, t[at], t[at + 1]))
 
     def with_dimensions(
         self, value: Callable[[str], float], parameters: Mapping[str, float]

@@ -22,6 +22,7 @@ from linkwright.core.search import ends, zero, zeros
 from linkwright.engine.recent import Recent
 from linkwright.errors import RequestError
 from linkwright.fields.signals import resolve_output
+from linkwright.kinematics.bends import one_formula, stretches
 from linkwright.kinematics.between import Between
 from linkwright.kinematics.motion import TURN, Motion
 from linkwright.kinematics.names import program_names
@@ -32,6 +33,8 @@ from linkwright.registry import offered
 STILL, STILL_BESIDE = 1e-12, 1e-15
 #: The same beside the mechanism's, where cams or laws let an output rest while what moves them leaves its digits.
 STILL_IN_RESTS = 1e-13
+#: The same as share of the output's largest one at the end of a rest, where what is met from beside may be.
+STILL_AT_BENDS = 1e-10
 #: An output whose largest rate is below this share of the mechanism's does not move.
 CONSTANT = 1e-10
 #: Below this quality of a group rounding hides where a rate is zero: the limit is put on the change point.
@@ -40,8 +43,6 @@ BLURRED = 1e-10
 BESIDE = 1e-4
 #: A way back of less than this share of the travel is what the digits of a table leave open, not a reversal.
 LEAST_WAY = 1e-7
-#: Share of the step between two positions on a side of a zero at which an output that rests there has no rate either.
-RESTING = 1e-3
 
 
 @dataclass(frozen=True)
@@ -178,6 +179,8 @@ class _Search:
             and abs(motion.time[-1] - motion.time[0]) > positions.period * (1 - 1e-9)
         ):
             self.count -= 1
+        self.times, self.before = motion.time[: self.count], np.arange(self.count)
+        self.one_formula, self.rests = one_formula(motion.mechanism), np.empty((0, 2))
 
     def limits(self) -> tuple[LimitPosition, ...]:
         return self._positions(self.found)
@@ -196,14 +199,30 @@ class _Search:
     def _reversals(self) -> _Reversals:
         rows = self.motion.rows.fetch(self.rate_names, self.motion.evaluate)
         rate, second = (row[: self.count] for row in rows)
-        if not self._rests and self._moves(rate):
+        if self.one_formula and self._moves(rate):
             brackets = self._brackets(rate, second)
         elif (still := self._still(rate)) is None:
             brackets = []
         else:
-            brackets = self._brackets(rate, second, np.flatnonzero(np.abs(rate) > still))
-        found = self._refined(brackets) if brackets else _Reversals([], [], [])
-        return self._in_rests(found, rate) if brackets and self._rests else found
+            brackets = self._brackets(*self._with_stretches(rate, second, still))
+        return self._refined(brackets) if brackets else _Reversals([], [], [])
+
+    def _with_stretches(self, rate: Floats, second: Floats, still: float) -> tuple[Floats, Floats, Indices]:
+        """The rates at the positions and at places of all stretches of one formula, in which rests are found, and
+        where these are not zero."""
+        parts = stretches(self.motion)
+        if parts is None:
+            return rate, second, np.flatnonzero(np.abs(rate) > still)
+        there = self.between.evaluate(self.rate_names, parts.before, parts.places)
+        good = np.isfinite(there).all(axis=0)
+        times = np.append(self.times, parts.places[good])
+        order = np.argsort(times if times[0] <= self.times[-1] else -times, kind="stable")
+        self.times, self.before = times[order], np.append(self.before, parts.before[good])[order]
+        rate, second = np.concatenate([np.stack([rate, second]), there[:, good]], axis=1)[:, order]
+        least = np.where(parts.inside(self.times), still, max(still, STILL_AT_BENDS * _largest(rate)))
+        moving = np.abs(rate) > least
+        self.rests = parts.resting(self.times, moving)
+        return rate, second, np.flatnonzero(moving)
 
     def _time(self, bracket: Bracket, share: float) -> float:
         """The time at a share of a bracket, within the cycle."""
@@ -229,98 +248,67 @@ class _Search:
         speed = max(_largest(rows.values[turning]), _largest(rows.values[moving]) / size)
         if self.output.kind != "angle":
             speed *= size
-        beside = STILL_IN_RESTS if self._rests else STILL_BESIDE
+        beside = STILL_BESIDE if self.one_formula else STILL_IN_RESTS
         return None if largest <= CONSTANT * speed else max(STILL * largest, beside * speed)
 
     # where the rate changes its sign --------------------------------------------------------------
     def _brackets(self, rate: Floats, second: Floats, moving: Indices | None = None) -> list[Bracket]:
         """Stretches with one zero of the rate in each, between neighbours among the positions that are ``moving``, by
         default all."""
-        sense = 1.0 if self.motion.time[self.count - 1] >= self.motion.time[0] else -1.0
+        sense = 1.0 if self.times[-1] >= self.times[0] else -1.0
         turn = rate * second if sense > 0.0 else -rate * second
-        places: Sequence[int] = range(self.count + 1) if moving is None else moving.tolist()
+        places: Sequence[int] = range(len(rate) + 1) if moving is None else moving.tolist()
         grows, nears = (
             (each if moving is None else each[moving]).tobytes() for each in (rate > 0.0, turn < 0.0)
         )
         if self.period is not None:
             grows, nears = grows + grows[:1], nears + nears[:1]
-            places = places if moving is None else [*places, *(each + self.count for each in places[:1])]
+            places = places if moving is None else [*places, *(each + len(rate) for each in places[:1])]
         together = self._together(rate, places) if moving is not None else lambda _: True
         changes = sorted(_places(grows, b"\0\1") + _places(grows, b"\1\0"))
         found = [self._bracket(rate, second, *places[k : k + 2]) for k in changes if together(k)]
         dips = [
             (places[k], places[k + 1])
             for k in _places(nears, b"\1\0")
-            if grows[k] == grows[k + 1] and turn[places[k + 1] % self.count] > 0.0 and together(k)
+            if grows[k] == grows[k + 1] and turn[places[k + 1] % len(rate)] > 0.0 and together(k)
         ]
         return found + self._split(rate, second, dips) if dips else found
 
     def _bracket(self, rate: Floats, second: Floats, first: int, last: int) -> Bracket:
         """The stretch between two positions, of which the second may be counted past the last one."""
-        after, begin = last % self.count, float(self.motion.time[first])
+        after, begin, before = last % len(self.times), float(self.times[first]), int(self.before[first])
         a, b = float(rate[first]), float(rate[after])
         span = self._time_of(last) - begin
-        if last - first > 2:
-            middle = (self._middle(rate, first, last) - begin) / span
-            return Bracket(first, begin, span, middle, middle, a, b, middle)
+        if last - first > 1 and len(rest := self._rest(begin, begin + span)):
+            middle = (0.5 * float(rest.min() + rest.max()) - begin) / span
+            return Bracket(before, begin, span, middle, middle, a, b, middle)
         same = (a > 0.0) == (b > 0.0)
         start = 0.5 if same else _zero(a, b, float(second[first]) * span, float(second[after]) * span)
-        return Bracket(first, begin, span, 0.0, 1.0, a, b, start)
+        return Bracket(before, begin, span, 0.0, 1.0, a, b, start)
 
-    def _middle(self, rate: Floats, first: int, last: int) -> float:
-        """The middle, s, of a rest that begins after the position ``first`` and is over before ``last``."""
-        times = [self._time_of(k) for k in (first, first + 1, last - 1, last)]
-        beside = _Columns(
-            [
-                Bracket(first, times[0], times[1] - times[0], 0.0, 1.0, 0.0, 0.0, 0.0),
-                Bracket((last - 1) % self.count, times[3], times[2] - times[3], 0.0, 1.0, 0.0, 0.0, 0.0),
-            ]
-        )
-        still = self._still(rate) or 0.0
-        moving = ends(lambda share: np.abs(self._rates(beside, share)[0]) > still, beside.low, beside.high)
-        return 0.5 * float((beside.begin + moving * beside.span).sum())
-
-    @cached_property
-    def _rests(self) -> bool:
-        """Whether outputs may rest while the mechanism moves."""
-        mechanism = self.motion.mechanism
-        return any(joint.bends is not None for joint in mechanism.joints.values()) or any(
-            driver.law.constant_speed is None for driver in mechanism.drivers.values()
-        )
-
-    def _in_rests(self, found: _Reversals, rate: Floats) -> _Reversals:
-        """The same with those that lie in rests between two positions moved into the middle of these."""
-        columns, share, still = _Columns(found.brackets), np.array(found.shares), self._still(rate)
-        if still is None:
-            return found
-        near = (np.clip(share + way, columns.low, columns.high) for way in (-RESTING, RESTING))
-        beside = np.minimum(*(np.abs(self._rates(columns, each)[0]) for each in near))
-        rests = (columns.low < share) & (share < columns.high) & (beside <= still)
-        if not rests.any():
-            return found
-        moving = [
-            ends(lambda place: np.abs(self._rates(columns, place)[0]) > still, outer, share)
-            for outer in (columns.low, columns.high)
-        ]
-        share = np.where(rests, 0.5 * sum(moving), share)
-        return _Reversals(found.brackets, share.tolist(), self._rates(columns, share)[2:].T.tolist())
+    def _rest(self, begin: float, end: float) -> Floats:
+        """Begin and end of what rests between two times, s; empty where nothing does."""
+        low, high = min(begin, end), max(begin, end)
+        near, period = BESIDE * (high - low), self.period or 0.0
+        turns = self.rests + period * np.ceil((low - near - self.rests[:, :1]) / (period or np.inf))
+        inside = (turns[:, 0] >= low - near) & (turns[:, 1] <= high + near)
+        return turns[inside]
 
     def _time_of(self, position: int) -> float:
         """The time of a position, which may be counted past the last one."""
-        return float(self.motion.time[position % self.count]) + (position >= self.count) * (
-            self.period or 0.0
-        )
+        count = len(self.times)
+        return float(self.times[position % count]) + (position >= count) * (self.period or 0.0)
 
     def _together(self, rate: Floats, places: Sequence[int]) -> Callable[[int], bool]:
         """Whether no position out of reach lies between one of these positions and the next, by its number."""
-        there = np.isfinite(rate) | (self.motion.outcome_codes < 0)[: self.count]
+        there = np.isfinite(rate) | (self.motion.outcome_codes < 0)[self.before]
         gaps = np.concatenate([[0], np.cumsum(~np.tile(there, 2))])
         return lambda k: bool(gaps[places[k + 1] + 1] == gaps[places[k]])
 
     def _split(self, rate: Floats, second: Floats, ends_of: list[tuple[int, int]]) -> list[Bracket]:
         """Stretches in which the rate dips below zero and comes back, between two positions: both halves of each."""
         dips = [self._bracket(rate, second, *each) for each in ends_of]
-        slopes = [[float(second[each[k] % self.count]) for each in ends_of] for k in (0, 1)]
+        slopes = [[float(second[each[k] % len(rate)]) for each in ends_of] for k in (0, 1)]
         dips = [dip for dip, is_one in zip(dips, _dips(dips, *slopes), strict=True) if is_one]
         still = self._still(rate) if dips else None
         if still is None:

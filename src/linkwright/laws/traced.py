@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 
 #: Order of the polynomials; how near they come to lift and acceleration, as shares of the largest.
 _ORDER, _FINE, _BENT = 9, 1e-13, 1e-9
+#: Where polynomials meet the lift of a piece; at its ends they meet its rate as well.
+_PLACES = np.array([-1.0, -0.7968, -0.5196, -0.1804, 0.1804, 0.5196, 0.7968, 1.0])
 _MOST = 240
 #: Equal lifts in a row that make a rest of a table.
 RESTING = 4
@@ -37,8 +39,10 @@ class LiftCurve:
     @classmethod
     def of(cls, program: Program) -> LiftCurve:
         """The curve of a program over a turn, its pieces halved until they meet it."""
-        nodes = np.cos(np.pi * (np.arange(_ORDER + 1) + 0.5) / (_ORDER + 1))
-        to_powers = np.linalg.inv(np.vander(nodes, increasing=True))
+        powers = np.vander(_PLACES, _ORDER + 1, increasing=True)
+        slopes = np.arange(1.0, _ORDER + 1) * powers[[0, -1], :-1]
+        met = np.concatenate([powers, np.pad(slopes, ((0, 0), (1, 0)))])
+        to_powers = np.linalg.inv(met)
         low, high = program.lifts
         size = max(high - low, 1e-12)
         bend = max(abs(program.extreme(2, kind).value) for kind in ("min", "max")) or 1.0
@@ -48,7 +52,11 @@ class LiftCurve:
         while waiting:
             a, b = waiting.pop()
             half, middle = 0.5 * (b - a), 0.5 * (a + b)
-            row = to_powers @ program.curves(middle + half * nodes)[0]
+            places = np.clip(middle + half * _PLACES, a, np.nextafter(b, a))
+            lift, rate, *_ = program.curves(places)
+            asked = np.append(lift, half * rate[[0, -1]])
+            row = to_powers @ asked
+            row += to_powers @ (asked - met @ row)  # what rounding leaves
             exact = program.curves(middle + half * looks)
             off = np.abs(_powers(row, looks, 0) - exact[0]).max()
             bent = np.abs(_powers(row, looks, 2) / half**2 - exact[2]).max()

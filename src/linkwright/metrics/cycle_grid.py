@@ -29,7 +29,7 @@ from linkwright.core.piecewise import (
 from linkwright.core.search import ends, zeros
 from linkwright.engine.recent import Recent
 from linkwright.errors import LinkwrightError
-from linkwright.joints.base import Bends
+from linkwright.kinematics.bends import bend_times
 from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.friction import FrictionTerm, joint_rate
@@ -37,7 +37,7 @@ from linkwright.kinetostatics.programs import signed_name
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.loads.base import Load
 from linkwright.loads.over_cycle import activity
-from linkwright.loads.phases import NEAR, TURN, switch_times
+from linkwright.loads.phases import NEAR, switch_times
 from linkwright.metrics.passed import between, limit, sides
 from linkwright.metrics.resolve import Resolver
 
@@ -290,15 +290,12 @@ class CycleGrid:
 
     # places where loads jump ------------------------------------------------------------------------
     def _switches(self) -> Floats:
-        """Times at which a driver's law goes over to another formula, a load begins or ends to act, its table bends,
-        or a velocity that it or friction opposes reverses.
+        """Times at which the motion goes over to another formula, a load begins or ends to act, its table bends, or a
+        velocity that it or friction opposes reverses.
 
         A phase that holds a little more than its ends ends there all the same.
         """
-        laws = [driver.law for driver in self._motion.mechanism.drivers.values()]
-        found = [law.breaks(self.start, self.end) for law in laws]
-        joints = self._motion.mechanism.joints.values()
-        found += [self._bends(joint.bends) for joint in joints if joint.bends is not None]
+        found = [bend_times(self._motion)]
         if self._forces is None:
             return self._wrapped(found)
         signals = MotionSignals(self._motion)
@@ -319,41 +316,15 @@ class CycleGrid:
 
     def _reversals(self, terms: Iterable[FrictionTerm]) -> Floats:
         """Times at which the parts of joints with friction turn round."""
-        motion = self._motion
 
         def rates(solved: Motion) -> Floats:
             return np.stack([joint_rate(solved, term) for term in terms])
 
-        return _changes(lambda at: rates(self.resolver.motion(at)), *self._around(rates(motion)))
-
-    def _bends(self, bends: Bends) -> Floats:
-        """Times at which a joint such as a cam goes over from one formula to the next."""
-        angles = np.array(bends.angles) + self._motion.mechanism.dimension(bends.phase)
-
-        def turned(solved: Motion) -> Floats:
-            return np.asarray(solved.link(bends.link).angle - solved.link(bends.carrier).angle)
-
-        time, known = (each.ravel() for each in self._around(turned(self._motion)[None])[::-1])
-        known = np.unwrap(known)
-        first = np.ceil((known.min() - angles) / TURN).astype(int)
-        last = np.floor((known.max() - angles) / TURN).astype(int)
-        pairs = zip(angles, first, last, strict=True)
-        asked = np.array([angle + TURN * lap for angle, low, high in pairs for lap in range(low, high + 1)])
-        if not len(asked):
-            return _NONE
-
-        def beyond(at: Floats) -> Floats:
-            return np.asarray((turned(self.resolver.motion(at)) - asked[:, None] + np.pi) % TURN - np.pi)
-
-        return _changes(beyond, known - asked[:, None], time)
-
-    def _around(self, known: Floats) -> tuple[Floats, Floats]:
-        """Values (k, n) at the positions, and their times, once more at the end of a closed cycle."""
-        time, positions = self._motion.time, self._motion.positions
+        known, time, positions = rates(self._motion), self._motion.time, self._motion.positions
         if positions.closed and positions.period:
             time = np.append(time, self.end if time[-1] > time[0] else self.start)
             known = np.append(known, known[:, :1], axis=1)
-        return known, time
+        return _changes(lambda at: rates(self.resolver.motion(at)), known, time)
 
     def _corners(self, edges: Floats, solved: Motion | Forces) -> Floats:
         """Times at which forces are zero with whose sizes others go."""
