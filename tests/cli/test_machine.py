@@ -5,6 +5,7 @@ Areas and curves: Khurmi and Gupta, Theory of Machines, ch. 16.
 
 import csv
 import json
+import math
 from pathlib import Path
 from typing import Any
 
@@ -237,3 +238,39 @@ loads: {out: {kind: torque, on: ring, opposes: velocity, magnitude: 30 N·m}}
     assert found["mean_torque"]["value"] == pytest.approx(45.0, rel=1e-12)  # 30 N·m · (1 + 40/80)
     assert found["energy_fluctuation"]["value"] == 0.0 and "energy_lowest" not in found
     assert found["reached_fluctuation"]["value"] == 0.0
+
+
+@pytest.mark.parametrize(
+    ("areas", "scale"),
+    [
+        ("+580 J, -320J, 390 J, -520 J, 190 J, −390 J, 260 J, -190 J", []),
+        ("+29, -16, 19.5, -26, 9.5, -19.5, 13, -9.5", ["--scale", "20 J/mm²"]),
+        ("+58, -32, 39, -52, 19, -39, 26, -19", ["--scale", "10 N*m/mm^2"]),
+    ],
+)
+def test_areas_as_works_or_with_the_work_of_an_area(
+    areas: str, scale: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Running sums 580, 260, 650, 130, 320, -70, 190, 0 J; J = 720/(0.02 (2π 100/60)²)."""
+    found = numbers(capsys, "--areas", areas, *scale, "--speed", "100 rpm", "--fluctuation", "0.02")
+    assert found["energy_fluctuation"]["value"] == pytest.approx(720.0, rel=1e-12)
+    assert found["flywheel"]["value"] == pytest.approx(720 / (0.02 * (math.pi * 10 / 3) ** 2), rel=1e-12)
+    assert (found["energy_lowest"]["after_area"], found["energy_highest"]["after_area"]) == (6, 3)
+
+
+@pytest.mark.parametrize(
+    ("load", "least", "most"),
+    [
+        ("step(theta - pi)*400", -200.0, 200.0),
+        ("400*pi*step(theta - 1)*step(2 - theta)", 200.0 - 400.0 * math.pi, 200.0),
+        ("200*(1 + sign(sin(3*theta)))", -200.0, 200.0),
+    ],
+)
+def test_torques_that_jump_accelerate_no_more_than_they_are(
+    load: str, least: float, most: float, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Between the jumps the torques are constant; the polynomial through a jump swings beyond both its sides."""
+    found = numbers(capsys, "--torque", "200", "--load", load, "--speed", "1000 rpm", "--fluctuation", "0.05")
+    inertia = found["flywheel"]["value"]
+    assert found["acceleration_smallest"]["value"] * inertia == pytest.approx(least, rel=1e-9)
+    assert found["acceleration_largest"]["value"] * inertia == pytest.approx(most, rel=1e-9)

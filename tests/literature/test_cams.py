@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import replace
 from math import pi, radians
 from pathlib import Path
@@ -376,3 +377,12 @@ def test_the_lift_has_the_followers_dimension() -> None:
     swinging = "kind: roller, motion: oscillating, roller_radius: 8 mm, pivot_distance: 90 mm, arm: 80 mm"
     with pytest.raises(ModelError, match="angle"):
         parts.loads(FILE.replace("FOLLOWER", swinging).replace("REST", "base_radius: 40 mm"))
+
+
+def test_the_base_circle_of_the_pitch_curve_is_said_beside_that_of_the_profile() -> None:
+    """Books that give a roller's base circle mean the one or the other; here 40 mm and, with the roller, 48 mm."""
+    design = parts.loads(FILE.replace("FOLLOWER", ROLLER).replace("REST", "base_radius: 40 mm")).solve()
+    shown = re.sub(" +", " ", design.text())
+    assert "radius of the base circle 40 mm" in shown
+    assert "radius of the prime circle (base circle of the pitch curve) 48 mm" in shown
+    assert np.hypot(*design.pitch_curve(720).T).min() == pytest.approx(0.048, rel=1e-9)

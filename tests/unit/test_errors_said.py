@@ -6,6 +6,8 @@ import pickle
 import pytest
 
 from linkwright.errors import Finding, LinkwrightError, ModelError, QuantityError
+from linkwright.laws.base import MOTION_LAWS
+from linkwright.registry import nearest
 from linkwright.words.sentence import Sentence
 from linkwright.words.synonyms import ALIKE
 
@@ -81,3 +83,35 @@ def test_a_wrong_name_finds_the_one_that_means_the_same(
 def test_no_word_means_two_things() -> None:
     words = ALIKE.split()
     assert len(words) == len(set(words))
+
+
+@pytest.mark.parametrize(
+    ("said", "meant"),
+    [
+        ("等加速等减速", "constant_acceleration"),
+        ("余弦加速度", "simple_harmonic"),
+        ("cosine", "simple_harmonic"),
+        ("正弦加速度", "cycloidal"),
+        ("五次多项式", "polynomial_345"),
+        ("等速", "constant_velocity"),
+        ("改进梯形", "modified_trapezoidal"),
+    ],
+)
+def test_motion_laws_are_found_by_their_names_in_books(said: str, meant: str) -> None:
+    assert nearest(said, ["spline", "polynomial_5", "double_harmonic", *MOTION_LAWS]) == meant
+
+
+def test_an_internal_pair_is_asked_for_by_its_mesh() -> None:
+    known = [
+        "kind",
+        "links",
+        "teeth",
+        "radii",
+        "carrier",
+        "phase",
+        "ratio",
+        "mesh",
+        "module",
+        "pressure_angle",
+    ]
+    assert nearest("internal", known) == "mesh"

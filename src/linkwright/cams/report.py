@@ -45,6 +45,8 @@ def _sizes(design: CamDesign, say: Say) -> Block:
         rows.append(Row("base_radius", cam.base_radius, "length"))
     if follower.kind == "roller":
         rows.append(Row("roller_radius", follower.roller_radius, "length"))
+        if cam.barrel_radius is None and cam.base_radius is not None:
+            rows.append(Row("prime_radius", cam.base_radius + follower.roller_radius, "length"))
     if follower.oscillating:
         start = follower.start_angle(cam.base_radius or 0.0)
         rows.append(Row("start_angle", start or 0.0, "angle"))

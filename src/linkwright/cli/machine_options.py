@@ -90,24 +90,31 @@ def curve(option: str, text: str, period: str | None) -> TorqueCurve:
     return found
 
 
-def areas(text: str) -> list[float]:
-    """Areas in mm²; raises UsageError for a text that is no list of numbers."""
+def areas(text: str, scales: str | None) -> tuple[list[float], tuple[float, float]]:
+    """Areas in mm² and their scales, or works in J and scales of 1; raises UsageError for a text that is no list of
+    numbers."""
+    parts = [part.strip() for part in text.replace("−", "-").split(",")]
+    works = scales is None and all(part.endswith("J") for part in parts)
     found = []
-    for part in text.replace("−", "-").split(","):
-        found.append(number_of(part.replace("mm²", "").replace("mm2", "").replace(" ", "")))
+    for part in parts:
+        plain = part.removesuffix("J") if works else part.replace("mm²", "").replace("mm2", "")
+        found.append(number_of(plain.replace(" ", "")))
         if not math.isfinite(found[-1]):
-            raise UsageError("machine.bad_area", text=part.strip())
-    return found
+            raise UsageError("machine.bad_area", text=part)
+    return found, ((1.0, 1.0) if works else _scales(scales))
 
 
-def scale(text: str | None) -> tuple[float, float]:
-    """Torque scale, N·m per mm, and angle scale, rad per mm, of ``5 N·m/mm, 1 deg/mm``; raises UsageError."""
+def _scales(text: str | None) -> tuple[float, float]:
+    """Torque scale, N·m per mm, and angle scale, rad per mm, of ``5 N·m/mm, 1 deg/mm``; the work of a mm² and 1 of
+    ``20 J/mm²``; raises UsageError."""
     if text is None:
         raise UsageError("machine.no_scale")
     found = {}
     torque, angle = units.DIMENSIONS["torque"], units.DIMENSIONS["angle"]
     for part in text.split(","):
         value, dimension = _any_quantity(part, text)
+        if dimension == units.unit("J/m²")[1] and value > 0 and part == text:
+            return 1e-6 * value, 1.0
         per_mm = {units.times(torque, units.DIMENSIONS["length"], -1): "torque"}
         per_mm[units.times(angle, units.DIMENSIONS["length"], -1)] = "angle"
         if dimension not in per_mm or not value > 0:

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import Expression, parse
-from linkwright.core.piecewise import Integral, Piecewise
+from linkwright.core.piecewise import Integral, Piecewise, sought
 from linkwright.core.plotted import Plotted
 from linkwright.errors import LinkwrightError
 
@@ -115,8 +115,8 @@ class TorqueCurve(Plotted):
         return TorqueCurve(partial(_difference, self, other), long, self.start, tuple(knots))
 
     def extremes(self) -> tuple[tuple[float, float], tuple[float, float]]:
-        """(angle, torque) of the smallest and of the largest torque."""
-        low, high = self.pieces.extremes()
+        """(angle, torque) of the smallest and of the largest torque; at a jump one of its sides."""
+        low, high = (sought(self.pieces, kind, self) for kind in ("min", "max"))
         return (low.place, low.value), (high.place, high.value)
 
 

@@ -48,7 +48,15 @@ path curve trajectory locus 轨迹 曲线
 point 点
 centre center centroid 质心 中心
 cam 凸轮
+constant_acceleration parabolic 等加速等减速 等加等减 抛物线
+simple_harmonic cosine 余弦加速度 简谐
+cycloidal sine 正弦加速度 摆线
+constant_velocity 等速
+modified_trapezoidal 修正梯形 改进梯形
+modified_sine 修正正弦 改进正弦
+polynomial_345 五次多项式
 gear wheel pinion 齿轮
+mesh internal external engagement 啮合 内啮合
 jaw plate 颚板 动颚
 toggle knee 肘板 肘杆
 """

@@ -108,13 +108,13 @@ def _mechanism(options: argparse.Namespace, asked: Wanted, session: Session) -> 
 
 
 def _curves(options: argparse.Namespace, asked: Wanted, session: Session) -> tuple[str, list[list[Row]]]:
-    from linkwright.cli.machine_options import areas, curve, scale
+    from linkwright.cli.machine_options import areas, curve
     from linkwright.cli.machine_rows import of_areas, of_curves
     from linkwright.machine.energy import fluctuation_from_areas
 
     say = session.say
     if options.areas is not None:
-        given, (torque, angle) = areas(options.areas), scale(options.scale)
+        given, (torque, angle) = areas(options.areas, options.scale)
         energy = fluctuation_from_areas(given, torque_scale=torque, angle_scale=angle)
         return say("machine.areas_title", count=len(given)), of_areas(energy, asked)
     driver = curve("--torque", options.torque, options.period)

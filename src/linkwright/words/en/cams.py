@@ -2,6 +2,7 @@
 
 WORDS = {
     "base_radius": "radius of the base circle",
+    "prime_radius": "radius of the prime circle (base circle of the pitch curve)",
     "no_roller": "the roller has no radius",
     "no_roller_remedy": "add roller_radius: 10 mm to the follower, or choose: {{roller_radii: [8 mm, 10 "
     "mm]}}",

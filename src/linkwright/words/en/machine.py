@@ -17,9 +17,10 @@ torque diagram can be given by its areas or a torque as an expression of theta."
     "margin_help": "factor on the motor's power, 1 or more (default 1)",
     "disk_help": "dimensions as a disk: density=7850kg/m³,width=0.1 (width over diameter)",
     "rim_help": "dimensions as a rim: density=…,width=0.1,thickness=0.1 (over the outer diameter)",
-    "areas_help": 'areas between torque curve and mean line in mm², in turn: "+295, -685, …"; needs --scale',
+    "areas_help": 'areas between torque curve and mean line in mm², in turn: "+295, -685, …"; needs --scale; '
+    'or works: "+580 J, -320 J, …"',
     "torque_help": 'driving torque in N·m over theta in rad: "5000 + 600*sin(2*theta)"',
-    "scale_help": 'scales of the diagram: "5 N·m/mm, 1 deg/mm"',
+    "scale_help": 'scales of the diagram: "5 N·m/mm, 1 deg/mm", or the work of an area: "20 J/mm²"',
     "load_help": "resisting torque in N·m over theta (default: constant, the mean of --torque)",
     "period_help": "angle of a cycle (default 360deg; four-stroke engines 720deg)",
     "speed_help": "mean speed of the shaft: 180rpm",

@@ -1,7 +1,8 @@
 """凸轮。"""
 
 WORDS = {
-    "base_radius": "基圆半径",
+    "base_radius": "基圆半径（实际廓线）",
+    "prime_radius": "理论廓线的基圆半径",
     "no_roller": "滚子没有半径",
     "no_roller_remedy": "请在从动件中加 roller_radius: 10 mm，或 choose: {{roller_radii: [8 mm, 10 mm]}}",
     "no_arm": "摆动从动件需要摆动中心和摆杆长",

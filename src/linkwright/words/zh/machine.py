@@ -16,9 +16,10 @@ WORDS = {
     "margin_help": "电动机功率的裕量系数，不小于 1（默认 1）",
     "disk_help": "圆盘飞轮的尺寸：density=7850kg/m³,width=0.1（宽度与直径之比）",
     "rim_help": "轮缘飞轮的尺寸：density=…,width=0.1,thickness=0.1（与外径之比）",
-    "areas_help": '力矩曲线与平均线之间的各块面积，mm²，依次写出："+295, -685, …"；需要 --scale',
+    "areas_help": '力矩曲线与平均线之间的各块面积，mm²，依次写出："+295, -685, …"；需要 --scale；'
+    '或直接写盈亏功："+580 J, -320 J, …"',
     "torque_help": '驱动力矩（N·m），theta 以 rad 计："5000 + 600*sin(2*theta)"',
-    "scale_help": '力矩图的比例尺："5 N·m/mm, 1 deg/mm"',
+    "scale_help": '力矩图的比例尺："5 N·m/mm, 1 deg/mm"，或每单位面积的功："20 J/mm²"',
     "load_help": "阻力矩（N·m），theta 的表达式（默认：常数，等于 --torque 的平均值）",
     "period_help": "一个循环的转角（默认 360deg；四冲程发动机 720deg）",
     "speed_help": "轴的平均转速：180rpm",
