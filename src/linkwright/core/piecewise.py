@@ -246,7 +246,8 @@ def reach(values: Floats, tops: Floats, bounds: Floats) -> Floats:
     """How high functions (k, m, POINTS), and their negatives, may rise in pieces that are not met to ``bounds`` (k,),
     (2 k,); ``tops``: their largest values in each piece, (2, k, m)."""
     off = tails(values)
-    return np.asarray(np.where(off > bounds[:, None], tops + _HIDDEN * off, -np.inf).max(axis=2).ravel())
+    rise = SLACK * tops.sum(axis=0) + _HIDDEN * off
+    return np.asarray(np.where(off > bounds[:, None], tops + rise, -np.inf).max(axis=2).ravel())
 
 
 def sought(curve: Piecewise, kind: str, function: Function) -> Extreme:
@@ -257,10 +258,10 @@ def sought(curve: Piecewise, kind: str, function: Function) -> Extreme:
     bound, least = curve.tolerance * float(np.abs(values).max()), _LEAST * float(high[-1] - low[0])
     before, many = np.inf, _MANY
     for _ in range(_HALVINGS):
-        off = tails(values)
+        off, tops = tails(values), values.max(axis=1)
         rough = off > bound
-        tops = np.where(rough, values.max(axis=1), (values @ TO_PLACES).max(axis=1))
-        kept = tops + rough * _HIDDEN * off >= tops.max() - bound
+        rise = SLACK * (tops - values.min(axis=1)) + rough * _HIDDEN * off
+        kept = tops + rise >= tops.max() - bound
         low, high, values, rough = low[kept], high[kept], values[kept], rough[kept]
         level, count = float(np.median(off[kept][rough])) if rough.any() else 0.0, int(rough.sum())
         if not count or (high - low)[rough].max() < least or (count > many and level > 0.25 * before):
