@@ -213,6 +213,24 @@ def test_a_crank_whose_way_ends_where_coupler_and_rocker_are_stretched(speed: fl
     assert table.value("swing_angle") == pytest.approx(stretched + turned_back, rel=1e-7)
 
 
+@pytest.mark.parametrize("steps", [24, 96, 961])
+def test_a_wheel_swings_as_far_as_the_crank_that_is_reached_through_the_end_of_the_cycle(steps: int) -> None:
+    """The crank's way contains the position in which the cycle begins; a wheel at 3:2 goes on beyond it."""
+    text = (
+        OUT_OF_REACH.replace("SPEED", "12 rad/s")
+        .replace(
+            "assembly:",
+            "  wheel: {points: {W: [0 m, 0 m], T: [1 m, 0 m]}, mass_centre: [0 m, 0 m]}\n"
+            "joints: {mesh: {kind: gear, links: [crank, wheel], teeth: [30, 20], module: 0.1 m}}\nassembly:",
+        )
+        .replace("Q: [4 m, 0.5 m]}", "Q: [4 m, 0.5 m], W: [0 m, 2.5 m]}")
+    )
+    table = metrics(lw.solve_motion(lw.loads(text), steps=steps, failures="mark"))
+    assert table.value("swing_angle", "wheel") == pytest.approx(
+        1.5 * table.value("range_of_motion"), rel=1e-7
+    )
+
+
 def test_loads_of_a_way_that_is_left_have_no_end_and_no_mean() -> None:
     """Forces of masses grow as the accelerations, without bound; means would depend on the positions alone."""
     mechanism = lw.loads(OUT_OF_REACH.replace("SPEED", "12 rad/s"))
