@@ -315,3 +315,53 @@ def test_static_forces_leave_inertia_out(capsys: pytest.CaptureFixture[str]) -> 
     assert main(asked) == 0
     torque = json.loads(capsys.readouterr().out)["columns"]["driver.effort [N·m]"]
     assert torque == pytest.approx([21.085597076442], rel=1e-12)
+
+
+def test_a_guide_with_friction_says_that_its_force_is_without_it(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The pin carries load and friction, 1000 N and μ times the guide's force, which is normal."""
+    text = (
+        "format: 1\nframe: {points: {O: [0, 0]}}\nlinks:\n"
+        "  crank: {points: [O, A], length: 100 mm}\n  rod: {points: [A, B], length: 400 mm}\n"
+        "  ram: {points: [B]}\njoints:\n"
+        "  way: {kind: prismatic, guide: frame, through: O, direction: 0 deg, block: ram, at: B, friction: 0.1}\n"
+        "assembly: {B: forward}\ndriver: {turn: crank, about: O, speed: 100 rpm}\n"
+        "loads: {work: {kind: force, on: ram, at: B, direction: 180 deg, magnitude: 1 kN}}\n"
+    )
+    path = tmp_path / "press.yaml"
+    path.write_text(text, encoding="utf-8")
+    assert main(["solve", str(path), "--at", "300 deg"]) == 0
+    shown = capsys.readouterr().out
+    assert "its friction, μ times that, along the guide, comes on top: way" in shown
+    forces = lw.solve_forces(lw.solve_motion(lw.load(path), at=[-math.pi / 3]))
+    pressed = abs(forces.reaction("way", on="ram")[0, 1])
+    assert forces.reaction("B", on="ram")[0] == pytest.approx([1000 + 0.1 * pressed, pressed], rel=1e-9)
+    path.write_text(text.replace(", friction: 0.1", ""), encoding="utf-8")
+    assert main(["solve", str(path), "--at", "300 deg"]) == 0
+    assert "friction" not in capsys.readouterr().out
+
+
+def test_the_components_of_a_largest_force_are_those_of_the_side_where_it_is_so_large(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The load sets in with a jump, at the place of the largest forces."""
+    path = tmp_path / "punch.yaml"
+    path.write_text(
+        "format: 1\nframe: {points: {O: [0, 0]}}\nlinks:\n"
+        "  crank: {points: [O, A], length: 60 mm}\n  rod: {points: [A, B], length: 280 mm, mass: 6 kg, inertia: 0}\n"
+        "  ram: {points: [B], mass: 20 kg}\njoints:\n"
+        "  way: {kind: prismatic, guide: frame, through: O, direction: 0 deg, block: ram, at: B}\n"
+        "assembly: {B: forward}\ndriver: {turn: crank, about: O, speed: 120 rpm}\n"
+        "loads: {work: {kind: force, on: ram, at: B, direction: 180 deg, magnitude: 20 kN,"
+        " phase: {of: way, from: min, to: max, last: 15 mm}}}\n",
+        encoding="utf-8",
+    )
+    assert main(["solve", str(path)]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    begin = next(k for k, line in enumerate(lines) if line.startswith("Largest joint forces")) + 2
+    rows = [line.split() for line in lines[begin : begin + 4]]
+    assert [row[0] for row in rows] == ["O", "A", "B", "way"]
+    for row in rows:
+        force, across, along = map(float, row[2:5])
+        assert math.hypot(across, along) == pytest.approx(force, rel=2e-3)

@@ -21,6 +21,8 @@ from linkwright.plot.force_names import reaction_pairs
 from linkwright.words import Say
 from linkwright.words.characters import aligned
 
+#: Shares of the cycle at which the forces of an extreme are looked at: at a jump they are those of one side.
+BESIDE = np.array([0.0, -1e-9, 1e-9])
 Wanted = tuple[Callable[[Forces], Floats], Kind]
 
 
@@ -58,7 +60,18 @@ def extremes(solved: Solved, say: Say, *, degrees: bool) -> list[str]:
     wide = 6 if several else 5
     table = aligned([row[:wide] for row in rows], "<<>>>>"[:wide])
     heading = say(f"solve.{title}", count=int(solved.motion.ok.sum()))
-    return [heading, *(f"  {line}" for line in table), *_efforts(solved, forces, say, degrees=degrees)]
+    rubbing = [
+        name
+        for name, joint in forces.mechanism.joints.items()
+        if getattr(joint, "friction", 0.0) and joint.coordinate == "slide"
+    ]
+    apart = [say("solve.friction_apart", names=", ".join(rubbing))] if rubbing else []
+    return [
+        heading,
+        *(f"  {line}" for line in table),
+        *apart,
+        *_efforts(solved, forces, say, degrees=degrees),
+    ]
 
 
 def _size(forces: Forces, joint: str, on: str) -> Floats:
@@ -78,8 +91,16 @@ def _places(solved: Solved, wanted: Sequence[Wanted], degrees: bool) -> list[Pla
     else:
         found = [solved.analysis.extreme(signal, kind, of="forces") for signal, kind in wanted]
         known = [each for each in found if each is not None]
-        forces = solved.analysis.resolver.at(np.array([each.time for each in known]), "forces")
-        rows, values = list(range(len(known))), [each.value for each in known]
+        times = np.array([each.time for each in known])[:, None] + solved.motion.time.max() * BESIDE
+        forces = solved.analysis.resolver.at(times.ravel(), "forces")
+        values = [each.value for each in known]
+        off = np.array(
+            [np.abs(signal(forces) - value) for (signal, _), value in zip(wanted, values, strict=True)]
+        )
+        rows = [
+            k * BESIDE.size + int(row[k].argmin())
+            for k, row in enumerate(off.reshape(len(known), -1, BESIDE.size))
+        ]
     assert isinstance(forces, Forces)
     return [
         Place(value, input_text(forces.motion, row, degrees=degrees), forces, row)

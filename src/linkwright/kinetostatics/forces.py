@@ -98,7 +98,8 @@ class Forces(Plotted):
     def reaction(self, joint: str, *, on: str | None = None, axes: str = "frame") -> Floats:
         """Force (n, 2), N, that a joint exerts on link ``on``, in frame axes or in the axes of a link.
 
-        For a pin of several links it is the link's own share. ``on`` may be left out where the joint joins the
+        For a pin of several links it is the link's own share; for a guide what presses its parts together, without
+        its friction, μ times that along the guide. ``on`` may be left out where the joint joins the
         frame with one other link. Raises LinkwrightError for unknown names.
         """
         link = self._link_at(joint, on)
