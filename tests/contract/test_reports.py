@@ -478,3 +478,37 @@ def test_lengths_of_joints_and_loads_stand_in_mm_as_those_of_links() -> None:
     ]
     assert any("offset: 12.5 mm" in cell for cell in shown)
     assert any("stiffness: 2000 N/m; free_length: 250 mm" in cell for cell in shown)
+
+
+LIFTED_OFF = """
+format: 1
+name: Cam that its follower leaves
+frame: {points: {M: [0 mm, -150 mm], C: [0 mm, 0 mm]}}
+links:
+  pinion: {points: [M], inertia: 0.001 kg·m²}
+  cam: {points: [C], inertia: 0.01 kg·m²}
+  rod: {points: [P], mass: 2 kg}
+joints:
+  pair: {kind: gear, links: [pinion, cam], teeth: [20, 40], module: 5 mm}
+  way: {kind: prismatic, guide: frame, through: C, direction: 90 deg, block: rod, at: P, friction: 0.1}
+  lift: {kind: cam, cam: cam, follower: rod, at: P, touch: roller, base_radius: 40 mm, roller_radius: 10 mm,
+    program: [{rise: 30 mm, over: 100 deg, law: cycloidal}, {dwell: 80 deg}, {fall: 30 mm, over: 100 deg},
+      {dwell: 80 deg}]}
+driver: {turn: pinion, about: M, speed: 600 rpm}
+gravity: [0, -9.81 m/s²]
+"""
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_what_solve_notes_stands_in_the_report_too(language: str) -> None:
+    forces = lw.solve_forces(lw.solve_motion(lw.loads(LIFTED_OFF), steps=24))
+    assert len(forces.notes) == 1 and "would have to pull" in str(forces.notes[0])
+    assert len(forces.motion.notes) == 1 and "2 turns" in str(forces.motion.notes[0])
+    for section, kind in (("reactions", "forces"), ("tables", "motion")):
+        blocks = report(lw.loads(LIFTED_OFF), sections=[section], language=language).document.blocks
+        notes = [plain(b.text) for b in blocks if isinstance(b, Paragraph) and b.kind == "note"]
+        wanted = {"forces": "pull" if language == "en" else "拉力", "motion": "2"}[kind]
+        assert len(notes) == 1 and wanted in notes[0]
+        apart = say("forces.friction_apart", language, names="way")
+        texts = [plain(b.text) for b in blocks if isinstance(b, Paragraph)]
+        assert (apart in texts) == (section == "reactions")

@@ -17,7 +17,7 @@ from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces
 from linkwright.metrics.analysis import Kind
-from linkwright.plot.force_names import reaction_pairs
+from linkwright.plot.force_names import reaction_pairs, rubbing_guides
 from linkwright.words import Say
 from linkwright.words.characters import aligned
 
@@ -60,12 +60,8 @@ def extremes(solved: Solved, say: Say, *, degrees: bool) -> list[str]:
     wide = 6 if several else 5
     table = aligned([row[:wide] for row in rows], "<<>>>>"[:wide])
     heading = say(f"solve.{title}", count=int(solved.motion.ok.sum()))
-    rubbing = [
-        name
-        for name, joint in forces.mechanism.joints.items()
-        if getattr(joint, "friction", 0.0) and joint.coordinate == "slide"
-    ]
-    apart = [say("solve.friction_apart", names=", ".join(rubbing))] if rubbing else []
+    rubbing = rubbing_guides(forces.mechanism)
+    apart = [say("forces.friction_apart", names=", ".join(rubbing))] if rubbing else []
     return [
         heading,
         *(f"  {line}" for line in table),

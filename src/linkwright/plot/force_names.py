@@ -52,3 +52,9 @@ def reaction_index(mechanism: Mechanism, joint: str, on: str) -> str:
     comma = "," if len(numbers) > 10 else ""
     shared = [name for name, each in mechanism.joints.items() if set(each.joined) == set(joined)]
     return f"{numbers[other]}{comma}{numbers[on]}" + (f",{joint}" if len(shared) > 1 else "")
+
+
+def rubbing_guides(mechanism: Mechanism) -> list[str]:
+    """Guides with friction, whose joint force is only what presses their parts together."""
+    joints = mechanism.joints.items()
+    return [name for name, joint in joints if joint.coordinate == "slide" and getattr(joint, "friction", 0.0)]

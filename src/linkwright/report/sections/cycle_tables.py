@@ -27,6 +27,8 @@ def blocks(case: Case) -> Iterator[Block]:
         yield Paragraph(say("report.numbered_limit", count=count, input=place))
     elif case.mechanism.drivers:
         yield Paragraph(say("report.numbered_start", count=count))
+    for note in case.motion.notes:
+        yield Paragraph(literal(case.sentence(note)), "note")
     yield Paragraph(literal(case.links_text))
     columns = without_rounding(motion_results(numbered.motion))
     for title, wanted in _motion_tables(case, columns):

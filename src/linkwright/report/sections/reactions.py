@@ -9,7 +9,7 @@ import numpy as np
 
 from linkwright.errors import LinkwrightError
 from linkwright.metrics.quantities import shown
-from linkwright.plot.force_names import reaction_pairs
+from linkwright.plot.force_names import reaction_pairs, rubbing_guides
 from linkwright.report.case import Case
 from linkwright.report.document import Block, Figure, Paragraph, Table, literal
 from linkwright.report.numbers import ROUNDING, faded
@@ -36,6 +36,10 @@ def blocks(case: Case) -> Iterator[Block]:
     if rows:
         head = tuple(say(f"report.{key}") for key in ("joint", "largest_force", "at_input"))
         yield Table(say("report.peaks"), head, rows, "<>>", "peaks")
+    if rubbing := rubbing_guides(case.mechanism):
+        yield Paragraph(literal(say("forces.friction_apart", names=", ".join(rubbing))))
+    for note in case.forces.notes:
+        yield Paragraph(literal(case.sentence(note)), "note")
     if not case.mechanism.drivers:
         return
     parts = _parts(case, MOST)

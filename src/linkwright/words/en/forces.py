@@ -26,4 +26,6 @@ WORDS = {
     "contact_lost_cam": "the cam {name} cannot hold its follower {places}: it would have to pull, with up to "
     "{most} at {where}; press it on with a spring or a load, or run it in a groove",
     "from_to": "from {first} to {last} of the input",
+    "friction_apart": "The force in a guide is what presses its parts together; its friction, μ times that, along "
+    "the guide, comes on top: {names}",
 }

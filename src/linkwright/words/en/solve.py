@@ -45,8 +45,6 @@ linkwright solve gallery:excavator --times "0..8 s:0.5" --json""",
     "joint_forces": "Joint forces",
     "largest_of_cycle": "Largest joint forces over the cycle (between the positions, too)",
     "largest_forces": "Largest joint forces, over {count} positions",
-    "friction_apart": "The force in a guide is what presses its parts together; its friction, μ times that, along "
-    "the guide, comes on top: {names}",
     "effort": "{name}: {value} {unit}",
     "joint": "joint",
     "on": "on",
