@@ -57,4 +57,4 @@ def reaction_index(mechanism: Mechanism, joint: str, on: str) -> str:
 def rubbing_guides(mechanism: Mechanism) -> list[str]:
     """Guides with friction, whose joint force is only what presses their parts together."""
     joints = mechanism.joints.items()
-    return [name for name, joint in joints if joint.coordinate == "slide" and getattr(joint, "friction", 0.0)]
+    return [name for name, joint in joints if joint.coordinate == "slide" and joint.friction_arm]
