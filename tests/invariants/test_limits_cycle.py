@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.interpolate import CubicSpline
 
 import linkwright as lw
 from linkwright.drivers.constant_speed import ConstantSpeed
@@ -347,3 +348,31 @@ def test_the_first_guess_of_a_zero_is_the_cubic_of_the_share_over_the_rate() -> 
         assert _zero(a, b, *(1.0 / slopes)) == pytest.approx(exact if good else straight, abs=1e-12)
     assert 30 < inside < 60
     assert _zero(-1.0, 3.0, 0.0, 1.0) == _zero(-1.0, 3.0, 1.0, 0.0) == 0.25
+
+
+@pytest.mark.parametrize("steps", [24, 60, 499])
+def test_all_reversals_are_found_however_many_turns_lie_between_two_positions(steps: int) -> None:
+    """A table with two near times makes its spline run some turns; reversals of the rocker by a dense closed form."""
+    times, places = [0.0, 0.25, 0.4, 0.402, 0.7, 1.0], [0.0, 20.0, -10.0, 30.0, 15.0, 0.0]
+    model = lw.loads(f"""
+format: 1
+frame: {{points: {{O: [0 m, 0 m], Q: [0.3 m, 0 m]}}}}
+links:
+  crank: {{points: [O, A], length: 0.1 m}}
+  coupler: {{points: [A, B], length: 0.28 m}}
+  rocker: {{points: [Q, B], length: 0.2 m}}
+assembly: {{B: left}}
+driver: {{turn: crank, about: O, table: {{time: [{", ".join(f"{t} s" for t in times)}],
+  position: [{", ".join(f"{p} deg" for p in places)}], interpolation: cubic}}}}
+""")
+    input_ = CubicSpline(times, np.radians(places))
+    t = np.linspace(0.0, 1.0, 400_001)
+    reach = 0.1 * np.stack([np.cos(input_(t)), np.sin(input_(t))]) - np.array([[0.3], [0.0]])
+    length = np.hypot(*reach)
+    corner = np.arccos((length**2 + 0.2**2 - 0.28**2) / (2.0 * length * 0.2))
+    angle = np.unwrap(np.arctan2(reach[1], reach[0]) - corner)
+    turned = np.flatnonzero(np.diff(np.sign(np.diff(angle)))) + 1
+    assert np.ptp(input_(t)) > 12.0
+    found = limit_positions(lw.solve_motion(model, steps=steps), "rocker")
+    inner = [each for each in found if 1e-9 < each.time < 1.0 - 1e-9]
+    assert [each.time for each in inner] == pytest.approx(t[turned].tolist(), abs=2.0 * t[1])

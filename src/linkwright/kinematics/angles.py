@@ -68,12 +68,16 @@ class Angles:
 
     def counts(self, link: str) -> bool:
         """Whether the mechanism has pairs that count turns, and those of a link are known."""
-        if not self._pairs or link not in self._steps:
+        return self._pairs and self.follows(link)
+
+    def follows(self, link: str) -> bool:
+        """Whether the turns of a link are known, such as those of one that drivers turn."""
+        if link not in self._steps:
             return False
         _, step = self._steps[link]
         if step.free and step.turns:
             return link in self._known
-        return step.parent == "frame" or self.counts(step.parent)
+        return step.parent == "frame" or self.follows(step.parent)
 
     def give(self, link: str, value: Scalar) -> None:
         """Notes the rotation of a link whose group has it as an unknown."""

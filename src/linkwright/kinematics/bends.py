@@ -13,6 +13,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.once import cached_property
 from linkwright.core.outputs import row_name, row_names
 from linkwright.core.search import zeros
+from linkwright.drivers.base import Law
 from linkwright.joints.base import Bends
 from linkwright.kinematics.between import Between
 from linkwright.kinematics.motion import TURN, Motion
@@ -22,8 +23,12 @@ from linkwright.mechanism.mechanism import Mechanism
 ON = 1e-12
 #: Times nearer to each other than this share of the motion are one.
 SAME = 1e-12
+#: Places of a stretch of a driver's law, between which it turns round once at most.
+LOOKS = 14
+#: Ways of drivers that turn by laws, rad: between places of a stretch, and at most in what is one piece.
+LEAP, FAR = np.pi / 36, np.pi / 3
 #: Places in a stretch, as shares of it, one of which at least an output passes that moves there.
-INNER = np.array([0.35, 0.7])
+INNER = np.array([0.003, 0.03, 0.15, 0.35, 0.7, 0.9, 0.97, 0.997])
 
 
 def one_formula(mechanism: Mechanism) -> bool:
@@ -43,6 +48,17 @@ def stretches(motion: Motion) -> Stretches | None:
     """The stretches of a motion between those times and the ones at which a link turns round by which joints with
     several formulas are measured; None where there are no such times."""
     return None if one_formula(motion.mechanism) else _search(motion).stretches
+
+
+def with_leaps(motion: Motion, edges: Floats) -> Floats:
+    """Times, s, in order, with others in between where drivers turn farther by their laws than :data:`FAR`."""
+    if one_formula(motion.mechanism):
+        return edges
+    time, way = _search(motion).way
+    passed = np.interp(edges, time, way)
+    parts = np.ceil(np.diff(passed) / FAR).astype(int)
+    more = [np.linspace(passed[k], passed[k + 1], parts[k] + 1)[1:-1] for k in np.flatnonzero(parts > 1)]
+    return np.sort(np.concatenate([edges, *(np.interp(each, way, time) for each in more)]))
 
 
 @dataclass(frozen=True)
@@ -99,7 +115,8 @@ class _Search:
         self.low, self.high = min(float(time[0]), last), max(float(time[0]), last)
         laws = [driver.law for driver in motion.mechanism.drivers.values()]
         self.bends = self._apart(*(law.breaks(self.low, self.high) for law in laws))
-        self.turns = np.empty(0)
+        self.turns = self._apart(np.empty(0), *(self._looks(law)[1] for law in laws))
+        self.way = self._way([law for law in laws if law.rotary and law.constant_speed is None])
         for joint in self._in_turn():
             turns, bends = self._of_joint(joint)
             self.turns, self.bends = self._apart(self.turns, turns), self._apart(self.bends, bends)
@@ -115,8 +132,9 @@ class _Search:
         else:
             inner = found[(found - self.low > self._same) & (self.high - found > self._same)]
             edges = np.concatenate([[self.low], inner, [self.high]])
-        places = (edges[:-1, None] + np.diff(edges)[:, None] * INNER).ravel()
-        places = self._apart(edges, places)
+        inner = (edges[:-1, None] + np.diff(edges)[:, None] * INNER).ravel()
+        time, way = self.way
+        places = self._apart(edges, inner, np.interp(np.arange(LEAP, way[-1], LEAP), way, time))
         return Stretches(edges, self.period, places, self._before(places))
 
     @property
@@ -137,6 +155,24 @@ class _Search:
         solved = {link: k for k, group in enumerate(groups) for link in group.links}
         found = [each.bends for each in self.motion.mechanism.joints.values() if each.bends is not None]
         return sorted(found, key=lambda bends: solved.get(bends.link, -1))
+
+    def _looks(self, law: Law) -> tuple[Floats, Floats]:
+        """Places, s, of all stretches of a law, and times at which the driver turns round."""
+        if law.constant_speed is not None:
+            return np.empty(0), np.empty(0)
+        edges = np.concatenate([[self.low], law.breaks(self.low, self.high), [self.high]])
+        time = (edges[:-1, None] + np.diff(edges)[:, None] * np.linspace(0.0, 1.0, LOOKS)).ravel()
+        rate = law.coordinate(time)[1]
+        at = np.flatnonzero(rate[:-1] * rate[1:] < 0.0)
+        return time, zeros(lambda time: law.coordinate(time)[1:], time[at], time[at + 1], rate[at])
+
+    def _way(self, laws: list[Law]) -> tuple[Floats, Floats]:
+        """Times, s, with the way, rad, that drivers have turned by these laws since the motion began."""
+        time = np.sort(
+            np.concatenate([[self.low, self.high], *(each for law in laws for each in self._looks(law))])
+        )
+        steps = sum((np.abs(np.diff(law.coordinate(time)[0])) for law in laws), np.zeros(len(time) - 1))
+        return time, np.append(0.0, np.cumsum(steps))
 
     def _of_joint(self, bends: Bends) -> tuple[Floats, Floats]:
         """Times at which its link turns round, and at which it goes over to another formula."""
@@ -175,7 +211,10 @@ class _Search:
         for link, sign in ((bends.link, 1.0), (bends.carrier, -1.0)):
             if link == "frame":
                 continue
-            rates = (row_name(kind, link) for kind in ("angular_velocity", "angular_acceleration"))
+            rates = tuple(row_name(kind, link) for kind in ("angular_velocity", "angular_acceleration"))
+            if motion.link(link).counted:
+                found += sign * self.between.evaluate((row_name("turned_angle", link), *rates), before, time)
+                continue
             x, y, rate, second = self.between.evaluate((*row_names("direction", link), *rates), before, time)
             near, raw = motion.link(link).angle[before], np.arctan2(y, x)
             found += sign * np.stack([raw + TURN * np.round((near - raw) / TURN), rate, second])

@@ -17,7 +17,7 @@ import numpy as np
 from linkwright.core.arrays import Floats, Indices
 from linkwright.core.dataclass import dataclass
 from linkwright.core.once import cached_property
-from linkwright.core.outputs import Output, kind_of
+from linkwright.core.outputs import Output, kind_of, row_name
 from linkwright.core.search import ends, zero, zeros
 from linkwright.engine.recent import Recent
 from linkwright.errors import RequestError
@@ -169,6 +169,9 @@ class _Search:
         if output not in courses:
             courses[output] = program_names(motion.mechanism, output)
         self.value_names, self.rate_names = courses[output]
+        self.counted = output.kind == "angle" and motion.link(output.owner).counted
+        if self.counted:
+            self.value_names = (row_name("turned_angle", output.owner),)
         self.between = Between(motion)
         positions = motion.positions
         self.period = positions.period if self.between.closes else None
@@ -427,7 +430,12 @@ class _Search:
         """The output from the rows that give its value, angles continuous from the positions ``before``."""
         if self.output.kind != "angle":
             return [row[0] for row in rows]
-        near = self.motion.link(self.output.owner).angle[before].tolist()
+        angle = self.motion.link(self.output.owner).angle
+        if self.counted:
+            (turned,) = self.motion.rows.fetch(self.value_names, self.motion.evaluate)
+            first = float(np.nanmax(angle - turned))
+            return [row[0] + first for row in rows]
+        near = angle[before].tolist()
         raw = [math.atan2(y, x) for x, y in rows]
         return [angle + TURN * round((at - angle) / TURN) for angle, at in zip(raw, near, strict=True)]
 

@@ -130,8 +130,15 @@ class LinkMotion:
         """
         return self._motion.kept(("angle", self.name), self._angle)
 
+    @property
+    def counted(self) -> bool:
+        """Whether its turns are known from those of the drivers, however far it turns from position to position."""
+        angles, drivers = self._motion.solver.motion.angles, self._motion.mechanism.drivers.values()
+        steady = all(driver.law.constant_speed is not None for driver in drivers)
+        return angles.counts(self.name) if steady else angles.follows(self.name)
+
     def _angle(self) -> Floats:
-        if self._motion.solver.motion.angles.counts(self.name):
+        if self.counted:
             turned = self._motion.row("turned_angle", self.name)
             known = turned[np.isfinite(turned)]
             first = float(known[0]) if len(known) else 0.0

@@ -29,7 +29,7 @@ from linkwright.core.piecewise import (
 from linkwright.core.search import ends, zeros
 from linkwright.engine.recent import Recent
 from linkwright.errors import LinkwrightError
-from linkwright.kinematics.bends import bend_times
+from linkwright.kinematics.bends import bend_times, stretches, with_leaps
 from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.friction import FrictionTerm, joint_rate
@@ -132,7 +132,7 @@ class CycleGrid:
 
     def _first_edges(self, knots: Floats) -> Floats:
         """Those of the first pieces."""
-        edges = edges_between(self.start, self.end, PIECES, _NONE)
+        edges = with_leaps(self._motion, edges_between(self.start, self.end, PIECES, _NONE))
         for low, high in self.around:
             edges = edges[(edges <= low) | (edges >= high)]
         edges = edges[(np.abs(edges[:, None] - knots) > self._near).all(axis=1)]
@@ -324,7 +324,11 @@ class CycleGrid:
         if positions.closed and positions.period:
             time = np.append(time, self.end if time[-1] > time[0] else self.start)
             known = np.append(known, known[:, :1], axis=1)
-        return _changes(lambda at: rates(self.resolver.motion(at)), known, time)
+        if parts := stretches(self._motion):
+            time = np.append(time, parts.places)
+            known = np.append(known, rates(self.resolver.motion(parts.places)), axis=1)
+        order = np.argsort(time)
+        return _changes(lambda at: rates(self.resolver.motion(at)), known[:, order], time[order])
 
     def _corners(self, edges: Floats, solved: Motion | Forces) -> Floats:
         """Times at which forces are zero with whose sizes others go."""

@@ -6,7 +6,8 @@ from collections.abc import Collection
 
 import numpy as np
 
-from linkwright.core.outputs import Output
+from linkwright.core.outputs import Output, row_name
+from linkwright.kinematics.between import Between
 from linkwright.kinematics.motion import Motion
 from linkwright.mechanism.mechanism import Mechanism
 
@@ -44,8 +45,14 @@ def turns_fully(motion: Motion, output: Output) -> bool:
     """Whether an angle gains whole turns over a closed cycle, so that it never swings back to its start."""
     if output.kind != "angle" or motion.steps < 3 or not motion.ok.all():
         return False
-    angle = motion.read(output)
-    step = angle[-1] - angle[-2]
+    angle, period = motion.read(output), motion.positions.period
+    step = angle[-1] - angle[-2] if period else 0.0
+    if period and motion.link(output.owner).counted:
+        ends = motion.time[0] + np.array([0.0, np.sign(motion.time[1] - motion.time[0]) * period])
+        first, last = Between(motion).evaluate(
+            (row_name("turned_angle", output.owner),), np.array([0, -1]), ends
+        )[0]
+        return bool(abs(last - first) > np.pi)
     return bool(abs(angle[-1] + step - angle[0]) > np.pi)
 
 
