@@ -474,3 +474,21 @@ def test_curves_from_files(tmp_path: Path) -> None:
     table = tmp_path / "a.csv"
     table.write_text("x;y\n1;2\n\n3.5; 4e0\n")
     assert list(read_curve(table)) == [1 + 2j, 3.5 + 4j]
+    for text in (
+        "x;y\n1,5;-2,25\n3;4,0",
+        "1,5\t-2,25\n3\t4,0",
+        '"1.5","-2.25"\n"3","4"',
+        "1.5 -2.25 0\n3 4 0",
+    ):
+        table.write_text(text)
+        assert list(read_curve(table)) == [1.5 - 2.25j, 3 + 4j], text
+    for text in (
+        "1,2\n1,5 2,5\n",
+        "1,5 2,5\n3,5 4,5\n",
+        "0,1\nnan,2\n3,4",
+        "0,1\n1e400,2\n3,4",
+        "1 mm, 2 mm\n3 mm, 4 mm",
+    ):
+        table.write_text(text)
+        with pytest.raises(lw.LinkwrightError, match="are not two numbers"):
+            read_curve(table)

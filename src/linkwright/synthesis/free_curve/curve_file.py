@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Callable
 from itertools import pairwise
@@ -13,6 +14,8 @@ from linkwright.core.arrays import Complexes
 from linkwright.synthesis.result import refuse
 
 _TOKEN = re.compile(r"([MmLlHhVvCcSsQqTtAaZz])|([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)|([^\s,])")
+#: What begins as a number does, and two numbers with commas between blanks.
+_NUMBER, _EITHER = re.compile(r"[-+]?\.?\d"), re.compile(r"[-+]?\d+,\d+\s+[-+]?\d+,\d+$")
 _TAKES = {"M": 2, "L": 2, "H": 1, "V": 1, "C": 6, "S": 4, "Q": 4, "T": 2, "A": 7}
 #: Points of a curved piece.
 PIECE = 24
@@ -28,22 +31,37 @@ def read_curve(path: Path) -> Complexes:
 
 
 def _columns(text: str, path: Path) -> Complexes:
-    """Two numbers a line, between commas, semicolons or blanks; lines of words before the first are headings."""
+    """Two numbers a line, between commas, semicolons or blanks; lines of words before the first are headings.
+
+    Between semicolons or tabs a comma is a decimal comma, as spreadsheets write it; two numbers with commas between
+    blanks may mean either and are refused.
+    """
     found: list[complex] = []
     for number, line in enumerate(text.splitlines(), 1):
-        parts = [part for part in re.split(r"[\s,;]+", line.strip()) if part]
+        plain = line.strip().replace('"', "")
+        decimal = ";" in plain or "\t" in plain
+        parts = re.split(r"[\s;]+", plain.replace(",", ".")) if decimal else re.split(r"[\s,]+", plain)
+        parts = [part for part in parts if part]
         if not parts or parts[0].startswith("#"):
             continue
-        try:
-            x, y = (float(part) for part in parts[:2])
-        except ValueError:
-            if not found:
-                continue
-            raise refuse("free_curve.line", path=path, line=number, text=line.strip()[:40]) from None
-        found.append(complex(x, y))
+        point = _point(parts)
+        if point is None and not found and not _NUMBER.match(plain):
+            continue
+        if point is None or (not decimal and _EITHER.match(plain)):
+            raise refuse("free_curve.line", path=path, line=number, text=line.strip()[:40])
+        found.append(point)
     if len(found) < 2:
         raise refuse("free_curve.few", path=path)
     return np.array(found)
+
+
+def _point(parts: list[str]) -> complex | None:
+    """The point of the first two numbers; None where they are none."""
+    try:
+        x, y = (float(part) for part in parts[:2])
+    except ValueError:
+        return None
+    return complex(x, y) if math.isfinite(x) and math.isfinite(y) else None
 
 
 def _svg(text: str, path: Path) -> Complexes:

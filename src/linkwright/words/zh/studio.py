@@ -8,7 +8,7 @@ WORDS = {
     "file_help": "本目录下的模型文件；可以是新文件",
     "port_help": "端口（默认：任一空闲端口）",
     "browser_help": "只打印地址",
-    "serving": "工作室地址：{url}（按 Ctrl+C 结束）",
+    "serving": "工作室地址：{url} （按 Ctrl+C 结束）",
     "ports": "端口为 0 到 {last}",
     "no_port": "端口 {port} 不能使用：{reason}；请换一个，或不指定",
     "outside": "{name} 不是工作室启动目录下的模型文件",
