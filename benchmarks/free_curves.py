@@ -136,7 +136,7 @@ def measured(
         angle = math.degrees(math.asin(math.sqrt(max(least, 0))))
         if angle >= options.angle and size <= options.size:
             drawn = Placed(each, target).curve(8000)
-            row = curve_distance(drawn, curve, closed), angle, size, target.deviation(each)
+            row = curve_distance(drawn, curve, closed), angle, size, target.deviation(each)[0]
             best |= {most: min(best[most], row) for most in searching.JOINTS if each.joints <= most}
     cells = [f"{error:9.5f} ({angle:4.1f} deg, {size:3.1f})" for error, angle, size, _ in best.values()]
     return [each[k] for k in (0, 3) for each in best.values()], "".join(

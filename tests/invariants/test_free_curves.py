@@ -182,7 +182,7 @@ def test_a_curve_is_judged_where_no_position_of_a_descent_sees_it(apart: float, 
     seen, whole = (node_paths(nodes, x, np.linspace(0.4, 4.4, n))[0][-1] for n in (FINE.drawn, 20001))
     target = Target(seen, False, math.radians(20), 6.0)
     design = target.descend(Design(nodes, x, False), 0, FINE, weight=0.0)
-    true = symmetric_distance(normal(even_points(whole, 4000, False)), target.points)[0]
+    true = symmetric_distance(normal(even_points(whole, 4000, False)), target.points)
     found = target.checked(design, 0.0).value
     assert found > 0.85 * true
     assert found < 1.2 * true or abs(apart - 1) < 1e-3
@@ -308,7 +308,7 @@ def test_the_nearest_part_of_a_curve_is_laid_on_the_target(closed: bool) -> None
         found = {
             (part, mirror, 2 * math.pi * k / TURNS): symmetric_distance(
                 normal(curve[places(*part)]) * np.exp(2j * np.pi * k / TURNS), points[::40]
-            )[0]
+            )
             for part in parts(closed)
             for k in range(TURNS)
             for mirror, points in ((False, target.points), (True, target.points.conj()))
@@ -344,7 +344,22 @@ def test_starts_come_once_each_and_near_ones_early() -> None:
 def _apart(path: np.ndarray, curve: np.ndarray) -> float:
     """Mean nearest distance of two lines as they lie, there and back, in rms radii of the second."""
     a, b = (even_points(each, 20000, False) for each in (path, curve))
-    return symmetric_distance(a, b)[0] / float(np.sqrt(np.mean(np.abs(b - b.mean()) ** 2)))
+    return symmetric_distance(a, b) / float(np.sqrt(np.mean(np.abs(b - b.mean()) ** 2)))
+
+
+@pytest.mark.parametrize(("closed", "mirror"), [(True, False), (True, True), (False, True)])
+def test_a_curve_that_is_drawn_exactly_has_no_error_wherever_its_points_lie(
+    closed: bool, mirror: bool
+) -> None:
+    nodes, numbers, share = flat([*ONE_DYAD[0]]), [2.1, 0.3, 0.9, 0.8, 0.6, 0.9], np.linspace(0, 1, 40001)
+    crank = 3.0 + 2 * np.pi * share[:-1] if closed else 0.4 + 4.0 * share**2
+    drawn = node_paths(nodes, np.array(numbers), crank)[0][-1]
+    drawn = drawn.conj() if mirror else drawn
+    design = Design(nodes, np.array([*numbers, 0.0, 0.4, 4.0]), mirror, 0.0)
+    mean, most = Target(drawn, closed, math.radians(5), 20.0).deviation(design)
+    assert mean < most < 1e-6
+    bent = Target(drawn + 0.01 * np.abs(drawn) ** 2, closed, math.radians(5), 20.0)
+    assert bent.deviation(design)[0] > 0.003
 
 
 def test_the_solver_draws_the_same_curve_within_the_demands() -> None:

@@ -17,7 +17,7 @@ from linkwright.synthesis.free_curve.drawn import drawing
 from linkwright.synthesis.free_curve.linkages import Placed, kind_of, linkage_of
 from linkwright.synthesis.free_curve.nodes import Design
 from linkwright.synthesis.free_curve.search import JOINTS, Search
-from linkwright.synthesis.free_curve.target import EVERY, LINE, Target, even_points, symmetric_distance
+from linkwright.synthesis.free_curve.target import Target
 from linkwright.synthesis.path_generation.generate import complex_points
 from linkwright.synthesis.requirements.slider_crank import not_negative, positive
 from linkwright.synthesis.result import Candidate, Synthesis, note, refuse, whole
@@ -161,7 +161,7 @@ Facts = tuple[float, int, float, float]
 def _facts(design: Design, target: Target) -> Facts:
     """Error, links, negative least transmission angle (rad), size."""
     placed = Placed(design, target)
-    return target.deviation(design), design.links, -placed.transmission_angle(), placed.size()
+    return target.deviation(design)[0], design.links, -placed.transmission_angle(), placed.size()
 
 
 def _front(found: list[tuple[Design, Facts]]) -> list[tuple[Design, Facts]]:
@@ -188,17 +188,15 @@ def _shown(curve: Complexes, closed: bool) -> Complexes:
 
 def _candidate(design: Design, target: Target) -> Candidate:
     placed = Placed(design, target)
-    linkage, (_, links, _, size) = linkage_of(placed), _facts(design, target)
+    linkage, (mean, most) = linkage_of(placed), target.deviation(design)
     angle = placed.over_a_turn() if placed.turns() else placed.transmission_angle()
-    given = target.centre + target.radius * target.points
-    mean, most = symmetric_distance(even_points(placed.curve(LINE), LINE, target.closed), given, EVERY)
     how, curve = drawing(placed), placed.curve(SHOWN)
     lengths = list(linkage.lengths().values())
     values = {
-        "joints": float(design.joints), "links": float(links), "size": size, "drawn_as_given": how.along,
-        "fastest_at_1_Hz": how.fastest, "fastest_to_mean": how.unevenness,
+        "joints": float(design.joints), "links": float(design.links), "size": placed.size(),
+        "drawn_as_given": how.along, "fastest_at_1_Hz": how.fastest, "fastest_to_mean": how.unevenness,
     }  # fmt: skip
     return Candidate(
-        linkage, mean / target.radius, kind_of(design), (), placed.turns(), angle, max(lengths) / min(lengths),
-        most / target.radius, _shown(curve, target.closed), values,
+        linkage, mean, kind_of(design), (), placed.turns(), angle, max(lengths) / min(lengths),
+        most, _shown(curve, target.closed), values,
     )  # fmt: skip

@@ -153,7 +153,7 @@ class Target:
             return 0.0
         drawn = normal(even_points(curve, SOME, self.closed)) * np.exp(1j * design.x[-3])
         points = self.points[:: LINE // SOME]
-        return symmetric_distance(drawn, points.conj() if design.mirror else points)[0]
+        return symmetric_distance(drawn, points.conj() if design.mirror else points)
 
     def _poses(self, fineness: Fineness) -> int:
         """Positions at which the demands hold."""
@@ -175,12 +175,14 @@ class Target:
             return np.linspace(0, 2 * np.pi, count + 1)[:-1]
         return np.linspace(design.x[-2], design.x[-2] + design.x[-1], count)
 
-    def deviation(self, design: Design) -> float:
-        """Mean nearest distance of the lines, there and back, at the design's own turn, in rms radii."""
+    def deviation(self, design: Design) -> tuple[float, float]:
+        """Mean nearest distance of the lines, there and back, and the greatest one, at the design's own turn."""
         if design.value >= FAR:
-            return FAR
+            return FAR, FAR
         curve = normal(even_points(self.curve(design), LINE, self.closed)) * np.exp(1j * design.x[-3])
-        return symmetric_distance(curve, self.points.conj() if design.mirror else self.points, EVERY)[0]
+        given = self.points.conj() if design.mirror else self.points
+        there, back = _to_line(curve, given, self.closed), _to_line(given, curve, self.closed)
+        return float(there.mean() + back.mean()), float(max(there.max(), back.max()))
 
 
 def even_points(curve: Complexes, count: int, closed: bool) -> Complexes:
@@ -197,13 +199,27 @@ def normal(curve: Complexes) -> Complexes:
     return np.asarray(moved / np.sqrt(np.mean(np.abs(moved) ** 2)))
 
 
-def symmetric_distance(a: Complexes, b: Complexes, every: int = 1) -> tuple[float, float]:
-    """Mean nearest distance from every so manieth point of a to b plus that from b to a, and the greatest one."""
+def _to_line(points: Complexes, line: Complexes, closed: bool) -> Floats:
+    """Distances of every ``EVERY``-th point from a line of many points: from its pieces beside the nearest one."""
     from scipy.spatial import cKDTree
 
-    there = cKDTree(_columns(b)).query(_columns(a[::every]))[0]
-    back = cKDTree(_columns(a)).query(_columns(b[::every]))[0]
-    return float(there.mean() + back.mean()), float(max(there.max(), back.max()))
+    some = points[::EVERY]
+    nearest = cKDTree(_columns(line)).query(_columns(some))[1]
+    found = np.full(len(some), np.inf)
+    for side in (-1, 1):
+        other = np.mod(nearest + side, len(line)) if closed else np.clip(nearest + side, 0, len(line) - 1)
+        way, off = line[other] - line[nearest], some - line[nearest]
+        share = (off * way.conj()).real / np.maximum(np.abs(way) ** 2, 1e-300)
+        found = np.minimum(found, np.abs(off - np.clip(share, 0.0, 1.0) * way))
+    return found
+
+
+def symmetric_distance(a: Complexes, b: Complexes) -> float:
+    """Mean nearest distance from points of a to points of b plus that from b to a."""
+    from scipy.spatial import cKDTree
+
+    there, back = (cKDTree(_columns(to)).query(_columns(of))[0].mean() for of, to in ((a, b), (b, a)))
+    return float(there + back)
 
 
 def curve_distance(a: Complexes, b: Complexes, closed: bool) -> float:
@@ -220,7 +236,7 @@ def curve_distance(a: Complexes, b: Complexes, closed: bool) -> float:
     a, b = (normal(even_points(each, EVEN, closed)) for each in (a, b))
 
     def at(turn: float, step: int = 1) -> float:
-        return symmetric_distance(a[::step] * np.exp(1j * turn), b[::step])[0]
+        return symmetric_distance(a[::step] * np.exp(1j * turn), b[::step])
 
     grid = np.arange(360) * (2 * np.pi / 360)
     rough = np.array([at(turn, 5) for turn in grid])
