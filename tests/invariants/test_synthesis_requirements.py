@@ -47,6 +47,36 @@ def test_crank_rockers_have_their_swing_and_quick_return_ratio(swing: float, k: 
         assert each.linkage.lengths()["frame"] == pytest.approx(0.3)
 
 
+@pytest.mark.parametrize(
+    ("swing", "k", "frame", "count"),
+    [(32, 1.25, 0.1, 1), (32, 1.25, 0.0, 3), (32, 1.25, 0.06, 1), (60, 1.0, 0.12, 1), (25, 1.4, 0.09, 1)],
+)
+def test_crank_rockers_of_a_given_rocker(swing: float, k: float, frame: float, count: int) -> None:
+    """By the law of cosines in both limit positions, from the lengths alone."""
+    found = crank_rocker(math.radians(swing), k, frame, rocker=0.075)
+    assert len(list(found)) == count
+    for each in found:
+        lengths = each.linkage.lengths()
+        a, b, c, d = (lengths[name] for name in ("crank", "coupler", "rocker", "frame"))
+        assert c == pytest.approx(0.075, rel=1e-12)
+        assert frame in (0.0, pytest.approx(d, rel=1e-12))
+        at_rocker = [math.acos((c * c + d * d - r * r) / (2 * c * d)) for r in (b + a, b - a)]
+        at_crank = [math.acos((d * d + r * r - c * c) / (2 * d * r)) for r in (b + a, b - a)]
+        theta = abs(at_crank[0] - at_crank[1])
+        assert at_rocker[0] - at_rocker[1] == pytest.approx(math.radians(swing), rel=1e-9)
+        assert (math.pi + theta) / (math.pi - theta) == pytest.approx(k, rel=1e-9)
+
+
+def test_a_rocker_that_the_frame_cannot_have_is_refused_with_the_nearest() -> None:
+    with pytest.raises(lw.SynthesisError, match=r"the nearest solution has one of 43\.40") as caught:
+        crank_rocker(math.radians(32), 1.25, 0.1, rocker=0.02)
+    nearest = caught.value.nearest
+    assert nearest is not None and nearest.best.linkage.lengths()["frame"] == pytest.approx(0.1)
+    assert "摇杆长" in caught.value.say("zh")
+    with pytest.raises(lw.SynthesisError, match="give frame: 300 mm or rocker: 200 mm"):
+        crank_rocker(math.radians(32), 1.25)
+
+
 def test_shaper_has_its_stroke_and_quick_return_ratio() -> None:
     best = quick_return(1.4599052, 0.38, stroke=0.31263158, rod=0.135).best
     assert best.values["crank [m]"] == pytest.approx(0.110, rel=1e-6)

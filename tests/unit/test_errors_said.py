@@ -101,6 +101,13 @@ def test_motion_laws_are_found_by_their_names_in_books(said: str, meant: str) ->
     assert nearest(said, ["spline", "polynomial_5", "double_harmonic", *MOTION_LAWS]) == meant
 
 
+def test_demands_of_synthesis_are_found_by_their_symbols_and_short_names() -> None:
+    known = ["swing_angle", "quick_return_ratio", "frame", "rocker", "link_ratio", "count"]
+    assert [nearest(each, known) for each in ("K", "swing", "行程速比系数", "摆角", "摇杆", "机架")] == [
+        "quick_return_ratio", "swing_angle", "quick_return_ratio", "swing_angle", "rocker", "frame",
+    ]  # fmt: skip
+
+
 def test_an_internal_pair_is_asked_for_by_its_mesh() -> None:
     known = [
         "kind",

@@ -10,7 +10,7 @@ from functools import cache
 ALIKE = """
 ram rammer slider block piston plunger punch carriage crosshead 滑块 活塞
 crank crankshaft handle eccentric 曲柄
-rocker swing lever arm beam oscillator 摇杆 摆杆
+rocker lever arm beam oscillator 摇杆 摆杆
 coupler rod conrod connecting pitman 连杆
 frame ground base bed chassis fixed support 机架 机座
 guide guideway slideway rail slot track prismatic sliding slide 导路 导轨 移动副
@@ -32,7 +32,8 @@ speed velocity rate rpm 速度 转速
 acceleration 加速度
 displacement position place location 位移 位置
 stroke travel lift 行程
-swing_angle amplitude 摆角
+swing_angle swing amplitude 摆角
+quick_return_ratio time_ratio k 行程速比系数 急回系数
 time duration period 时间 周期
 peak max maximum largest 最大 峰值
 least min minimum smallest 最小

@@ -29,26 +29,41 @@ LEAST_RATIO, MOST_RATIO = 1.05, 1000.0
 
 
 def crank_rocker(
-    swing_angle: float, quick_return_ratio: float, frame: float, *, link_ratio: float = 5.0, count: int = 3
+    swing_angle: float,
+    quick_return_ratio: float,
+    frame: float = 0.0,
+    *,
+    rocker: float = 0.0,
+    link_ratio: float = 5.0,
+    count: int = 3,
 ) -> Synthesis:
-    """The crank-rockers of a swing angle (rad), quick-return ratio K and frame length (m).
+    """The crank-rockers of a swing angle (rad), quick-return ratio K and length of the frame or the rocker (m).
 
     The first has the best smallest transmission angle of those whose longest link is at most ``link_ratio`` times the
-    shortest (without that limit the best may lie at infinity); the others stand evenly over the family.
+    shortest (without that limit the best may lie at infinity); the others stand evenly over the family. With both
+    lengths they are the few of the family that have them, whatever their ``link_ratio``.
 
     Raises:
         SynthesisError: no crank-rocker has this swing and K (0 < ψ < π, K ≥ 1); ``nearest``: those of the largest
-            K that the swing allows.
+            K that the swing allows; or none has both lengths; ``nearest``: those of the frame alone.
     """
     whole(count=count)
-    positive(swing_angle=swing_angle, frame=frame)
+    positive(swing_angle=swing_angle)
+    not_negative(frame=frame, rocker=rocker)
+    if not frame and not rocker:
+        raise refuse("crank_rocker.length")
     theta = angle_between_limits(quick_return_ratio)
     pivots, limits = _family(swing_angle, theta)
+    if frame and rocker and swing_angle < LARGEST_SWING and _good(swing_angle, theta).any():
+        chosen = _at_distance(swing_angle, theta, frame / rocker)
+        if not len(chosen) or not _right(chosen, limits, swing_angle, theta).any():
+            raise _not_both(swing_angle, quick_return_ratio, frame, rocker)
+        pivots, link_ratio = chosen, math.inf
     facts, pins = _assess(pivots, limits)
     lengths = np.abs(pivots)
     good = (facts.kind == 0) & _limit_positions_right(pivots, pins, swing_angle, theta)
     if swing_angle >= LARGEST_SWING or not good.any():
-        raise _none(swing_angle, quick_return_ratio, frame, link_ratio, count)
+        raise _none(swing_angle, quick_return_ratio, frame or rocker, link_ratio, count)
     within = good & (facts.ratio <= link_ratio)
     notes = () if within.any() else (note("link_ratio", least=f"{facts.ratio[good].min():.4g}"),)
     if not within.any():
@@ -56,10 +71,11 @@ def crank_rocker(
     score = np.where(within, facts.transmission, -1.0)
     best = int(score.argmax())
     usable = np.flatnonzero(within & (score > 0.5 * score[best]))
-    others = usable[np.linspace(0, len(usable) - 1, count + 1).astype(int)[1:-1]] if count > 1 else []
+    evenly = np.linspace(0, len(usable) - 1, count + 1).astype(int)[1:-1]
+    others = np.flatnonzero(good) if len(good) < SAMPLES - 1 else usable[evenly]
     found = []
-    for i in [best, *(int(each) for each in others if each != best)]:
-        scale = frame / lengths[i]
+    for i in [best, *(int(each) for each in others if each != best)][:count]:
+        scale = rocker or frame / lengths[i]
         turn = scale * np.exp(-1j * np.angle(-pivots[i]))
         o1, o2 = 0j, -pivots[i] * turn
         a, b = (pins[0][i] - pivots[i]) * turn, (pins[1][i] - pivots[i]) * turn
@@ -89,9 +105,22 @@ def _ratio(theta: float) -> float:
     return (math.pi + theta) / (math.pi - theta)
 
 
+def _not_both(swing: float, k: float, frame: float, rocker: float) -> SynthesisError:
+    """The refusal of a frame and a rocker, with the nearest rocker that the frame may have."""
+    theta = angle_between_limits(k)
+    rockers = frame / np.abs(_family(swing, theta)[0][_good(swing, theta)])
+    near = float(rockers[np.abs(rockers - rocker).argmin()])
+    told = {"frame": f"{1e3 * frame:.6g}", "rocker": f"{1e3 * rocker:.6g}", "near": f"{1e3 * near:.6g}"}
+    return refuse("crank_rocker.both", crank_rocker(swing, k, frame, rocker=near), **told)
+
+
 def _good(swing: float, theta: float) -> Flags:
     """Which of the family are crank-rockers of one circuit with the swing and θ."""
-    pivots, limits = _family(swing, theta)
+    return _right(*_family(swing, theta), swing, theta)
+
+
+def _right(pivots: Complexes, limits: Complexes, swing: float, theta: float) -> Flags:
+    """Which crank pivots give crank-rockers of one circuit with the swing and θ."""
     facts, pins = _assess(pivots, limits)
     return np.asarray((facts.kind == 0) & _limit_positions_right(pivots, pins, swing, theta))
 
@@ -110,6 +139,24 @@ def _family(swing: float, theta: float) -> tuple[Complexes, Complexes]:
         both = [middle + s * 1j * radius * math.cos(theta) + radius * np.exp(1j * around) for s in (1, -1)]
         pivots = np.concatenate(both)
     return np.asarray(pivots), limits
+
+
+def _at_distance(swing: float, theta: float, distance: float) -> Complexes:
+    """The crank pivots of the family at a distance from the rocker's pivot, where two circles meet; not their mirror
+    images."""
+    height, half = math.cos(swing / 2), math.sin(swing / 2)
+    if theta == 0:
+        return np.array(
+            [1j * height + math.sqrt(distance**2 - height**2)] if distance > height else [], complex
+        )
+    found = []
+    for sign in (1, -1):
+        centre, radius = height + sign * half / math.tan(theta), half / math.sin(theta)
+        up = (distance**2 + centre**2 - radius**2) / (2 * centre) if centre else math.inf
+        if abs(up) < distance:
+            aside = math.sqrt(distance**2 - up**2)
+            found.append(aside + 1j * up)
+    return np.array(found, complex)
 
 
 def _assess(pivots: Complexes, limits: Complexes) -> tuple[Assessment, tuple[Complexes, Complexes]]:

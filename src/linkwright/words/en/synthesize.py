@@ -87,6 +87,10 @@ section "synthesis" of a file, or on the command line as KEY=VALUE.""",
     "quick_return_ratio and offset; transmission_angle (and offset); given: {given}",
     "crank_rocker.range": "no crank-rocker has the swing angle {swing} deg with K = {k}; the swing must be "
     "below 180 deg (the nearest solution swings {near_swing} deg with K = {near})",
+    "crank_rocker.length": "a crank-rocker needs the length of its frame or of its rocker; give frame: 300 mm or "
+    "rocker: 200 mm",
+    "crank_rocker.both": "with this swing angle and K a frame of {frame} mm has no rocker of {rocker} mm; the "
+    "nearest solution has one of {near} mm",
     "crank_rocker.none": "no crank-rocker has the swing angle {swing} deg and K = {k} on one circuit; with "
     "this swing K stays below {most} (the nearest solution has K = {near})",
     "quick_return.one": "a crank with a slotted lever has K > 1; ask for a larger quick-return ratio "

@@ -81,6 +81,8 @@ Grashof 类型、整个范围内的缺陷、最小传动角、最长与最短杆
     "quick_return_ratio 与 offset；transmission_angle（与 offset）；所给：{given}",
     "crank_rocker.range": "没有摆角 {swing} deg、K = {k} 的曲柄摇杆；摆角应小于 180 deg（最近的解摆角 "
     "{near_swing} deg，K = {near}）",
+    "crank_rocker.length": "曲柄摇杆机构需要机架长或摇杆长；请给 frame: 300 mm 或 rocker: 200 mm",
+    "crank_rocker.both": "此摆角与 K 下，机架长 {frame} mm 时摇杆长不能是 {rocker} mm；最近的方案摇杆长 {near} mm",
     "crank_rocker.none": "没有在同一回路上具有摆角 {swing} deg 与 K = {k} 的曲柄摇杆；该摆角下 K 小于 {most}"
     "（最近的解 K = {near}）",
     "quick_return.one": "摆动导杆机构 K > 1；请给更大的行程速比系数（最近的解取 {near}）",
