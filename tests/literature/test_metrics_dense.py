@@ -213,6 +213,22 @@ def test_a_crank_whose_way_ends_where_coupler_and_rocker_are_stretched(speed: fl
     assert table.value("swing_angle") == pytest.approx(stretched + turned_back, rel=1e-7)
 
 
+@pytest.mark.parametrize("steps", [2, 3, 24])
+def test_the_swing_of_a_way_of_which_one_position_is_solved(steps: int) -> None:
+    """The rocker turns back, then stretches with the coupler, between the first position and the second."""
+    frame, towards = complex(4.0, 0.5), np.arctan2(0.5, 4.0)
+    end = np.arccos((abs(frame) ** 2 + 2.2**2 - 6.0**2) / (2 * abs(frame) * 2.2))
+    crank = np.linspace(towards - np.radians(10.0), towards + end, 200001)
+    gap = 2.2 * np.exp(1j * crank) - frame  # from the rocker's pivot to the crank's pin
+    share = np.clip((abs(gap) ** 2 + 2.5**2 - 3.5**2) / (2 * abs(gap) * 2.5), -1.0, 1.0)
+    rocker = np.unwrap(np.angle(gap) - np.arccos(share))
+    text = OUT_OF_REACH.replace("SPEED, start: 50 deg", "1 rad/s")
+    text += f"cycle: {{from: {crank[0]:.17g} rad, to: {crank[0] + np.radians(320.0):.17g} rad}}\n"
+    motion = lw.solve_motion(lw.loads(text), steps=steps, failures="mark")
+    (swing,) = metrics(motion)["swing_angle"]
+    assert swing.exact and swing.value == pytest.approx(np.ptp(rocker), rel=1e-6)
+
+
 @pytest.mark.parametrize("steps", [24, 96, 961])
 def test_a_wheel_swings_as_far_as_the_crank_that_is_reached_through_the_end_of_the_cycle(steps: int) -> None:
     """The crank's way contains the position in which the cycle begins; a wheel at 3:2 goes on beyond it."""

@@ -31,6 +31,7 @@ from linkwright.metrics.outputs import mechanism_outputs
 from linkwright.metrics.range_ends import RangeEnds
 from linkwright.metrics.resolve import Resolver
 from linkwright.metrics.summary import Summary, one
+from linkwright.metrics.ways import Ways
 
 Result: TypeAlias = "Motion | Forces | Analysis"
 Kind = Literal["max", "min"]
@@ -339,37 +340,25 @@ class Analysis:
     def _of_limits(self, output: Output, kind: str) -> Extreme:
         """Place of an output's outermost limit position, or the way between them."""
         if kind == "range":
-            values = self._on_way(output)
-            limits = [[limit.time, limit.value] for limit in self.limits(output)]
-            ends = zip(
-                self.ends.times, self.ends.limits(lambda solved: solved.read(output), "motion"), strict=True
-            )
-            known = np.append(values, self._beside(output, values, np.array([*limits, *ends]).reshape(-1, 2)))
-            way = np.inf if np.isinf(known).any() else np.ptp(known[np.isfinite(known)])
-            return Extreme(float(way), float("nan"), float("nan"), self.resolver.possible)
+            return self._range(output)
         end = next(each for each in self.outermost(output) if each.kind == kind.removeprefix("arg"))
         return Extreme(end.input, end.time, end.input, True)
 
-    def _on_way(self, output: Output) -> Floats:
-        """An output (n,) of the positions; an angle goes on through the end of a closed cycle that is partly reached,
-        so that the way behind its gap is one with that before it."""
-        values, ok = self.motion.read(output), self.motion.ok
-        if output.kind != "angle" or not self.closed or ok.all() or not ok[0] or not ok[-1]:
-            return values
-        rates, last = self.motion.read(output.course[1])[[0, -1]], self.motion.time[-1]
-        step = self.motion.time[0] + (self.motion.positions.period or 0.0) - last
-        turns = np.round((values[-1] + rates.mean() * step - values[0]) / (2 * np.pi))
-        behind = np.arange(len(values)) > np.flatnonzero(~ok)[-1]
-        return np.asarray(np.where(behind, values - 2 * np.pi * turns, values))
+    def _range(self, output: Output) -> Extreme:
+        """The way of an output between its outermost places."""
+        nowhere = Extreme(float("nan"), float("nan"), float("nan"), self.resolver.possible)
+        if self.partial and self.ways.known:
+            limits = self.ends.limits(lambda solved: solved.read(output), "motion")
+            way, exact = self.ways.range(output, zip(self.ends.times, limits, strict=True))
+            return replace(nowhere, value=way, exact=exact)
+        known = np.append(self.motion.read(output), [limit.value for limit in self.limits(output)])
+        exact = self.resolver.possible and not self.partial
+        return replace(nowhere, value=float(np.ptp(known[np.isfinite(known)])), exact=exact)
 
-    def _beside(self, output: Output, values: Floats, places: Floats) -> Floats:
-        """Values at some times, (k, 2), an angle's in the turn of the position beside each."""
-        times, found = places[:, 0], places[:, 1]
-        if output.kind != "angle" or not len(found):
-            return found
-        ok = self.motion.ok
-        beside = values[ok][np.abs(self.motion.time[ok] - times[:, None]).argmin(axis=1)]
-        return np.asarray(found + 2 * np.pi * np.round((beside - found) / (2 * np.pi)))
+    @cached_property
+    def ways(self) -> Ways:
+        """The motion on all stretches that are reached."""
+        return Ways(self.motion, self.resolver)
 
     @cached_property
     def ends(self) -> RangeEnds:

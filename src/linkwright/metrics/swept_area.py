@@ -13,7 +13,6 @@ from linkwright.core.outputs import row_names
 from linkwright.core.piecewise import POINTS, nodes
 from linkwright.core.plane import area, convex_hull
 from linkwright.engine.recent import Recent
-from linkwright.errors import LinkwrightError
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import canonical
 from linkwright.mechanism.mechanism import Mechanism
@@ -105,21 +104,13 @@ def _curves(analysis: Analysis) -> Curves | None:
         values = _places(grid.motion, keys)
         spans = _spans(analysis, grid, values)
         return Curves(values, *turned(analysis.motion.mechanism, grid.edges, analysis.closed), spans)
-    if not analysis.resolver.possible or analysis.motion.steps < 2:
+    if not analysis.ways.whole:
         return None
-    stretches = analysis.resolver.stretches
-    # by the cosine of a place, since points come to the ends of their range with infinite rates
-    turn = np.cos(nodes(np.linspace(np.pi, 2.0 * np.pi, PIECES + 1)).ravel())
-    times = [0.5 * (start + end) + 0.5 * (end - start) * turn for start, end in stretches]
-    try:
-        motion = analysis.resolver.motion(np.concatenate(times)) if times else analysis.motion
-    except LinkwrightError:
-        return None
-    if not times or not motion.ok.all():
-        return None
-    piece = np.arange(PIECES * len(times)) % PIECES
+    ways = analysis.ways.motions
+    piece = np.arange(PIECES * len(ways)) % PIECES
     whole = np.tile([0, len(piece) * POINTS], (len(keys), 1))
-    return Curves(_places(motion, keys), piece == 0, piece == PIECES - 1, whole)
+    values = np.concatenate([_places(way, keys) for way in ways], axis=2)
+    return Curves(values, piece == 0, piece == PIECES - 1, whole)
 
 
 def turned(mechanism: Mechanism, edges: Floats, closed: bool) -> tuple[Flags, Flags]:
