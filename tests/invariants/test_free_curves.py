@@ -12,6 +12,7 @@ from linkwright.engine import machine_code
 from linkwright.synthesis.free_curve.atlas import STEP, Atlas, M, Matches, _draws, parts, places
 from linkwright.synthesis.free_curve.curve_file import path_points, read_curve
 from linkwright.synthesis.free_curve.descent import DAMPING
+from linkwright.synthesis.free_curve.drawn import drawing
 from linkwright.synthesis.free_curve.kernels import BLOCK, GUIDE, PIVOT, POINT, SLIDER, kernels
 from linkwright.synthesis.free_curve.likeness import TURNS
 from linkwright.synthesis.free_curve.linkages import Placed, linkage_of
@@ -360,6 +361,27 @@ def test_a_curve_that_is_drawn_exactly_has_no_error_wherever_its_points_lie(
     assert mean < most < 1e-6
     bent = Target(drawn + 0.01 * np.abs(drawn) ** 2, closed, math.radians(5), 20.0)
     assert bent.deviation(design)[0] > 0.003
+
+
+def test_strokes_that_go_both_ways_tell_nothing_about_the_order_of_drawing() -> None:
+    numbers, crank = [2.1, 0.3, 0.9, 0.8], np.linspace(0, 2 * np.pi, 401)[:-1]
+    for nodes, tail in (
+        (flat([*FOUR_BAR]), []),
+        (flat([*ONE_DYAD[0]]), [0.6, 0.9]),
+    ):  # a rocker's arc, a loop
+        design = Design(nodes, np.array([*numbers, *tail, 0.0, 0.0, 0.0]), False, 0.0)
+        drawn = node_paths(nodes, design.x, crank)[0][-1]
+        found = [
+            drawing(Placed(design, Target(each, True, 0.1, 20.0))).along for each in (drawn, drawn[::-1])
+        ]
+        assert found == ([1.0, 0.0] if tail else [1.0, 1.0])
+    open_one = Design(nodes, np.array([*numbers, *tail, 0.0, 0.4, 4.0]), False, 0.0)
+    part = node_paths(nodes, open_one.x, np.linspace(0.4, 4.4, 301))[0][-1]
+    retraced = np.concatenate([part, part[-2:200:-1], part[201:]])
+    for given, along in ((retraced, 1.0), (retraced[::-1], 0.0)):
+        assert drawing(Placed(open_one, Target(given, False, 0.1, 20.0))).along == pytest.approx(
+            along, abs=0.02
+        )
 
 
 def test_the_solver_draws_the_same_curve_within_the_demands() -> None:

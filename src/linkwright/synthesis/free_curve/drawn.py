@@ -4,11 +4,18 @@ from __future__ import annotations
 
 import numpy as np
 
+from linkwright.core.arrays import Complexes, Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.synthesis.free_curve.linkages import Placed
+from linkwright.synthesis.free_curve.target import columns
 
 #: Positions of the drawn part at which order and speed are taken.
 POSITIONS = 1440
+#: As far as so many rms radii away a stroke counts that another direction would make unlike.
+WAY = 0.2
+#: Strokes both ways are one where these distances differ less: it tells nothing. Where all but this share of a curve
+#: goes both ways, it is drawn as given.
+UNLIKE, BOTH = 0.02, 0.02
 
 
 @dataclass(frozen=True)
@@ -16,8 +23,8 @@ class Drawing:
     """How a curve is drawn.
 
     Args:
-        along: share of the curve's length that is drawn in the direction of the given points; 1: as given, 0: all
-            backwards, between: strokes of the curve are drawn in another order or direction.
+        along: share of the curve's length that is drawn in the direction of the given points, without strokes that
+            these go both ways; 1: as given, 0: all backwards, between: strokes are drawn in another direction.
         fastest: greatest speed of the drawing point at one turn of the crank per second, m/s.
         unevenness: greatest over mean speed on the drawn part.
     """
@@ -29,24 +36,32 @@ class Drawing:
 
 def drawing(placed: Placed) -> Drawing:
     """Order and speed, from positions at even crank angles."""
+    target, closed = placed.target, placed.target.closed
+    curve, given = placed.curve(POSITIONS) - target.centre, target.radius * target.points
+    if closed:
+        curve, given = np.append(curve, curve[0]), np.append(given, given[0])
+    steps = np.abs(np.diff(curve))
+    span = 2 * np.pi if closed else float(placed.design.x[-1])
+    speed = steps / (span / len(steps)) * 2 * np.pi
+    with_it, against = _either_way(curve, given, target.radius)
+    forward = steps[with_it < against - UNLIKE].sum()
+    backward = steps[against < with_it - UNLIKE].sum()
+    along = float(forward / (forward + backward)) if forward + backward > BOTH * steps.sum() else 1.0
+    return Drawing(along, float(speed.max()), float(speed.max() / speed.mean()))
+
+
+def _either_way(curve: Complexes, given: Complexes, radius: float) -> tuple[Floats, Floats]:
+    """How far each step of the curve is from the nearest stroke that goes its way, and from one that goes against."""
     from scipy.spatial import cKDTree
 
-    target, closed = placed.target, placed.target.closed
-    given = target.centre + target.radius * target.points
-    curve = placed.curve(POSITIONS)
-    near = cKDTree(np.column_stack([given.real, given.imag])).query(
-        np.column_stack([curve.real, curve.imag])
-    )[1]
-    if closed:
-        curve, near = np.append(curve, curve[0]), np.append(near, near[0])
-    steps, moves = np.diff(curve), np.diff(near).astype(float)
-    if closed:
-        moves = np.mod(moves + len(given) / 2, len(given)) - len(given) / 2
-    even = 2 * np.abs(steps).sum() / len(given)
-    local = np.abs(moves) * even < 4 * np.abs(steps) + 3 * even  # else the nearest stroke has changed
-    forward = np.abs(steps)[local & (moves > 0)].sum()
-    backward = np.abs(steps)[local & (moves < 0)].sum()
-    span = 2 * np.pi if closed else float(placed.design.x[-1])
-    speed = np.abs(steps) / (span / len(steps)) * 2 * np.pi
-    along = float(forward / max(forward + backward, 1e-300))
-    return Drawing(along, float(speed.max()), float(speed.max() / speed.mean()))
+    places, ways = _pieces(curve, radius)
+    tree = cKDTree(np.hstack(_pieces(given, radius)))
+    with_it, against = (tree.query(np.hstack([places, sign * ways]))[0] for sign in (1, -1))
+    return with_it, against
+
+
+def _pieces(line: Complexes, radius: float) -> tuple[Floats, Floats]:
+    """Middles of a line's pieces in radii, and their directions, which weigh ``WAY`` radii."""
+    steps = np.diff(line)
+    unit = WAY * steps / np.maximum(np.abs(steps), 1e-300)
+    return columns((line[1:] + line[:-1]) / (2 * radius)), columns(unit)

@@ -204,7 +204,7 @@ def _to_line(points: Complexes, line: Complexes, closed: bool) -> Floats:
     from scipy.spatial import cKDTree
 
     some = points[::EVERY]
-    nearest = cKDTree(_columns(line)).query(_columns(some))[1]
+    nearest = cKDTree(columns(line)).query(columns(some))[1]
     found = np.full(len(some), np.inf)
     for side in (-1, 1):
         other = np.mod(nearest + side, len(line)) if closed else np.clip(nearest + side, 0, len(line) - 1)
@@ -218,7 +218,7 @@ def symmetric_distance(a: Complexes, b: Complexes) -> float:
     """Mean nearest distance from points of a to points of b plus that from b to a."""
     from scipy.spatial import cKDTree
 
-    there, back = (cKDTree(_columns(to)).query(_columns(of))[0].mean() for of, to in ((a, b), (b, a)))
+    there, back = (cKDTree(columns(to)).query(columns(of))[0].mean() for of, to in ((a, b), (b, a)))
     return float(there + back)
 
 
@@ -248,5 +248,6 @@ def curve_distance(a: Complexes, b: Complexes, closed: bool) -> float:
     return min(found)
 
 
-def _columns(points: Complexes) -> Floats:
+def columns(points: Complexes) -> Floats:
+    """Coordinates, (n, 2)."""
     return np.column_stack([points.real, points.imag])
