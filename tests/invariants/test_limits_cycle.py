@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
+from tests.reference.general_case import general_case
 
 import linkwright as lw
 from linkwright.drivers.constant_speed import ConstantSpeed
@@ -376,3 +377,13 @@ driver: {{turn: crank, about: O, table: {{time: [{", ".join(f"{t} s" for t in ti
     found = limit_positions(lw.solve_motion(model, steps=steps), "rocker")
     inner = [each for each in found if 1e-9 < each.time < 1.0 - 1e-9]
     assert [each.time for each in inner] == pytest.approx(t[turned].tolist(), abs=2.0 * t[1])
+
+
+@pytest.mark.parametrize("seed", [3, 8, 16, 20])
+def test_limits_lie_in_what_is_reached(seed: int) -> None:
+    """Machines with tables as laws that reach a part of their cycle: nothing beyond its ends is a limit."""
+    motion = lw.solve_motion(lw.loads(general_case(seed).text), steps=60, failures="mark")
+    assert motion.ok.any() and not motion.ok.all()
+    for output in outputs(motion.mechanism):
+        for each in limit_positions(motion, output):
+            assert np.isfinite(each.value) and motion.ok[each.index]

@@ -217,7 +217,7 @@ class _Search:
         if parts is None:
             return rate, second, np.flatnonzero(np.abs(rate) > still)
         there = self.between.evaluate(self.rate_names, parts.before, parts.places)
-        good = np.isfinite(there).all(axis=0)
+        good = np.isfinite(there).all(axis=0) & self.motion.ok[parts.before]
         times = np.append(self.times, parts.places[good])
         order = np.argsort(times if times[0] <= self.times[-1] else -times, kind="stable")
         self.times, self.before = times[order], np.append(self.before, parts.before[good])[order]
