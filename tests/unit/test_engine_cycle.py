@@ -17,7 +17,7 @@ from linkwright.engine.llvm_backend import available
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import Reduction
 from linkwright.engine.replay import inlined
-from linkwright.engine.stage import Backend, Stage
+from linkwright.engine.stage import Backend, Run, Stage, code_for
 from linkwright.engine.trace import Scalar, Trace, Value, cos, select, sin, slope, sqrt
 
 Floats = NDArray[np.float64]
@@ -350,3 +350,14 @@ def test_blocks_of_designs_come_back_as_one_table(blocks: int, monkeypatch: pyte
     found = CycleProgram((sums,)).evaluate(table, INPUT, progress=lambda done, _: said.append(done))
     assert said == [10 * k for k in range(1, blocks + 1)]
     np.testing.assert_allclose(found["y.mean"], table[:, 0] * math.pi * (COUNT - 1) / COUNT, rtol=1e-13)
+
+
+@pytest.mark.skipif(not available(), reason="no llvmlite")
+def test_what_goes_on_from_position_to_position_is_compiled_for_one_design_too() -> None:
+    """NumPy takes its positions one by one: some hundred of them last longer than compiling."""
+    t = Trace()
+    q, last = t.position("q"), t.state("last")
+    going_on, plain = Program.of(t, {"turned": q * last}, {"last": q}), Program.of(t, {"square": q * q})
+    run = Run({"q": np.arange(2000.0)}, 2000, None, 1, "auto")
+    assert code_for(plain, None, run, 1) is None
+    assert code_for(going_on, None, run, 1) is not None

@@ -21,7 +21,7 @@ from linkwright.core.inputs import turned
 from linkwright.core.outputs import Output, owners_of
 from linkwright.core.piecewise import NODES, POINTS, WEIGHTS
 from linkwright.cycle_programs.corners import Corner, Signed, corner_stages, corners_of, signed_values
-from linkwright.cycle_programs.joint_bends import FIRST, bend_names, bend_stage
+from linkwright.cycle_programs.joint_bends import FIRST, bend_names, bend_stage, turning
 from linkwright.cycle_programs.limit_stages import (
     constants,
     edge_name,
@@ -147,8 +147,15 @@ class GaussCycle:
 
     @property
     def _each(self) -> int:
-        longest = max(LEAST, 1.0 / self.stretches) if self.bends is None else self.bends.longest
+        longest = (
+            max(min(LEAST, self._apart), 1.0 / self.stretches) if self.bends is None else self.bends.longest
+        )
         return math.ceil(self.wanted * self.turns * longest)
+
+    @cached_property
+    def _apart(self) -> float:
+        """The longest stretch between bends of a joint that turns steadily, as share of the cycle; 1 without one."""
+        return min((each.longest for each in turning(self.traced, steady=True)), default=1.0)
 
     @cached_property
     def turns(self) -> int:

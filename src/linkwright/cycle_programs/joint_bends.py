@@ -42,6 +42,12 @@ class Turning:
             for lap in range(self.turns):
                 yield f"bend:{self.joint}:{k}:{lap}", angle + TURN * lap
 
+    @property
+    def longest(self) -> float:
+        """The longest stretch between two bends, as share of the cycle."""
+        angles = np.sort(np.mod(self.bends.angles, TURN))
+        return float(np.diff(angles, append=angles[0] + TURN).max()) / (TURN * self.turns)
+
 
 def turning(traced: Traced, *, steady: bool) -> list[Turning]:
     """The joints with bends whose links turn through, in fixed ratios to the driver or in none."""

@@ -21,9 +21,10 @@ if TYPE_CHECKING:
     from linkwright.engine.trace import Scalar
 
 #: Order of the polynomials; how near they come to lift and acceleration, as shares of the largest.
-_ORDER, _FINE, _BENT = 9, 1e-13, 1e-9
+_ORDER, _FINE, _BENT = 15, 1e-13, 1e-9
 #: Where polynomials meet the lift of a piece; at its ends they meet its rate as well.
-_PLACES = np.array([-1.0, -0.7968, -0.5196, -0.1804, 0.1804, 0.5196, 0.7968, 1.0])
+_PLACES = np.array([0.1059, 0.3132, 0.5068, 0.6783, 0.8201, 0.9264, 1.0])
+_PLACES = np.append(-_PLACES[::-1], _PLACES)
 _MOST = 240
 #: Equal lifts in a row that make a rest of a table.
 RESTING = 4
