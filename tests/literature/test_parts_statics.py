@@ -88,3 +88,73 @@ def test_wedge_locks_where_the_angle_is_below_both_friction_angles() -> None:
     limit = 2 * math.atan(0.15)
     assert parts.Wedge(1.0, 0.99 * limit, 0.15).solve().locks
     assert not parts.Wedge(1.0, 1.01 * limit, 0.15).solve().locks
+
+
+def test_a_rotor_balanced_in_two_planes_puts_neither_force_nor_couple_on_its_bearings() -> None:
+    """By sums of m r and m r z over all masses and counterweights, for random rotors."""
+    rng = np.random.default_rng(5)
+    for _ in range(20):
+        heavy = rng.uniform([0.1, 0.01, 0, -1], [20, 0.5, 2 * math.pi, 2], (rng.integers(1, 7), 4))
+        places, radii = rng.permutation([-0.3, 0.2, 1.1])[:2], rng.uniform(0.05, 0.4, 2)
+        rotor = parts.Rotor(
+            masses={f"m{k}": parts.HeavyPoint(*row.tolist()) for k, row in enumerate(heavy)},
+            planes={n: parts.BalancingPlane(r, z) for n, r, z in zip("ab", radii, places, strict=True)},
+        )
+        weights = rotor.solve().counterweights
+        m, r, angle, z = heavy.T
+        products = np.append(m * r * np.exp(1j * angle), radii * np.array([weights["a"], weights["b"]]))
+        assert abs(products.sum()) < 1e-12 * np.abs(products).sum()
+        assert abs((products * np.append(z, places)).sum()) < 1e-12 * np.abs(products).sum()
+
+
+def test_four_masses_of_a_rotor_by_hand() -> None:
+    """Shares of plane I 1, 2/3, 1/3, 0, of plane II 0, 1/3, 2/3, 1; cos 30° = √3/2."""
+    h = math.sqrt(3) / 2
+    first = complex(-2 - 1.5 + 2 / 3, 4 * h - 3 * h - 4 / 3 * h)
+    second = complex(-0.75 + 4 / 3 + 3 * h, -1.5 * h - 8 / 3 * h + 1.5)
+    found = parts.load("gallery:rotor_four_masses").solve().data()
+    for name, sum_ in (("I", first), ("II", second)):
+        assert found[name]["counterweight"]["value"] == pytest.approx(abs(sum_) / 0.5, rel=1e-12)
+        seat = math.atan2(-sum_.imag, -sum_.real) % (2 * math.pi)
+        assert found[name]["seat"]["value"] == pytest.approx(seat, rel=1e-12)
+
+
+ROTOR = """format: 1
+kind: rotor
+name: disc pair
+masses:
+  a: {mass: 2 kg, radius: 100 mm, angle: 0 deg, at: 0 mm}
+  b: {mass: 2 kg, radius: 100 mm, angle: 180 deg, at: 250 mm}
+planes: {P: {radius: 80 mm, at: 0 mm}}
+speed: 100 rad/s
+"""
+
+
+def test_one_plane_balances_forces_and_says_the_couple_that_stays() -> None:
+    """Two equal masses opposite each other: 0.2 kg·m and 0.25 m apart, so ω² · 0.05 kg·m² is left."""
+    result = parts.loads(ROTOR).solve()
+    data = result.data()
+    assert data["P"]["counterweight"]["value"] == data["P"]["rotating_force"]["value"] == 0.0
+    assert data["left"]["rotating_couple"]["value"] == pytest.approx(500.0, rel=1e-12)
+    assert "two planes take the couple too" in result.text() and "动平衡" in result.text("zh")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "key", "said"),
+    [
+        ("planes: {P: {radius: 80 mm, at: 0 mm}}", "planes: {}", "planes", "0 planes"),
+        ("{P: {", "{Q: {radius: 1 m, at: 0 mm}, P: {", "planes.P.at", "same place"),
+        ("{P: {", "{Q: {radius: 1 m}, R: {radius: 1 m, at: 1 m}, P: {", "planes", "3 planes"),
+        (
+            "mass: 2 kg, radius: 100 mm, angle: 0 deg",
+            "mass: 0 kg, radius: 100 mm, angle: 0 deg",
+            "masses.a.mass",
+            "zero",
+        ),
+    ],
+)
+def test_a_rotor_that_cannot_be_balanced_so_is_refused(old: str, new: str, key: str, said: str) -> None:
+    with pytest.raises(lw.ModelError) as caught:
+        parts.loads(ROTOR.replace(old, new)).solve()
+    (finding,) = caught.value.findings
+    assert finding.key == key and said in str(finding) and finding.remedy

@@ -18,7 +18,7 @@ ENDINGS = (".csv", ".json")
 #: The kinds of files that each command takes, and the command of each kind.
 TAKES = {
     "beam": ("beam", "link_bending"),
-    "statics": ("forces", "rigid_body", "belt", "wedge"),
+    "statics": ("forces", "rigid_body", "belt", "wedge", "rotor"),
     "cam": ("cam",),
     "vibration": ("vibration", "follower", "mounts"),
     "statistics": ("statistics",),

@@ -30,6 +30,9 @@ if TYPE_CHECKING:
     from linkwright.parts.statics.body import Support as Support
     from linkwright.parts.statics.forces import Force as Force
     from linkwright.parts.statics.forces import ForceSystem as ForceSystem
+    from linkwright.parts.statics.rotor import BalancingPlane as BalancingPlane
+    from linkwright.parts.statics.rotor import HeavyPoint as HeavyPoint
+    from linkwright.parts.statics.rotor import Rotor as Rotor
     from linkwright.parts.statics.structure import equilibrium as equilibrium
     from linkwright.parts.statics.wedge import Wedge as Wedge
     from linkwright.parts.statistics.samples import Asked as Asked

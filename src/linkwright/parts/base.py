@@ -32,6 +32,7 @@ if TYPE_CHECKING:
 OWN: Mapping[str, str] = {
     "slope": "rad",
     "flexural_rigidity": "N·m²",
+    "mass_radius": "kg·m",
     "section_modulus": "m³",
     "power_of_drag": "kg/m",
     "length_per_angle_cubed": "m/rad³",

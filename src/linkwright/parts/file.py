@@ -33,6 +33,7 @@ KINDS: Mapping[str, str] = {
     "rigid_body": "linkwright.parts.statics.body.RigidBody",
     "belt": "linkwright.parts.statics.belt.Belt",
     "wedge": "linkwright.parts.statics.wedge.Wedge",
+    "rotor": "linkwright.parts.statics.rotor.Rotor",
     "cam": "linkwright.cams.cam.Cam",
     "vibration": "linkwright.parts.vibration.system.VibratingSystem",
     "follower": "linkwright.parts.vibration.follower.FollowerSpring",

@@ -53,6 +53,7 @@ CHINESE = {
     "Jaw of a crusher with worn pins": "销轴磨损的破碎机动颚",
     "Kite linkage": "筝形机构",
     "Levelling wedge of a machine bed": "机床的调整楔铁",
+    "Rotor with four masses in four planes": "四个偏心质量的转子",
     "Lightest rectangular beam section": "最轻的矩形梁截面",
     "Load on the swinging conveyor": "摆动输送机上的物料",
     "Machine with unbalance and the best damped absorber": "有不平衡的机器与最佳动力吸振器",

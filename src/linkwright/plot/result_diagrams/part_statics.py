@@ -11,11 +11,13 @@ from linkwright.parts.base import shown
 from linkwright.parts.statics.belt import BeltTensions
 from linkwright.parts.statics.body import HELD, Reactions
 from linkwright.parts.statics.forces import Resultant, spatial
+from linkwright.parts.statics.rotor import RotorBalance
 from linkwright.parts.statics.structure import StructureForces
 from linkwright.parts.statics.wedge import WedgeForces
 from linkwright.plot.diagrams.base import Request, result_diagram
 from linkwright.plot.diagrams.picture import COLOURS, INK, Axes, Figure
 from linkwright.plot.result_diagrams.part_axes import Line, Pane, arrow, line_of, panes, plane, point
+from linkwright.words import say
 
 #: Longest arrow as a share of the picture's size.
 LONGEST = 0.4
@@ -93,6 +95,29 @@ def draw_wedge_push(result: WedgeForces, request: Request) -> Figure:
     angle, up, down = result.columns().values()
     lines = (Line(angle, up, request.say("raising")), Line(angle, down, request.say("lowering")))
     return panes(result.title, (request.say("wedge_angle"), "angle"), [Pane("P", "force", lines)], request)
+
+
+@result_diagram("rotor_balance", RotorBalance)
+def draw_rotor_balance(result: RotorBalance, request: Request) -> Figure:
+    """Mass times radius of all masses as each plane carries them, head to tail, closed by the counterweight."""
+    figure, axes = plane(result.title, request, len(result.unbalances))
+    for one, (name, unbalance) in zip(axes, result.unbalances.items(), strict=True):
+        masses = result.rotor.masses.items()
+        sides = [(mass, each.product * result.share(name, each.at), COLOURS[0]) for mass, each in masses]
+        sides.append(("m_b·r_b", -unbalance, COLOURS[1]))
+        corners = np.cumsum([0j, *(side for _, side, _ in sides)])
+        for start, (label, side, colour) in zip(corners, sides, strict=False):
+            away = start + 0.5 * side - corners[:-1].mean()
+            outside = 1.0 if (side.conjugate() * away).imag >= 0 else -1.0
+            arrow(one, _xy(start), _xy(side), colour, label, middle=outside)
+        one.set_title(say("statics.balancing_plane", request.language, name=name))
+        one.set_xlabel("m·r·cos θ (kg·m)")
+        one.set_ylabel("m·r·sin θ (kg·m)")
+    return figure
+
+
+def _xy(value: complex) -> Floats:
+    return np.array([value.real, value.imag])
 
 
 def _outside(place: Floats, vector: Floats, whole: Floats) -> float:

@@ -1,11 +1,12 @@
 """The command ``statics``: forces, rigid bodies, structures, belts, wedges."""
 
 WORDS = {
-    "summary": "resultants, reactions of bodies and structures, belts and wedges",
+    "summary": "resultants, reactions of bodies and structures, belts, wedges, balancing of rotors",
     "description": """\
 Adds up systems of forces (resultant, moment, wrench, equilibrant), finds the
-reactions of rigid bodies and of pinned structures, the tensions of belts and the
-pushes on wedges. A structure is a model file of links and joints without a drive.""",
+reactions of rigid bodies and of pinned structures, the tensions of belts, the
+pushes on wedges and the counterweights of rotors. A structure is a model file
+of links and joints without a drive.""",
     "resultant": "Resultant R",
     "moment": "Moment about the chosen point",
     "wrench": "Wrench: force along an axis with a couple about it",
@@ -71,4 +72,20 @@ pushes on wedges. A structure is a model file of links and joints without a driv
     "wedge_angle_remedy": "give an angle below 90°",
     "wedge_stuck": "no push raises the load: α + ρ + ρw = {sum}° reaches 90°",
     "wedge_stuck_remedy": "take a smaller angle or less friction",
+    "balancing_plane": "Plane {name}",
+    "unbalance": "unbalance U = Σ m·r",
+    "direction": "direction of U",
+    "counterweight": "counterweight m_b",
+    "seat": "angle of the counterweight θ_b",
+    "rotating_force": "rotating force without it ω²·U",
+    "couple_left": "Left: the couple of masses beside the plane",
+    "mass_radius_arm": "Σ m·r·z about the plane",
+    "rotating_couple": "rotating couple ω²·Σ m·r·z",
+    "two_planes": "One plane balances statically; two planes take the couple too.",
+    "rotor_masses": "the rotor has no mass off its axis",
+    "rotor_masses_remedy": "write masses: {{m1: {{mass: 10 kg, radius: 400 mm, angle: 120 deg, at: 0 mm}}}}",
+    "rotor_planes": "{count} planes are given for the counterweights",
+    "rotor_planes_remedy": "give one (static balancing) or two (dynamic balancing)",
+    "rotor_place": "both planes lie at the same place along the shaft",
+    "rotor_place_remedy": "give them different places at:, or one plane alone",
 }

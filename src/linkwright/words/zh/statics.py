@@ -1,10 +1,10 @@
 """命令 ``statics``：力系、刚体、结构、带与楔。"""
 
 WORDS = {
-    "summary": "合力、刚体与结构的约束力、带传动与楔的摩擦",
+    "summary": "合力、刚体与结构的约束力、带传动与楔的摩擦、转子的平衡",
     "description": """\
 力系的合成（合力、力矩、力螺旋、平衡力），刚体与铰接结构的约束力，
-带的张力，楔的推力。结构就是没有驱动的构件与运动副模型文件。""",
+带的张力，楔的推力，转子的静平衡与动平衡。结构就是没有驱动的构件与运动副模型文件。""",
     "resultant": "合力 R",
     "moment": "对所选点的力矩",
     "wrench": "力螺旋：沿轴线的力与绕轴线的力偶",
@@ -70,4 +70,20 @@ WORDS = {
     "wedge_angle_remedy": "请给小于 90° 的角",
     "wedge_stuck": "任何推力都不能举升载荷：α + ρ + ρw = {sum}° 达到 90°",
     "wedge_stuck_remedy": "请减小楔角或摩擦",
+    "balancing_plane": "平衡基面 {name}",
+    "unbalance": "不平衡质径积 U = Σ m·r",
+    "direction": "U 的方向角",
+    "counterweight": "平衡质量 m_b",
+    "seat": "平衡质量的方位角 θ_b",
+    "rotating_force": "未平衡时的离心惯性力 ω²·U",
+    "couple_left": "剩余：不在基面内的质量引起的惯性力偶",
+    "mass_radius_arm": "对基面的 Σ m·r·z",
+    "rotating_couple": "惯性力偶矩 ω²·Σ m·r·z",
+    "two_planes": "一个基面只能静平衡；两个基面才能同时平衡惯性力偶（动平衡）。",
+    "rotor_masses": "转子没有偏心质量",
+    "rotor_masses_remedy": "请写 masses: {{m1: {{mass: 10 kg, radius: 400 mm, angle: 120 deg, at: 0 mm}}}}",
+    "rotor_planes": "给出了 {count} 个平衡基面",
+    "rotor_planes_remedy": "请给一个（静平衡）或两个（动平衡）",
+    "rotor_place": "两个平衡基面在轴上的位置相同",
+    "rotor_place_remedy": "请给不同的位置 at:，或只给一个基面",
 }

@@ -1,0 +1,153 @@
+"""A rigid rotor: counterweights in one plane (static balancing) or in two (dynamic balancing)."""
+
+from __future__ import annotations
+
+import cmath
+from collections.abc import Mapping
+from functools import cached_property
+from typing import ClassVar
+
+from linkwright.core.dataclass import dataclass
+from linkwright.errors import Finding
+from linkwright.fields.base import Quantity, given
+from linkwright.parts.base import Block, Problem, Result, Row, fault, number, put
+from linkwright.parts.fields import Named, Table
+from linkwright.words import Say
+from linkwright.worked.page import Step
+
+#: What is left of the unbalances of a rotor that is balanced, as share of their sizes.
+ROUNDING = 1e-12
+
+
+@dataclass(frozen=True)
+class HeavyPoint:
+    """A ``mass`` (kg) whose centre lies ``at`` a place along the shaft (m), at ``radius`` (m) and ``angle`` (rad)."""
+
+    mass: float = given(Quantity("mass", above=0.0, doc="mass"))
+    radius: float = given(Quantity("length", above=0.0, doc="distance of its centre from the axis"))
+    angle: float = given(Quantity("angle", doc="angle of its centre about the axis"))
+    at: float = given(Quantity("length", doc="its place along the shaft"), 0.0)
+
+    @property
+    def product(self) -> complex:
+        """Mass times radius with its direction, kg·m."""
+        return cmath.rect(self.mass * self.radius, self.angle)
+
+
+@dataclass(frozen=True)
+class BalancingPlane:
+    """A plane ``at`` a place along the shaft (m), with counterweights at a ``radius`` (m)."""
+
+    radius: float = given(Quantity("length", above=0.0, doc="radius at which the counterweight sits"))
+    at: float = given(Quantity("length", doc="its place along the shaft"), 0.0)
+
+
+@dataclass(frozen=True)
+class Rotor(Problem):
+    """``masses`` off the axis of a rotor, balanced in one or two ``planes``; with a ``speed`` (rad/s) also forces."""
+
+    kind: ClassVar[str] = "rotor"
+    masses: Mapping[str, HeavyPoint] = given(Named(
+        Table.of(HeavyPoint), doc="masses by name: {mass: 10 kg, radius: 400 mm, angle: 120 deg, at: 0 mm}",
+    ))  # fmt: skip
+    planes: Mapping[str, BalancingPlane] = given(Named(
+        Table.of(BalancingPlane), doc="one or two planes of counterweights by name: {at: 0 mm, radius: 500 mm}",
+    ))  # fmt: skip
+    speed: float = given(Quantity("angular_velocity", minimum=0.0, doc="speed, for the forces"), 0.0)
+    name: str = ""
+    source: str = ""
+
+    def findings(self) -> list[Finding]:
+        found = [] if self.masses else [fault("statics.rotor_masses", "masses")]
+        places = [plane.at for plane in self.planes.values()]
+        if len(places) not in (1, 2):
+            found.append(fault("statics.rotor_planes", "planes", count=len(places)))
+        elif len(set(places)) < len(places):
+            found.append(fault("statics.rotor_place", f"planes.{list(self.planes)[1]}.at"))
+        return found
+
+    def solve(self) -> RotorBalance:
+        """The counterweights. Raises ModelError with all findings."""
+        self.require()
+        return RotorBalance(self)
+
+
+@dataclass(frozen=True, repr=False)
+class RotorBalance(Result):
+    """Unbalances of the planes and the counterweights against them; ``left``: what one plane cannot balance."""
+
+    area: ClassVar[str] = "statics"
+    rotor: Rotor
+
+    def share(self, plane: str, at: float) -> float:
+        """How much of a mass at a place along the shaft a plane carries."""
+        others = [each.at for name, each in self.rotor.planes.items() if name != plane]
+        return (others[0] - at) / (others[0] - self.rotor.planes[plane].at) if others else 1.0
+
+    @cached_property
+    def unbalances(self) -> dict[str, complex]:
+        """Sum of m r of all masses as each plane carries it, kg·m."""
+        masses = self.rotor.masses.values()
+        return {
+            name: self._rounded(sum(each.product * self.share(name, each.at) for each in masses))
+            for name in self.rotor.planes
+        }
+
+    def _rounded(self, value: complex, arm: float = 1.0) -> complex:
+        size = max(abs(each.product) for each in self.rotor.masses.values())
+        return 0j if abs(value) <= ROUNDING * size * arm else value
+
+    @cached_property
+    def counterweights(self) -> dict[str, complex]:
+        """Their masses, kg, with the directions in which they sit."""
+        return {name: -each / self.rotor.planes[name].radius for name, each in self.unbalances.items()}
+
+    @cached_property
+    def left(self) -> complex:
+        """Sum of m r z about the only plane, kg·m²: its couple ω² times that stays; zero with two planes."""
+        if len(self.rotor.planes) == 2:
+            return 0j
+        (plane,) = self.rotor.planes.values()
+        arms = [each.at - plane.at for each in self.rotor.masses.values()]
+        moment = sum(each.product * arm for each, arm in zip(self.rotor.masses.values(), arms, strict=True))
+        return self._rounded(moment, max(map(abs, arms)))
+
+    def blocks(self, say: Say) -> list[Block]:
+        blocks = []
+        for name, unbalance in self.unbalances.items():
+            weight = self.counterweights[name]
+            rows = [Row("unbalance", abs(unbalance), "mass_radius"), Row("direction", _angle(unbalance), "angle"),
+                    Row("counterweight", abs(weight), "mass"), Row("seat", _angle(weight), "angle")]  # fmt: skip
+            if self.rotor.speed:
+                rows.append(Row("rotating_force", abs(unbalance) * self.rotor.speed**2, "force"))
+            blocks.append(Block(name, say("statics.balancing_plane", name=name), rows))
+        if self.left:
+            rows = [Row("mass_radius_arm", abs(self.left), "inertia")]
+            if self.rotor.speed:
+                rows.append(Row("rotating_couple", abs(self.left) * self.rotor.speed**2, "torque"))
+            blocks.append(Block("left", say("statics.couple_left"), rows, [say("statics.two_planes")]))
+        return blocks
+
+    def steps(self, say: Say) -> list[Step]:
+        found = []
+        for count, (name, unbalance) in enumerate(self.unbalances.items(), 1):
+            step = Step(str(count), say("statics.balancing_plane", name=name))
+            for mass, each in self.rotor.masses.items():
+                share = self.share(name, each.at) + 0.0  # no -0
+                numbers = f"{each.mass:.6g}·{each.radius:.6g}·{share:.6g}"
+                put(step, f"(m·r)_{mass}", "m·r·(z' − z)/(z' − z0)" if len(self.unbalances) > 1 else "m·r",
+                    each.mass * each.radius * share, "mass_radius", numbers=numbers)  # fmt: skip
+            put(step, "Ux", "Σ (m·r)·cos θ", unbalance.real, "mass_radius")
+            put(step, "Uy", "Σ (m·r)·sin θ", unbalance.imag, "mass_radius")
+            put(step, "U", "√(Ux² + Uy²)", abs(unbalance), "mass_radius")
+            radius = self.rotor.planes[name].radius
+            numbers = f"{number(abs(unbalance), 'mass_radius')}/{radius:.6g}"
+            put(step, "m_b", "U/r_b", abs(self.counterweights[name]), "mass", numbers=numbers)
+            put(step, "θ_b", "atan2(−Uy, −Ux)", _angle(self.counterweights[name]), "angle")
+            found.append(step)
+        return found
+
+
+def _angle(value: complex) -> float:
+    """Direction from 0 to a turn, rad; 0 of what is zero."""
+    return cmath.phase(value) % (2.0 * cmath.pi) if value else 0.0
