@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+
 import numpy as np
 import pytest
 
@@ -316,3 +318,38 @@ def test_a_curve_that_a_cycle_runs_several_times_counts_once(radii: str, steps: 
     assert abs(table.value("coupler_curve_area")) == pytest.approx(area, rel=1e-10)
     for name in ("double_point", "cusp"):
         assert table.value(name) == once.value(name)
+
+
+@pytest.mark.parametrize(
+    ("outer", "inner", "mesh", "carrier", "planet"),
+    [
+        ((20, 30), (30, 80), "internal", Fraction(1, 5), Fraction(-1, 3)),  # 1 + z3/z1 = 5; (1 - z3/z2)/5
+        ((100, 101), (100, 99), "external", Fraction(10_000), Fraction(19_900)),  # 1/(1 - 101·99/(100·100))
+        ((60, 20), (20, 100), "internal", Fraction(3, 8), Fraction(-3, 2)),
+    ],
+)
+def test_a_train_with_a_fixed_wheel_says_the_speeds_of_all(
+    outer: tuple[int, int], inner: tuple[int, int], mesh: str, carrier: Fraction, planet: Fraction
+) -> None:
+    """i_1H = 1 - i_13 with the carrier stopped, and as the motion has it."""
+    model = lw.loads(
+        "format: 1\nframe: {points: {O: [0, 0]}}\nlinks:\n  sun: {points: [O]}\n"
+        "  arm: {points: [O, P], length: 100 mm}\n  planet: {points: [P]}\njoints:\n"
+        f"  first: {{kind: gear, links: [sun, planet], teeth: {list(outer)}}}\n"
+        f"  second: {{kind: gear, links: [planet, frame], teeth: {list(inner)}, mesh: {mesh}}}\n"
+        "driver: {turn: sun, about: O, speed: 1 rad/s}\n"
+    )
+    structure = lw.structure(model)
+    (train,) = structure.trains
+    wanted = {"sun": 1.0, "planet": float(planet), "frame": 0.0, "arm": float(carrier)}
+    assert train.speeds == pytest.approx(wanted, rel=1e-9)
+    motion = lw.solve_motion(model, at=[0.0])
+    for name in ("planet", "arm"):
+        assert motion.link(name).angular_velocity[0] == pytest.approx(wanted[name], rel=1e-9)
+    row = next(line for line in structure.text().splitlines() if "frame stopped" in line)
+    assert row.split()[2:] == ["1", str(planet), "0", str(carrier)]
+
+
+def test_a_train_with_two_inputs_says_no_speeds() -> None:
+    (train,) = lw.structure(lw.load("gallery:planetary_two_inputs")).trains
+    assert train.speeds == {}

@@ -81,6 +81,8 @@ def _train(train: GearTrain, say: Say) -> list[str]:
         rows[0].append(train.carrier)
         rows[1].append("0")
         rows.append([say("structure_text.as_one"), *["1"] * (len(wheels) + 1)])
+        if speeds := train.speeds:
+            rows.append([say("structure_text.stopped", carrier="frame"), *map(written, speeds.values())])
     widths = [max(cells(row[i]) for row in rows) for i in range(len(rows[0]))]
     lines = [say("structure_text.train", pairs=", ".join(train.pairs), carrier=train.carrier)]
     for row in rows:

@@ -39,6 +39,18 @@ class GearTrain:
         """Whether the carrier moves."""
         return self.carrier != "frame"
 
+    @property
+    def speeds(self) -> dict[str, float]:
+        """Speeds of all wheels and the carrier over that of the first one that turns, where a wheel belongs to the
+        frame (i_1H = 1 - i_13 with the carrier stopped); empty where none does, or where the wheels block each
+        other."""
+        fixed = self.ratios.get("frame")
+        if fixed is None or not self.planetary or self.blocked:
+            return {}
+        found = {wheel: ratio - fixed for wheel, ratio in self.ratios.items()} | {self.carrier: -fixed}
+        first = next((each for each in found.values() if each), None)
+        return {} if first is None else {name: each / first for name, each in found.items()}
+
 
 def gear_trains(mechanism: Mechanism) -> tuple[GearTrain, ...]:
     """The trains of a mechanism's gears, belts, chains and rolling wheels, by carrier in the order of the file."""

@@ -67,6 +67,8 @@ def _train(case: Case, train: GearTrain) -> Iterator[Block]:
     rows = [(*stopped, "0") if carrier else tuple(stopped)]
     if carrier:
         rows.append((say("structure_text.as_one"), *["1"] * (len(wheels) + 1)))
+    if speeds := train.speeds:
+        rows.append((say("structure_text.stopped", carrier="frame"), *map(written, speeds.values())))
     caption = say("report.train_table", pairs=", ".join(train.pairs), carrier=train.carrier)
     head = (say("report.motion"), *wheels, *carrier)
     yield Table(literal(caption), tuple(map(literal, head)),
