@@ -1,6 +1,7 @@
 """Optimisation: optima known in closed form, written models that keep what they claim, interruption without loss."""
 
 import math
+from itertools import product
 from pathlib import Path
 
 import numpy as np
@@ -203,6 +204,21 @@ def test_designs_of_which_none_moves_and_numbers_that_none_has(press: Path) -> N
         lw.optimize(press, keep={"flywheel": "at most 1 kg"}, evaluations=200)
 
 
+def test_designs_pass_the_whole_cycle_where_no_number_needs_it() -> None:
+    """A four-bar of 3.5, 2.5 and 4 m turns fully with cranks below 2 m (Grashof)."""
+    bars = lw.load("gallery:crank_rocker")
+    assert [bars.dimension(each) for each in ("coupler.length", "rocker.length", "frame.O2.x")] == [
+        3.5,
+        2.5,
+        4,
+    ]
+    longest = lw.optimize(bars, vary={"crank.length": "0.5..3 m"}, maximize="r", define={"r": "crank.length"})
+    assert 1.99 < longest.best.values["crank.length"] < 2.0
+    lw.solve_motion(longest.mechanism(), steps=3600)
+    with pytest.raises(lw.LinkwrightError, match=r"no design of .* fails in \d+ of 360 positions"):
+        lw.optimize(bars, vary={"crank.length": "2.1..3 m"}, minimize="r", define={"r": "crank.length"})
+
+
 def test_the_crusher_keeps_its_jaw_and_loses_torque() -> None:
     start = lw.load("gallery:jaw_crusher_sixbar")
     vary = {
@@ -376,6 +392,21 @@ def test_few_pairs_of_teeth_are_all_judged() -> None:
     front = [(17.0, float(count)) for count in range(34, 29, -1)]
     assert sorted(tuple(each.values.values()) for each in found) == sorted(front)
     assert "differences" not in found.text()
+
+
+def test_all_trains_are_judged_where_nothing_has_to_be_solved() -> None:
+    teeth = {"small": (17, 24), "count": (40, 70), "third": (17, 24), "fourth": (40, 70)}
+    text = GEARS.replace("{count: 40}", "{count: 40, small: 20, third: 20, fourth: 60}")
+    found = lw.optimize(
+        lw.loads(text), vary={name: {"whole": f"{low}..{high}"} for name, (low, high) in teeth.items()},
+        minimize="2*(small + count) + 3*(third + fourth)", keep={"count*fourth/(small*third)": "7.29..7.31"},
+    )  # fmt: skip
+    trains = np.array([*product(*(range(low, high + 1) for low, high in teeth.values()))])
+    ratio = trains[:, 1] * trains[:, 3] / (trains[:, 0] * trains[:, 2])
+    sizes = trains @ [2, 2, 3, 3]
+    least = sizes[(ratio >= 7.29) & (ratio <= 7.31)].min()
+    assert next(iter(found.best.numbers.values())) == least
+    assert sum(np.array([2, 2, 3, 3]) * [found.best.values[name] for name in teeth]) == least
 
 
 CAM = """\

@@ -62,6 +62,7 @@ class Measures:
             raise RequestError(missing)
         self.cycles = [] if self._moves_positions() else self._cycles()
         self.side_by_side = bool(self.cycles) or not self.numbers
+        self.passing = [] if self.numbers or self._moves_positions() else self._whole_cycle()
         self.backend: Backend = "llvm" if available() else "numpy"
         self.paths = PathErrors(self.mechanism, problem.addresses, problem.paths, self.backend)
         self.evaluations = 0
@@ -123,6 +124,29 @@ class Measures:
         found = side_by_side(self.mechanism, problem.addresses, terms, self._asked, steps=problem.steps)
         return found if {term.name for each in found for term in each.terms} == set(self.numbers) else []
 
+    def _whole_cycle(self) -> list[Numbers]:
+        """What tells which designs pass the whole cycle where no number of the problem does."""
+        output = self._asked.output
+        number = f"{output.name} max"
+        if not mechanism_outputs(self.mechanism):
+            return []
+        return side_by_side(
+            self.mechanism,
+            self.problem.addresses,
+            [self._term(number)],
+            self._asked,
+            steps=self.problem.steps,
+        )
+
+    def _where_they_pass(self, values: dict[str, Floats], columns: Mapping[str, Floats]) -> dict[str, Floats]:
+        """Values of every text, NaN where a design does not pass the whole cycle."""
+        for each in self.passing:
+            with np.errstate(all="ignore"):
+                seen = each.evaluate(columns, backend=self.backend)
+            passes = seen.certain & np.isfinite([*seen.values.values()]).all(axis=0)
+            values = {text: np.where(passes, value, np.nan) for text, value in values.items()}
+        return values
+
     def _term(self, name: str) -> str | Term:
         if is_metric(name) or not is_summary(name):
             return name
@@ -159,7 +183,8 @@ class Measures:
         count = len(next(iter(columns.values())))
         self.evaluations += count
         found = self._found(columns, count) | self._held(columns, count) | self.paths.values(columns)
-        return {text: self._combined(text, found) for text in self.expressions}
+        values = {text: self._combined(text, found) for text in self.expressions}
+        return self._where_they_pass(values, columns)
 
     def _found(self, columns: Mapping[str, Floats], count: int) -> dict[str, Floats]:
         if not self.numbers:
@@ -255,7 +280,8 @@ class Measures:
             found |= zip(names, numbers, strict=True)
             slopes |= zip(names, gradients, strict=True)
         values = {text: self._combined(text, found) for text in self.expressions}
-        return values, {text: self._chained(text, found, slopes) for text in self.expressions}
+        slopes = {text: self._chained(text, found, slopes) for text in self.expressions}
+        return self._where_they_pass(values, columns), slopes
 
     def curvatures(self, text: str, columns: Mapping[str, Floats], by: tuple[str, ...]) -> Floats | None:
         """Curvature (designs, k, k) of a path error that stands alone, by the addresses ``by``; None: not known."""

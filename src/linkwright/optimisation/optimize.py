@@ -55,8 +55,8 @@ EVEN, ROUNDS = 2e-5, 3
 LAST, NEAR = 90, 0.03
 #: The same where designs go one by one: designs for each objective, places along a front, steps.
 POLISHED_ALONE, FRONT_ALONE, LAST_ALONE = 1, 6, 12
-#: Most designs of catalogues that are all judged.
-ALL = 1024
+#: Most designs of catalogues that are all judged; the same where they are judged by expressions alone.
+ALL, ALL_WRITTEN = 1024, 1_000_000
 _NO_ROWS = np.array([], dtype=np.intp)
 #: Designs of a front are alike whose objectives differ by less than this share.
 ALIKE = 1e-5
@@ -246,10 +246,12 @@ class _Run:
     def _fresh(self) -> State:
         """The first population: the best of many designs, some of them after a short local search; all designs, and
         the search's end, where they are few."""
-        every = self.task.every(min(self.most, ALL))
+        written = self.task.written and len(self.task.problem.goals) == 1
+        every = self.task.every(ALL_WRITTEN if written else min(self.most, ALL))
         if every is not None:
-            draw = np.random.default_rng(self.task.problem.seed)
-            return State(self.task.judge(every), 0, self.most, draw, [])
+            draw, judged = np.random.default_rng(self.task.problem.seed), self.task.judge(every)
+            best = taken(judged, ranked(judged)[:ALL]) if len(every) > ALL else judged
+            return State(best, 0, self.most, draw, [])
         if not self.task.measures.side_by_side:
             return begin(self.task, self.size)
         state = begin(self.task, max(self.size, min(int(SAMPLED * self.most), AT_ONCE)))

@@ -124,6 +124,12 @@ class Task:
         return goals, violations
 
     @property
+    def written(self) -> bool:
+        """Whether expressions alone judge a design: nothing is solved, and no tolerance is sampled."""
+        measures = self.measures
+        return not (measures.numbers or measures.passing or self.problem.paths or self.problem.tolerances)
+
+    @property
     def exact(self) -> bool:
         """Whether the last steps follow exact gradients."""
         return self.measures.side_by_side
