@@ -316,6 +316,9 @@ def test_a_missing_file_offers_the_nearest(tmp_path: Path) -> None:
     (tmp_path / "press.yaml").write_text(MODEL)
     with pytest.raises(ModelError, match=r"did you mean \"press\.yaml\""):
         load(tmp_path / "pres.yaml")
+    (tmp_path / "presses").mkdir()
+    with pytest.raises(ModelError, match=r"did you mean \"press\.yaml\""):
+        load(tmp_path / "press")
     with pytest.raises(ModelError, match="folder"):
         load(tmp_path)
     with pytest.raises(ModelError, match="gallery:jaw_crusher_sixbar"):
@@ -440,3 +443,17 @@ def test_blanks_in_the_indentation_that_are_no_spaces_are_told(blank: str) -> No
     assert [each.where.split(":")[1] for each in findings(text)] == [str(each) for each in numbers][:10]
     assert {each.code for each in findings(text)} == {"blank"}
     assert findings(f"{MODEL}report:\n  text:\n    task: |\n      \u3000\u3000本设计的要求：\n") == []
+
+
+@pytest.mark.parametrize("command", ["tolerance", "beam", "trajectory"])
+def test_a_model_is_no_calculation_and_told_so(
+    command: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "press.yaml"
+    path.write_text(MODEL)
+    assert main([command, str(path)]) == 1
+    told = capsys.readouterr().err
+    assert "the file is the model of a machine" in told and "mechanism:" in told
+    path.write_text("format: 1\nname: x\n")
+    assert main([command, str(path)]) == 1
+    assert "does not say what is calculated" in capsys.readouterr().err

@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 
 MAX_BYTES = 5_000_000
 GALLERY = "gallery:"
+#: What names of model files end in, as a rule.
+ENDINGS = (".yaml", ".yml", ".json")
 #: Seconds that a pipe or a device may give nothing.
 PATIENCE = 3.0
 
@@ -91,10 +93,11 @@ def _refuse(where: Path | str, message: str, remedy: str, code: str) -> ModelErr
 
 def _near_file(path: Path) -> str:
     folder = path.parent
-    names = [entry.name for entry in list(folder.iterdir())[:1000]] if folder.is_dir() else []
     if not folder.is_dir():
         return Sentence("model.no_folder", folder=folder)
-    near = nearest(path.name, names)
+    names = [entry.name for entry in list(folder.iterdir())[:1000] if not entry.is_dir()]
+    ended = (name for name in names if name in [path.name + ending for ending in ENDINGS])
+    near = next(ended, None) or nearest(path.name, names)
     if near is None and path.name in gallery_names():
         return Sentence("model.write_gallery", gallery=GALLERY, name=path.name)
     return Sentence("names.did_you_mean", offer=near) if near else Sentence("model.check_path")

@@ -174,8 +174,9 @@ def _kind(reader: Reader, root: MappingNode) -> str | None:
     node = root.get("kind")
     if node is not None:
         return reader.word(node, "kind", tuple(KINDS))
-    remedy = Sentence("part.no_kind_remedy", known=tuple(KINDS))
-    reader.error(root, "kind", Sentence("part.no_kind"), remedy, "kind")
+    key = "model" if root.get("links") is not None else "no_kind"
+    remedy = Sentence(f"part.{key}_remedy", known=tuple(KINDS))
+    reader.error(root, "kind", Sentence(f"part.{key}"), remedy, "kind")
     return None
 
 

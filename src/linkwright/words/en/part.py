@@ -17,6 +17,9 @@ WORDS = {
     "mechanism_file": "{name}: {message}",
     "no_kind": "the file does not say what is calculated",
     "no_kind_remedy": "add kind: (one of {known})",
+    "model": "the file is the model of a machine; here a file with kind: is needed that says what is calculated",
+    "model_remedy": "write one; kinds about a machine, such as tolerance, name its file as mechanism: (examples: "
+    "linkwright gallery)",
     "known": "(known: {known})",
     "nearest": 'did you mean "{offer}"? (known: {known})',
     "not_passed": "the mechanism does not pass its cycle: {why}",
