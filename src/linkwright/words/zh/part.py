@@ -18,7 +18,8 @@ WORDS = {
     "no_kind": "文件没有说明计算什么",
     "no_kind_remedy": "请加 kind:（{known} 之一）",
     "model": "该文件是机器的模型；此处需要写有 kind: 的文件，说明计算什么",
-    "model_remedy": "请另写一个文件；针对机器的计算（如 tolerance）用 mechanism: 指明机器的文件（示例见 linkwright gallery）",
+    "model_remedy": "请另写一个文件；针对机器的计算（如 tolerance）用 mechanism: 指明机器的文件"
+    "（示例见 linkwright gallery）",
     "known": "已知：{known}",
     "nearest": "是不是“{offer}”？（已知：{known}）",
     "not_passed": "机构不能走完循环：{why}",
