@@ -114,9 +114,9 @@ def test_four_masses_of_a_rotor_by_hand() -> None:
     second = complex(-0.75 + 4 / 3 + 3 * h, -1.5 * h - 8 / 3 * h + 1.5)
     found = parts.load("gallery:rotor_four_masses").solve().data()
     for name, sum_ in (("I", first), ("II", second)):
-        assert found[name]["counterweight"]["value"] == pytest.approx(abs(sum_) / 0.5, rel=1e-12)
+        assert found[f"plane {name}"]["counterweight"]["value"] == pytest.approx(abs(sum_) / 0.5, rel=1e-12)
         seat = math.atan2(-sum_.imag, -sum_.real) % (2 * math.pi)
-        assert found[name]["seat"]["value"] == pytest.approx(seat, rel=1e-12)
+        assert found[f"plane {name}"]["seat"]["value"] == pytest.approx(seat, rel=1e-12)
 
 
 ROTOR = """format: 1
@@ -134,7 +134,7 @@ def test_one_plane_balances_forces_and_says_the_couple_that_stays() -> None:
     """Two equal masses opposite each other: 0.2 kg·m and 0.25 m apart, so ω² · 0.05 kg·m² is left."""
     result = parts.loads(ROTOR).solve()
     data = result.data()
-    assert data["P"]["counterweight"]["value"] == data["P"]["rotating_force"]["value"] == 0.0
+    assert data["plane P"]["counterweight"]["value"] == data["plane P"]["rotating_force"]["value"] == 0.0
     assert data["left"]["rotating_couple"]["value"] == pytest.approx(500.0, rel=1e-12)
     assert "two planes take the couple too" in result.text() and "动平衡" in result.text("zh")
 

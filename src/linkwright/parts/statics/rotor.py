@@ -120,7 +120,7 @@ class RotorBalance(Result):
                     Row("counterweight", abs(weight), "mass"), Row("seat", _angle(weight), "angle")]  # fmt: skip
             if self.rotor.speed:
                 rows.append(Row("rotating_force", abs(unbalance) * self.rotor.speed**2, "force"))
-            blocks.append(Block(name, say("statics.balancing_plane", name=name), rows))
+            blocks.append(Block(f"plane {name}", say("statics.balancing_plane", name=name), rows))
         if self.left:
             rows = [Row("mass_radius_arm", abs(self.left), "inertia")]
             if self.rotor.speed:
