@@ -407,12 +407,12 @@ def require(kind: Dimension, dimension: str, text: str, *, bare: bool = False) -
             Sentence("units.needed", noun=noun, right=right),
             code="missing-unit",
         )
-    wrong = name_of(kind)
-    raise QuantityError(
-        Sentence("units.wrong_dimension", text=text, wrong=wrong, noun=noun),
-        Sentence("units.as_in", example=example(dimension)),
-        code="wrong-dimension",
+    weight = dimension == "mass" and kind == DIMENSIONS["force"]
+    remedy = (
+        Sentence("units.weight", text=text) if weight else Sentence("units.as_in", example=example(dimension))
     )
+    said = Sentence("units.wrong_dimension", text=text, wrong=name_of(kind), noun=noun)
+    raise QuantityError(said, remedy, code="wrong-dimension")
 
 
 def name_of(kind: Dimension) -> Sentence:

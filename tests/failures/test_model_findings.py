@@ -457,3 +457,12 @@ def test_a_model_is_no_calculation_and_told_so(
     path.write_text("format: 1\nname: x\n")
     assert main([command, str(path)]) == 1
     assert "does not say what is calculated" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("weight", ["200 N", "0.2 kN", "2*100 N"])
+def test_a_weight_is_told_how_it_is_written_as_a_mass(weight: str) -> None:
+    (found,) = findings(changed("length: 1 m", f"length: 1 m, mass: {weight}, inertia: 0"))
+    assert found.key == "links.crank.mass" and found.code == "wrong-dimension"
+    right = found.remedy.split('"')[1]
+    model = loads(changed("length: 1 m", f"length: 1 m, mass: {right}, inertia: 0"))
+    assert model.links["crank"].mass == pytest.approx(200 / 9.81, rel=1e-12)

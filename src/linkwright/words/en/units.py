@@ -20,6 +20,7 @@ WORDS = {
     "no_unit": '"{text}" has no unit',
     "needed": '{noun} is needed, such as "{right}"',
     "wrong_dimension": '"{text}" is {wrong}, where {noun} is needed',
+    "weight": 'a weight over 9.81 m/s² is a mass: write "({text})/(9.81 m/s^2)"',
     "as_in": 'write it as in "{example}"',
     "write_unit": "write a unit such as mm, deg, kg, N, N·m, rpm, kg·m²",
 }
