@@ -299,6 +299,9 @@ def test_tolerances_of_two_lengths_against_closed_form(press: Path) -> None:
     assert most.best.made is not None and most.best.made >= 0.9
     crank, rod = (most.best.values[f"{each}.length"] for each in ("crank", "rod"))
     assert share_of_presses(crank, rod) == pytest.approx(0.9, abs=0.005)
+    assert share_of_presses(crank, rod) > 0.899 and most.best.made == pytest.approx(
+        share_of_presses(crank, rod), abs=0.002
+    )
     assert crank + rod == pytest.approx(min(map(length_that_serves, np.linspace(0.03, 0.0306, 61))), abs=2e-5)
     narrow = {
         "stroke guide": "60..60.5 mm"
@@ -312,6 +315,25 @@ def test_tolerances_of_two_lengths_against_closed_form(press: Path) -> None:
     ) as caught:  # no machine reaches 161 mm: the nearest has the largest crank
         lw.optimize(press, tolerance=tolerance, robust="yield", keep={"stroke guide": "at least 161 mm"})
     assert caught.value.nearest.best.values["crank.length"] > 0.079
+
+
+def test_a_yield_is_reached_by_machines_that_did_not_choose_the_design() -> None:
+    """Extreme transmission angles of a four-bar by the cosine rule, of 100 000 machines of its tolerances."""
+    bars = lw.load("gallery:crank_rocker")
+    tolerance = {"crank.length": 0.02, "coupler.length": 0.04, "rocker.length": 0.03}
+    found = lw.optimize(
+        bars, vary={"crank.length": "0.4..1.8 m", "coupler.length": "1.6..6 m", "rocker.length": "1.2..4 m"},
+        maximize="rocker.angle range", keep={"transmission_angle": "at least 40 deg"}, robust="yield",
+        tolerance={name: f"{each} m" for name, each in tolerance.items()}, evaluations=1500, **{"yield": 0.95},
+    )  # fmt: skip
+    off = np.random.default_rng(1).uniform(-1.0, 1.0, (3, 100_000))
+    a, b, c = (
+        found.best.values[name] + each * row for (name, each), row in zip(tolerance.items(), off, strict=True)
+    )
+    cosines = np.abs([(b**2 + c**2 - (4.0 + side * a) ** 2) / (2 * b * c) for side in (-1, 1)]).max(axis=0)
+    share = float((cosines <= math.cos(math.radians(40))).mean())
+    assert share > 0.947
+    assert found.best.made == pytest.approx(share, abs=0.005)
 
 
 def test_a_path_that_a_known_linkage_draws_is_followed() -> None:

@@ -55,6 +55,8 @@ EVEN, ROUNDS = 2e-5, 3
 LAST, NEAR = 90, 0.03
 #: The same where designs go one by one: designs for each objective, places along a front, steps.
 POLISHED_ALONE, FRONT_ALONE, LAST_ALONE = 1, 6, 12
+#: How often a design is polished again for a yield that it lacks, with so many samples.
+AGAIN, FINER = 6, 2048
 #: Most designs of catalogues that are all judged; the same where they are judged by expressions alone.
 ALL, ALL_WRITTEN = 1024, 1_000_000
 _NO_ROWS = np.array([], dtype=np.intp)
@@ -180,7 +182,7 @@ class _Run:
     def optimum(self) -> Optimum:
         try:
             state = self._searched()
-            return self._found(state, self._polished(self._sure(state)))
+            return self._found(state, self._made_sure(self._polished(self._sure(state))))
         except KeyboardInterrupt:
             left = self._left()
             if left is None:
@@ -289,6 +291,29 @@ class _Run:
             return state.judged
         self.task.samples = CHECKED
         return self.task.judge(state.judged.x)
+
+    def _made_sure(self, judged: Judged) -> Judged:
+        """For a yield: the best designs descend again, to a higher one while other samples find that they lack some.
+
+        Samples by which a design was chosen flatter it. Where that leads nowhere the designs stay.
+        """
+        task, found = self.task, judged
+        sampled = task.problem.robust == "yield" and task.measures.side_by_side
+        if not sampled or judged.goals.shape[1] > 1 or not (judged.total == 0).any():
+            return judged
+        for _ in range(AGAIN):
+            best = self._chosen(found)
+            if not np.isfinite(best.goals).all():
+                break
+            lack = task.problem.least_yield - task.yield_of(task.place(best.x)[0])
+            if lack <= 0.0:
+                return replace(best, violations=np.zeros_like(best.violations))
+            task.wanted = min(task.wanted + lack, 1.0) if task.samples == FINER else task.wanted
+            task.samples = FINER
+            before = task.judge(found.x[ranked(found)[: self.best]])
+            sizes = self._sizes(before, 0)[:, None]
+            found = self.polish.polished(before, 1.0 / sizes, np.zeros_like(before.goals), self.last)
+        return judged
 
     def _polished(self, judged: Judged) -> Judged:
         """The population with its best designs polished; of several objectives the front, evenly filled."""

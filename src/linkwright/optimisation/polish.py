@@ -112,7 +112,7 @@ class Polish:
         lost = ~np.isfinite(room)
         room, climb = np.where(lost, STUCK, room), np.where(lost[:, :, None], 0.0, climb)
         order, machines = np.argsort(room, axis=1), room.shape[1]
-        last = min(int((1.0 - self.task.problem.least_yield) * machines + 1e-9), machines - 1)
+        last = min(int((1.0 - self.task.wanted) * machines + 1e-9), machines - 1)
         near = machines // BESIDE
         beside = order[:, max(0, last - near) : last + near + 1]
         slope = np.take_along_axis(climb, beside[:, :, None], 1).mean(axis=1)

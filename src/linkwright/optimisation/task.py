@@ -23,6 +23,8 @@ Side = tuple[str, float]
 #: Samples of the tolerances while searching, where designs go one by one, and at the end; a violation below this
 #: share of a demand is none.
 SAMPLES, SAMPLES_ALONE, CHECKED, MET = 64, 16, 512, 1e-6
+#: Other samples that say what share of the machines meets the demands: those that chose a design flatter it.
+OTHERS = 8192
 #: Most toleranced dimensions all of whose corners are tried.
 ALL_CORNERS = 4
 #: Places between its bounds at which a variable is tried for an effect; numbers differ by less where it has none.
@@ -68,6 +70,7 @@ class Task:
         self.problem = problem
         self.measures = Measures(problem)
         self.samples = SAMPLES if self.measures.side_by_side else SAMPLES_ALONE
+        self.wanted = problem.least_yield
         self.low = np.array([each.low for each in problem.variables])
         self.high = np.array([each.high for each in problem.variables])
         self.at_start = {
@@ -211,7 +214,7 @@ class Task:
         else:
             missed = sum(misses, np.zeros(next(iter(values.values())).shape))
             met = (missed == 0.0) & np.isfinite([*values.values()]).all(axis=0)
-            lack = np.maximum(self.problem.least_yield - met[:, 1:].mean(axis=1), 0.0)
+            lack = np.maximum(self.wanted - met[:, 1:].mean(axis=1), 0.0)
             violations = np.where(lack > 0.0, lack + missed[:, 1:].mean(axis=1), 0.0)[:, None]
             goals = np.column_stack([goal.sign * values[goal.text][:, 0] for goal in self.problem.goals])
         stuck = ~np.isfinite(goals).all(axis=1) | np.isnan(violations).any(axis=1)
@@ -239,7 +242,8 @@ class Task:
                 share = np.array([*product((0.0, 1.0), repeat=len(names))])
                 share = np.tile(share, (samples // len(share) + 1, 1))[:samples]
             else:
-                share = qmc.Sobol(len(names), rng=np.random.default_rng(self.problem.seed)).random(samples)
+                draw = np.random.default_rng((self.problem.seed, samples == OTHERS))
+                share = qmc.Sobol(len(names), rng=draw).random(samples)
             self._kept[samples] = {
                 name: np.concatenate([[0.0], self.problem.tolerances[name] * (2 * share[:, k] - 1)])
                 for k, name in enumerate(names)
@@ -274,8 +278,9 @@ class Task:
 
     def yield_of(self, values: Floats) -> float:
         """Share of many samples of a design (k,) that move and meet all demands."""
-        found = self.sampled(self.columns_of(values[None]), CHECKED)
-        met = np.ones(CHECKED + 1, bool)
+        samples = OTHERS if self.measures.side_by_side else CHECKED
+        found = self.sampled(self.columns_of(values[None]), samples)
+        met = np.ones(samples + 1, bool)
         for text, each in found.items():
             met &= np.isfinite(each[0])
             for bounds in self.bounds:
