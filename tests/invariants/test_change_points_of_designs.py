@@ -87,3 +87,13 @@ def test_quality_is_looked_at_the_closer_the_finer_the_positions() -> None:
     few, many, most = (near_enough(over_cycle(mechanism, steps)) for steps in (36, 72, 100_000))
     assert few == pytest.approx(4 * many) and few == pytest.approx(25 * (2 * np.pi / 36) ** 2)
     assert most == NEAR < many
+
+
+@pytest.mark.parametrize("steps", [36, 37])
+def test_a_table_that_covers_one_cycle_is_looked_at_across_its_end(steps: int) -> None:
+    """The block goes from 2.4 m to 1 m and back: the links are stretched where the table begins and ends."""
+    text = SLIDE[: SLIDE.index("driver")] + (
+        "driver: {slide: guide, table: {time: [0 s, 0.3 s, 0.7 s, 1 s], position: [2.4 m, 1.1 m, 1.1 m, 2.4 m], "
+        "interpolation: linear}}\n"
+    )
+    assert found(text, "rocker.length", [1.5, 1.4, 1.45, 1.4], steps) == [1, 3]

@@ -89,3 +89,26 @@ def test_peaks_of_sizes_that_polynomials_do_not_meet_are_found_whatever_the_posi
     for steps in (12, 48, 360):
         table = lw.metrics(lw.solve_forces(lw.loads(text), steps=steps))
         assert table.value("peak_reaction", "A") == pytest.approx(np.abs(force).max(), rel=1e-10)
+
+
+@pytest.mark.parametrize("steps", [24, 37, 48, 97, 360, 499])
+def test_friction_turns_round_where_a_soft_law_ends(steps: int) -> None:
+    """A slide of mass m pressed by F on its guide, up and down by the polynomial 4567: the force m a + μ F sign(v)
+    has the mean square m² mean(a²) + (μ F)², as each way begins and ends at rest."""
+    machine = lw.loads("""
+format: 1
+frame: {points: {G: [0 m, 0 m]}}
+links: {slide: {points: {P: [0 m, 0 m]}, mass: 2 kg}}
+joints:
+  guide: {kind: prismatic, guide: frame, through: G, direction: 0 deg, block: slide, at: P, block_angle: 0 deg,
+    friction: 0.2}
+driver:
+  slide: guide
+  program: [{rise: 50 mm, over: 0.29 s, law: polynomial_4567}, {fall: 50 mm, over: 0.41 s, law: polynomial_4567}]
+loads: {press: {kind: force, on: slide, at: P, direction: -90 deg, magnitude: 30 N}}
+""")
+    second = np.polynomial.Polynomial([0.0, 0.0, 420.0, -1680.0, 2100.0, -840.0])
+    square = float((second * second).integ()(1.0))
+    mean = sum((0.05 / over**2) ** 2 * over * square for over in (0.29, 0.41)) / 0.7
+    table = lw.metrics(lw.solve_forces(machine, steps=steps))
+    assert table.value("rms_input_torque") == pytest.approx(np.sqrt(4.0 * mean + 36.0), rel=1e-12)

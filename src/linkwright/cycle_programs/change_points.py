@@ -158,13 +158,15 @@ class ChangePoints:
 
     def _inputs(self, place: Indices, share: Floats) -> dict[str, Floats]:
         """Inputs at shares of the way from the position before to the one after, by the drivers' laws."""
-        time = self.traced.positions.time
+        time, period = self.traced.positions.time, self.traced.positions.period
         step = time[1] - time[0]
         around = np.concatenate([[time[0] - step], time, [time[-1] + step]])
         a, b = around[place][:, None], around[place + 2][:, None]
         at = a + share * (b - a)
         if not self.traced.positions.closed:
             at = np.clip(at, time.min(), time.max())
+        elif period:
+            at = time[0] + np.mod(at - time[0], np.copysign(period, step))
         inputs: dict[str, Floats] = {}
         for name, driver in self.traced.mechanism.drivers.items():
             value = driver.law.coordinate(at.ravel())[0].reshape(at.shape)

@@ -62,6 +62,8 @@ _NOISE = 96
 #: Share of the largest value up to which another is rounding, share of a bracket over which its slope is taken, and
 #: the most changes of sign of what is no rounding.
 _NOTHING, _BESIDE, _MOST = 1e-11, 1e-6, 24
+#: The same share where formulas meet, of which each has digits of its own.
+_NEAR_EDGES = 1e-9
 _NONE: Floats = np.empty(0)
 
 
@@ -324,11 +326,14 @@ class CycleGrid:
         if positions.closed and positions.period:
             time = np.append(time, self.end if time[-1] > time[0] else self.start)
             known = np.append(known, known[:, :1], axis=1)
+        edges = np.zeros(len(time), dtype=np.bool_)
         if parts := stretches(self._motion):
-            time = np.append(time, parts.places)
+            time, edges = np.append(time, parts.places), np.append(edges, ~parts.inside(parts.places))
             known = np.append(known, rates(self.resolver.motion(parts.places)), axis=1)
-        order = np.argsort(time)
-        return _changes(lambda at: rates(self.resolver.motion(at)), known[:, order], time[order])
+        order = np.argsort(time, kind="stable")
+        return _changes(
+            lambda at: rates(self.resolver.motion(at)), known[:, order], time[order], edges[order]
+        )
 
     def _corners(self, edges: Floats, solved: Motion | Forces) -> Floats:
         """Times at which forces are zero with whose sizes others go."""
@@ -370,17 +375,25 @@ def _places_of(index: Mapping[str, int]) -> list[list[int]]:
     return list(found.values())
 
 
-def _changes(values: Callable[[Floats], Floats], known: Floats, places: Floats) -> Floats:
-    """Where values (k, n), ``known`` at some places (n,), change their signs; none of those that do so too often."""
+def _changes(
+    values: Callable[[Floats], Floats], known: Floats, places: Floats, edges: Flags | None = None
+) -> Floats:
+    """Where values (k, n), ``known`` at some places (n,), change their signs; none of those that do so too often.
+    What is zero at ``edges`` does so there."""
     found: list[tuple[int, int, int]] = []
+    there: list[float] = []
     for number, row in enumerate(known):
-        decided = np.flatnonzero(np.abs(row) > _NOTHING * np.abs(row).max())
+        nothing = _NOTHING if edges is None else _NEAR_EDGES
+        decided = np.flatnonzero(np.abs(row) > nothing * np.abs(row).max())
         before, after = decided[:-1], decided[1:]
         turned = (row[before] * row[after] < 0.0) & (places[before] != places[after])
         if turned.sum() <= _MOST:
-            found += [(number, a, b) for a, b in zip(before[turned], after[turned], strict=True)]
+            for a, b in zip(before[turned], after[turned], strict=True):
+                at = [] if edges is None else places[a + 1 : b][edges[a + 1 : b]].tolist()
+                there += at
+                found += [] if at else [(number, a, b)]
     if not found:
-        return _NONE
+        return np.array(there)
     rows, low, high = np.array(found).T
     beside = _BESIDE * (places[high] - places[low])
 
@@ -389,7 +402,7 @@ def _changes(values: Callable[[Floats], Floats], known: Floats, places: Floats) 
         value, following = both.reshape(2, -1)
         return value, (following - value) / beside
 
-    return zeros(function, places[low], places[high], known[rows, low])
+    return np.append(zeros(function, places[low], places[high], known[rows, low]), there)
 
 
 _alike: Recent[Mapping[str, int], list[list[int]]] = Recent(64)
