@@ -407,7 +407,7 @@ def require(kind: Dimension, dimension: str, text: str, *, bare: bool = False) -
             Sentence("units.needed", noun=noun, right=right),
             code="missing-unit",
         )
-    weight = dimension == "mass" and kind == DIMENSIONS["force"]
+    weight = dimension == "mass" and kind == UNITS["N"][1]
     remedy = (
         Sentence("units.weight", text=text) if weight else Sentence("units.as_in", example=example(dimension))
     )
