@@ -49,3 +49,41 @@ def test_no_position_is_beyond_the_largest_values(seed):
         assert found.exact
         assert values.max() <= found.value * (1 + 1e-9), key
         assert values.max() >= found.value * (1 - 1e-3), key  # a jump lies between two positions
+
+
+GEARED = """
+format: 1
+frame:
+  points: {{O1: [0 mm, 0 mm], O2: [{distance} mm, 0 mm]}}
+links:
+  first: {{points: [O1, A], length: 20 mm}}
+  second: {{points: [O2, B], length: 15 mm}}
+  rod_1: {{points: [A, C], length: 70 mm}}
+  ram: {{points: [C], mass: 2 kg}}
+  rod_2: {{points: [B, D], length: 60 mm}}
+  piston: {{points: [D]}}
+joints:
+  mesh: {{kind: gear, links: [first, second], teeth: [{teeth}, {others}], module: 2 mm}}
+  way: {{kind: prismatic, guide: frame, through: O1, direction: 95 deg, block: ram, at: C, offset: 2 mm}}
+  guide: {{kind: prismatic, guide: frame, through: O2, direction: 80 deg, block: piston, at: D, offset: 3 mm}}
+assembly: {{C: forward, D: forward}}
+driver: {{turn: first, about: O1, speed: 60 rpm}}
+"""
+
+
+@pytest.mark.parametrize(("teeth", "others"), [(20, 361), (361, 360), (97, 101)])
+@pytest.mark.parametrize("steps", [12, 360])
+def test_numbers_of_a_cycle_of_hundreds_of_turns(teeth, others, steps):
+    """Each crank turns hundreds of times between few positions, at best at the same place each time."""
+    model = lw.loads(GEARED.format(distance=teeth + others, teeth=teeth, others=others))
+    table = lw.metrics(lw.solve_motion(model, steps=steps))
+    for guide, crank, rod, offset, rate in (("way", 20, 70, 2, 1.0), ("guide", 15, 60, 3, teeth / others)):
+        stroke = np.sqrt((rod + crank) ** 2 - offset**2) - np.sqrt((rod - crank) ** 2 - offset**2)
+        assert table.value("stroke", guide) == pytest.approx(1e-3 * stroke, rel=1e-9)
+        angle = np.linspace(0.0, 2 * np.pi, 20001)
+        place = crank * np.cos(angle) + np.sqrt(rod**2 - (crank * np.sin(angle) - offset) ** 2)
+        bend = np.gradient(np.gradient(place, angle), angle)[2:-2]
+        largest = 1e-3 * np.abs(bend).max() * (2 * np.pi * rate) ** 2
+        assert table.value("peak_acceleration", guide) == pytest.approx(largest, rel=1e-6)
+        turns = sum(row.metric == "limit_position" and row.subject.startswith(guide) for row in table.rows)
+        assert turns == 2 * (others if guide == "way" else teeth) // np.gcd(teeth, others)

@@ -52,7 +52,7 @@ class Angles:
         self.dimensions = dimensions
         self.poses = poses
         self.counted: dict[str, Scalar] = {}
-        self._pairs = any(geared(group) for group in groups)
+        self.pairs = any(geared(group) for group in groups)
         self._steps = {step.child: (group, step) for group in groups for step in group.tree}
         self._known: dict[str, Scalar] = {"frame": 0.0}
 
@@ -68,7 +68,7 @@ class Angles:
 
     def counts(self, link: str) -> bool:
         """Whether the mechanism has pairs that count turns, and those of a link are known."""
-        return self._pairs and self.follows(link)
+        return self.pairs and self.follows(link)
 
     def follows(self, link: str) -> bool:
         """Whether the turns of a link are known, such as those of one that drivers turn."""

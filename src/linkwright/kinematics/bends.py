@@ -27,6 +27,8 @@ SAME = 1e-12
 LOOKS = 14
 #: Ways of drivers that turn by laws, rad: between places of a stretch, and at most in what is one piece.
 LEAP, FAR = np.pi / 36, np.pi / 3
+#: As many pieces at most, however far something turns.
+MOST = 6000
 #: Places in a stretch, as shares of it, one of which at least an output passes that moves there.
 INNER = np.array([0.003, 0.03, 0.15, 0.35, 0.7, 0.9, 0.97, 0.997])
 
@@ -51,14 +53,44 @@ def stretches(motion: Motion) -> Stretches | None:
 
 
 def with_leaps(motion: Motion, edges: Floats) -> Floats:
-    """Times, s, in order, with others in between where drivers turn farther by their laws than :data:`FAR`."""
-    if one_formula(motion.mechanism):
-        return edges
-    time, way = _search(motion).way
-    passed = np.interp(edges, time, way)
-    parts = np.ceil(np.diff(passed) / FAR).astype(int)
-    more = [np.linspace(passed[k], passed[k + 1], parts[k] + 1)[1:-1] for k in np.flatnonzero(parts > 1)]
-    return np.sort(np.concatenate([edges, *(np.interp(each, way, time) for each in more)]))
+    """Times, s, in order, with others in between where a driver, or a link that pairs such as gears turn with it,
+    turns farther than :data:`FAR`; at most :data:`MOST` for each."""
+    for time, way in motion.kept("turning", lambda: _turning(motion)):
+        passed = np.interp(edges, time, way)
+        parts = np.ceil(np.diff(passed) / max(FAR, float(np.ptp(passed)) / MOST)).astype(int)
+        if (parts > 1).any():
+            more = [
+                np.linspace(passed[k], passed[k + 1], parts[k] + 1)[1:-1] for k in np.flatnonzero(parts > 1)
+            ]
+            edges = np.sort(np.concatenate([edges, *(np.interp(each, way, time) for each in more)]))
+    return edges
+
+
+def _turning(motion: Motion) -> list[tuple[Floats, Floats]]:
+    """Times, s, and the ways, rad, that what turns has gone by then: drivers by their laws, and links with them."""
+    time, mechanism = motion.time, motion.mechanism
+    period = motion.positions.period if motion.positions.closed else None
+    times = np.append(time, [] if period is None else [time[0] + np.sign(time[-1] - time[0]) * period])
+    low, high = float(times.min()), float(times.max())
+    speeds = [
+        abs(driver.law.constant_speed or 0.0) for driver in mechanism.drivers.values() if driver.law.rotary
+    ]
+    found = [(np.array([low, high]), max(speeds, default=0.0) * np.array([0.0, high - low]))]
+    if not one_formula(mechanism):
+        found.append(_search(motion).way)
+    if motion.solver.motion.angles.pairs:
+        order = np.argsort(times)
+        for link in mechanism.links:
+            if motion.link(link).counted:
+                rate = np.abs(motion.row("angular_velocity", link))
+                rates = np.nan_to_num(np.resize(rate, len(times))[order])
+                found.append(
+                    (
+                        times[order],
+                        np.append(0.0, np.cumsum(np.maximum(rates[1:], rates[:-1]) * np.diff(times[order]))),
+                    )
+                )
+    return found
 
 
 @dataclass(frozen=True)

@@ -22,7 +22,7 @@ from linkwright.core.search import ends, zero, zeros
 from linkwright.engine.recent import Recent
 from linkwright.errors import RequestError
 from linkwright.fields.signals import resolve_output
-from linkwright.kinematics.bends import one_formula, stretches
+from linkwright.kinematics.bends import one_formula, stretches, with_leaps
 from linkwright.kinematics.between import Between
 from linkwright.kinematics.motion import TURN, Motion
 from linkwright.kinematics.names import program_names
@@ -65,10 +65,11 @@ def limit_positions(motion: Motion, output: Output | str) -> tuple[LimitPosition
     """All positions within a motion where an output's rate is zero and changes its sign, in order of the motion.
 
     Exact to rounding in the input, independent of the steps, as long as at most two reversals lie between two
-    neighbouring positions. In a closed cycle the way from the last position to the first counts as well; the
-    ends of an open one are no limits, nor is a rate that touches zero without changing its sign. Of a rest
-    between opposite motions the middle is given. A way there and back of less than a ten
-    millionth of the output's travel (a rest from a table of numbers with few digits) counts as none.
+    neighbouring positions, or within a sixth of a turn of a driver and of what wheels turn with it. In a closed
+    cycle the way from the last position to the first counts as well; the ends of an open one are no limits, nor is
+    a rate that touches zero without changing its sign. Of a rest between opposite motions the middle is given. A
+    way there and back of less than a ten millionth of the output's travel (a rest from a table of numbers with few
+    digits) counts as none.
 
     Args:
         motion: positions along the drivers' laws, such as a cycle.
@@ -201,7 +202,7 @@ class _Search:
 
     def _reversals(self) -> _Reversals:
         rows = self.motion.rows.fetch(self.rate_names, self.motion.evaluate)
-        rate, second = (row[: self.count] for row in rows)
+        rate, second = self._with_leaps(*(row[: self.count] for row in rows))
         if self.one_formula and self._moves(rate):
             brackets = self._brackets(rate, second)
         elif (still := self._still(rate)) is None:
@@ -210,18 +211,34 @@ class _Search:
             brackets = self._brackets(*self._with_stretches(rate, second, still))
         return self._refined(brackets) if brackets else _Reversals([], [], [])
 
+    def _with_leaps(self, rate: Floats, second: Floats) -> tuple[Floats, Floats]:
+        """The rates at the positions, and at times between those from which to the next something turns far."""
+        edges = np.sort(np.append(self.times, [] if self.period is None else [self._time_of(self.count)]))
+        every = with_leaps(self.motion, edges)
+        if every is edges:
+            return rate, second
+        more = np.setdiff1d(every, edges)
+        order = np.argsort(self.times)
+        before = self.before[order[np.searchsorted(self.times[order], more, "right") - 1]]
+        return self._merged(rate, second, more, before)
+
+    def _merged(self, rate: Floats, second: Floats, places: Floats, before: Indices) -> tuple[Floats, Floats]:
+        """The rates with those at some more times, s, behind the positions ``before``."""
+        there = self.between.evaluate(self.rate_names, before, places)
+        good = np.isfinite(there).all(axis=0) & self.motion.ok[before]
+        times = np.append(self.times, places[good])
+        order = np.argsort(times if times[0] <= self.times[-1] else -times, kind="stable")
+        self.times, self.before = times[order], np.append(self.before, before[good])[order]
+        rate, second = np.concatenate([np.stack([rate, second]), there[:, good]], axis=1)[:, order]
+        return rate, second
+
     def _with_stretches(self, rate: Floats, second: Floats, still: float) -> tuple[Floats, Floats, Indices]:
         """The rates at the positions and at places of all stretches of one formula, in which rests are found, and
         where these are not zero."""
         parts = stretches(self.motion)
         if parts is None:
             return rate, second, np.flatnonzero(np.abs(rate) > still)
-        there = self.between.evaluate(self.rate_names, parts.before, parts.places)
-        good = np.isfinite(there).all(axis=0) & self.motion.ok[parts.before]
-        times = np.append(self.times, parts.places[good])
-        order = np.argsort(times if times[0] <= self.times[-1] else -times, kind="stable")
-        self.times, self.before = times[order], np.append(self.before, parts.before[good])[order]
-        rate, second = np.concatenate([np.stack([rate, second]), there[:, good]], axis=1)[:, order]
+        rate, second = self._merged(rate, second, parts.places, parts.before)
         least = np.where(parts.inside(self.times), still, max(still, STILL_AT_BENDS * _largest(rate)))
         moving = np.abs(rate) > least
         self.rests = parts.resting(self.times, moving)
