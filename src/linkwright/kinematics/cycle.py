@@ -69,6 +69,16 @@ class Positions:
         return {name: float(np.abs(rate).max()) for name, (_, rate, _) in self.coordinates.items()}
 
     @cached_property
+    def longest_turn(self) -> float:
+        """The farthest, rad, that a driver at its largest rate turns from one position to the next."""
+        longest = np.abs(np.diff(self.time)).max(initial=0.0)
+        if self.closed and self.period:
+            longest = max(longest, self.period - abs(self.time[-1] - self.time[0]))
+        return float(longest) * max(
+            (self.paces[name] for name, rotary in self.rotary.items() if rotary), default=0.0
+        )
+
+    @cached_property
     def key(self) -> Hashable:
         """What tells these positions from others."""
         rows = (self.time, *chain.from_iterable(self.coordinates.values()))

@@ -22,7 +22,7 @@ from linkwright.core.search import ends, zero, zeros
 from linkwright.engine.recent import Recent
 from linkwright.errors import RequestError
 from linkwright.fields.signals import resolve_output
-from linkwright.kinematics.bends import one_formula, stretches, with_leaps
+from linkwright.kinematics.bends import FAR, one_formula, stretches, with_leaps
 from linkwright.kinematics.between import Between
 from linkwright.kinematics.motion import TURN, Motion
 from linkwright.kinematics.names import program_names
@@ -213,6 +213,9 @@ class _Search:
 
     def _with_leaps(self, rate: Floats, second: Floats) -> tuple[Floats, Floats]:
         """The rates at the positions, and at times between those from which to the next something turns far."""
+        few = self.one_formula and not self.motion.solver.motion.angles.pairs
+        if few and self.motion.positions.longest_turn <= FAR:
+            return rate, second
         edges = np.sort(np.append(self.times, [] if self.period is None else [self._time_of(self.count)]))
         every = with_leaps(self.motion, edges)
         if every is edges:
