@@ -35,10 +35,9 @@ INNER = np.array([0.003, 0.03, 0.15, 0.35, 0.7, 0.9, 0.97, 0.997])
 
 def one_formula(mechanism: Mechanism) -> bool:
     """Whether a mechanism moves by one formula all the time, so that no output rests for a while."""
-    drivers, joints = mechanism.drivers.values(), mechanism.joints.values()
-    return all(driver.law.constant_speed is not None for driver in drivers) and all(
-        joint.bends is None for joint in joints
-    )
+    speeds = [driver.law.constant_speed for driver in mechanism.drivers.values()]
+    bends = [joint.bends for joint in mechanism.joints.values()]
+    return None not in speeds and not any(bends)
 
 
 def bend_times(motion: Motion) -> Floats:
