@@ -87,3 +87,33 @@ def test_numbers_of_a_cycle_of_hundreds_of_turns(teeth, others, steps):
         assert table.value("peak_acceleration", guide) == pytest.approx(largest, rel=1e-6)
         turns = sum(row.metric == "limit_position" and row.subject.startswith(guide) for row in table.rows)
         assert turns == 2 * (others if guide == "way" else teeth) // np.gcd(teeth, others)
+
+
+TURNED_FAR = """
+format: 1
+frame:
+  points: {O: [0 mm, 0 mm]}
+links:
+  crank: {points: [O, A], length: 20 mm}
+  rod: {points: [A, C], length: 70 mm}
+  ram: {points: [C]}
+joints:
+  way: {kind: prismatic, guide: frame, through: O, direction: 0 deg, block: ram, at: C, offset: 0 mm}
+assembly: {C: forward}
+driver: {turn: crank, about: O, position: "300 rad*(t/(2 s) - sin(pi*t/(1 s))/(2*pi))"}
+cycle: {duration: 2 s}
+"""
+
+
+@pytest.mark.parametrize("steps", [12, 60, 360])
+def test_a_crank_that_a_law_turns_far_between_two_positions_shows_all_its_limits(steps):
+    """The ram reverses at every half turn of the crank, whose angle grows from 0 to 300 rad."""
+    motion = lw.solve_motion(lw.loads(TURNED_FAR), steps=steps)
+    limits = lw.limit_positions(motion, "way")
+    angles = [limit.input for limit in limits]
+    assert angles == pytest.approx(np.pi * np.arange(1, int(300 / np.pi) + 1), rel=1e-12)
+    time = np.linspace(0.0, 2.0, 400001)
+    crank = 300 * (time / 2 - np.sin(np.pi * time) / (2 * np.pi))
+    place = 0.02 * np.cos(crank) + np.sqrt(0.07**2 - (0.02 * np.sin(crank)) ** 2)
+    largest = np.abs(np.gradient(np.gradient(place, time), time)[2:-2]).max()
+    assert lw.metrics(motion).value("peak_acceleration", "way") == pytest.approx(largest, rel=1e-5)
