@@ -12,6 +12,7 @@ import linkwright as lw
 from linkwright.kinematics.input_range import input_range
 from linkwright.kinematics.limits import limit_positions
 from linkwright.mechanism.mechanism import Cycle, Mechanism
+from linkwright.metrics import metrics
 
 
 def fourbar(a: float, b: float, c: float, d: float, *, start: float = 0.0, cycle: str = "") -> Mechanism:
@@ -55,20 +56,47 @@ def test_change_point_itself_is_refused_with_the_reason() -> None:
     assert "singular position" in motion.outcomes[180].sentence
 
 
+@pytest.mark.parametrize("steps", [5, 24, 360])
 @pytest.mark.parametrize("excess", [1e-9, 1e-7, 1e-5])
-def test_gap_between_two_positions_bars_the_way(excess: float) -> None:
-    """The crank is a little too long to pass 180°, where no position lies: nothing beyond counts as reached."""
+def test_gap_between_two_positions_bars_the_way(excess: float, steps: int) -> None:
+    """The crank is a little too long to pass 180°, where no position lies: it comes there from both sides, on the
+    side of the diagonal on which it began."""
     mechanism = fourbar(1 + excess, 3, 2, 4, start=20.5)
     with pytest.raises(lw.LinkwrightError, match="barred"):
-        lw.solve_motion(mechanism, steps=360)
-    motion = lw.solve_motion(mechanism, steps=360, failures="mark")
-    reached = degrees(motion.input[motion.ok][-1])
-    assert reached == pytest.approx(179.5)
-    assert np.isnan(motion.link("rocker").angle[motion.input > pi]).all()
+        lw.solve_motion(mechanism, steps=steps)
+    motion = lw.solve_motion(mechanism, steps=steps, failures="mark")
+    assert motion.ok.all() and not motion.whole
+    a, b, q = (motion.point(name).position for name in ("A", "B", "O2"))
+    side = (b - a)[:, 0] * (q - a)[:, 1] - (b - a)[:, 1] * (q - a)[:, 0]
+    assert (np.sign(side) == np.sign(side[0])).all()
     assert any("cannot pass" in note and "driver = 180°" in note for note in motion.notes)
     start, end = input_range(mechanism).start, input_range(mechanism).end
     assert start is not None and end is not None
     assert end < pi < start + 2 * pi
+    (reached,) = metrics(motion)["range_of_motion"]
+    assert reached.value == pytest.approx(end - start, abs=1e-9)
+    dead = [each.value for each in metrics(motion)["dead_point"] if each.subject == "driver"]
+    assert sorted(dead) == pytest.approx([end, start + 2 * pi], abs=1e-9)
+
+
+@pytest.mark.parametrize("steps", [5, 24, 61, 721])
+@pytest.mark.parametrize("speed", [1.0, -1.0])
+def test_limits_and_dead_points_of_a_part_of_a_cycle_are_those_for_any_number_of_positions(
+    speed: float, steps: int
+) -> None:
+    """The crank comes to 180° less 0.7° from both sides; the rocker turns back where crank and coupler are in one
+    line."""
+    mechanism = fourbar(2, 3.5, 2.4999, 4, start=50).with_dimensions({"driver.speed": speed})
+    motion = lw.solve_motion(mechanism, steps=steps, failures="mark")
+    (limit,) = limit_positions(motion, "rocker")
+    stretched = acos((5.5**2 + 4**2 - 2.4999**2) / (2 * 5.5 * 4))
+    assert np.cos(limit.input) == pytest.approx(np.cos(stretched), abs=1e-9)
+    ends = acos((2**2 + 4**2 - 5.9999**2) / (2 * 2 * 4))
+    found = metrics(motion)["dead_point"]
+    assert np.cos([each.value for each in found if each.subject == "driver"]) == pytest.approx(
+        [np.cos(ends)] * 2, abs=1e-9
+    )
+    assert len(found) == 3
 
 
 def test_a_little_shorter_passes() -> None:
@@ -152,7 +180,8 @@ def test_guides_that_become_parallel_bar_the_way(steps: int) -> None:
     """A turning slot and a fixed guide: at 90° the pin is infinitely far away, y = tan of the angle."""
     mechanism = replace(lw.load("gallery:tangent_mechanism"), cycle=Cycle(turns=1.0))
     motion = lw.solve_motion(mechanism, steps=steps, failures="mark")
-    turned = np.degrees(motion.input)
+    turned = np.degrees(motion.input) % 360.0
+    turned -= np.where(turned > 180.0, 360.0, 0.0)
     assert turned[motion.ok].max() - turned[motion.ok].min() < 180.0
     if steps == 359:
         assert any("become parallel" in note and "cannot pass" in note for note in motion.notes)

@@ -14,7 +14,8 @@ from tests.reference.general_case import general_case
 
 import linkwright as lw
 from linkwright.drivers.constant_speed import ConstantSpeed
-from linkwright.kinematics.limits import LimitPosition, _zero, limit_positions
+from linkwright.kinematics.brackets import zero_between
+from linkwright.kinematics.limits import LimitPosition, limit_positions
 from linkwright.mechanism.mechanism import Cycle, Mechanism
 
 GALLERY = sorted(path.stem for path in (Path(lw.__file__).parent / "gallery").glob("*.yaml"))
@@ -346,9 +347,9 @@ def test_the_first_guess_of_a_zero_is_the_cubic_of_the_share_over_the_rate() -> 
         exact, straight = float(share(0.0)), -a / width
         good = 0.0 < exact < 1.0
         inside += good
-        assert _zero(a, b, *(1.0 / slopes)) == pytest.approx(exact if good else straight, abs=1e-12)
+        assert zero_between(a, b, *(1.0 / slopes)) == pytest.approx(exact if good else straight, abs=1e-12)
     assert 30 < inside < 60
-    assert _zero(-1.0, 3.0, 0.0, 1.0) == _zero(-1.0, 3.0, 1.0, 0.0) == 0.25
+    assert zero_between(-1.0, 3.0, 0.0, 1.0) == zero_between(-1.0, 3.0, 1.0, 0.0) == 0.25
 
 
 @pytest.mark.parametrize("steps", [24, 60, 499])

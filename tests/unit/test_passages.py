@@ -14,7 +14,6 @@ import linkwright as lw
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
 from linkwright.kinematics.change_points import (
-    Passage,
     _divided,
     closes,
     cut_off,
@@ -29,6 +28,7 @@ from linkwright.kinematics.change_points import (
 )
 from linkwright.kinematics.cycle import Positions, over_cycle
 from linkwright.kinematics.explain import passage_notes
+from linkwright.kinematics.passage import Passage
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.mechanism.geometry import mechanism_size
 from linkwright.mechanism.mechanism import Cycle
@@ -61,22 +61,23 @@ def passage(
         ([0, 0, -1, 0, 0, 0], False, [], set(), [0, 0, 0, 0, 0, 0]),
         ([2, 0, 0, 1, 0, 0], False, [], set(), [0, 0, 0, 0, 1, 1]),
         ([0, 0, 0, 0, 0, 0], False, [3], set(), [0, 0, 0, 0, 1, 1]),
-        ([0, 0, 0, 0, 0, 0], True, [3], set(), [0, 0, 0, 0, 1, 1]),
+        ([0, 0, 0, 0, 0, 0], True, [3], set(), [0, 0, 0, 0, 0, 0]),
+        ([0, 0, 0, 0, 0, 0], True, [1, 3], set(), [0, 0, 1, 1, 0, 0]),
         ([0, 0, 0, 0, 0, 0], True, [5], set(), [0, 0, 0, 0, 0, 0]),
         ([0, 0, 0, 0, 0, 0], True, [], {2}, [0, 0, 0, 0, 0, 0]),
         ([0, 0, 0, 0, 0, 0], True, [], {1, 3}, [0, 0, 1, 1, 0, 0]),
         ([0, 0, 0, 0, 0, 0], False, [], {1}, [0, 0, 1, 1, 1, 1]),
-        ([0, 0, 0, 1, 0, 0], True, [0], set(), [0, 1, 1, 0, 1, 1]),
+        ([0, 0, 0, 1, 0, 0], True, [0], set(), [0, 1, 1, 0, 0, 0]),
         ([1, 1, 1, 1, 1, 1], True, [], set(), [0, 0, 0, 0, 0, 0]),
     ],
 )
 def test_what_cannot_be_reached_from_the_first_solved_position_is_cut_off(
     codes: list[int], closed: bool, gaps: list[int], breaks: set[int], off: list[int]
 ) -> None:
-    found = cut_off(np.array(codes, float), [passage(k, "gap") for k in gaps], row(6, closed=closed), breaks)
+    found = cut_off(np.array(codes, float), row(6, closed=closed), breaks | set(gaps))
     assert found.tolist() == off
     apart = row(6, step=2.0)
-    assert not cut_off(np.array(codes, float), [passage(k, "gap") for k in gaps], apart, breaks).any()
+    assert not cut_off(np.array(codes, float), apart, breaks | set(gaps)).any()
 
 
 def test_positions_are_one_way_if_they_follow_each_other_closely_or_are_a_cycle() -> None:

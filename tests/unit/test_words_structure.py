@@ -9,7 +9,6 @@ import sys
 from math import hypot, radians
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 import linkwright as lw
@@ -149,7 +148,11 @@ def test_singular_and_barred_positions_in_chinese() -> None:
     singular = lw.solve_motion(fourbar(1, 3, 2), steps=360, failures="mark").outcomes[180]
     assert "奇异位置" in singular.say("zh")
     motion = lw.solve_motion(fourbar(1 + 1e-7, 3, 2, 20.5), steps=360, failures="mark")
-    assert "途中" in motion.outcomes[int(np.flatnonzero(~motion.ok)[0])].say("zh")
+    with pytest.raises(lw.LinkwrightError) as refused:
+        lw.solve_motion(motion.mechanism, steps=360)
+    assert "通路被阻断" in in_language(refused.value.sentence, "zh")
+    apart = lw.solve_motion(fourbar(3.75, 1.25, 3.5, 50.0), steps=72, failures="mark")
+    assert any("途中" in outcome.say("zh") for outcome in apart.outcomes)
     notes = [in_language(note, "zh") for note in motion.notes]
     assert any("driver = 180°" in note and "不能通过" in note for note in notes)
     for note in notes:

@@ -24,7 +24,7 @@ def data(solved: Solved, options: argparse.Namespace) -> dict[str, object]:
     motion, forces = solved.motion, solved.forces
     failed = [int(row) for row in solved.rows if not motion.ok[row]]
     found: dict[str, object] = {
-        "ok": bool(motion.ok.all()) and solved.trouble is None,
+        "ok": motion.whole and solved.trouble is None,
         "name": motion.mechanism.name,
         "mobility": motion.structure.mobility,
         "positions": len(solved.rows),

@@ -60,7 +60,7 @@ def side_by_side(traced: Traced, varied: Iterable[str]) -> bool:
     passed without change points, all rotations counted."""
     if not whole_turns(traced, varied):
         return False
-    return bool(traced.nominal.ok.all()) and not traced.nominal.modes and traced.countable
+    return traced.nominal.whole and not traced.nominal.modes and traced.countable
 
 
 def iterated(traced: Traced) -> tuple[str, ...]:

@@ -110,6 +110,6 @@ def sentence_of(traced: Traced, changes: Mapping[str, float]) -> str:
         motion = OneByOne(traced, flipping=True).motion(changes)
     except LinkwrightError as error:
         return error.sentence
-    if motion.ok.all():
+    if motion.whole:
         return Sentence("study.not_followed")
     return refusal(motion).sentence

@@ -99,7 +99,7 @@ def follows_times(traced: Traced, varied: Iterable[str]) -> bool:
     """Whether all designs can be read at the same times: passed without change points by groups in closed form,
     where nothing that varies moves the inputs."""
     motion = traced.solver.motion
-    if motion.next_states or not traced.nominal.ok.all() or traced.nominal.modes:
+    if motion.next_states or not traced.nominal.whole or traced.nominal.modes:
         return False
     steps = traced.positions.steps
     return traced.positions.count > 2 and not any(

@@ -62,7 +62,7 @@ class Results:
         """Design numbers; none where positions were not reached."""
         from linkwright.metrics import metrics
 
-        if not self.motion.ok.all():
+        if not self.motion.whole:
             return MetricsTable(self.mechanism.name, ())
         return metrics(self.motion if self.forces is None else self.forces)
 

@@ -6,13 +6,15 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
-from linkwright.core.arrays import Floats, Indices
+from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.once import cached_property
 from linkwright.core.outputs import row_name
 from linkwright.errors import LinkwrightError
-from linkwright.kinematics.change_points import Passage, closes, passages, signs
+from linkwright.kinematics.change_points import closes, passages, signs
 from linkwright.kinematics.cycle import Positions, at_one_time, at_times
 from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.passage import Passage
+from linkwright.kinematics.passing import modal
 from linkwright.kinematics.solve import reached_modes
 
 
@@ -39,9 +41,10 @@ class Between:
 
     @cached_property
     def bars(self) -> list[Passage]:
-        """Where a group cannot be assembled though it can be at the positions beside."""
+        """Where a group cannot be assembled, or followed, though it can be at the positions beside."""
         motion = self.motion
-        return [p for p in passages(motion.solver, motion.positions, motion.followed) if p.barred]
+        found = passages(motion.solver, motion.positions, motion.followed)
+        return [p for p in found if p.barred or p.kind == "end"]
 
     @property
     def closes(self) -> bool:
@@ -50,11 +53,39 @@ class Between:
 
     def evaluate(self, names: tuple[str, ...], before: Indices, time: Floats) -> Floats:
         """Outputs of the program (names, m) at times a little after the positions ``before``; NaN out of reach."""
-        motion = self.motion
-        positions = at_times(motion.mechanism, time)
+        motion, positions = self.motion, self.positions(time)
         modes = motion.modes and self._modes(positions)
         states = self._states(positions, before)
         return motion.solver.evaluate(names, positions, states, modes, motion.design)
+
+    def positions(self, time: Floats) -> Positions:
+        """The drivers at some times, s; where a table ends with the cycle, behind it those at its beginning."""
+        mechanism, positions = self.motion.mechanism, self.motion.positions
+        try:
+            return at_times(mechanism, time)
+        except LinkwrightError:
+            if not (positions.closed and positions.period):
+                raise
+            known, period = self.motion.time, positions.period
+            start = float(known[0] if known[-1] >= known[0] else known[0] - period)
+            outside = (time < start) | (time > start + period)
+            return at_times(mechanism, np.where(outside, start + (time - start) % period, time))
+
+    def assembled(self, before: Indices, time: Floats, beside: Indices) -> Flags:
+        """Which of some times, s, a little after the positions ``before`` are reached, to where a dyad is
+        stretched or folded; what is followed from the position ``beside``, or from both where that is negative."""
+        motion, positions = self.motion, self.positions(time)
+        states = self._states(positions, before)
+        for k in np.flatnonzero(beside >= 0) if states else ():
+            for name, row in self._moved(int(beside[k]), positions.time[k : k + 1]).items():
+                states[name][k] = row[0]
+        modes = motion.modes and self._modes(positions)
+        squares = tuple(row_name("quality", group) for group in modal(motion.solver.motion))
+        found = motion.solver.evaluate((*squares, "outcome"), positions, states, modes, motion.design)
+        good = (found[-1] <= 0.0) & (found[:-1] >= 0.0).all(axis=0)
+        for row in states.values():
+            good &= np.isfinite(row)
+        return np.asarray(good)
 
     def on_plain_numbers(self, names: tuple[str, ...]) -> Callable[[float], list[float]] | None:
         """The same at one time; None where more than constant speeds and closed forms decides."""

@@ -14,12 +14,10 @@ from collections.abc import Callable, Mapping, Sequence, Set
 from dataclasses import replace
 from functools import cached_property
 from math import ceil
-from typing import Literal
 
 import numpy as np
 
 from linkwright.core.arrays import Flags, Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.core.inputs import mode_inputs
 from linkwright.core.outputs import row_name
 from linkwright.core.search import edge, ends, lowest
@@ -28,6 +26,7 @@ from linkwright.engine.trace import Scalar, minimum
 from linkwright.kinematics.closed_loops import upstream
 from linkwright.kinematics.continuation import Followed
 from linkwright.kinematics.cycle import Positions, at_times
+from linkwright.kinematics.passage import Kind, Passage
 from linkwright.kinematics.passing import FINE, NEAR, measures, modal
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinematics.trace import MotionTrace
@@ -46,52 +45,12 @@ LARGEST_STEP = 0.55
 SAMPLES, MOST = 720, 40_000
 #: Into at least so many steps a cycle is divided.
 FEWEST = 24
+#: Rounds in which change points are sought again: behind what bars the way of one group no other turns its sign.
+ROUNDS = 4
 #: From so many groups that pass change points on, the signs of all groups are inputs: their motion is traced once.
 MANY = 3
 
-Kind = Literal["change", "meeting", "end", "gap", "pole"]
 Way = Callable[[Floats], Positions]
-
-
-@dataclass(frozen=True)
-class Passage:
-    """Where a group's modes meet (``change``), its outer pins meet (``meeting``), or it cannot pass: out of reach
-    (``gap``), or infinitely far as its guides become parallel (``pole``). An ``end`` is one of the first two beneath
-    a group without closed form, which cannot be followed through it.
-
-    It lies at ``share`` of the step from the position ``before`` to the position ``after``, ``at`` the first driver's
-    coordinate (rad or m); ``quality`` is the least square of the sine of the group's transmission angle there.
-    ``flips``: the places between which the group has its other sign because of it.
-    """
-
-    group: str
-    before: int
-    after: int
-    share: float
-    quality: float
-    kind: Kind
-    at: float
-    flips: tuple[float, float] = (0.0, np.inf)
-
-    @property
-    def touches(self) -> bool:
-        """Whether the motion passes, with the other sign."""
-        return self.kind in ("change", "meeting")
-
-    @property
-    def barred(self) -> bool:
-        """Whether the group cannot be assembled there, though it can be before and after."""
-        return self.kind in ("gap", "pole")
-
-    @property
-    def singular(self) -> bool:
-        """Whether its modes or its outer pins meet."""
-        return self.touches or self.kind == "end"
-
-    @property
-    def place(self) -> float:
-        """Number of the position, counted on in between."""
-        return self.before + self.share
 
 
 def is_way(positions: Positions) -> bool:
@@ -218,6 +177,7 @@ class _Search:
         self.beneath = _beneath_followed(solver)
         self.passing: list[Passage] = []
         self.flipping: dict[str, list[Passage]] = {}
+        self.barred: Floats = np.empty(0)
 
     @cached_property
     def way(self) -> Way:
@@ -229,6 +189,26 @@ class _Search:
         return (-np.inf, np.inf) if self.positions.closed else (0.0, self.positions.count - 1.0)
 
     def found(self) -> list[Passage]:
+        """Those of all groups. A sign is turned only as far as the mechanism comes, which other groups decide as
+        well: with what bars its way it is sought again."""
+        for _ in range(ROUNDS):
+            found = self._found()
+            if not self.flipping or not self.positions.closed:
+                break
+            barred = self._barred(found)
+            if np.array_equal(barred, self.barred):
+                break
+            self.barred = barred
+        return found
+
+    def _barred(self, found: Sequence[Passage]) -> Floats:
+        """Places that cannot be assembled, or cannot be passed."""
+        (codes,) = self._evaluate(("outcome",))
+        gaps = [*found, *self._stretches()]
+        return np.append(np.flatnonzero(~(codes <= 0.0)), [p.place for p in gaps if p.barred])
+
+    def _found(self) -> list[Passage]:
+        self.solver, self.passing, self.flipping = self.base, [], {}
         groups = modal(self.base.motion)
         names = tuple(name for group in groups for name in measures(self.base.motion, group))
         if not names:
@@ -277,7 +257,7 @@ class _Search:
         return found
 
     def _assembled(self, places: Floats) -> Flags:
-        return np.asarray(self._evaluate(("outcome",), places)[0] == 0.0)
+        return np.asarray(self._evaluate(("outcome",), places)[0] <= 0.0)
 
     def _poles(self) -> list[Passage]:
         """Where two guides of a group become parallel, and what slides on them goes through infinity."""
@@ -324,10 +304,10 @@ class _Search:
 
     def _flips(self, p: Passage, blocked: Flags) -> tuple[float, float]:
         """From there on; in a closed cycle that cannot be passed, backwards from its first position."""
-        bars = np.flatnonzero(blocked)
+        bars = np.append(np.flatnonzero(blocked), self.barred)
         if not self.positions.closed or not len(bars):
             return p.place, np.inf
-        first, last = float(bars[0]), float(bars[-1])
+        first, last = float(bars.min()), float(bars.max())
         return (p.place, first) if p.place < first else (min(last, p.place), p.place)
 
     def _of_group(self, group: str, rows: Mapping[str, Floats]) -> list[Passage]:
@@ -449,26 +429,22 @@ def closes(passing: Sequence[Passage]) -> bool:
     return all(groups.count(group) % 2 == 0 for group in groups)
 
 
-def cut_off(
-    codes: Floats, passing: Sequence[Passage], positions: Positions, breaks: Set[int] = frozenset()
-) -> Floats:
+def cut_off(codes: Floats, positions: Positions, breaks: Set[int] = frozenset()) -> Floats:
     """1 for solved positions that cannot be reached from the first solved one, because a gap or positions out of
     reach lie in between, else 0; (n,). ``codes`` are the outcomes of the positions.
 
-    ``breaks``: positions after which a group without closed form cannot be followed to the next one.
-    A closed cycle is followed backwards from its first position as well where positions fail visibly; beyond a
-    gap between two positions nothing counts as reached, since the driver cannot pass it.
+    ``breaks``: positions after which there is no way to the next one. A closed cycle is followed backwards from its
+    first position as well.
     """
     n, good = len(codes), codes == 0
     if not is_way(positions) or not good.any():
         return np.zeros(n)
     open_way = codes <= 0
-    bars = {p.before for p in passing if p.barred}
-    if open_way.all() and not bars and not breaks:
+    if open_way.all() and not breaks:
         return np.zeros(n)
     first = int(np.flatnonzero(good)[0])
     reached = np.zeros(n, dtype=bool)
-    for step in (1,) if bars else (1, -1):
+    for step in (1, -1):
         here = first
         while open_way[here] and not (reached[here] and here != first):
             reached[here] = True
@@ -477,7 +453,7 @@ def cut_off(
             if not positions.closed and not 0 <= there < n:
                 break
             here = there % n
-            if edge % n in bars or edge % n in breaks:
+            if edge % n in breaks:
                 break
     return np.where(good & ~reached, 1.0, 0.0)
 

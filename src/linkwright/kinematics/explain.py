@@ -10,15 +10,17 @@ import numpy as np
 
 from linkwright.core.arrays import Indices
 from linkwright.core.outputs import row_name
-from linkwright.kinematics.change_points import Passage, closes
+from linkwright.kinematics.change_points import closes
 from linkwright.kinematics.closed_loops import iterated
 from linkwright.kinematics.cycle import FEW, Positions, cycle_turns, not_back, together
 from linkwright.kinematics.outcome import Outcome, PositionError
+from linkwright.kinematics.passage import Passage
 from linkwright.kinematics.whole_turns import MOST
 from linkwright.units import number
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
+    from linkwright.kinematics.continuation import Stop
     from linkwright.kinematics.motion import Motion
     from linkwright.mechanism.mechanism import Mechanism
     from linkwright.structure.group import Group
@@ -173,11 +175,17 @@ class _Facts:
         here = np.array([rows.coordinates[name][0][index] for name in names])
         if (np.abs(here - stop.inputs) < ON_LIMIT).all():
             return Outcome(False, _of("singular", group), group.name, "singular")
-        where = ", ".join(
-            _shown(name, float(q), rows.rotary[name])
-            for name, q in zip(names, np.round(stop.inputs, KNOWN) + 0.0, strict=True)
-        )
-        return Outcome(False, _of("stopped", group, where=where), group.name, "unreachable")
+        return Outcome(False, _stopped(self.motion, group, stop), group.name, "unreachable")
+
+
+def _stopped(motion: Motion, group: Group, stop: Stop) -> Sentence:
+    """Where the way of a group without closed form ends."""
+    rotary = motion.positions.rotary
+    where = ", ".join(
+        _shown(name, float(q), rotary[name])
+        for name, q in zip(motion.positions.coordinates, np.round(stop.inputs, KNOWN) + 0.0, strict=True)
+    )
+    return _of("stopped", group, where=where)
 
 
 def _of(key: str, group: Group, **values: object) -> Sentence:
@@ -185,11 +193,26 @@ def _of(key: str, group: Group, **values: object) -> Sentence:
     return Sentence(f"outcome.{key}", signature=group.signature, links=group.links, **values)
 
 
+def _not_passed(motion: Motion) -> PositionError:
+    """The error for a cycle that is barred between two positions, though all of them are reached from both sides."""
+    barred = Outcome(False, Sentence("outcome.between"), None, "barred")
+    way, told = motion.followed, (barred, *motion.notes)
+    if way is not None and way.stops:
+        group = next(each for each in motion.structure.groups if each.name == way.stops[0].group)
+        told = (barred, _stopped(motion, group, way.stops[0]), *motion.notes)
+    said = Sentence(
+        "motion.not_passed", name=motion.mechanism.name, told=told, advice=Sentence("motion.advice")
+    )
+    return PositionError(said, (), barred)
+
+
 def refusal(motion: Motion) -> PositionError:
-    """The error for a motion of which some positions cannot be reached."""
+    """The error for a motion of which some positions cannot be reached, or that is barred between two of them."""
     from linkwright.kinematics.input_range import range_sentence
 
     failed = np.flatnonzero(~motion.ok)
+    if not len(failed):
+        return _not_passed(motion)
     first = int(failed[0])
     outcome = motion.outcomes[first]
     where = input_at(motion, first)

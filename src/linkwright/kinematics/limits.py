@@ -10,7 +10,7 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
-from typing import Literal, NamedTuple
+from typing import Literal
 
 import numpy as np
 
@@ -24,8 +24,10 @@ from linkwright.errors import RequestError
 from linkwright.fields.signals import resolve_output
 from linkwright.kinematics.bends import FAR, one_formula, stretches, with_leaps
 from linkwright.kinematics.between import Between
+from linkwright.kinematics.brackets import Bracket, Columns, part_of, places_of, which_dip, zero_between
 from linkwright.kinematics.motion import TURN, Motion
 from linkwright.kinematics.names import program_names
+from linkwright.kinematics.reach import Reach
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
 
@@ -41,6 +43,8 @@ CONSTANT = 1e-10
 BLURRED = 1e-10
 #: Where a group cannot be computed at its change point, the mean from this share of a step on both sides is taken.
 BESIDE = 1e-4
+#: Shares of a stretch that is reached, at whose ends outputs come with infinite rates.
+NEARING = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, 386)[1:-1])
 #: A way back of less than this share of the travel is what the digits of a table leave open, not a reversal.
 LEAST_WAY = 1e-7
 
@@ -121,34 +125,6 @@ def output_of(mechanism: Mechanism, text: str) -> Output:
     raise RequestError("motion.no_output", text=text, hint=hint)
 
 
-class Bracket(NamedTuple):
-    """A stretch after the position ``before``, at ``begin`` s, from ``low`` to ``high`` (shares of ``span`` s), with
-    its rates; near ``start`` the rate is zero."""
-
-    before: int
-    begin: float
-    span: float
-    low: float
-    high: float
-    rate_low: float
-    rate_high: float
-    start: float
-
-    @property
-    def kind(self) -> Literal["max", "min"]:
-        """Of the limit in it."""
-        return "max" if self.rate_low * self.span > 0.0 else "min"
-
-
-class _Columns:
-    """Brackets side by side."""
-
-    def __init__(self, brackets: Sequence[Bracket]) -> None:
-        self.before = np.array([each.before for each in brackets])
-        rows = np.array([each[1:] for each in brackets]).T
-        self.begin, self.span, self.low, self.high, self.rate_low, self.rate_high, self.start = rows
-
-
 #: Numbers of the stored rows that are angular velocities, and velocities.
 _speeds: Recent[Mapping[str, int], tuple[list[int], list[int]]] = Recent(64)
 
@@ -196,6 +172,16 @@ class _Search:
         return [(law.at(self._time(each, share)), each.kind) for each, share in zeros if math.isfinite(share)]
 
     @cached_property
+    def reach(self) -> Reach:
+        """What is reached."""
+        return Reach(self.motion, self.between)
+
+    @cached_property
+    def whole(self) -> bool:
+        """Whether that is all."""
+        return self.motion.whole or self.reach.whole
+
+    @cached_property
     def found(self) -> _Reversals:
         """Where the rate is zero."""
         return self.motion.kept(("reversals", self.output), self._reversals)
@@ -203,13 +189,18 @@ class _Search:
     def _reversals(self) -> _Reversals:
         rows = self.motion.rows.fetch(self.rate_names, self.motion.evaluate)
         rate, second = self._with_leaps(*(row[: self.count] for row in rows))
-        if self.one_formula and self._moves(rate):
+        if self.one_formula and not self.motion.breaks and self._moves(rate):
             brackets = self._brackets(rate, second)
-        elif (still := self._still(rate)) is None:
-            brackets = []
         else:
-            brackets = self._brackets(*self._with_stretches(rate, second, still))
+            brackets = self._brackets_of_parts(rate, second)
         return self._refined(brackets) if brackets else _Reversals([], [], [])
+
+    def _brackets_of_parts(self, rate: Floats, second: Floats) -> list[Bracket]:
+        """The same of outputs that may rest, or are not reached everywhere."""
+        if not self.whole:
+            rate, second = self._with_stretches_reached(rate, second)
+        still = self._still(rate)
+        return [] if still is None else self._brackets(*self._with_stretches(rate, second, still))
 
     def _with_leaps(self, rate: Floats, second: Floats) -> tuple[Floats, Floats]:
         """The rates at the positions, and at times between those from which to the next something turns far."""
@@ -225,10 +216,19 @@ class _Search:
         before = self.before[order[np.searchsorted(self.times[order], more, "right") - 1]]
         return self._merged(rate, second, more, before)
 
+    def _with_stretches_reached(self, rate: Floats, second: Floats) -> tuple[Floats, Floats]:
+        """The rates with those between the ends of what is reached, the closer the nearer these are."""
+        places = np.concatenate([[], *(a + (b - a) * NEARING for a, b in self.reach.stretches)])
+        if self.motion.positions.closed and (period := self.motion.positions.period):
+            start = float(self.motion.time[0])
+            places = start + (places - start) % period
+        places = np.setdiff1d(places, self.times)
+        return self._merged(rate, second, places, self.reach.before(places))
+
     def _merged(self, rate: Floats, second: Floats, places: Floats, before: Indices) -> tuple[Floats, Floats]:
         """The rates with those at some more times, s, behind the positions ``before``."""
         there = self.between.evaluate(self.rate_names, before, places)
-        good = np.isfinite(there).all(axis=0) & self.motion.ok[before]
+        good = np.isfinite(there).all(axis=0) & (self.whole or self.reach.reached(places))
         times = np.append(self.times, places[good])
         order = np.argsort(times if times[0] <= self.times[-1] else -times, kind="stable")
         self.times, self.before = times[order], np.append(self.before, before[good])[order]
@@ -287,12 +287,12 @@ class _Search:
         if self.period is not None:
             grows, nears = grows + grows[:1], nears + nears[:1]
             places = places if moving is None else [*places, *(each + len(rate) for each in places[:1])]
-        together = self._together(rate, places) if moving is not None else lambda _: True
-        changes = sorted(_places(grows, b"\0\1") + _places(grows, b"\1\0"))
+        together = (lambda _: True) if moving is None or self.whole else self._together(places)
+        changes = sorted(places_of(grows, b"\0\1") + places_of(grows, b"\1\0"))
         found = [self._bracket(rate, second, *places[k : k + 2]) for k in changes if together(k)]
         dips = [
             (places[k], places[k + 1])
-            for k in _places(nears, b"\1\0")
+            for k in places_of(nears, b"\1\0")
             if grows[k] == grows[k + 1] and turn[places[k + 1] % len(rate)] > 0.0 and together(k)
         ]
         return found + self._split(rate, second, dips) if dips else found
@@ -306,7 +306,7 @@ class _Search:
             middle = (0.5 * float(rest.min() + rest.max()) - begin) / span
             return Bracket(before, begin, span, middle, middle, a, b, middle)
         same = (a > 0.0) == (b > 0.0)
-        start = 0.5 if same else _zero(a, b, float(second[first]) * span, float(second[after]) * span)
+        start = 0.5 if same else zero_between(a, b, float(second[first]) * span, float(second[after]) * span)
         return Bracket(before, begin, span, 0.0, 1.0, a, b, start)
 
     def _rest(self, begin: float, end: float) -> Floats:
@@ -322,21 +322,27 @@ class _Search:
         count = len(self.times)
         return float(self.times[position % count]) + (position >= count) * (self.period or 0.0)
 
-    def _together(self, rate: Floats, places: Sequence[int]) -> Callable[[int], bool]:
-        """Whether no position out of reach lies between one of these positions and the next, by its number."""
-        there = np.isfinite(rate) | (self.motion.outcome_codes < 0)[self.before]
-        gaps = np.concatenate([[0], np.cumsum(~np.tile(there, 2))])
-        return lambda k: bool(gaps[places[k + 1] + 1] == gaps[places[k]])
+    def _together(self, places: Sequence[int]) -> Callable[[int], bool]:
+        """Whether no end of what is reached lies between one of these positions and the next, by its number."""
+        edges = np.array([time for time, _ in self.reach.edges])
+        if self.period is not None:
+            edges = np.append(edges, edges + math.copysign(self.period, self.times[-1] - self.times[0]))
+
+        def together(k: int) -> bool:
+            ways = (edges - self._time_of(places[k])) * (edges - self._time_of(places[k + 1]))
+            return bool((ways > 0.0).all())
+
+        return together
 
     def _split(self, rate: Floats, second: Floats, ends_of: list[tuple[int, int]]) -> list[Bracket]:
         """Stretches in which the rate dips below zero and comes back, between two positions: both halves of each."""
         dips = [self._bracket(rate, second, *each) for each in ends_of]
         slopes = [[float(second[each[k] % len(rate)]) for each in ends_of] for k in (0, 1)]
-        dips = [dip for dip, is_one in zip(dips, _dips(dips, *slopes), strict=True) if is_one]
+        dips = [dip for dip, is_one in zip(dips, which_dip(dips, *slopes), strict=True) if is_one]
         still = self._still(rate) if dips else None
         if still is None:
             return []
-        columns = _Columns(dips)
+        columns = Columns(dips)
         sign = np.sign(self._rates(columns, columns.low)[1])
         middle = ends(
             lambda share: np.sign(self._rates(columns, share)[1]) == sign, columns.low, columns.high
@@ -346,13 +352,13 @@ class _Search:
         for dip, share, least in zip(dips, middle.tolist(), rates.tolist(), strict=True):
             if abs(least) > still and least * dip.rate_low < 0.0:
                 found += [
-                    _part(dip, dip.low, share, dip.rate_low, least),
-                    _part(dip, share, dip.high, least, dip.rate_high),
+                    part_of(dip, dip.low, share, dip.rate_low, least),
+                    part_of(dip, share, dip.high, least, dip.rate_high),
                 ]
         return found
 
     # refinement -------------------------------------------------------------------------------------
-    def _rates(self, brackets: _Columns, share: Floats) -> Floats:
+    def _rates(self, brackets: Columns, share: Floats) -> Floats:
         """At shares of the brackets' spans the output's rate and second derivative, then what gives its value."""
         time = brackets.begin + share * brackets.span
         return self.between.evaluate((*self.rate_names, *self.value_names), brackets.before, time)
@@ -382,7 +388,7 @@ class _Search:
 
     def _refined_together(self, found: list[Bracket]) -> _Reversals:
         """The same side by side, where change points may be passed and groups are followed."""
-        brackets = _Columns(found)
+        brackets = Columns(found)
         a, b = brackets.rate_low, brackets.rate_high
         rows = np.empty(0)
 
@@ -401,7 +407,7 @@ class _Search:
             rows = self._rates(brackets, here)
         return _Reversals(found, here.tolist(), rows[2:].T.tolist())
 
-    def _at_touch(self, brackets: _Columns, k: int) -> float:
+    def _at_touch(self, brackets: Columns, k: int) -> float:
         """The share of a change point in a bracket whose rate cannot be computed there; NaN without one."""
         start, span = float(brackets.begin[k]), float(brackets.span[k])
         touch = self.between.touch(start + span * brackets.low[k], start + span * brackets.high[k])
@@ -455,7 +461,8 @@ class _Search:
             (turned,) = self.motion.rows.fetch(self.value_names, self.motion.evaluate)
             first = float(np.nanmax(angle - turned))
             return [row[0] + first for row in rows]
-        near = angle[before].tolist()
+        known = np.flatnonzero(np.isfinite(angle))
+        near = angle[known[np.abs(np.subtract.outer(known, before)).argmin(axis=0)]].tolist()
         raw = [math.atan2(y, x) for x, y in rows]
         return [angle + TURN * round((at - angle) / TURN) for angle, at in zip(raw, near, strict=True)]
 
@@ -463,40 +470,3 @@ class _Search:
 def _largest(values: Floats) -> float:
     """The largest size among values, of which some may be NaN; zero for none."""
     return float(np.fmax.reduce(np.abs(values), axis=None, initial=0.0))
-
-
-def _zero(a: float, b: float, slope_a: float, slope_b: float) -> float:
-    """Share at which a rate is about zero, from rates of unlike signs and slopes at both ends: by the cubic of the
-    share over the rate, exact to fourth order; by the straight line where that one leaves the stretch."""
-    at = a / (a - b)
-    if slope_a == 0.0 or slope_b == 0.0:
-        return at
-    rest, rise = 1.0 - at, b - a
-    cubic = at * at * (3.0 - 2.0 * at) + at * rest * rise * (rest / slope_a - at / slope_b)
-    return cubic if 0.0 < cubic < 1.0 else at
-
-
-def _places(data: bytes, pair: bytes) -> list[int]:
-    """Where two bytes stand beside each other."""
-    found, k = list[int](), data.find(pair)
-    while k >= 0:
-        found.append(k)
-        k = data.find(pair, k + 1)
-    return found
-
-
-def _part(dip: Bracket, low: float, high: float, a: float, b: float) -> Bracket:
-    """A part of a stretch at whose ends the rate has unlike signs."""
-    return Bracket(dip.before, dip.begin, dip.span, low, high, a, b, low + (high - low) * a / (a - b))
-
-
-def _dips(brackets: list[Bracket], second_a: Sequence[float], second_b: Sequence[float]) -> list[bool]:
-    """Whether a rate of one sign at both ends of a stretch may cross zero within, by the cubic through the rates and
-    second derivatives (per s) there."""
-    columns = _Columns(brackets)
-    a, b = columns.rate_low, columns.rate_high
-    u = np.linspace(0.0, 1.0, 33)[:, None]
-    h00, h10 = (1 + 2 * u) * (1 - u) ** 2, u * (1 - u) ** 2
-    cubic = h00 * a + (1 - h00) * b + columns.span * (h10 * second_a - u**2 * (1 - u) * second_b)
-    lowest = (np.sign(a) * cubic).min(axis=0)
-    return (lowest < 0.5 * np.minimum(np.abs(a), np.abs(b))).tolist()  # type: ignore[no-any-return]

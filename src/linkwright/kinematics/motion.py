@@ -171,7 +171,8 @@ class Motion(Plotted):
     """Positions, velocities and accelerations of a mechanism at n positions.
 
     ``point("C")``, ``link("jaw")``, ``joint("guide")`` give the arrays; ``outcomes`` one sentence per position.
-    Where a position cannot be reached the arrays hold NaN (only if marked outcomes were asked for).
+    Where a position cannot be reached the arrays hold NaN (only if marked outcomes were asked for). ``breaks``:
+    positions between which and the next ones something cannot be passed.
     """
 
     solver: MotionSolver
@@ -183,6 +184,7 @@ class Motion(Plotted):
     notes: tuple[str, ...] = ()
     barred: Floats | None = None
     followed: Followed | None = None
+    breaks: frozenset[int] = frozenset()
     _kept: dict[Hashable, Any] = field(default_factory=dict, init=False, repr=False)
 
     @property
@@ -254,6 +256,11 @@ class Motion(Plotted):
         """Which positions are solved, (n,)."""
         good: np.ndarray[Any, np.dtype[np.bool_]] = self.outcome_codes == 0
         return locked(good if self.barred is None else good & (self.barred == 0))
+
+    @cached_property
+    def whole(self) -> bool:
+        """Whether all positions are solved, and the way leads through all of them."""
+        return not self.breaks and bool(self.ok.all())
 
     @cached_property
     def outcomes(self) -> list[Outcome]:

@@ -12,8 +12,8 @@ from linkwright.core.arrays import Floats
 from linkwright.core.inputs import mode_groups
 from linkwright.core.once import cached_property
 from linkwright.kinematics.change_points import (
-    Passage,
     cut_off,
+    is_way,
     mark_singular,
     passages,
     signs,
@@ -22,6 +22,7 @@ from linkwright.kinematics.change_points import (
 from linkwright.kinematics.cycle import Positions, at_inputs, at_times, over_cycle, time_span
 from linkwright.kinematics.explain import branch_notes, passage_notes, refusal, turn_notes
 from linkwright.kinematics.motion import Motion, Rows
+from linkwright.kinematics.passage import Passage
 from linkwright.kinematics.passing import clear_of_zero
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.mechanism.mechanism import Mechanism
@@ -107,12 +108,12 @@ class MotionRun:
         if modes:
             self.solver = self.solver.with_flips(mode_groups(modes))
         breaks = frozenset() if followed is None else followed.breaks
-        breaks |= {p.before for p in found if p.kind == "end"}
+        breaks |= {p.before for p in found if p.kind == "end" or p.barred}
         names = stored or self.solver.outputs.standard
         motion = self._evaluate(states, modes, found, breaks, names)
         motion.followed = followed
         motion.notes += said + turn_notes(motion) + branch_notes(motion)
-        if failures == "raise" and not motion.ok.all():
+        if failures == "raise" and not motion.whole:
             raise refusal(motion)
         return motion
 
@@ -155,7 +156,7 @@ class MotionRun:
         values = self.solver.evaluate(names, self.positions, states, modes)
         codes = values[-1]
         mark_singular(codes, found, self.solver.structure)
-        barred = cut_off(codes, found, self.positions, breaks)
+        barred = cut_off(codes, self.positions, breaks)
         for row in states.values():
             barred = np.where(np.isfinite(row), barred, 1.0)
         values[:-1, (codes != 0) | (barred != 0)] = np.nan
@@ -168,6 +169,7 @@ class MotionRun:
             rows=Rows(values, {name: i for i, name in enumerate(names)}),
             notes=passage_notes(found, self.positions),
             barred=barred,
+            breaks=breaks if is_way(self.positions) else frozenset(),
         )
 
 

@@ -51,7 +51,7 @@ def run_forces(
 def forces_of_motion(motion: Motion, static: bool) -> Forces:
     """Forces of a motion; over a cycle in one evaluation with it if that is possible, else as :func:`run_forces`."""
     solver, found = ForceSolver(motion.solver, inertia=not static), None
-    if motion.positions.cycle and not motion.modes and motion.ok.all():
+    if motion.positions.cycle and not motion.modes and motion.whole:
         found = solved_at_once(solver, motion.design, motion.positions, lambda _: motion)
     return _with_notes(found) if found else run_forces(motion, static, solver)
 

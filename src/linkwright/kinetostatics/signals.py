@@ -91,7 +91,7 @@ class MotionSignals:
         if self.cycle.positions.closed or self.mechanism.cycle is None:
             return self.cycle
         found = self._over(replace(self.mechanism, cycle=None))
-        return found if found is not None and found.positions.closed and found.ok.all() else self.cycle
+        return found if found is not None and found.positions.closed and found.whole else self.cycle
 
     @cached_property
     def whole(self) -> Whole:

@@ -192,7 +192,7 @@ def steady_rate(motion: Motion) -> float:
     turned = abs(rate[0]) * (motion.positions.period or 0.0)
     if not motion.positions.closed or not turned or abs(turned / TURN - round(turned / TURN)) > 1e-9:
         raise LinkwrightError(_not_whole_turns(motion.mechanism))
-    if not motion.ok.all():
+    if not motion.whole:
         raise LinkwrightError("running.not_all_reached", name=name)
     return float(rate[0])
 

@@ -124,12 +124,12 @@ class Analysis:
     @property
     def whole(self) -> bool:
         """Whether the positions are one closed cycle and all are reached."""
-        return self.closed and bool(self.motion.ok.all())
+        return self.closed and self.motion.whole
 
     @property
     def partial(self) -> bool:
         """Whether the positions are those of the drivers' laws, of which not all are reached."""
-        return self.resolver.possible and not self.resolver.passed.all()
+        return self.resolver.possible and not self.resolver.whole
 
     def limits(self, output: Output) -> tuple[Limit, ...]:
         """Limit positions of an output, by increasing time; none where the positions follow no law in time."""

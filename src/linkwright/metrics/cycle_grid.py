@@ -418,7 +418,7 @@ def cycle_grid(
     resolver: Resolver, motion: Motion, forces: Forces | None, asked: tuple[str, ...]
 ) -> CycleGrid | None:
     """The grid of a motion all of whose positions are reached, and between which others can be solved; else None."""
-    if not resolver.possible or motion.steps < 3 or not resolver.passed.all():
+    if not resolver.possible or motion.steps < 3 or not resolver.whole:
         return None
     start, positions = float(motion.time[0]), motion.positions
     if positions.closed and positions.period:

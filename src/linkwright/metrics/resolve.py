@@ -7,15 +7,13 @@ from typing import Any
 
 import numpy as np
 
-from linkwright.core.arrays import Flags, Floats, Indices
+from linkwright.core.arrays import Flags, Floats
 from linkwright.core.once import cached_property
 from linkwright.core.outputs import Output
-from linkwright.core.search import ends
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.between import Between
-from linkwright.kinematics.change_points import Passage
-from linkwright.kinematics.cycle import Positions, at_times
 from linkwright.kinematics.motion import Motion, Rows
+from linkwright.kinematics.reach import Reach
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.loads.base import Load
@@ -45,93 +43,17 @@ class _SameCycle(MotionSignals):
         return self._known.limit_inputs(output)
 
 
-class Resolver:
+class Resolver(Reach):
     """Solves the design of a motion at further times, with the programs that are there already."""
 
     def __init__(self, motion: Motion, forces: Forces | None) -> None:
-        self._motion = motion
+        super().__init__(motion, _between(motion))
         self._forces = forces
-        self._between = _between(motion)
 
     @property
     def possible(self) -> bool:
         """Whether the positions are those of the drivers' laws at their times, so that others lie between them."""
         return self._between is not None
-
-    @cached_property
-    def changes(self) -> Floats:
-        """Times of the change points that the motion passes, s."""
-        passing = [] if self._between is None else self._between.passing
-        return np.array([self._time_at(p) for p in passing])
-
-    @cached_property
-    def _times(self) -> Floats:
-        """Times of the positions, s, with that at which the first one of a closed cycle comes again."""
-        time, positions = self._motion.time, self._motion.positions
-        if not (positions.closed and positions.period):
-            return time
-        sense = 1.0 if time[-1] >= time[0] else -1.0
-        return np.append(time, time[0] + sense * positions.period)
-
-    def _time_at(self, passage: Passage) -> float:
-        """When it is passed, s."""
-        return float(np.interp(passage.place, np.arange(float(len(self._times))), self._times))
-
-    @cached_property
-    def passed(self) -> Flags:
-        """Which positions are reached, or lie on change points that the motion passes, (n,)."""
-        if not len(self.changes):
-            return self._motion.ok
-        time = self._motion.time
-        apart = np.abs(time[:, None] - self.changes).min(axis=1, initial=np.inf)
-        return np.asarray(self._motion.ok | (apart < 1e-9 * (np.ptp(time) or 1.0)))
-
-    @cached_property
-    def edges(self) -> tuple[tuple[float, int], ...]:
-        """Times, s, at which the mechanism comes into (+1) or gets out of (-1) reach, found by halving."""
-        passed = self.passed
-        if passed.all():
-            return ()
-        time = self._motion.time if self._between is None or self._between.bars else self._times
-        change = np.diff(np.resize(passed, len(time)).astype(int))
-        where = np.flatnonzero(change)
-        inside = np.where(change[where] < 0, time[where], time[where + 1])
-        if self.possible and len(where):
-            brackets = [self._bracket(int(k), bool(change[k] < 0)) for k in where]
-            inside = ends(lambda time: self._solved(time).ok, *np.transpose(brackets))
-        return tuple((float(t), int(s)) for t, s in zip(inside, change[where], strict=True))
-
-    def _bracket(self, before: int, leaves: bool) -> tuple[float, float]:
-        """Times, s, in and out of reach around an end of it between a position and the next, of which the first is in
-        reach if it ``leaves``; the same twice where guides become parallel, as nothing is solved very near that."""
-        assert self._between is not None
-        time = self._times
-        bars = [p for p in self._between.bars if before <= p.place <= before + 1]
-        inside, outside = (before, before + 1) if leaves else (before + 1, before)
-        if not bars:
-            return float(time[inside]), float(time[outside])
-        bar = bars[0 if leaves else -1]
-        at = self._time_at(bar)
-        return at if bar.kind == "pole" else float(time[inside]), at
-
-    @cached_property
-    def stretches(self) -> tuple[tuple[float, float], ...]:
-        """Stretches of time, s, in which all positions are reached; across the end of a closed cycle in one piece."""
-        time, positions = self._motion.time, self._motion.positions
-        period = positions.period if positions.closed else None
-        start, end = float(time[0]), float(time[-1] if period is None else time[0] + period)
-        if not self.edges:
-            return ((start, end),) if self.passed.all() else ()
-        times = [t for t, _ in self.edges]
-        if self.edges[0][1] < 0:
-            times.insert(0, start)
-        if len(times) % 2:
-            times.append(end)
-        pieces = list(zip(times[::2], times[1::2], strict=True))
-        if period is not None and len(pieces) > 1 and pieces[0][0] == start and pieces[-1][1] == end:
-            first = pieces.pop(0)
-            pieces[-1] = (pieces[-1][0], first[1] + end - start)
-        return tuple(pieces)
 
     def at(self, time: Floats, of: str = "motion", asked: tuple[str, ...] = ()) -> Any:
         """Motion, or Forces with ``of="forces"``, at some times, s; ``asked``: outputs beside the stored ones."""
@@ -145,9 +67,10 @@ class Resolver:
 
         known = self._motion
         assert self._forces is not None
-        if known.modes or not self.passed.all():
+        if known.modes or not self.whole:
             return None
-        positions = self._positions(time)
+        assert self._between is not None
+        positions = self._between.positions(time)
 
         def motion(rows: Rows) -> Motion | None:
             found = Motion(known.solver, known.design, positions, {}, {}, rows)
@@ -162,39 +85,16 @@ class Resolver:
             signals_of=lambda each: _SameCycle(each, self._signals),
         )
 
-    def _positions(self, time: Floats) -> Positions:
-        """The drivers at some times, s; where a table ends with the cycle, behind it those at its beginning."""
-        mechanism, positions = self._motion.mechanism, self._motion.positions
-        try:
-            return at_times(mechanism, time)
-        except LinkwrightError:
-            if not (positions.closed and positions.period):
-                raise
-            start = min(float(self._times[0]), float(self._times[-1]))
-            outside = (time < start) | (time > start + positions.period)
-            return at_times(mechanism, np.where(outside, start + (time - start) % positions.period, time))
-
     def motion(self, time: Floats) -> Motion:
         """Motion at some times; positions out of reach are NaN, also those that could be assembled behind a gap."""
-        return self._solved(time, None if self.passed.all() else self._reached(time))
-
-    def _reached(self, time: Floats) -> Flags:
-        """Which times, s, of any turn lie within the stretches that are reached."""
-        start, positions = float(self._motion.time[0]), self._motion.positions
-        period = positions.period if positions.closed else None
-        laps = [time] if period is None else [start + (time - start) % period + k * period for k in (0, 1)]
-        found = np.zeros(len(time), dtype=np.bool_)
-        for begin, end in self.stretches:
-            for lap in laps:
-                found |= (lap >= begin) & (lap <= end)
-        return found
+        return self._solved(time, None if self.whole else self.reached(time))
 
     def _solved(self, time: Floats, reached: Flags | None = None) -> Motion:
         """Motion at some times; NaN where it cannot be assembled or is not ``reached``."""
         assert self._between is not None
         known = self._motion
-        positions = self._positions(time)
-        before = self._before(positions.time)
+        positions = self._between.positions(time)
+        before = self.before(positions.time)
         states = self._between._states(positions, before)
         modes = known.modes and self._between._modes(positions)
         names = known.solver.outputs.standard
@@ -223,28 +123,15 @@ class Resolver:
     def _signals(self) -> MotionSignals:
         return MotionSignals(self._motion)
 
-    def _before(self, time: Floats) -> Indices:
-        """The known position at or before each time, through the end of a closed cycle."""
-        known, positions = self._motion.time, self._motion.positions
-        if len(known) < 2:
-            return np.zeros(len(time), dtype=np.intp)
-        share = (time - known[0]) / (known[1] - known[0])
-        if positions.closed and positions.period is not None:
-            share = share % (positions.period / abs(known[1] - known[0]))
-        if np.ptp(np.diff(known)) > 1e-9 * abs(known[1] - known[0]):
-            order = np.argsort(known)
-            return np.asarray(
-                order[np.clip(np.searchsorted(known[order], time, "right") - 1, 0, len(known) - 1)]
-            )
-        return np.asarray(np.clip(np.floor(share + 1e-9).astype(np.intp), 0, len(known) - 1))
-
     def input_at(self, time: float) -> float:
         """Coordinate of the first driver at a time."""
         name, driver = next(iter(self._motion.mechanism.drivers.items()))
         try:
             return driver.law.at(time)
         except LinkwrightError:
-            return float(self._positions(np.array([time])).coordinates[name][0][0])
+            if self._between is None:
+                raise
+            return float(self._between.positions(np.array([time])).coordinates[name][0][0])
 
 
 def _between(motion: Motion) -> Between | None:

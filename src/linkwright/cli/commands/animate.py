@@ -82,7 +82,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
             options.output, width=options.width or WIDTH, fonts=options.fonts, progress=report
         )
     told(path, options, session)
-    return int(not motion.ok.all())
+    return int(not motion.whole)
 
 
 def _forces(motion: Motion, options: argparse.Namespace) -> Forces | None:

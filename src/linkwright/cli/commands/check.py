@@ -155,7 +155,7 @@ def _turned(name: str, mechanism: Mechanism) -> tuple[list[Finding], list[Findin
 
     motion = try_motion(mechanism, TRIED)
     notes = [Finding("note", name, "", note, code="motion") for note in motion.notes]
-    if motion.ok.all():
+    if motion.whole:
         return [], notes
     return [Finding("error", name, "", refusal(motion).sentence, code="position")], notes
 

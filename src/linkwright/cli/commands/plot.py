@@ -53,7 +53,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     motions = _solved(options, session)
     diagram = _drawn(options, session, motions, fluctuation)
     _write(diagram, path, dpi, options, session)
-    return int(not all(motion.ok.all() for motion in motions.values()))
+    return int(not all(motion.whole for motion in motions.values()))
 
 
 def _require_kind(options: argparse.Namespace) -> None:

@@ -56,7 +56,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
         session.show("\n".join(report(solved, options, session)))
     if solved.trouble is not None:
         session.tell_error(solved.trouble.say(session.language))
-    return int(solved.trouble is not None or not solved.motion.ok.all())
+    return int(solved.trouble is not None or not solved.motion.whole)
 
 
 def _show_worked(solved: Solved, options: argparse.Namespace, session: Session) -> None:

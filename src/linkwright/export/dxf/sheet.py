@@ -58,7 +58,7 @@ class Sheet:
             track = motion.point(name).position
             if names is None and not np.nanmax(np.ptp(track[motion.ok], axis=0), initial=0.0) > 0:
                 continue
-            closed = motion.positions.closed and bool(motion.ok.all())
+            closed = motion.positions.closed and motion.whole
             for piece in unbroken(track):
                 self._path(self.factor * piece, closed, spline)
 

@@ -14,10 +14,9 @@ WORDS = {
     "goes on smoothly",
     "end": "change point of group ({links}) at {where}: the groups without closed form that hang on it cannot be "
     "followed through it, so the motion ends there",
-    "pole": "the guides of group ({links}) become parallel at {where}: the mechanism cannot pass there, and "
-    "positions beyond it are not reached",
+    "pole": "the guides of group ({links}) become parallel at {where}: the mechanism cannot pass there",
     "gap": "group ({links}) cannot be assembled in a short stretch at {where}, between two positions: the "
-    "mechanism cannot pass there, and positions beyond it are not reached",
+    "mechanism cannot pass there",
     "followed": "the assembly of the groups without closed form ({links}) is followed, but not certified, at "
     "{count} positions; nearest at {where}: another assembly may lie {margin} (rad, or share of the size) "
     "away, so near that clearance in the joints could change it",

@@ -27,6 +27,7 @@ WORDS = {
     "of_positions": "{where} ({failed} of {steps} positions fail)",
     "refused": "{name!r} cannot be solved at {where}: {sentence}; {advice}",
     "refused_told": "{name!r} cannot be solved at {where}: {sentence}; {told}; {advice}",
+    "not_passed": "{name!r} cannot pass its cycle: {told}; {advice}",
     "advice": "change the dimensions, the assembly or the range of the input (cycle: {{from: …, to: …}}), or "
     "ask for marked outcomes",
     "no_output": "there is no output {text!r}; name a link (its angle), POINT.x, POINT.y or a guide (its "

@@ -3,6 +3,7 @@
 WORDS = {
     "assembled": "assembled",
     "barred": "the way from the first position to this one is barred by a position out of reach",
+    "between": "the way is barred between two positions",
     "lost": "group {signature} ({links}) cannot be followed to this position: it is out of reach or beyond a "
     "singular position",
     "stopped": "group {signature} ({links}) cannot be followed to this position: on the way it becomes "

@@ -25,6 +25,7 @@ WORDS = {
     "of_positions": "{where}（{steps} 个位置中有 {failed} 个失败）",
     "refused": "“{name}”在{where}处无法求解：{sentence}；{advice}",
     "refused_told": "“{name}”在{where}处无法求解：{sentence}；{told}；{advice}",
+    "not_passed": "“{name}”不能走完一个循环：{told}；{advice}",
     "advice": "请修改尺寸、装配模式或输入的范围（cycle: {{from: …, to: …}}），或要求标出失败的位置",
     "no_output": "没有输出“{text}”；请写构件名（其角度）、点.x、点.y 或移动副名（其位移）；{hint}",
     "no_way_between": "该运动的各位置不按驱动“{name}”的时间规律，因此位置之间没有通路；"

@@ -3,6 +3,7 @@
 WORDS = {
     "assembled": "可装配",
     "barred": "从第一个位置到此位置的途中有到不了的位置",
+    "between": "两个位置之间的通路被阻断",
     "lost": "{signature} 杆组（{links}）不能连续运动到此位置：超出可达范围，或须越过奇异位置",
     "stopped": "{signature} 杆组（{links}）不能连续运动到此位置：途中在 {where} 处到达奇异位置",
     "followed": "可装配；装配模式由连续跟踪得到，未经证明",

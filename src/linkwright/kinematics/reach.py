@@ -1,0 +1,142 @@
+"""The stretches of its cycle or way that a motion reaches, with their ends between the positions."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+
+from linkwright.core.arrays import Flags, Floats, Indices
+from linkwright.core.once import cached_property
+from linkwright.core.search import ends
+from linkwright.kinematics.between import Between
+from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.passage import Passage
+
+
+class Reach:
+    """What a motion reaches; ``between``: None where its positions follow no law in time."""
+
+    def __init__(self, motion: Motion, between: Between | None) -> None:
+        self._motion, self._between = motion, between
+
+    @cached_property
+    def changes(self) -> Floats:
+        """Times of the change points that the motion passes, s."""
+        passing = [] if self._between is None else self._between.passing
+        return np.array([self._time_at(p) for p in passing])
+
+    @cached_property
+    def _times(self) -> Floats:
+        """Times of the positions, s, with that at which the first one of a closed cycle comes again."""
+        time, positions = self._motion.time, self._motion.positions
+        if not (positions.closed and positions.period):
+            return time
+        sense = 1.0 if time[-1] >= time[0] else -1.0
+        return np.append(time, time[0] + sense * positions.period)
+
+    def _time_at(self, passage: Passage) -> float:
+        """When it is passed, s."""
+        return float(np.interp(passage.place, np.arange(float(len(self._times))), self._times))
+
+    @cached_property
+    def passed(self) -> Flags:
+        """Which positions are reached, or lie on change points that the motion passes, (n,)."""
+        if not len(self.changes):
+            return self._motion.ok
+        time = self._motion.time
+        apart = np.abs(time[:, None] - self.changes).min(axis=1, initial=np.inf)
+        return np.asarray(self._motion.ok | (apart < 1e-9 * (np.ptp(time) or 1.0)))
+
+    @cached_property
+    def whole(self) -> bool:
+        """Whether all positions are passed, one after the other."""
+        return not self._motion.breaks and bool(self.passed.all())
+
+    @cached_property
+    def edges(self) -> tuple[tuple[float, int], ...]:
+        """Times, s, at which the mechanism comes into (+1) or gets out of (-1) reach, found by halving."""
+        if self.whole:
+            return ()
+        time, found = self._times, list[tuple[int, int]]()
+        passed = np.resize(self.passed, len(time)).tolist()
+        for k, (here, there) in enumerate(pairwise(passed)):
+            if here and (not there or k in self._motion.breaks):
+                found.append((k, -1))
+            if there and (not here or k in self._motion.breaks):
+                found.append((k, 1))
+        if self._between is None or not found:
+            return tuple((float(time[k if sense < 0 else k + 1]), sense) for k, sense in found)
+        brackets = [self._bracket(k, sense < 0) for k, sense in found]
+        before = np.array([k for k, _ in found], dtype=np.intp)
+        beside = np.array([(k + (sense > 0)) % self._motion.steps for k, sense in found], dtype=np.intp)
+        inside, outside, alone = np.array(brackets).T
+
+        def holds(time: Floats) -> Flags:
+            assert self._between is not None
+            return self._between.assembled(before, time, np.where(alone, beside, -1))
+
+        at = ends(holds, inside, outside)
+        return tuple((float(time), sense) for time, (_, sense) in zip(at, found, strict=True))
+
+    def _bracket(self, before: int, leaves: bool) -> tuple[float, float, bool]:
+        """Times, s, in and out of reach around an end of it between a position and the next, of which the first is in
+        reach if it ``leaves``; the same twice where guides become parallel, as nothing is solved very near that. And
+        whether both are in reach, but what is followed from the one does not come to the other."""
+        assert self._between is not None
+        time = self._times
+        bars = [p for p in self._between.bars if before <= p.place <= before + 1]
+        inside, outside = (before, before + 1) if leaves else (before + 1, before)
+        if not bars:
+            hidden = bool(self.passed[before] and self.passed[(before + 1) % len(self.passed)])
+            return float(time[inside]), float(time[outside]), hidden
+        bar = bars[0 if leaves else -1]
+        at = self._time_at(bar)
+        return at if bar.kind == "pole" else float(time[inside]), at, False
+
+    @cached_property
+    def stretches(self) -> tuple[tuple[float, float], ...]:
+        """Stretches of time, s, in which all positions are reached; across the end of a closed cycle in one piece."""
+        time, positions = self._motion.time, self._motion.positions
+        period = positions.period if positions.closed else None
+        start, end = float(time[0]), float(time[-1] if period is None else time[0] + period)
+        if not self.edges:
+            return ((start, end),) if self.whole else ()
+        times = [t for t, _ in self.edges]
+        if self.edges[0][1] < 0:
+            times.insert(0, start)
+        if len(times) % 2:
+            times.append(end)
+        pieces = list(zip(times[::2], times[1::2], strict=True))
+        if period is not None and len(pieces) > 1 and pieces[0][0] == start and pieces[-1][1] == end:
+            first = pieces.pop(0)
+            pieces[-1] = (pieces[-1][0], first[1] + end - start)
+        return tuple(pieces)
+
+    def reached(self, time: Floats) -> Flags:
+        """Which times, s, of any turn lie within the stretches that are reached."""
+        if self.whole:
+            return np.ones(len(time), dtype=np.bool_)
+        start, positions = float(self._motion.time[0]), self._motion.positions
+        period = positions.period if positions.closed else None
+        laps = [time] if period is None else [start + (time - start) % period + k * period for k in (0, 1)]
+        found = np.zeros(len(time), dtype=np.bool_)
+        for begin, end in self.stretches:
+            for lap in laps:
+                found |= (lap >= begin) & (lap <= end)
+        return found
+
+    def before(self, time: Floats) -> Indices:
+        """The position at or before each time, s, through the end of a closed cycle."""
+        known, positions = self._motion.time, self._motion.positions
+        if len(known) < 2:
+            return np.zeros(len(time), dtype=np.intp)
+        share = (time - known[0]) / (known[1] - known[0])
+        if positions.closed and positions.period is not None:
+            share = share % (positions.period / abs(known[1] - known[0]))
+        if np.ptp(np.diff(known)) > 1e-9 * abs(known[1] - known[0]):
+            order = np.argsort(known)
+            return np.asarray(
+                order[np.clip(np.searchsorted(known[order], time, "right") - 1, 0, len(known) - 1)]
+            )
+        return np.asarray(np.clip(np.floor(share + 1e-9).astype(np.intp), 0, len(known) - 1))
