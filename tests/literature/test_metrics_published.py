@@ -1,7 +1,7 @@
 """Design numbers that are printed, or have a closed form."""
 
 from dataclasses import replace
-from math import acos, asin, degrees, hypot, pi, sqrt
+from math import acos, asin, degrees, hypot, pi, sin, sqrt
 
 import numpy as np
 import pytest
@@ -53,6 +53,39 @@ def test_slider_crank_of_the_printing_press(steps: int) -> None:
     assert smallest.value == pytest.approx(returning, abs=1e-9)
     assert degrees(smallest.at) % 360 == pytest.approx(270, abs=1e-4)
     assert table.value("pressure_angle") == pytest.approx(pi / 2 - smallest.value)
+
+
+GENEVA = """
+format: 1
+frame:
+  points: {{O1: [0 mm, 0 mm], O2: [100 mm, 0 mm]}}
+links:
+  crank: {{points: [O1, A], length: 100 mm * sin(180 deg / {slots})}}
+  die: {{points: [A]}}
+  wheel: {{points: {{O2: [0 mm, 0 mm], T: [70 mm, 0 mm]}}}}
+joints:
+  slot: {{kind: prismatic, guide: wheel, through: O2, direction: [O2, T], block: die, at: A}}
+assembly: {{slot: forward}}
+driver: {{turn: crank, about: O1, speed: 1 rad/s}}
+cycle: {{from: 180 deg / {slots} - 90 deg, to: 90 deg - 180 deg / {slots}}}
+"""
+
+
+@pytest.mark.parametrize(
+    ("slots", "fastest", "largest"),
+    [(3, 6.46, 31.39), (4, 2.41, 5.41), (5, 1.43, 2.30), (6, 1.00, 1.35), (8, 0.62, 0.70)],
+)
+def test_geneva_wheels(slots: int, fastest: float, largest: float) -> None:
+    """Sun Huan, Theory of Machines and Mechanisms: largest ω₂/ω₁ and α₂/ω₁² of wheels with z slots.
+
+    Of three slots the book has 31.44, its own formula λ(λ² - 1) sin φ/(1 - 2λ cos φ + λ²)² 31.39.
+    """
+    table = metrics(lw.solve_motion(lw.loads(GENEVA.format(slots=slots)), steps=90))
+    ratio = sin(pi / slots)
+    assert -table.value("velocity_ratio") == pytest.approx(ratio / (1 - ratio), rel=1e-12)
+    assert -table.value("velocity_ratio") == pytest.approx(fastest, abs=0.006)
+    assert table.value("peak_acceleration", "wheel") == pytest.approx(largest, abs=0.006)
+    assert degrees(table.value("swing_angle")) == pytest.approx(360 / slots, rel=1e-9)
 
 
 def test_shaper() -> None:

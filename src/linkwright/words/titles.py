@@ -110,6 +110,7 @@ CHINESE = {
     "Watt six-bar": "瓦特六杆机构",
     "Wedge press": "楔块压力机",
     "Whitworth quick-return mechanism": "惠氏急回机构",
+    "Geneva wheel with four slots": "四槽槽轮机构",
 }
 
 
