@@ -9,7 +9,9 @@ from scipy.spatial import ConvexHull
 from tests.reference.geared_mechanisms import geared_case
 
 import linkwright as lw
+from linkwright.core.piecewise import nodes
 from linkwright.metrics import metrics
+from linkwright.metrics.swept_hull import Curves, SweptHull
 
 #: A point of a drawing: its name and coordinates.
 DRAWN = r"  (P\d+): \[(\S+) m, (\S+) m\]\n"
@@ -36,6 +38,19 @@ links:
   rocker: {{points: [Q, B], length: 3 m}}
 assembly: {{B: left}}
 driver: {{turn: crank, about: O, speed: 1 rad/s}}
+"""
+#: A mechanism without closed form, which comes to a fold on both sides.
+TRIAD = """
+format: 1
+frame: {points: {O1: [0 mm, 0 mm], O2: [200 mm, 0 mm], O3: [300 mm, 200 mm]}}
+links:
+  crank: {points: [O1, A], length: 50 mm}
+  coupler: {points: [A, B], length: 180 mm, also: {C: [110 mm, 70 mm]}}
+  rocker: {points: [O2, B], length: 130 mm}
+  bar: {points: [C, D], length: 190 mm}
+  output: {points: [O3, D], length: 140 mm}
+drawing: {A: [-47.0 mm, 17.1 mm], B: [114.0 mm, 97.5 mm], C: [20.1 mm, 128.9 mm], D: [168.4 mm, 247.7 mm]}
+driver: {turn: output, about: O3, speed: 1 rad/s, start: 150 deg}
 """
 
 
@@ -93,6 +108,25 @@ def test_a_crank_that_cannot_turn_sweeps_what_it_reaches() -> None:
     assert area(machine, "crank", 40) == pytest.approx(sector, rel=1e-9)
     assert area(machine, steps=40) == pytest.approx(known, rel=2e-8)
     assert area(machine, steps=40) == pytest.approx(area(machine, steps=371), rel=1e-9)
+
+
+@pytest.mark.parametrize("steps", [3, 61])
+def test_a_triad_that_comes_to_a_fold_sweeps_what_it_reaches_up_to_it(steps: int) -> None:
+    """Places up to 2e-6 rad from both folds, and the ways to these, which go as roots, by the last two places."""
+    machine = lw.loads(TRIAD)
+    motion = lw.solve_motion(machine, steps=steps, failures="mark")
+    table = metrics(motion, ["range_of_motion", "swept_area"])
+    reached, ends = table["range_of_motion"][0], lw.input_range(machine)
+    assert reached.value == pytest.approx(ends.end - ends.start, abs=1e-12)
+    middle, half = 0.5 * (ends.start + ends.end), 0.5 * (ends.end - ends.start) - 2e-6
+    dense = lw.solve_motion(machine, at=middle + half * np.cos(np.linspace(0.0, pi, 1201)))
+    rims = lw.solve_motion(machine, at=middle + np.array([-1.0, 1.0]) * (half - 6e-6))
+    places = [np.array([[0.0, 0.0], [0.2, 0.0], [0.3, 0.2]])]
+    for name in dense.point_names():
+        all_, (low, high) = dense.point(name).position, rims.point(name).position
+        places += [all_, [2.0 * all_[-1] - low, 2.0 * all_[0] - high]]
+    swept = table["swept_area"][0]
+    assert swept.exact and swept.value == pytest.approx(ConvexHull(np.vstack(places)).volume, rel=2e-6)
 
 
 def test_some_inputs_are_a_way_and_one_is_a_place() -> None:
@@ -161,6 +195,29 @@ def test_the_least_area_for_a_stroke_is_found_with_exact_gradients() -> None:
     assert found.exact
     assert found.mechanism().dimension("crank.length") == pytest.approx(0.25, rel=1e-6)
     assert area(found.mechanism(), "plate") == pytest.approx(0.4, rel=1e-6)
+
+
+@pytest.mark.parametrize("pieces", [24, 25])
+@pytest.mark.parametrize("phase", [0.0, 0.25, 0.4])
+def test_areas_and_gradients_of_curves_that_turn_back_within_a_way(pieces: int, phase: float) -> None:
+    """An arc and a bow, run to and fro: their hull, finely sampled, and its change with another shape of both."""
+
+    def bent(angle: np.ndarray, share: float) -> tuple[np.ndarray, np.ndarray]:
+        x, y = np.cos(angle) + share * np.sin(angle), (1.0 + 2.0 * share) * np.sin(angle)
+        bow = 0.3 * angle**2 - 1.0 - share * angle, 0.5 + angle + share * angle**2
+        return np.stack([x, y]), np.stack(bow)
+
+    def hull(share: float) -> float:
+        both = np.concatenate(bent(np.linspace(-1.2, 1.2, 200_001), share), axis=1)
+        return float(ConvexHull(both.T).volume)
+
+    angle = 1.2 * np.sin(2.0 * pi * nodes(np.linspace(0.0, 1.0, pieces + 1)) + phase)
+    never, step = np.zeros(pieces, dtype=bool), 1e-4
+    values, ahead, behind = (np.stack(bent(angle, share)) for share in (0.0, step, -step))
+    found = SweptHull(Curves(values, never, never, np.tile([0, angle.size], (2, 1))), [0, 1])
+    assert found.area == pytest.approx(hull(0.0), rel=2e-8)
+    slope = float((found.weights() * (ahead - behind)).sum()) / (2.0 * step)
+    assert slope == pytest.approx((hull(step) - hull(-step)) / (2.0 * step), rel=1e-6)
 
 
 def test_points_that_turn_back_at_once_end_there() -> None:
@@ -250,3 +307,21 @@ def test_numbers_of_a_machine_whose_table_ends_with_the_cycle(law: str) -> None:
     for one, other in zip(*tables, strict=True):
         if one.metric in ("peak_acceleration", "coupler_curve_length", "transmission_angle"):
             assert one.value == pytest.approx(other.value, rel=1e-9), one.metric
+
+
+@pytest.mark.parametrize("steps", [24, 60, 361])
+def test_a_crank_that_jerks_to_and_fro_between_two_positions_sweeps_what_it_passes(steps: int) -> None:
+    """48° within 0.1 ms of a table that else comes to 20°: the sector, ½ r² φ."""
+    crank = lw.loads("""
+format: 1
+frame: {points: {O: [0 m, 0 m]}}
+links: {crank: {points: [O, A], length: 2 m}}
+driver:
+  turn: crank
+  about: O
+  table: {time: [0 s, 0.3 s, 0.5 s, 0.5001 s, 0.8 s, 1 s], position: [0 deg, 20 deg, 0 deg, 48 deg, 20 deg, 0 deg],
+    interpolation: linear}
+""")
+    table = metrics(lw.solve_motion(crank, steps=steps), ["swept_area", "range_of_motion"])
+    assert table.value("range_of_motion") == pytest.approx(np.radians(48.0), rel=1e-12)
+    assert table.value("swept_area") == pytest.approx(2.0 * np.radians(48.0), rel=1e-9)

@@ -8,8 +8,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.kinematics.constraint_system import ConstraintSystem, Numbers, coordinates
-from linkwright.kinematics.cycle import Positions
-from linkwright.kinematics.solver import MotionSolver
+from linkwright.kinematics.motion import Motion
 
 #: Largest equation (lengths over the size, rad) that a found fold may leave, and Newton steps to get there.
 CLOSED = 1e-12
@@ -18,8 +17,8 @@ STEPS = 25
 ROUNDED = 2e-15
 
 
-def fold(solver: MotionSolver, positions: Positions, driver: str) -> tuple[float, float] | None:
-    """The driver's coordinate (rad or m) at the fold nearest to the last of some positions; None if not found.
+def fold(motion: Motion, driver: str) -> tuple[float, float] | None:
+    """The driver's coordinate (rad or m) at the fold nearest to the last position of a motion; None if not found.
 
     With it the error that is left, which is larger where two folds almost meet.
 
@@ -27,13 +26,11 @@ def fold(solver: MotionSolver, positions: Positions, driver: str) -> tuple[float
     all links and the direction v in which they can still move while all drivers stand still (Govaerts, Numerical
     Methods for Bifurcations of Dynamical Equilibria, ch. 4). Its derivatives are exact, by complex steps.
     """
-    from linkwright.kinematics.solve import MotionRun
-
-    motion = MotionRun(solver, positions).solve("mark")
+    positions = motion.positions
     if not motion.ok[-1]:
         return None
     start = coordinates(motion, -1)
-    search = _Fold(ConstraintSystem(solver.mechanism), driver, start)
+    search = _Fold(ConstraintSystem(motion.mechanism), driver, start)
     found = search.solve(start)
     if found is None:
         return None

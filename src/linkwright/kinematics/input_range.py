@@ -20,6 +20,7 @@ from linkwright.kinematics.change_points import mark_singular, passages, signs
 from linkwright.kinematics.cycle import CycleError, Positions, at_times, time_span
 from linkwright.kinematics.fold import fold
 from linkwright.kinematics.passing import modal
+from linkwright.kinematics.solve import MotionRun
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.mechanism.geometry import mechanism_size
 from linkwright.mechanism.mechanism import Mechanism
@@ -238,7 +239,7 @@ class _Search:
         known = None
         if stop.unknowns is not None:
             way = self._towards(stop, good - direction * AHEAD * unit)
-            known = fold(self.solver, self.positions(way), self.driver)
+            known = fold(MotionRun(self.solver, self.positions(way)).solve("mark"), self.driver)
         if known is not None and min(good, bad) - rough <= known[0] <= max(good, bad) + rough:
             value, precision = known
         elif stop.group:

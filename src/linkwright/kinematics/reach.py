@@ -10,8 +10,13 @@ from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.once import cached_property
 from linkwright.core.search import ends
 from linkwright.kinematics.between import Between
-from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.fold import fold
+from linkwright.kinematics.motion import Motion, Rows
 from linkwright.kinematics.passage import Passage
+
+#: How far, rad or share of the size, before an end that is searched Newton's method for its fold begins, how far from
+#: it that is found at most, and how many times better it is known then; steps from its place to its time.
+AHEAD, COARSE, SURER, NEWTON = 1e-5, 1e-6, 1e3, 4
 
 
 class Reach:
@@ -76,8 +81,30 @@ class Reach:
             assert self._between is not None
             return self._between.assembled(before, time, np.where(alone, beside, -1))
 
-        at = ends(holds, inside, outside)
-        return tuple((float(time), sense) for time, (_, sense) in zip(at, found, strict=True))
+        at = zip(ends(holds, inside, outside).tolist(), found, strict=True)
+        return tuple((self._folded(each, sense), sense) for each, (_, sense) in at)
+
+    def _folded(self, time: float, sense: int) -> float:
+        """An end of what is followed, s, as the fold beside which the search finds it; itself where none is found."""
+        drivers = list(self._motion.mechanism.drivers.items())
+        if not self._motion.states or len(drivers) > 1:
+            return time
+        ((name, driver),) = drivers
+        unit = 1.0 if driver.law.rotary else self._motion.mechanism.size
+
+        def course(time: float) -> list[float]:
+            return [float(row[0]) for row in driver.law.coordinate(np.array([time]))]
+
+        value, rate, _ = course(time)
+        if not abs(rate) * abs(self._times[-1] - self._times[0]) > AHEAD * unit:
+            return time
+        known = fold(self.solved(np.array([time + sense * AHEAD * unit / abs(rate)])), name)
+        if known is None or max(abs(known[0] - value), SURER * known[1]) > COARSE * unit:
+            return time
+        for _ in range(NEWTON):
+            value, rate, _ = course(time)
+            time += (known[0] - value) / rate if rate else 0.0
+        return time
 
     def _bracket(self, before: int, leaves: bool) -> tuple[float, float, bool]:
         """Times, s, in and out of reach around an end of it between a position and the next, of which the first is in
@@ -125,6 +152,24 @@ class Reach:
             for lap in laps:
                 found |= (lap >= begin) & (lap <= end)
         return found
+
+    def solved(self, time: Floats, reached: Flags | None = None) -> Motion:
+        """Motion at some times; NaN where it cannot be assembled or is not ``reached``."""
+        assert self._between is not None
+        known = self._motion
+        positions = self._between.positions(time)
+        before = self.before(positions.time)
+        states = self._between._states(positions, before)
+        modes = known.modes and self._between._modes(positions)
+        names = known.solver.outputs.standard
+        values = known.solver.evaluate(names, positions, states, modes, known.design)
+        barred = np.zeros(positions.count) if reached is None else np.where(reached, 0.0, 1.0)
+        for row in states.values():
+            barred = np.where(np.isfinite(row), barred, 1.0)
+        rows = Rows(values, {name: i for i, name in enumerate(names)})
+        motion = Motion(known.solver, known.design, positions, states, modes, rows, (), barred)
+        values[:-1, ~motion.ok] = np.nan
+        return motion
 
     def before(self, time: Floats) -> Indices:
         """The position at or before each time, s, through the end of a closed cycle."""

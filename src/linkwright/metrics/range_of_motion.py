@@ -22,6 +22,8 @@ from linkwright.metrics.quantities import shown
 DEAD = 1e-6
 #: Share of its largest rate below which a driver stands still.
 STILL = 1e-9
+#: Places of a time, and of every formula of a driver's law in it, between which it turns back once at most.
+LOOKS, WITHIN = 721, 14
 
 
 def _reached(analysis: Analysis, start: float, end: float) -> tuple[float, float]:
@@ -30,14 +32,16 @@ def _reached(analysis: Analysis, start: float, end: float) -> tuple[float, float
     law = next(iter(analysis.motion.mechanism.drivers.values())).law
     if law.constant_speed is not None:
         return law.at(start), law.at(end)
-    values = [value for _, value in turns(law, start, end, len(analysis.motion.time))]
+    values = [value for _, value in turns(law, start, end)]
     least, most = min(values), max(values)
     return (most, least) if values[0] == most and values[-1] == least else (least, most)
 
 
-def turns(law: Law, start: float, end: float, steps: int) -> list[tuple[float, float]]:
-    """Times, s, at which a driver begins, turns back within one of some steps, and ends, with its place there."""
-    time = np.linspace(start, end, steps)
+def turns(law: Law, start: float, end: float) -> list[tuple[float, float]]:
+    """Times, s, at which a driver begins, turns back, and ends, with its place there."""
+    edges = np.concatenate([[start], law.breaks(start, end), [end]])
+    within = (edges[:-1, None] + np.diff(edges)[:, None] * np.linspace(0.0, 1.0, WITHIN)).ravel()
+    time = np.unique(np.append(np.linspace(start, end, LOOKS), within))
     sign = np.sign(law.coordinate(time)[1])
     back = np.flatnonzero(sign[:-1] * sign[1:] < 0.0)
     at = zeros(lambda t: law.coordinate(t)[1:], time[back], time[back + 1], sign[back])

@@ -87,25 +87,7 @@ class Resolver(Reach):
 
     def motion(self, time: Floats) -> Motion:
         """Motion at some times; positions out of reach are NaN, also those that could be assembled behind a gap."""
-        return self._solved(time, None if self.whole else self.reached(time))
-
-    def _solved(self, time: Floats, reached: Flags | None = None) -> Motion:
-        """Motion at some times; NaN where it cannot be assembled or is not ``reached``."""
-        assert self._between is not None
-        known = self._motion
-        positions = self._between.positions(time)
-        before = self.before(positions.time)
-        states = self._between._states(positions, before)
-        modes = known.modes and self._between._modes(positions)
-        names = known.solver.outputs.standard
-        values = known.solver.evaluate(names, positions, states, modes, known.design)
-        barred = np.zeros(positions.count) if reached is None else np.where(reached, 0.0, 1.0)
-        for row in states.values():
-            barred = np.where(np.isfinite(row), barred, 1.0)
-        rows = Rows(values, {name: i for i, name in enumerate(names)})
-        motion = Motion(known.solver, known.design, positions, states, modes, rows, (), barred)
-        values[:-1, ~motion.ok] = np.nan
-        return motion
+        return self.solved(time, None if self.whole else self.reached(time))
 
     def forces(self, motion: Motion) -> Forces:
         """Forces of such a motion."""

@@ -10,7 +10,7 @@ import numpy as np
 
 from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.outputs import row_names
-from linkwright.core.piecewise import POINTS, nodes
+from linkwright.core.piecewise import POINTS, misses, nodes
 from linkwright.core.plane import area, convex_hull
 from linkwright.engine.recent import Recent
 from linkwright.kinematics.motion import Motion
@@ -23,6 +23,7 @@ from linkwright.metrics.outputs import output_link
 from linkwright.metrics.quantities import shown
 from linkwright.metrics.range_of_motion import turns
 from linkwright.metrics.swept_hull import Curves, SweptHull
+from linkwright.metrics.ways import MET
 
 #: Ends of ways nearer to each other than this share of the way are the same.
 SAME = 1e-9
@@ -40,10 +41,16 @@ class HullArea(Metric):
         motion = analysis.motion
         if not motion.ok.any():
             return
-        curves, keys = _curves(analysis), points(motion.mechanism)
+        (curves, met), keys = _curves(analysis), points(motion.mechanism)
         for subject, own in self.swept(motion.mechanism).items():
             if curves is None:
-                places = np.concatenate([motion.vector("position", key)[motion.ok] for key in own])
+                places = np.concatenate(
+                    [
+                        each.vector("position", key)[each.ok]
+                        for each in (motion, *analysis.ways.motions)
+                        for key in own
+                    ]
+                )
                 corners = convex_hull(places.view(np.complex128)[:, 0])
                 size, sides = area(corners), np.ptp(corners.view(float).reshape(-1, 2), axis=0)
             else:
@@ -54,7 +61,7 @@ class HullArea(Metric):
                 for name, side in zip(("width", "height"), sides.tolist(), strict=True)
             }
             remarks = (Remark("swept_area.box", {**box}),)
-            yield self.value(analysis, subject, size, exact=curves is not None, remarks=remarks)
+            yield self.value(analysis, subject, size, exact=met, remarks=remarks)
 
 
 @METRICS.register("swept_area")
@@ -97,20 +104,28 @@ def points_of_links(mechanism: Mechanism) -> Mapping[str, tuple[str, ...]]:
 _points: Recent[object, Mapping[str, tuple[str, ...]]] = Recent(64)
 
 
-def _curves(analysis: Analysis) -> Curves | None:
-    """The curves of all points; None where nothing lies between the positions."""
+def _curves(analysis: Analysis) -> tuple[Curves | None, bool]:
+    """The curves of all points, and whether polynomials meet them; None where nothing lies between the positions."""
     grid, keys = analysis.grid, points(analysis.motion.mechanism)
     if grid is not None:
         values = _places(grid.motion, keys)
         spans = _spans(analysis, grid, values)
-        return Curves(values, *turned(analysis.motion.mechanism, grid.edges, analysis.closed), spans)
+        return Curves(values, *turned(analysis.motion.mechanism, grid.edges, analysis.closed), spans), True
     if not analysis.ways.whole:
-        return None
+        return None, False
     ways = analysis.ways.motions
     piece = np.arange(PIECES * len(ways)) % PIECES
     whole = np.tile([0, len(piece) * POINTS], (len(keys), 1))
-    values = np.concatenate([_places(way, keys) for way in ways], axis=2)
-    return Curves(values, piece == 0, piece == PIECES - 1, whole)
+    values = np.concatenate(
+        [
+            analysis.ways.to_ends(_places(way, keys).reshape(len(keys), 2, -1), number)
+            for number, way in enumerate(ways)
+        ],
+        axis=2,
+    )
+    off = misses(values, piece[1:] != 0).max(axis=2)
+    met = bool((off <= MET * np.ptp(values, axis=(2, 3)).max()).all())
+    return Curves(values, piece == 0, piece == PIECES - 1, whole), met
 
 
 def turned(mechanism: Mechanism, edges: Floats, closed: bool) -> tuple[Flags, Flags]:
@@ -147,7 +162,7 @@ def of_driver(mechanism: Mechanism, edges: Floats) -> tuple[int, int]:
     times, laws = nodes(edges).ravel(), [driver.law for driver in mechanism.drivers.values()]
     if len(laws) > 1 or laws[0].constant_speed is not None:
         return 0, len(times)
-    return _between(times, _once(turns(laws[0], edges[0], edges[-1], len(times))))
+    return _between(times, _once(turns(laws[0], edges[0], edges[-1])))
 
 
 def _between(times: Floats, ends: tuple[float, float]) -> tuple[int, int]:

@@ -15,7 +15,7 @@ import numpy as np
 from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.dataclass import dataclass
 from linkwright.core.piecewise import NODES, POINTS, TO_SLOPE, weights_at
-from linkwright.core.plane import area, convex_hull, cross, hull_corners
+from linkwright.core.plane import area, cross, hull_corners
 
 #: Newton steps towards the places of contact at most, and the last one's size where they end before.
 STEPS, CLOSE = 6, 1e-7
@@ -25,6 +25,8 @@ BEYOND, NEAR = 0.02, 0.6
 SAME = 0.1
 #: Sides shorter than this share of the largest are none: the same place, passed twice.
 SHORT = 1e-9
+#: How much smaller than its hull the polygon of many places of curves may be, and larger by rounding.
+CHORDS, ROUNDED = 1e-6, 1e-12
 #: Nodes of a piece that are enough within an arc.
 _KEPT = np.isin(np.arange(POINTS), (0, 5, 10, POINTS - 1))
 #: Along the boundary where it is farthest to the left, the right, down and up.
@@ -68,10 +70,14 @@ class SweptHull:
         numbers = np.arange(len(self._nodes)).reshape(len(self._values), -1)
         own = np.concatenate([numbers[k, slice(*curves.spans[k])] for k in chosen])
         self._corners = own[hull_corners(self._nodes.view(np.complex128)[own, 0])]
+        self._polygon: Contacts | None = None
         self._first, self._last, self._outer = self._touched(self._thinned(self._corners))
         self.area = self._area()
         if not self._found or self.area < area(self._nodes.view(np.complex128)[self._corners, 0]):
-            self.area = self._sampled()
+            sampled = self._sampled()
+            least = area(np.ascontiguousarray(sampled.point).view(np.complex128)[:, 0])
+            if not least * (1.0 - ROUNDED) <= self.area <= least * (1.0 + CHORDS):
+                self.area, self._polygon = least, sampled
 
     def _thinned(self, corners: Indices) -> Indices:
         """Corners at places of their own, without those between others of the same curve that are no farther than its
@@ -156,17 +162,20 @@ class SweptHull:
         along = width @ cross(_at(values, at), _at(values, at @ TO_SLOPE.T))
         return 0.5 * float(along + cross(self._first.point, self._last.point).sum())
 
-    def _sampled(self) -> float:
-        """The area within many places of the curves, where lines that touch two arcs are not found: of a curve that
-        turns back on itself."""
+    def _sampled(self) -> Contacts:
+        """Corners of the hull of many places of the curves, where lines that touch two arcs are not found: of a curve
+        that turns back on itself."""
         numbers = np.unique(self._corners // POINTS)
         curves, pieces = np.divmod(numbers, self._pieces)
         beside = [(pieces + k) % self._pieces for k in (-1, 0, 1)]
         numbers = np.unique(np.concatenate([curves * self._pieces + each for each in beside]))
         curves, pieces = np.divmod(numbers, self._pieces)
-        place = np.einsum("kjp,np->knj", self._values[curves, :, pieces], weights_at(_DENSE)).reshape(-1, 2)
-        every = np.concatenate([place, self._nodes[self._corners]])
-        return area(convex_hull(np.ascontiguousarray(every).view(np.complex128)[:, 0]))
+        point = np.einsum("kjp,np->knj", self._values[curves, :, pieces], weights_at(_DENSE)).reshape(-1, 2)
+        point = np.concatenate([point, self._nodes[self._corners]])
+        number = np.append(np.repeat(numbers * POINTS, len(_DENSE)), self._corners)
+        place = np.append(np.tile(_DENSE, len(numbers)), NODES[self._corners % POINTS])
+        outer = hull_corners(np.ascontiguousarray(point).view(np.complex128)[:, 0])
+        return Contacts(number[outer], place[outer], point[outer])
 
     @property
     def box(self) -> Floats:
@@ -178,6 +187,10 @@ class SweptHull:
         """Derivatives (curves, 2, pieces, POINTS) of the area by the values of all curves, those in spans alone."""
         curves, _, pieces, _ = self._values.shape
         found = np.zeros((curves * pieces, 2, POINTS))
+        if (polygon := self._polygon) is not None:
+            beside = np.roll(polygon.point, 1, axis=0) - np.roll(polygon.point, -1, axis=0)
+            _add(found, polygon.number, weights_at(polygon.place), 0.5 * _turned(beside))
+            return found.reshape(curves, pieces, 2, POINTS).transpose(0, 2, 1, 3)
         for contacts, other, sign in ((self._first, self._last, -0.5), (self._last, self._first, 0.5)):
             _add(found, contacts.number, weights_at(contacts.place), sign * _turned(other.point))
         number, place, width = self._arcs

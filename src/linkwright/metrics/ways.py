@@ -10,7 +10,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.outputs import Output
-from linkwright.core.piecewise import POINTS, Piecewise, nodes
+from linkwright.core.piecewise import NODES, POINTS, Piecewise, nodes, weights_at
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.motion import Motion
 from linkwright.metrics.cycle_grid import PIECES
@@ -18,6 +18,8 @@ from linkwright.metrics.resolve import Resolver
 
 #: Share of its size to which polynomials meet an output: nothing is solved very near the ends.
 MET = 3e-7
+#: Shares of the first and the last piece, next to the ends, that are left out where nothing is solved so near.
+LEFT_OUT = (0.0, 0.05, 0.15, 0.25)
 
 
 class Ways:
@@ -27,19 +29,41 @@ class Ways:
     def __init__(self, motion: Motion, resolver: Resolver) -> None:
         self._motion, self._resolver = motion, resolver
 
-    @cached_property
+    @property
     def motions(self) -> tuple[Motion, ...]:
         """One of every stretch; none where nothing can be solved between the positions."""
+        return tuple(way for way, _ in self._solved)
+
+    @cached_property
+    def _solved(self) -> tuple[tuple[Motion, float], ...]:
+        """These, with the share of the pieces next to the ends that is left out."""
         if not self._resolver.possible or self._motion.steps < 2:
             return ()
-        turn = np.cos(nodes(np.linspace(np.pi, 2.0 * np.pi, PIECES + 1)).ravel())
         try:
-            return tuple(
-                self._resolver.motion(0.5 * (start + end) + 0.5 * (end - start) * turn)
-                for start, end in self._resolver.stretches
-            )
+            return tuple(self._way(*stretch) for stretch in self._resolver.stretches)
         except LinkwrightError:
             return ()
+
+    def _way(self, start: float, end: float) -> tuple[Motion, float]:
+        found: list[Motion] = []
+        for share in LEFT_OUT:
+            edges = np.linspace(np.pi, 2.0 * np.pi, PIECES + 1)
+            edges[[0, -1]] += share * np.pi / PIECES * np.array([1.0, -1.0])
+            turn = np.cos(nodes(edges).ravel())
+            found.append(self._resolver.motion(0.5 * (start + end) + 0.5 * (end - start) * turn))
+            if found[-1].ok.all():
+                return found[-1], share
+        return found[0], 0.0
+
+    def to_ends(self, values: Floats, number: int) -> Floats:
+        """Values (..., PIECES * POINTS) on a way at the Gauss points of pieces up to its ends, (..., PIECES, POINTS):
+        by the polynomials of the outer pieces where their ends were left out."""
+        found, share = values.reshape(*values.shape[:-1], PIECES, POINTS).copy(), self._solved[number][1]
+        if share:
+            weights = weights_at((NODES + 1.0 - 2.0 * share) / (1.0 - share) - 1.0)
+            found[..., 0, :] = found[..., 0, :] @ weights.T
+            found[..., -1, :] = (found[..., -1, ::-1] @ weights.T)[..., ::-1]
+        return found
 
     @property
     def known(self) -> bool:
@@ -56,11 +80,10 @@ class Ways:
         s, of the ends of all stretches, with the values of the output there, NaN where not known."""
         curves = [self._turned(output, way) for way in self.motions]
         known, exact = [], self.whole
-        for way, values in zip(self.motions, curves, strict=True):
+        for number, (way, values) in enumerate(zip(self.motions, curves, strict=True)):
             if exact:
-                ends = Piecewise(
-                    np.arange(PIECES + 1.0), values.reshape(-1, POINTS), tolerance=MET
-                ).extremes()
+                curve = self.to_ends(values, number)
+                ends = Piecewise(np.arange(PIECES + 1.0), curve, tolerance=MET).extremes()
                 exact = all(each.smooth for each in ends)
                 known += [each.value for each in ends]
             known += values[way.ok].tolist()
