@@ -345,15 +345,23 @@ class Analysis:
         return Extreme(end.input, end.time, end.input, True)
 
     def _range(self, output: Output) -> Extreme:
-        """The way of an output between its outermost places."""
+        """The way of an output between its outermost places, the largest one of all stretches that are reached."""
         nowhere = Extreme(float("nan"), float("nan"), float("nan"), self.resolver.possible)
-        if self.partial and self.ways.known:
-            limits = self.ends.limits(lambda solved: solved.read(output), "motion")
-            way, exact = self.ways.range(output, zip(self.ends.times, limits, strict=True))
-            return replace(nowhere, value=way, exact=exact)
+        if found := self.ranges(output):
+            return replace(
+                nowhere, value=max(way for way, _ in found), exact=all(exact for _, exact in found)
+            )
         known = np.append(self.motion.read(output), [limit.value for limit in self.limits(output)])
         exact = self.resolver.possible and not self.partial
         return replace(nowhere, value=float(np.ptp(known[np.isfinite(known)])), exact=exact)
+
+    def ranges(self, output: Output) -> list[tuple[float, bool]]:
+        """The ways of an output on all stretches of what is partly reached, and whether these are exact; none where
+        nothing is solved on one of them."""
+        if not self.partial or not self.ways.known:
+            return []
+        limits = self.ends.limits(lambda solved: solved.read(output), "motion")
+        return list(self.ways.ranges(output, zip(self.ends.times, limits, strict=True)))
 
     @cached_property
     def ways(self) -> Ways:

@@ -26,7 +26,7 @@ STILL = 1e-9
 LOOKS, WITHIN = 721, 14
 
 
-def _reached(analysis: Analysis, start: float, end: float) -> tuple[float, float]:
+def reached_inputs(analysis: Analysis, start: float, end: float) -> tuple[float, float]:
     """Coordinates of the first driver between which it moves in a stretch of time, in the order of the motion where
     it does not turn back."""
     law = next(iter(analysis.motion.mechanism.drivers.values())).law
@@ -72,7 +72,7 @@ class RangeOfMotion(Metric):
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:
         subject, kind = next(iter(analysis.motion.mechanism.drivers)), analysis.input_dimension
         for start, end in analysis.resolver.stretches:
-            first, last = _reached(analysis, start, end)
+            first, last = reached_inputs(analysis, start, end)
             ends: dict[str, object] = {"start": shown(first, kind), "end": shown(last, kind)}
             remarks = (Remark("range_of_motion.from_to", ends),)
             yield self.value(analysis, subject, abs(last - first), dimension=kind, at=first, remarks=remarks)

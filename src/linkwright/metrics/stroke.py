@@ -6,8 +6,10 @@ from collections.abc import Iterator
 
 from linkwright.core.outputs import Output
 from linkwright.metrics.analysis import Analysis
-from linkwright.metrics.base import METRICS, Metric, Number
+from linkwright.metrics.base import METRICS, Metric, MetricValue, Number, Remark
 from linkwright.metrics.outputs import turns_fully
+from linkwright.metrics.quantities import shown
+from linkwright.metrics.range_of_motion import reached_inputs
 
 
 @METRICS.register("stroke")
@@ -25,6 +27,20 @@ class Stroke(Metric):
     def numbers(self, analysis: Analysis) -> Iterator[Number]:
         for output in self._swinging(analysis):
             yield Number(str(output), (f"{output.owner}.{output.kind} range",))
+
+    def values(self, analysis: Analysis) -> Iterator[MetricValue]:
+        """Those of a machine that reaches several stretches are of each of them."""
+        stretches = analysis.resolver.stretches if analysis.partial else ()
+        if len(stretches) < 2 or not analysis.ways.known:
+            yield from super().values(analysis)
+            return
+        for output in self._swinging(analysis):
+            for (way, exact), stretch in zip(analysis.ranges(output), stretches, strict=True):
+                first, last = (
+                    shown(each, analysis.input_dimension) for each in reached_inputs(analysis, *stretch)
+                )
+                remarks = (Remark("range_of_motion.from_to", {"start": first, "end": last}),)
+                yield self.value(analysis, str(output), way, exact=exact, remarks=remarks)
 
     def _swinging(self, analysis: Analysis) -> list[Output]:
         motion = analysis.motion

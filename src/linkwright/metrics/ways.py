@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from functools import cached_property
 from math import remainder
 
@@ -75,39 +75,35 @@ class Ways:
         """Whether everything is."""
         return bool(self.motions) and all(way.ok.all() for way in self.motions)
 
-    def range(self, output: Output, limits: Iterable[tuple[float, float]]) -> tuple[float, bool]:
-        """The way of an output between its outermost places, and whether polynomials meet it; ``limits``: the times,
-        s, of the ends of all stretches, with the values of the output there, NaN where not known."""
-        curves = [self._turned(output, way) for way in self.motions]
-        known, exact = [], self.whole
+    def ranges(self, output: Output, limits: Iterable[tuple[float, float]]) -> Iterator[tuple[float, bool]]:
+        """The way of an output between its outermost places on every stretch, and whether polynomials meet it;
+        ``limits``: the times, s, of the ends of all stretches, with the values of the output there, NaN where not
+        known."""
+        curves, ends = [way.read(output) for way in self.motions], list(limits)
         for number, (way, values) in enumerate(zip(self.motions, curves, strict=True)):
+            known, exact = values[way.ok].tolist(), bool(way.ok.all())
             if exact:
                 curve = self.to_ends(values, number)
-                ends = Piecewise(np.arange(PIECES + 1.0), curve, tolerance=MET).extremes()
-                exact = all(each.smooth for each in ends)
-                known += [each.value for each in ends]
-            known += values[way.ok].tolist()
-        for time, value in limits:
-            known.append(value + _turn(output, self._beside(curves, time) - value))
-        found = np.array(known)[~np.isnan(known)]
-        return (float("inf") if np.isinf(found).any() else float(np.ptp(found))), exact
+                outer = Piecewise(np.arange(PIECES + 1.0), curve, tolerance=MET).extremes()
+                exact = all(each.smooth for each in outer)
+                known += [each.value for each in outer]
+            for time, value in ends:
+                nearest, beside = self._beside(curves, time)
+                if nearest == number:
+                    known.append(value + _turn(output, beside - value))
+            found = np.array(known)[~np.isnan(known)]
+            yield (float("inf") if np.isinf(found).any() else float(np.ptp(found))), exact
 
-    def _turned(self, output: Output, way: Motion) -> Floats:
-        """An output on a way, an angle in the turn of the position beside the first place that is known."""
-        values, first, ok = way.read(output), int(way.ok.argmax()), self._motion.ok
-        beside = np.abs(self._motion.time[ok] - way.time[first]).argmin()
-        return np.asarray(values + _turn(output, self._motion.read(output)[ok][beside] - values[first]))
-
-    def _beside(self, curves: Iterable[Floats], time: float) -> float:
-        """The value on a way nearest to a time, s, of an end."""
+    def _beside(self, curves: Iterable[Floats], time: float) -> tuple[int, float]:
+        """The number of the way nearest to a time, s, of an end, and the value on it there."""
         positions = self._motion.positions
         period = positions.period if positions.closed else None
         rims = [
-            (float(way.time[k]) - time, float(values[k]))
-            for way, values in zip(self.motions, curves, strict=True)
+            (float(way.time[k]) - time, number, float(values[k]))
+            for number, (way, values) in enumerate(zip(self.motions, curves, strict=True))
             for k in np.flatnonzero(way.ok)[[0, -1]]
         ]
-        return min(rims, key=lambda rim: abs(remainder(rim[0], period) if period else rim[0]))[1]
+        return min(rims, key=lambda rim: abs(remainder(rim[0], period) if period else rim[0]))[1:]
 
 
 def _turn(output: Output, gap: float) -> float:
