@@ -260,15 +260,15 @@ def test_loads_of_a_way_that_is_left_have_no_end_and_no_mean() -> None:
 
 
 def test_of_inputs_on_both_sides_of_a_gap_each_stretch_has_its_swing() -> None:
-    """A rocker on a crank of 3 m, coupler of 1 m and frame of 3.2 m: two stretches, of which each is mirrored by the
-    other input but for the side of the diagonal; ways of the rocker by the intersection of two circles."""
+    """A crank of 3 m, a coupler of 1 m and a frame of 3.2 m: a stretch on each side of the frame line, of which the
+    second one ends at the last input, 320°; ways of the rocker by the intersection of two circles."""
     text = OUT_OF_REACH.replace("SPEED", "1 rad/s").replace("[4 m, 0.5 m]", "[3.2 m, 0 m]")
     text = text.replace("length: 2.2 m", "length: 3 m").replace("length: 3.5 m", "length: 1 m")
     machine = lw.loads(text.replace("length: 2.5 m", "length: 2.8 m"))
     motion = lw.solve_motion(machine, at=np.radians(np.arange(0.0, 360.0, 40.0)), failures="mark")
     swings, expected = metrics(motion)["swing_angle"], []
     near, far = (np.arccos((3.0**2 + 3.2**2 - gap**2) / (2.0 * 3.0 * 3.2)) for gap in (1.8, 3.8))
-    for crank in (np.linspace(near, far, 200_001), -np.linspace(near, far, 200_001)):
+    for crank in (np.linspace(near, far, 200_001), np.linspace(-far, -np.radians(40.0), 200_001)):
         gap = 3.0 * np.exp(1j * crank) - 3.2
         corner = np.arccos(np.clip((abs(gap) ** 2 + 2.8**2 - 1.0) / (2.0 * abs(gap) * 2.8), -1.0, 1.0))
         expected.append(np.ptp(np.unwrap(np.angle(gap)) - corner))
