@@ -6,9 +6,11 @@ It is drawn in one of the languages, in turn.
 import json
 import math
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import pytest
+import yaml
 from tests.gallery_turns import in_turn
 
 from linkwright import parts
@@ -18,6 +20,11 @@ from linkwright.parts.file import KINDS, kind_of
 from linkwright.plot.diagrams.picture import chinese_font
 
 NAMES = parts.gallery_names()
+#: Sections whose keys are names that the user chose.
+NAMED = (
+    "supports", "loads", "variables", "mounts", "masses", "springs", "dampers", "samples", "tests", "regressions",
+    "capability", "forces", "couples", "planes", "clearances",
+)  # fmt: skip
 
 
 def numbers(data: Any) -> Iterator[float]:
@@ -60,3 +67,20 @@ def test_the_command_shows_it(name: str, capsys: pytest.CaptureFixture[str]) -> 
     command = COMMANDS[kind_of(f"gallery:{name}") or ""]
     assert main([command, f"gallery:{name}", "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["ok"]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_names_that_cannot_be_are_told(name: str, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    """Whatever they name: its noun is known in both languages."""
+    model = yaml.safe_load(
+        (Path(parts.__file__).parents[1] / f"gallery/parts/{name}.yaml").read_text("utf-8")
+    )
+    named = [key for key, value in model.items() if key in NAMED and isinstance(value, dict) and value]
+    for key in named:
+        first = next(iter(model[key]))
+        wrong = {("1 of 2" if each == first else each): value for each, value in model[key].items()}
+        file = tmp_path / "wrong.yaml"
+        file.write_text(yaml.safe_dump(model | {key: wrong}, sort_keys=False, allow_unicode=True), "utf-8")
+        for language, said in (("en", '"1 of 2" cannot be the name of a '), ("zh", "“1 of 2”")):
+            assert main(["check", str(file), "--lang", language]) == 1
+            assert said in capsys.readouterr().out

@@ -46,7 +46,7 @@ class Named(Field):
     """A mapping of names that the user chose, each with a value of one field."""
 
     item: Field
-    what: str = "name"
+    what: str
 
     def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
         mapping = reader.mapping(node, place)
@@ -66,6 +66,8 @@ class Named(Field):
 @dataclass(frozen=True)
 class ByAddress(Named):
     """A mapping of any texts (addresses of dimensions, outputs), each with a value of one field."""
+
+    what: str = "output"
 
     def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
         mapping = reader.mapping(node, place)

@@ -48,10 +48,12 @@ class Rotor(Problem):
 
     kind: ClassVar[str] = "rotor"
     masses: Mapping[str, HeavyPoint] = given(Named(
-        Table.of(HeavyPoint), doc="masses by name: {mass: 10 kg, radius: 400 mm, angle: 120 deg, at: 0 mm}",
+        Table.of(HeavyPoint), "mass",
+        doc="masses by name: {mass: 10 kg, radius: 400 mm, angle: 120 deg, at: 0 mm}",
     ))  # fmt: skip
     planes: Mapping[str, BalancingPlane] = given(Named(
-        Table.of(BalancingPlane), doc="one or two planes of counterweights by name: {at: 0 mm, radius: 500 mm}",
+        Table.of(BalancingPlane), "plane",
+        doc="one or two planes of counterweights by name: {at: 0 mm, radius: 500 mm}",
     ))  # fmt: skip
     speed: float = given(Quantity("angular_velocity", minimum=0.0, doc="speed, for the forces"), 0.0)
     name: str = ""
