@@ -198,11 +198,11 @@ def falling_ladder(steps: int) -> lw.Motion:
 
 @pytest.mark.parametrize("steps", [15, 30])
 def test_means_over_a_way_that_is_left_are_those_of_the_time_until_then(steps: int) -> None:
-    """Before the ladder falls its foot was on average half as far out as where it is last seen."""
+    """Before the ladder has fallen its foot is on average half as far out as then, 1 m."""
     motion = falling_ladder(steps)
     last = 1.5 / steps * (np.flatnonzero(motion.ok)[-1])
     assert 0.89 < last < 1.0
-    assert Analysis.of(motion).part("A.x mean").value == pytest.approx(0.5 * last, rel=1e-13)
+    assert Analysis.of(motion).part("A.x mean").value == pytest.approx(0.5, rel=1e-12)
 
 
 @pytest.mark.parametrize("steps", [15, 60])

@@ -388,3 +388,21 @@ def test_limits_lie_in_what_is_reached(seed: int) -> None:
     for output in outputs(motion.mechanism):
         for each in limit_positions(motion, output):
             assert np.isfinite(each.value) and motion.ok[each.index]
+
+
+@pytest.mark.parametrize("seed", [100, 135, 138, 139])
+def test_numbers_of_what_is_reached_are_those_for_any_number_of_positions(seed: int) -> None:
+    """Machines that come out of reach in a step, some of them before guides become parallel in it."""
+    model, known = lw.loads(general_case(seed).text), list[dict[tuple[str, str], list[float]]]()
+    for steps in (24, 361):
+        solved = lw.solve_forces(lw.solve_motion(model, steps=steps, failures="mark"))
+        found: dict[tuple[str, str], list[float]] = {}
+        for row in lw.metrics(solved):
+            found.setdefault((row.metric, row.subject), []).append(row.value)
+        known.append(found)
+        assert not solved.motion.ok.all() and found["range_of_motion", next(iter(model.drivers))]
+    few, many = known
+    assert few.keys() == many.keys()
+    for key, values in few.items():
+        if key[0] != "singularity":
+            assert values == pytest.approx(many[key], rel=1e-6, abs=1e-9), key

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import pairwise
 
 import numpy as np
@@ -17,6 +18,9 @@ from linkwright.kinematics.passage import Passage
 #: How far, rad or share of the size, before an end that is searched Newton's method for its fold begins, how far from
 #: it that is found at most, and how many times better it is known then; steps from its place to its time.
 AHEAD, COARSE, SURER, NEWTON = 1e-5, 1e-6, 1e3, 4
+
+#: Places of a cycle at which it is looked whether it is reached, on the way from a position to one that is not.
+LOOKS = 1440
 
 
 class Reach:
@@ -72,17 +76,33 @@ class Reach:
                 found.append((k, 1))
         if self._between is None or not found:
             return tuple((float(time[k if sense < 0 else k + 1]), sense) for k, sense in found)
-        brackets = [self._bracket(k, sense < 0) for k, sense in found]
+        at = self._ends(found)
+        return tuple((self._folded(each, sense), sense) for each, (_, sense) in zip(at, found, strict=True))
+
+    def _ends(self, found: Sequence[tuple[int, int]]) -> list[float]:
+        """Times, s, of ends between positions, of which the numbers are given, and the next ones."""
+        between = self._between
+        assert between is not None
         before = np.array([k for k, _ in found], dtype=np.intp)
         beside = np.array([(k + (sense > 0)) % self._motion.steps for k, sense in found], dtype=np.intp)
-        inside, outside, alone = np.array(brackets).T
-
-        def holds(time: Floats) -> Flags:
-            assert self._between is not None
-            return self._between.assembled(before, time, np.where(alone, beside, -1))
-
-        at = zip(ends(holds, inside, outside).tolist(), found, strict=True)
-        return tuple((self._folded(each, sense), sense) for each, (_, sense) in at)
+        brackets = [self._bracket(k, sense < 0) for k, sense in found]
+        inside, outside = np.array([each[:2] for each in brackets]).T
+        hidden, pole = np.array([each[2:] for each in brackets], dtype=np.bool_).T
+        count, which = max(1, LOOKS // self._motion.steps), np.arange(len(found))
+        share = np.arange(count + 1.0)[:, None] / count
+        looks, good = inside + share * (outside - inside), np.tile(hidden, (count, 1))
+        good[-1] = False
+        if count > 1 and not hidden.all():
+            places = looks[1:-1, ~hidden]
+            rows = np.broadcast_to(before[~hidden], places.shape).ravel()
+            good[:-1, ~hidden] = between.assembled(rows, places.ravel(), rows * 0 - 1).reshape(places.shape)
+        first = np.argmin(good, axis=0)
+        at = ends(
+            lambda time: between.assembled(before, time, np.where(hidden, beside, -1)),
+            np.where(hidden, inside, looks[first, which]),
+            np.where(hidden, outside, looks[first + 1, which]),
+        )
+        return np.where(pole & (first == count - 1), outside, at).tolist()  # type: ignore[no-any-return]
 
     def _folded(self, time: float, sense: int) -> float:
         """An end of what is followed, s, as the fold beside which the search finds it; itself where none is found."""
@@ -106,20 +126,19 @@ class Reach:
             time += (known[0] - value) / rate if rate else 0.0
         return time
 
-    def _bracket(self, before: int, leaves: bool) -> tuple[float, float, bool]:
+    def _bracket(self, before: int, leaves: bool) -> tuple[float, float, bool, bool]:
         """Times, s, in and out of reach around an end of it between a position and the next, of which the first is in
-        reach if it ``leaves``; the same twice where guides become parallel, as nothing is solved very near that. And
-        whether both are in reach, but what is followed from the one does not come to the other."""
+        reach if it ``leaves``; whether both are in reach, but what is followed from the one does not come to the
+        other; and whether guides become parallel there, very near which nothing is solved."""
         assert self._between is not None
         time = self._times
         bars = [p for p in self._between.bars if before <= p.place <= before + 1]
         inside, outside = (before, before + 1) if leaves else (before + 1, before)
         if not bars:
             hidden = bool(self.passed[before] and self.passed[(before + 1) % len(self.passed)])
-            return float(time[inside]), float(time[outside]), hidden
+            return float(time[inside]), float(time[outside]), hidden, False
         bar = bars[0 if leaves else -1]
-        at = self._time_at(bar)
-        return at if bar.kind == "pole" else float(time[inside]), at, False
+        return float(time[inside]), self._time_at(bar), False, bar.kind == "pole"
 
     @cached_property
     def stretches(self) -> tuple[tuple[float, float], ...]:

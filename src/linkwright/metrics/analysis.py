@@ -15,7 +15,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.once import cached_property
 from linkwright.core.outputs import Output
 from linkwright.core.piecewise import POINTS, Piecewise, largest, reach, sought
-from linkwright.core.search import lowest, peaks
+from linkwright.core.search import lowest
 from linkwright.engine.recent import Recent
 from linkwright.kinematics.limits import limit_positions
 from linkwright.kinematics.motion import Motion
@@ -28,6 +28,7 @@ from linkwright.loads.signals import Limit
 from linkwright.metrics import strokes, true_speed
 from linkwright.metrics.cycle_grid import PASSED, CycleGrid, cycle_grid
 from linkwright.metrics.outputs import mechanism_outputs
+from linkwright.metrics.parts import extreme_of_part, mean_of_part
 from linkwright.metrics.range_ends import RangeEnds
 from linkwright.metrics.resolve import Resolver
 from linkwright.metrics.summary import Summary, one
@@ -382,24 +383,18 @@ class Analysis:
         """Mean over the time of the cycle of what the forces (without them, the motion) give, (n,).
 
         By integration between the positions, so that the jumps of loads fall where they are. NaN where not all of
-        a closed cycle is reached, but for what is the same everywhere; of the positions that are reached of a way
-        that ends, if what grows without bound does not, and where nothing can be solved between positions.
+        a closed cycle is reached, but for what is the same everywhere; of a way that ends that of the time until
+        then, if it does not grow without bound; of the positions where nothing can be solved between these.
         """
         of = "motion" if self.forces is None else "forces"
         if self.grid is None:
-            values = signal(self.forces or self.motion)
-            return self.mean(values) if self._tells_mean(values, signal, of) else float("nan")
+            if self.partial:
+                return mean_of_part(self, signal, of)
+            return self.mean(signal(self.forces or self.motion))
         for _, *ends in self.grid.limits_at_changes(signal, of):
             if np.isinf(ends).any():
                 return float(np.sum(ends))  # infinite, or undefined where it grows to both sides
         return self.grid.curve(signal, of, halve=True).total / (self.grid.end - self.grid.start)
-
-    def _tells_mean(self, values: Floats, signal: Callable[..., Floats], of: str) -> bool:
-        """Whether values (n,) that are not all known have a mean."""
-        known = values[np.isfinite(values)]
-        if not self.partial or (len(known) > 1 and np.ptp(known) <= ROUNDING * abs(known[0])):
-            return True
-        return not self.closed and len(known) > 1 and bool(np.isfinite(self.ends.limits(signal, of)).all())
 
     def rms_of(self, signal: Callable[..., Floats]) -> float:
         """Root of the mean square over the time of the cycle, found in the same way."""
@@ -434,19 +429,7 @@ class Analysis:
                 return self._past_changes(self.grid, signal, of, sign)
             found = sought(curve, kind, self.grid.function(signal, of))
             return Extreme(found.value, found.place, self.resolver.input_at(found.place), True)
-        for end, value in zip(self.ends.times, self.ends.limits(signal, of), strict=True):
-            if sign * value > sign * sample.value:
-                sample = Extreme(value, end, self.resolver.input_at(end), True)
-        if np.isinf(sample.value):
-            return sample
-        step = float(abs(time[1] - time[0]))
-        near = peaks(sign * values, self.closed)[:4]
-        low, high = self.ends.without(time[near] - step, time[near] + step)
-        if not self.closed:
-            low, high = np.maximum(low, time.min()), np.minimum(high, time.max())
-        best = self._narrowed(lambda t: sign * signal(self.resolver.at(t, of)), low, high, sign, sample)
-        told = self.ends.tell(lambda solved: sign * signal(solved), of, sign * best.value, best.time)
-        return best if told else replace(best, value=float("nan"))
+        return extreme_of_part(self, signal, sign, of, sample)
 
     def _past_changes(
         self, grid: CycleGrid, signal: Callable[[Any], Floats], of: str, sign: float
@@ -497,9 +480,9 @@ class Analysis:
         at = float(time[best])
         first = Extreme(sign * float(values[best]), at, self.resolver.input_at(at), True)
         low, high = time[[max(best - 1, 0)]], time[[min(best + 1, len(time) - 1)]]
-        return self._narrowed(signal, low, high, sign, first)
+        return self.narrowed(signal, low, high, sign, first)
 
-    def _narrowed(
+    def narrowed(
         self, signal: Callable[[Floats], Floats], low: Floats, high: Floats, sign: float, first: Extreme
     ) -> Extreme:
         """The best of some brackets of a signal, of which ``sign`` makes the largest the extreme, and a sample."""

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from linkwright.core.arrays import Floats
+from linkwright.core.arrays import Flags, Floats
 from linkwright.kinematics.motion import Motion
 from linkwright.metrics.passed import SLOWED, STEEPEST, limit, towards
 from linkwright.metrics.resolve import Resolver
@@ -56,13 +56,24 @@ class RangeEnds:
         """Stretches (k,) of time, s, without what is nearer to an end than all places from which limits are found:
         there the digits of what does not grow are those of what does."""
         low, high = low.copy(), high.copy()
-        if not self._edges:
-            return low, high
-        for (_, sense), nearest in zip(self._edges, self._near(SLOWED[0])[:, 0], strict=True):
+        for sense, nearest in self._nearest():
             for place in (nearest + self._laps).ravel():
                 bound = high if sense < 0 else low
                 bound[(low < place) & (high > place)] = place
         return low, high
+
+    def far(self, time: Floats) -> Flags:
+        """Which times (n,), s, are not so near to an end."""
+        found = np.ones(len(time), dtype=np.bool_)
+        for (end, sense), (_, nearest) in zip(self._edges, self._nearest(), strict=True):
+            way = sense * (time + self._laps - end)
+            found &= ~((way >= 0.0) & (way < sense * (nearest - end))).any(axis=0)
+        return found
+
+    def _nearest(self) -> list[tuple[int, float]]:
+        """Senses of the ends, with the nearest of those places, s."""
+        near = self._near(SLOWED[0])[:, 0].tolist() if self._edges else []
+        return [(sense, place) for (_, sense), place in zip(self._edges, near, strict=True)]
 
     @property
     def _laps(self) -> Floats:

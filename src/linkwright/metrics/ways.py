@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from functools import cached_property
 from math import remainder
+from typing import Any
 
 import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.outputs import Output
-from linkwright.core.piecewise import NODES, POINTS, Piecewise, nodes, weights_at
+from linkwright.core.piecewise import NODES, POINTS, WEIGHTS, Piecewise, nodes, weights_at
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.motion import Motion
 from linkwright.metrics.cycle_grid import PIECES
@@ -28,6 +29,7 @@ class Ways:
 
     def __init__(self, motion: Motion, resolver: Resolver) -> None:
         self._motion, self._resolver = motion, resolver
+        self._results: dict[str, list[Any]] = {}
 
     @property
     def motions(self) -> tuple[Motion, ...]:
@@ -54,6 +56,28 @@ class Ways:
             if found[-1].ok.all():
                 return found[-1], share
         return found[0], 0.0
+
+    def read(self, signal: Callable[[Any], Floats], of: str) -> list[tuple[Floats, Floats]]:
+        """Times, s, and a signal of the motion, or of the forces, on every stretch."""
+        if of not in self._results:
+            self._results[of] = [
+                way if of == "motion" else self._resolver.forces(way) for way in self.motions
+            ]
+        return [
+            (way.time, np.asarray(signal(solved), dtype=float))
+            for way, solved in zip(self.motions, self._results[of], strict=True)
+        ]
+
+    def mean(self, signal: Callable[[Any], Floats], of: str) -> float:
+        """The mean over their time of a signal, which is finite at their ends."""
+        total = span = 0.0
+        for number, (time, values) in enumerate(self.read(signal, of)):
+            start, end = self._resolver.stretches[number]
+            pace = np.sqrt(np.maximum((time - start) * (end - time), 0.0))
+            pieces = self.to_ends(values * pace, number)
+            total += 0.5 * np.pi / PIECES * float(np.nansum(pieces @ WEIGHTS))
+            span += end - start
+        return total / span
 
     def to_ends(self, values: Floats, number: int) -> Floats:
         """Values (..., PIECES * POINTS) on a way at the Gauss points of pieces up to its ends, (..., PIECES, POINTS):
