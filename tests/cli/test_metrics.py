@@ -102,3 +102,41 @@ def test_solve_warns_of_a_singular_position(arguments: list[str], capsys: pytest
 def test_solve_does_not_warn_where_none_is_near(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["solve", "gallery:jaw_crusher_sixbar"]) == 0
     assert "singular" not in capsys.readouterr().out
+
+
+#: A wheel of 101 teeth, which a pinion of 97 turns 97 times until both are back, moves a rocker.
+TEETH = """
+format: 1
+name: teeth
+frame: {points: {O: [0 m, 0 m], Q: [0.198 m, 0 m], R: [0.5 m, 0 m]}}
+links:
+  pinion: {points: {O: [0 m, 0 m]}}
+  wheel: {points: {Q: [0 m, 0 m], A: [0.05 m, 0 m]}}
+  rod: {points: [A, B], length: 0.3 m}
+  rocker: {points: [R, B], length: 0.2 m}
+joints: {mesh: {kind: gear, links: [pinion, wheel], teeth: [97, 101]}}
+assembly: {B: left}
+driver: {turn: pinion, about: O, speed: 10 rad/s}
+"""
+
+
+def test_what_comes_at_every_turn_is_shown_a_few_times_and_counted(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """One limit of each kind in every turn of the wheel; the data have all of them."""
+    file = tmp_path / "teeth.yaml"
+    file.write_text(TEETH, encoding="utf-8")
+    assert main(["metrics", str(file), "--names", "limit_position,dead_point"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert len(lines) < 50
+    for name in ("limit position", "dead point"):
+        for kind in ("max", "min"):
+            own = [line for line in lines if line.startswith(name) and f"rocker {kind}" in line]
+            assert len(own) == 7 and f"rocker {kind}, 91 more" in own[-1] and " … " in own[-1]
+    assert main(["metrics", str(file), "--names", "limit_position", "--lang", "zh"]) == 0
+    assert "rocker 最大，另有 91 处" in capsys.readouterr().out
+    assert main(["metrics", str(file), "--names", "limit_position", "--json"]) == 0
+    rows = json.loads(capsys.readouterr().out)["metrics"]
+    assert [sum(row["subject"] == f"rocker {kind}" for row in rows) for kind in ("max", "min")] == [97, 97]
+    inputs = [row["at"] for row in rows if row["subject"] == "rocker max"]
+    assert inputs == pytest.approx([inputs[0] + 2.0 * pi * 101 / 97 * k for k in range(97)], abs=1e-8)

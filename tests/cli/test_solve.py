@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.cli.test_metrics import TEETH
 
 import linkwright as lw
 from linkwright.cli import main
@@ -365,3 +366,23 @@ def test_the_components_of_a_largest_force_are_those_of_the_side_where_it_is_so_
     for row in rows:
         force, across, along = map(float, row[2:5])
         assert math.hypot(across, along) == pytest.approx(force, rel=2e-3)
+
+
+def test_of_a_cycle_of_many_turns_the_first_is_shown(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Rows of all turns would be several turns apart."""
+    file = tmp_path / "teeth.yaml"
+    file.write_text(TEETH, encoding="utf-8")
+    assert main(["solve", str(file), "--columns", "rocker.angle"]) == 0
+    shown = capsys.readouterr().out
+    known = lw.solve_motion(lw.loads(TEETH), at=np.radians(np.arange(0.0, 361.0, 15.0)))
+    expected = np.degrees(known.link("rocker").angle)
+    assert np.array(table_rows(shown)) == pytest.approx(
+        np.stack([np.arange(0.0, 361.0, 15.0), expected], axis=1), abs=6e-3
+    )
+    assert "Note: the table shows the first of 101 turns" in shown
+    assert main(["solve", str(file), "--steps", "4", "--lang", "zh"]) == 0
+    shown = capsys.readouterr().out
+    assert [row[0] for row in table_rows(shown)] == [0.0, 9090.0, 18180.0, 27270.0, 36360.0]
+    assert "第一圈" not in shown

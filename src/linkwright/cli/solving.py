@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 from functools import cached_property
+from math import ceil
 
 import numpy as np
 
@@ -13,7 +14,7 @@ from linkwright.core.arrays import Floats, Indices, largest
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.errors import Finding, LinkwrightError
-from linkwright.kinematics.cycle import rotary
+from linkwright.kinematics.cycle import rotary, time_span
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinematics.table import motion_results
@@ -29,13 +30,16 @@ from linkwright.words.sentence import Sentence
 FINE = 360
 #: Steps that are shown unless others are asked for.
 ROWS = 24
+#: Turns of which these show the course, at most.
+MOST_TURNS = 6
 
 
 @dataclass(frozen=True)
 class Solved:
     """A motion, its forces where asked for, the indices of the rows that are shown, and what is to be said.
 
-    ``whole``: the positions are the cycle, not chosen ones.
+    ``whole``: the positions are the cycle, not chosen ones; ``turns``: of how many turns the rows are the first, 0
+    where they are of all.
     """
 
     motion: Motion
@@ -44,11 +48,13 @@ class Solved:
     warnings: tuple[Finding, ...] = ()
     trouble: LinkwrightError | None = None
     whole: bool = False
+    turns: int = 0
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """Notes of motion and forces."""
-        return (*self.motion.notes, *(self.forces.notes if self.forces is not None else ()))
+        """Notes of motion and forces, and on the rows."""
+        rows = (Sentence("solve.first_turn", turns=self.turns),) if self.turns else ()
+        return (*self.motion.notes, *(self.forces.notes if self.forces is not None else ()), *rows)
 
     @cached_property
     def force_scale(self) -> float:
@@ -78,7 +84,7 @@ class Solved:
 
 def solve(mechanism: Mechanism, warnings: list[Finding], options: argparse.Namespace) -> Solved:
     """Solves as the options say; raises LinkwrightError."""
-    motion, rows = _motion(mechanism, options)
+    motion, rows, turns = _motion(mechanism, options)
     wanted = options.forces if options.forces is not None else mechanism.has_loads or options.static
     forces, trouble = None, None
     if wanted:
@@ -87,10 +93,20 @@ def solve(mechanism: Mechanism, warnings: list[Finding], options: argparse.Names
         except LinkwrightError as error:
             trouble = error
     whole = options.at is None and options.times is None
-    return Solved(motion, forces, rows, tuple(warnings), trouble, whole)
+    return Solved(motion, forces, rows, tuple(warnings), trouble, whole, turns)
 
 
-def _motion(mechanism: Mechanism, options: argparse.Namespace) -> tuple[Motion, Indices]:
+def _turns(mechanism: Mechanism) -> int:
+    """Of how many turns the first is shown; 0 where so few are passed that rows of all of them show their course."""
+    if not mechanism.drivers:
+        return 0
+    speeds = [driver.law.constant_speed or 0.0 for driver in mechanism.drivers.values() if driver.law.rotary]
+    turns = max(map(abs, speeds), default=0.0) * abs(time_span(mechanism)[1]) / (2.0 * np.pi)
+    return ceil(turns - 1e-9) if turns > MOST_TURNS else 0
+
+
+def _motion(mechanism: Mechanism, options: argparse.Namespace) -> tuple[Motion, Indices, int]:
+    """The motion, the rows that are shown, and of how many turns these are the first."""
     failures = "mark" if options.mark else "raise"
     if options.at is not None:
         if not mechanism.drivers:
@@ -101,10 +117,11 @@ def _motion(mechanism: Mechanism, options: argparse.Namespace) -> tuple[Motion, 
         times = quantities(options.times, "time", "--times")
         motion = solve_motion(mechanism, times=times, failures=failures)  # type: ignore[arg-type]
     else:
-        steps = options.steps or ROWS
+        turns = 0 if options.steps else _turns(mechanism)
+        steps = options.steps or ROWS * max(1, turns)
         if steps > MOST:
             raise UsageError("solve.too_many", steps=steps, most=MOST)
         share = -(-FINE // steps)
         motion = solve_motion(mechanism, steps=steps * share, endpoint=True, failures=failures)  # type: ignore[arg-type]
-        return motion, np.arange(0, motion.steps, share)
-    return motion, np.arange(motion.steps)
+        return motion, np.arange(0, motion.steps, share)[: ROWS + 1 if turns else None], turns
+    return motion, np.arange(motion.steps), 0

@@ -9,6 +9,9 @@ from linkwright.loads.signals import Limit
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Metric, MetricValue, Number
 
+#: Digits of rad or m behind which values are the same.
+DIGITS = 11
+
 
 @METRICS.register("limit_position")
 class LimitPosition(Metric):
@@ -44,7 +47,8 @@ class LimitPosition(Metric):
 
 def _from_the_largest(limit: Limit) -> tuple[bool, float]:
     """Puts largest values first, the outermost one before the others, then smallest ones in the same way."""
-    return (False, -limit.value) if limit.kind == "max" else (True, limit.value)
+    value = round(limit.value, DIGITS)
+    return (False, -value) if limit.kind == "max" else (True, value)
 
 
 def outermost_limits(analysis: Analysis) -> Iterator[tuple[Output, str, tuple[Output, ...]]]:

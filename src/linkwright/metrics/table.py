@@ -9,6 +9,7 @@ from linkwright.core.html import html_table
 from linkwright.core.plotted import Plotted
 from linkwright.errors import RequestError
 from linkwright.metrics.base import CELLS, METRICS, MetricValue
+from linkwright.metrics.quantities import number, shown_unit
 from linkwright.registry import offered
 from linkwright.words import say
 from linkwright.words.characters import aligned
@@ -16,6 +17,32 @@ from linkwright.words.sentence import in_language, in_words, together
 
 if TYPE_CHECKING:
     import pandas
+
+#: How many values of one number and subject tables show at most.
+REPEATED = 6
+
+
+def told(rows: Sequence[MetricValue], language: str) -> Iterator[tuple[tuple[str, ...], MetricValue | None]]:
+    """What tables write of values, each with its value; of a number that comes many times over the cycle the first,
+    then how many more there are, between which values and inputs."""
+    found: dict[tuple[str, str], list[MetricValue]] = {}
+    for row in rows:
+        found.setdefault((row.metric, row.subject), []).append(row)
+    for same in found.values():
+        few = len(same) if len(same) == REPEATED + 1 else REPEATED
+        yield from ((row.cells(language), row) for row in same[:few])
+        if rest := same[few:]:
+            label, subject, _, unit, *_ = rest[0].cells(language)
+            value = _between([row.value for row in rest], rest[0].dimension)
+            at = _between([row.at for row in rest if row.at is not None], rest[0].at_dimension)
+            more = say("metrics.more", language, subject=subject, count=len(rest))
+            yield (label, more, value, unit, at and at + shown_unit(rest[0].at_dimension), ""), None
+
+
+def _between(values: Sequence[float], dimension: str) -> str:
+    """The smallest and the largest of values; empty without any."""
+    ends = dict.fromkeys(number(end(values), dimension) for end in (min, max) if values)
+    return " … ".join(ends)
 
 
 class MetricsTable(Plotted, Sequence[MetricValue]):
@@ -109,7 +136,7 @@ class MetricsTable(Plotted, Sequence[MetricValue]):
     def _written(self, language: str) -> list[Sequence[str]]:
         """Head and rows, without the limits."""
         head = [say(f"metrics.column.{name}", language) for name in CELLS[:-1]]
-        return [head, *(row.cells(language)[:-1] for row in self.rows)]
+        return [head, *(cells[:-1] for cells, _ in told(self.rows, language))]
 
     def data(self) -> list[dict[str, Any]]:
         """Plain data, SI, one mapping per row."""

@@ -108,11 +108,12 @@ def _report(table: MetricsTable, session: Session) -> list[str]:
 def _lines(table: MetricsTable, session: Session) -> list[str]:
     """Lines of the table; where it is too wide, each remark on a line of its own beneath its number."""
     from linkwright.metrics.base import CELLS
+    from linkwright.metrics.table import told
     from linkwright.words.characters import aligned, cells
 
     keys = (*CELLS, "remark")
     rows = [[session.say(f"metrics.column.{key}") for key in keys]]
-    rows += [[*row.cells(session.language), _remarks(row, session.language)] for row in table]
+    rows += [[*cells, _remarks(row, session.language)] for cells, row in told(table, session.language)]
     kept = [i for i in range(len(keys)) if i < 5 or any(row[i] for row in rows[1:])]
     align = "".join("<<><>><"[i] for i in kept)
     lines = aligned([[row[i] for i in kept] for row in rows], align)
@@ -125,8 +126,10 @@ def _lines(table: MetricsTable, session: Session) -> list[str]:
     return found
 
 
-def _remarks(row: MetricValue, language: str) -> str:
-    """Remarks of a row; its warnings stand beneath the table, and are marked here."""
+def _remarks(row: MetricValue | None, language: str) -> str:
+    """Remarks of a row, if it is that of a value; its warnings stand beneath the table, and are marked here."""
+    if row is None:
+        return ""
     said = [remark.text(language) for remark in row.remarks if not remark.warning]
     return " ".join(["!", *said] if row.warnings else said)
 

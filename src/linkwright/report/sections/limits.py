@@ -4,16 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from linkwright.metrics.base import METRICS, MetricValue
+from linkwright.metrics.base import MetricValue
 from linkwright.metrics.quantities import number
+from linkwright.metrics.table import told
 from linkwright.report.case import Case, Missing
 from linkwright.report.document import Block, Formula, Paragraph, Table, literal
 from linkwright.report.section import section
 
 #: Numbers that other sections print.
 ELSEWHERE = ("peak_reaction", "rms_reaction", "flywheel")
-#: Rows of one number of one thing, such as dead points.
-REPEATED = 6
 
 
 @section("limits", 10.0)
@@ -30,23 +29,10 @@ def blocks(case: Case) -> Iterator[Block]:
     head = tuple(
         say(f"report.{key}") for key in ("number", "subject", "value", "unit", "at_input", "recommended")
     )
-    body = tuple(_rows(case, rows))
+    body = tuple(tuple(map(literal, cells)) for cells, _ in told(rows, case.language))
     yield Table(say("report.numbers_table"), head, body, "<<><>>", "numbers")
     for sentence in case.metrics.warnings_in(case.language):
         yield Paragraph(literal(sentence), "note")
-
-
-def _rows(case: Case, rows: list[MetricValue]) -> Iterator[tuple[str, ...]]:
-    """A row for every number; of one that comes many times over the cycle the first, and how many there are."""
-    found: dict[tuple[str, str], list[MetricValue]] = {}
-    for row in rows:
-        found.setdefault((row.metric, row.subject), []).append(row)
-    for same in found.values():
-        for row in same[:REPEATED]:
-            yield tuple(map(literal, row.cells(case.language)))
-        if len(same) > REPEATED:
-            more = case.say("report.more_of_this", count=len(same) - REPEATED)
-            yield (literal(METRICS[same[0].metric]().label_in(case.language)), literal(more), "", "", "", "")
 
 
 def _quick_return(case: Case, rows: list[MetricValue]) -> Iterator[Block]:

@@ -56,6 +56,8 @@ linkwright solve gallery:excavator --times "0..8 s:0.5" --json""",
     "power_check": "Check: driver power from joint forces and from all powers differ by {residual} W at most "
     "(of {size} W)",
     "balance_check": "Check: forces on every link balance within {residual} N (of {size} N)",
+    "first_turn": "the table shows the first of {turns} turns; --steps N shows N steps of all of them, "
+    "--at 720deg..1080deg:15deg others",
     "left_out": 'Left out for width: {names}. See them with --columns "{one}.*"; --output FILE.csv writes all '
     "{total} columns.",
     "note": "Note: {text}",

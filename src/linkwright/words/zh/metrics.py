@@ -13,6 +13,7 @@ WORDS = {
     "no_names": "--names：“{text}”的逗号之间有空缺",
     "nothing": "没有适用于该机构的设计指标",
     "column.limit": "限值",
+    "more": "{subject}，另有 {count} 处",
     "column.remark": "说明",
     "column.metric": "设计指标",
     "column.subject": "对象",

@@ -54,6 +54,8 @@ linkwright solve gallery:excavator --times "0..8 s:0.5" --json""",
     "effort_mean": "，平均 {mean} {unit}",
     "power_check": "校核：由反力与由全部功率求得的驱动功率最多相差 {residual} W（最大功率 {size} W）",
     "balance_check": "校核：各构件受力平衡，误差不超过 {residual} N（最大反力 {size} N）",
+    "first_turn": "表中为 {turns} 圈中的第一圈；--steps N 显示全部各圈的 N 步，"
+    "--at 720deg..1080deg:15deg 显示其他圈",
     "left_out": '因宽度未列出：{names}。用 --columns "{one}.*" 查看；--output FILE.csv 写出全部 {total} 列。',
     "note": "提示：{text}",
     "not_reached": "到不了的位置：{of} 个中的 {count} 个",
