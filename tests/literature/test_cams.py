@@ -176,6 +176,26 @@ def test_hertz_pressure_is_that_of_the_textbook() -> None:
     assert pressure[0] == pytest.approx(0.418 * math.sqrt(1000 * 206e9 / (0.01 * 0.012)), rel=2e-3)
 
 
+def test_the_largest_pressure_is_found_between_the_places_of_the_curves() -> None:
+    """A flat face on a cam of radius of curvature r + s + s'', pressed with a load and the mass's force: Hertz."""
+    rise, lift, speed, mass, load, base, width = radians(100.3), 0.02, 100.0, 0.5, 300.0, 0.3, 0.012
+    back = lw.Segment(2.0 * pi - rise, to=0.0, law="simple_harmonic")
+    program = lw.MotionProgram((lw.Segment(rise, lift, law="cycloidal"), back))
+    material = CamMaterial(206e9)
+    loading = lw.CamLoading(speed, mass, load)
+    design = lw.Cam(
+        program, lw.Follower("flat"), base, width=width, material=material, loading=loading
+    ).solve()
+    u = np.linspace(0.0, 1.0, 2_000_001)
+    s, second = lift * (u - np.sin(2 * pi * u) / (2 * pi)), lift * 2 * pi * np.sin(2 * pi * u) / rise**2
+    force = load + mass * speed**2 * second
+    known = np.sqrt(force * material.contact_modulus / (pi * width * (base + s + second)))
+    found = design.largest_pressure
+    assert found is not None and found.value == pytest.approx(known.max(), rel=1e-12)
+    assert found.place == pytest.approx(u[known.argmax()] * rise, abs=1e-5)
+    assert design.pressure is not None and design.pressure.max() < found.value * (1.0 - 1e-9)
+
+
 def test_a_chosen_spring_just_holds_the_contact() -> None:
     design = parts.load("gallery:cam_roller").solve()
     effort = design.loading.effort(design.cam.program, np.linspace(0, 6.28, 5000))

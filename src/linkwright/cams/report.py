@@ -128,15 +128,14 @@ def _broken_limits(design: CamDesign, say: Say) -> list[str]:
     ):
         found.append(say("cams.radius_under", radius=shown(smallest.value, "length"),
                          limit=shown(limits.curvature_radius, "length"), at=at(smallest.place, say)))  # fmt: skip
-    pressure = design.pressure
+    pressure = design.largest_pressure
     if (
         limits.contact_pressure
         and pressure is not None
-        and pressure.max() > limits.contact_pressure * (1 + 1e-6)
+        and pressure.value > limits.contact_pressure * (1 + 1e-6)
     ):
-        place = float(design.angles[int(pressure.argmax())])
-        found.append(say("cams.pressure_over", pressure=shown(float(pressure.max()), "pressure"),
-                         limit=shown(limits.contact_pressure, "pressure"), at=at(place, say)))  # fmt: skip
+        found.append(say("cams.pressure_over", pressure=shown(pressure.value, "pressure"),
+                         limit=shown(limits.contact_pressure, "pressure"), at=at(pressure.place, say)))  # fmt: skip
     return found
 
 
@@ -158,10 +157,9 @@ def _forces(design: CamDesign, say: Say) -> Block | None:
         for word, kind in (("largest", "max"), ("smallest", "min")):
             found = extreme(kind)
             rows.append(Row(f"{word}_{key}", found.value, dimension, note=at(found.place, say)))
-    if design.pressure is not None:
-        k = int(design.pressure.argmax())
-        place = at(float(design.angles[k]), say)
-        rows.append(Row("largest_contact_pressure", float(design.pressure[k]), "pressure", note=place))
+    if (pressure := design.largest_pressure) is not None:
+        place = at(pressure.place, say)
+        rows.append(Row("largest_contact_pressure", pressure.value, "pressure", note=place))
     if design.cam.closure != "force":
         force = design.contact_force
         pressed = np.flatnonzero(np.abs(force) > 1e-6 * np.abs(force).max())

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -99,14 +100,19 @@ class CamDesign(Result):
         if not moving.any():
             return Extreme(0.0, 0.0)
         size = np.where(moving, np.abs(self.contact.pressure_angle), -1.0)
-        k = int(size.argmax())
-        low, high = self.angles[max(k - 1, 0)], self.angles[min(k + 1, len(size) - 1)]
+        return self._largest(size, lambda phi: self.wall.contact(phi).pressure_angle)
+
+    def _largest(self, known: Floats, values: Callable[[Floats], Floats]) -> Extreme:
+        """The value of largest size around the largest of those that are known at the angles (n,)."""
+        k = int(known.argmax())
+        inside = self._inside
+        low, high = inside[max(k - 1, 0)], inside[min(k + 1, len(known) - 1)]
         for _ in range(8):
             phi = np.linspace(low, high, 33)
-            angle = self.wall.contact(phi).pressure_angle
-            j = int(np.abs(angle).argmax())
+            found = values(phi)
+            j = int(np.abs(found).argmax())
             low, high = phi[max(j - 1, 0)], phi[min(j + 1, 32)]
-        return Extreme(float(angle[j]), float(phi[j]))
+        return Extreme(float(found[j]), float(phi[j]))
 
     @cached_property
     def smallest_radius(self) -> Extreme | None:
@@ -187,12 +193,21 @@ class CamDesign(Result):
         cam = self.cam
         if cam.width is None or cam.follower.kind == "knife" or not self.loaded:
             return None
-        force = self.contact_force
-        found = contact_pressure(force, self.contact, cam.follower, cam.width, cam.material)
+        return self._pressure(self._inside)
+
+    def _pressure(self, phi: Floats) -> Floats:
+        cam, force = self.cam, self._contact_force(phi)
+        assert cam.width is not None
+        found = contact_pressure(force, self.wall.contact(phi), cam.follower, cam.width, cam.material)
         if self._other is None:
             return found
-        back = self._other.contact(self._inside)
+        back = self._other.contact(phi)
         return found + contact_pressure(-force, back, self._other.follower, cam.width, cam.material)
+
+    @cached_property
+    def largest_pressure(self) -> Extreme | None:
+        """Its largest value, found between the places of the curves."""
+        return None if self.pressure is None else self._largest(self.pressure, self._pressure)
 
     # points -------------------------------------------------------------------------------
     def profile(self, points: int = 720, wall: int = 0) -> Floats:

@@ -116,7 +116,7 @@ def _keeps_exactly(cam: Cam, radius: float) -> bool:
     if not (bends and steep and all(wall.contact(design.angles).growth.min() > 0 for wall in there.walls)):
         return False
     most = cam.limits.contact_pressure
-    return most is None or design.pressure is None or float(design.pressure.max()) <= most
+    return most is None or (largest := design.largest_pressure) is None or largest.value <= most
 
 
 @dataclass(frozen=True)

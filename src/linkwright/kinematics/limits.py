@@ -461,8 +461,10 @@ class _Search:
             (turned,) = self.motion.rows.fetch(self.value_names, self.motion.evaluate)
             first = float(np.nanmax(angle - turned))
             return [row[0] + first for row in rows]
-        known = np.flatnonzero(np.isfinite(angle))
-        near = angle[known[np.abs(np.subtract.outer(known, before)).argmin(axis=0)]].tolist()
+        near = angle[before].tolist()
+        if not all(map(math.isfinite, near)):
+            known = np.flatnonzero(np.isfinite(angle))
+            near = angle[known[np.abs(np.subtract.outer(known, before)).argmin(axis=0)]].tolist()
         raw = [math.atan2(y, x) for x, y in rows]
         return [angle + TURN * round((at - angle) / TURN) for angle, at in zip(raw, near, strict=True)]
 
