@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from linkwright.core.arrays import Floats
+from linkwright.core.arrays import Flags, Floats
 from linkwright.core.inputs import mode_inputs
 from linkwright.cycle_programs.traced import Traced
 from linkwright.engine.trace import Mask
@@ -69,19 +69,22 @@ class OneByOne:
 
     def rows(
         self, names: tuple[str, ...], columns: Mapping[str, Floats]
-    ) -> tuple[dict[str, Floats], dict[int, str]]:
-        """Inputs (designs, n) by name, and the sentences of the designs for which they cannot be found."""
+    ) -> tuple[dict[str, Floats], dict[int, str], Flags]:
+        """Inputs (designs, n) by name, the sentences of the designs for which they cannot be found, and whether the
+        way of each design leads through all positions that it reaches, (designs,)."""
         designs = len(next(iter(columns.values())))
         rows = {name: np.ones((designs, self.traced.positions.count)) for name in names}
         failed: dict[int, str] = {}
+        through = np.ones(designs, dtype=np.bool_)
         for index in range(designs):
             try:
                 motion = self.motion(changes_of(columns, index))
+                through[index] = not motion.breaks
                 for name, row in self.inputs(names, motion).items():
                     rows[name][index] = row
             except LinkwrightError as error:
                 failed[index] = error.sentence
-        return rows, failed
+        return rows, failed, through
 
 
 def changes_of(columns: Mapping[str, Floats], index: int) -> dict[str, float]:

@@ -34,8 +34,8 @@ if TYPE_CHECKING:
 
 #: Designs of a piece that goes to a cluster; fewer stay on this machine.
 SHARED = 4096
-#: What a piece finds: positions assembled, summaries, sentences of designs, margins, dimensions of numbers.
-_Piece = tuple[Whole, list[Floats], dict[int, str], Floats | None, dict[str, str]]
+#: What a piece finds: positions assembled, designs that pass, summaries, sentences of designs, margins, dimensions of numbers.
+_Piece = tuple[Whole, Flags, list[Floats], dict[int, str], Floats | None, dict[str, str]]
 
 
 @dataclass(eq=False)
@@ -44,6 +44,7 @@ class Sweep(Plotted, Frozen):
 
     ``varied``: values of the varied dimensions; ``assembled``: number of ``positions`` at which each design can be
     put together, or with ``partial`` that it reaches on its way from the first of them, as ``Motion.ok`` counts;
+    ``ok``: which designs pass the whole cycle, (designs,);
     ``result["driver.effort", "rms"]`` or ``result["driver.effort rms"]`` a summary, NaN for designs
     that do not pass the whole cycle (unless ``partial`` was asked for). ``branch_margin`` (designs,): how far the
     step nearest to another assembly was from being refused, 1 far, 0 at the edge, where groups without closed form
@@ -55,6 +56,7 @@ class Sweep(Plotted, Frozen):
     varied: Mapping[str, Floats]
     positions: int
     assembled: Whole
+    ok: Flags
     summaries: Mapping[Summary, Floats]
     quantities: Mapping[str, Quantity] = field(repr=False)
     unloaded: Mapping[int, str] = field(default_factory=dict)
@@ -66,14 +68,6 @@ class Sweep(Plotted, Frozen):
     def designs(self) -> int:
         """Number of designs."""
         return len(self.assembled)
-
-    @property
-    def ok(self) -> Flags:
-        """Which designs pass the whole cycle, (designs,)."""
-        good: Flags = self.assembled == self.positions
-        if self.unloaded:
-            good[list(self.unloaded)] = False
-        return good
 
     def __getitem__(self, key: str | tuple[str, str]) -> Floats:
         """A summary (designs,), by output and kind."""
@@ -170,21 +164,23 @@ def sweep(
     run = SweepRun(mechanism, columns, over_positions, positions, Manner(partial, threads, backend, progress))
     if client is not None and run.designs > SHARED:
         return _shared(client, run, asked, steps)
-    assembled, values = run.swept()
+    assembled, passed, values = run.swept()
     numbers = [each.output for each in asked if not each.kind]
     dimensions: dict[str, str] = {}
     if numbers:
-        chosen = np.flatnonzero(assembled >= (1 if partial else positions.count))
+        chosen = np.flatnonzero(assembled > 0 if partial else assembled == positions.count)
         found, dimensions, failed = numbers_of(
             mechanism, columns, numbers, chosen, partial=partial, threads=threads, backend=backend
         )
         values |= {Summary(name, ""): column for name, column in found.items()}
         run.unloaded |= failed
+        passed[list(failed)] = False
     return Sweep(
         mechanism,
         columns,
         positions.count,
         assembled,
+        passed,
         {each: values[each] for each in asked},
         run.quantities,
         run.unloaded,
@@ -207,9 +203,11 @@ def _shared(client: Any, run: SweepRun, asked: Sequence[Summary], steps: int) ->
     parts = [{a: np.array(c[each]) for a, c in run.columns.items()} for each in places]
     tasks, keys = [(run.mechanism, each, *rest) for each in parts], [(run.own, each, *rest) for each in parts]
     found: dict[int, _Piece] = dict(in_turn(client, _piece, tasks, keys))
-    assembled, summaries, unloaded, margins, dimensions = zip(*map(found.get, range(len(tasks))), strict=True)
+    assembled, passed, summaries, unloaded, margins, dimensions = zip(
+        *map(found.get, range(len(tasks))), strict=True
+    )
     return Sweep(
-        run.mechanism, run.columns, run.positions.count, np.concatenate(assembled),
+        run.mechanism, run.columns, run.positions.count, np.concatenate(assembled), np.concatenate(passed),
         dict(zip(asked, map(np.concatenate, zip(*summaries, strict=True)), strict=True)), run.quantities,
         {each.start + k: why for each, some in zip(places, unloaded, strict=True) for k, why in some.items()},
         run.traced.nominal.notes, None if margins[0] is None else np.concatenate(margins),
@@ -230,7 +228,14 @@ def _piece(
         mechanism, columns, outputs=outputs, steps=steps, partial=partial, threads=1, backend=backend
     )
     summaries = [*found.summaries.values()]
-    return found.assembled, summaries, dict(found.unloaded), found.branch_margin, dict(found.dimensions)
+    return (
+        found.assembled,
+        found.ok,
+        summaries,
+        dict(found.unloaded),
+        found.branch_margin,
+        dict(found.dimensions),
+    )
 
 
 def sweep_curves(

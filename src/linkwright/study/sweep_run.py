@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from linkwright.core.arrays import Floats, Indices, Whole
+from linkwright.core.arrays import Flags, Floats, Indices, Whole
 from linkwright.core.dataclass import dataclass
 from linkwright.core.inputs import Input, mode_groups
 from linkwright.cycle_programs.change_points import ChangePoints, near_enough
@@ -31,6 +31,8 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.summary import Summary, finished, reductions
 from linkwright.study.kept import identity, once, reporting
 
+#: The result that says whether a design passes its cycle.
+PASSED = "passed"
 #: Designs of one block, and of one whose inputs are found design by design.
 BLOCK, LOADED_BLOCK = 1 << 16, 1 << 9
 #: Designs whose curves are held at a time.
@@ -77,9 +79,9 @@ class SweepRun:
             self.follow = following(self.traced, names, self.program.fields)
         self.margins = None if self.follow is None else np.full(self.designs, np.nan)
 
-    def swept(self) -> tuple[Whole, dict[Summary, Floats]]:
-        """Assembled positions (designs,), and every summary (designs,)."""
-        assembled = np.zeros(self.designs, dtype=np.int64)
+    def swept(self) -> tuple[Whole, Flags, dict[Summary, Floats]]:
+        """Assembled positions (designs,), whether each design passes its cycle, and every summary (designs,)."""
+        assembled, passed = np.zeros(self.designs, dtype=np.int64), np.zeros(self.designs, dtype=np.bool_)
         values = {summary: np.empty(self.designs) for summary in self.asked}
         for first, end in chunks(
             self.designs,
@@ -88,19 +90,20 @@ class SweepRun:
             results = self._block(
                 {address: column[first:end] for address, column in self.columns.items()}, first
             )
-            assembled[first:end] = results["valid.count"]
+            assembled[first:end], passed[first:end] = results["valid.count"], results[PASSED]
             if self.margins is not None:
                 self.margins[first:end] = results[f"{MARGIN}.min"]
             for summary, into in values.items():
                 found = finished(summary, self.quantities[summary.output], results, self._input())
                 if not self.manner.partial:
-                    found[results["valid.count"] != self.positions.count] = np.nan
+                    found[~passed[first:end]] = np.nan
                 into[first:end] = found
             if self.progress is not None:
                 self.progress(end, self.designs)
         for into in values.values():
             into[list(self.unloaded)] = np.nan
-        return assembled, values
+        passed[list(self.unloaded)] = False
+        return assembled, passed, values
 
     def curves(self, names: Sequence[str]) -> Iterator[tuple[slice, dict[str, Floats]]]:
         """The outputs over the positions block by block, (designs, n) each; NaN for designs that do not pass."""
@@ -118,7 +121,7 @@ class SweepRun:
         self, names: Sequence[str], part: Mapping[str, Floats], first: int
     ) -> dict[str, Floats]:
         end = first + len(next(iter(part.values())))
-        passed = self._block(part, first)["valid.count"] == self.positions.count
+        passed = self._block(part, first)[PASSED]
         flipping = np.array([k in self.through for k in range(first, end)])
         if self.traced.nominal.modes:
             flipping[:] = True
@@ -135,7 +138,7 @@ class SweepRun:
         quantities, program = self._stored(tuple(names), traced)
         fields: Mapping[str, Floats] = {}
         if source is not None or program.fields:
-            fields, _ = (source or self._single).rows(program.fields, part)
+            fields, _, _ = (source or self._single).rows(program.fields, part)
         table, inputs, n = traced.table(program, part), self.positions.arrays, self.positions.count
         code = None if self.manner.backend == "numpy" else compile_program(program)
         if code is None:
@@ -196,8 +199,10 @@ class SweepRun:
         """Two passes: the motion of each design with its loads, then the summaries of the block."""
         quantities = source.traced.quantities(self.quantities)
         program = _fed(source.traced.program(quantities, {VALID: source.valid}))
-        rows, failed = source.rows(program.fields, part)
-        return self._reduced(source.traced, program, part, rows), failed
+        rows, failed, through = source.rows(program.fields, part)
+        results = self._reduced(source.traced, program, part, rows)
+        results[PASSED] = np.logical_and(results[PASSED], through)
+        return results, failed
 
     @cached_property
     def _loaded(self) -> LoadedCycle | None:
@@ -210,6 +215,7 @@ class SweepRun:
         self, results: Results, doubtful: Indices, part: Mapping[str, Floats]
     ) -> tuple[Results, dict[int, str]]:
         """The results of all designs together, those of which something is not certain found one by one."""
+        results[PASSED] = results["valid.count"] == self.positions.count
         if not len(doubtful):
             return results, {}
         again, failed = self._one_by_one(self._single, {a: c[doubtful] for a, c in part.items()})
@@ -263,7 +269,7 @@ class SweepRun:
     def _reduced(
         self, traced: Traced, program: Program, part: Mapping[str, Floats], rows: Mapping[str, Floats]
     ) -> Results:
-        return engine_sweep(
+        results = engine_sweep(
             program,
             traced.table(program, part),
             self.positions.arrays,
@@ -273,6 +279,8 @@ class SweepRun:
             threads=self.manner.threads,
             backend=self.manner.backend,
         )
+        results[PASSED] = results["valid.count"] == self.positions.count
+        return results
 
 
 def _fed(program: Program) -> Program:
