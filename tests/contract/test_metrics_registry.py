@@ -85,7 +85,8 @@ FIRST = (
     {"peak_acceleration"},
     {"transmission_angle", "transmission_angle_of_stroke", "pressure_angle"},
     {
-        "peak_input_torque", "rms_input_torque", "peak_power", "mean_power", "energy_fluctuation", "flywheel",
+        "peak_input_torque", "rms_input_torque", "peak_power", "mean_power", "efficiency", "energy_fluctuation",
+        "flywheel",
     },
     {"velocity_ratio", "mechanical_advantage"},
     {"peak_reaction", "rms_reaction", "bearing_pv"},

@@ -46,6 +46,44 @@ def wedge(friction: float, angle: float) -> lw.Mechanism:
     return lw.loads(WEDGE.replace("MU", str(friction)).replace("ANGLE", str(angle)))
 
 
+PUMP = """
+format: 1
+frame: {points: {O: [0 mm, 0 mm]}}
+links:
+  crank: {points: [O, A], length: 50 mm}
+  rod: {points: [A, B], length: 200 mm, mass: 1 kg, inertia: 0.004 kg·m²}
+  ram: {points: [B], mass: 2 kg}
+joints:
+  O: {kind: revolute, pin_radius: 10 mm, friction: 0.1}
+  A: {kind: revolute, pin_radius: 10 mm, friction: 0.1}
+  B: {kind: revolute, pin_radius: 10 mm, friction: 0.1}
+  guide: {kind: prismatic, guide: frame, through: O, direction: 0 deg, block: ram, at: B, friction: 0.08}
+assembly: {B: forward}
+driver: {turn: crank, about: O, speed: 120 rpm}
+gravity: [0, -9.81 m/s²]
+loads:
+  work: {kind: force, on: ram, at: B, components: [-1000 N, 0 N], phase: {of: guide, from: min, to: max}}
+"""
+
+
+@pytest.mark.parametrize("rod", [150.0, 200.0, 400.0])
+def test_efficiency_is_the_work_done_over_the_work_supplied(rod: float) -> None:
+    """1000 N over a stroke of 100 mm twice a second are 200 W; what more is supplied goes into friction."""
+    mechanism = lw.loads(PUMP.replace("200 mm", f"{rod} mm"))
+    forces = lw.solve_forces(mechanism, steps=48)
+    table = lw.metrics(forces)
+    supplied = table.value("mean_power")
+    assert table.value("efficiency") == pytest.approx(200.0 / supplied, rel=1e-9)
+    assert 0.85 < table.value("efficiency") < 0.95
+    assert forces.friction_power.min() > 0.0
+    swept = lw.study(mechanism, {"rod.length": np.array([1e-3 * rod])}, metrics=["efficiency"])
+    assert swept["efficiency"][0] == pytest.approx(table.value("efficiency"), rel=1e-12)
+
+
+def test_machines_without_friction_have_no_efficiency() -> None:
+    assert "efficiency" not in lw.metrics(lw.solve_forces(wedge(0.0, 15.0), steps=4)).names
+
+
 @pytest.mark.parametrize("angle", [15.0, 30.0])
 @pytest.mark.parametrize("friction", [0.0, 0.1, 0.3])
 def test_wedge_press(friction: float, angle: float) -> None:
@@ -54,6 +92,9 @@ def test_wedge_press(friction: float, angle: float) -> None:
     resultant = 50.0 / (math.cos(lean) - friction * math.sin(lean))
     drive = resultant * math.sin(lean) + friction * (10.0 + resultant * math.cos(lean))
     assert forces.driver_effort("driver") == pytest.approx(np.full(5, -drive), rel=1e-10)
+    if friction:
+        ideal = 50.0 * math.tan(math.radians(angle))
+        assert lw.metrics(forces).value("efficiency") == pytest.approx(ideal / drive, rel=1e-9)
     slope = forces.reaction("slope", on="upper")
     assert np.hypot(*slope.T) * math.sqrt(1 + friction**2) == pytest.approx(np.full(5, resultant), rel=1e-10)
 

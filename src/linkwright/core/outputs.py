@@ -75,6 +75,7 @@ KINDS = {
     "shaking_force": Kind("machine", "force", "shake", r"F_{\mathrm{S}}", vector=True, form="phrase"),
     "shaking_moment": Kind("machine", "torque", "shake_moment", r"M_{\mathrm{S}}", form="phrase"),
     "power": Kind("machine", "power", "driver_power", form="phrase"),
+    "friction_power": Kind("machine", "power", "friction_power", form="phrase"),
     "power_of_forces": Kind("machine", "power", "power"),
     "power_residual": Kind("machine", "power", symbol=r"\Delta P"),
     "balance_residual": Kind("machine", "force", symbol=r"\Delta F"),

@@ -156,6 +156,11 @@ class Forces(Plotted):
         """Power that the drivers must supply, from the powers of all forces, (n,) W."""
         return self.rows.row(row_name("power_of_forces"), self.evaluate)
 
+    @property
+    def friction_power(self) -> Floats:
+        """Power that the friction of joints takes, (n,) W, not negative."""
+        return locked(self.rows.row(row_name("friction_power"), self.evaluate))
+
     @cached_property
     def power_residual(self) -> Floats:
         """Power of the driver efforts minus the power of all forces, (n,) W: zero but for rounding."""

@@ -49,6 +49,8 @@ class ForceOutputs:
                 return self._shaking()[1]
             case "power":
                 return forces.driver_power
+            case "friction_power":
+                return forces.friction_power
             case "power_of_forces":
                 return forces.power
         raise KeyError(output.row)

@@ -89,6 +89,17 @@ class ForceTrace:
         return total
 
     @property
+    def friction_power(self) -> Scalar:
+        """Power that the friction of joints takes."""
+        total: Scalar = 0.0
+        loads = self.motion.mechanism.loads
+        for wrench in (w for name, group in self.wrenches.items() if name not in loads for w in group):
+            state = self.motion.states[wrench.link]
+            moment = (wrench.place - state.pose.place).cross(wrench.force) + wrench.torque
+            total = total - wrench.force.dot(state.velocity) - moment * state.omega
+        return total
+
+    @property
     def driver_power(self) -> Scalar:
         """Power of the efforts found from the joint forces."""
         total: Scalar = 0.0

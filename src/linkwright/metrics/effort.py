@@ -69,6 +69,33 @@ class MeanPower(PowerMetric):
         yield Number(analysis.motion.mechanism.name, ("power mean", "power peak"), _work)
 
 
+@METRICS.register("efficiency")
+class Efficiency(PowerMetric):
+    """Share of the drivers' work that friction of joints leaves: 1 - W_f/W; not positive where loads drive."""
+
+    dimension = "dimensionless"
+    source = "Sun Huan, Theory of Machines and Mechanisms, ch. 5: η = W_r/W_d = 1 - W_f/W_d"
+    better: ClassVar[Better | None] = "higher"
+    judged_last = True
+
+    def suits(self, analysis: Analysis) -> bool:
+        """For machines with friction whose drivers do work."""
+        rubbing = any(joint.friction_arm for joint in analysis.motion.mechanism.joints.values())
+        if not (rubbing and super().suits(analysis)):
+            return False
+        mean, peak = (float(analysis.part(f"power {kind}").value) for kind in ("mean", "peak"))
+        return mean > IDLE * peak
+
+    def numbers(self, analysis: Analysis) -> Iterator[Number]:
+        parts = ("friction_power mean", "power mean", "power peak")
+        yield Number(analysis.motion.mechanism.name, parts, _efficiency)
+
+
+def _efficiency(lost: Scalar, mean: Scalar, peak: Scalar) -> Scalar:
+    """NaN where the drivers do no work."""
+    return select(mean > IDLE * peak, 1.0 - lost / mean, float("nan"))
+
+
 def _work(mean: Scalar, peak: Scalar) -> Scalar:
     """The mean, zero where it is but rounding."""
     return select(absolute(mean) <= IDLE * peak, 0.0, mean)

@@ -34,7 +34,8 @@ if TYPE_CHECKING:
 
 #: Designs of a piece that goes to a cluster; fewer stay on this machine.
 SHARED = 4096
-#: What a piece finds: positions assembled, designs that pass, summaries, sentences of designs, margins, dimensions of numbers.
+#: What a piece finds: positions assembled, designs that pass, summaries, sentences of designs, margins, dimensions of
+#: numbers.
 _Piece = tuple[Whole, Flags, list[Floats], dict[int, str], Floats | None, dict[str, str]]
 
 

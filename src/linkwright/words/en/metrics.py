@@ -88,6 +88,8 @@ closeness to a singular position first.""",
     "left out",
     "part_of_way_reached": "{name!r} reaches {reached} of {count} positions; means are those of the time "
     "until it comes out of reach, and numbers that grow without bound there have none",
+    "efficiency.label": "efficiency",
+    "efficiency.meaning": "Share of the drivers' work that the friction of joints leaves.",
     "mean_power.label": "mean power",
     "mean_power.meaning": "Work of the drivers per cycle over the time of the cycle.",
     "peak_reaction.label": "peak reaction",

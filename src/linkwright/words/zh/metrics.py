@@ -72,6 +72,8 @@ WORDS = {
     "part_reached": "“{name}”在 {count} 个位置中只能到达 {reached} 个，均值等整个循环的指标从略",
     "part_of_way_reached": "“{name}”在 {count} 个位置中只能到达 {reached} 个，"
     "均值按到达不了之前的时间计算，在那里无限增大的量没有均值",
+    "efficiency.label": "机械效率",
+    "efficiency.meaning": "原动件所做的功除去运动副摩擦损耗后所占的份额。",
     "mean_power.label": "平均功率",
     "mean_power.meaning": "原动件每循环所做的功除以循环时间。",
     "peak_reaction.label": "运动副反力峰值",
