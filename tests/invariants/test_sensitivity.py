@@ -337,3 +337,19 @@ loads: {weight: {kind: force, on: left, at: C, direction: -90 deg, magnitude: 20
     assert found.input.tolist() == [0.0]
     slope = found.slope("reaction O on left", "loads.weight.magnitude")
     assert slope == pytest.approx([np.sqrt(0.5)], rel=1e-12)
+
+
+def test_a_machine_that_cannot_pass_between_two_positions_has_no_derivatives() -> None:
+    """Crank 1 m + 10 µm, frame 4 m: coupler and rocker of 5 m together do not reach around half a turn."""
+    model = """
+format: 1
+frame: {points: {O1: [0 m, 0 m], O2: [4 m, 0 m]}}
+links:
+  crank: {points: [O1, A], length: 1.00001 m}
+  coupler: {points: [A, B], length: 3 m}
+  rocker: {points: [O2, B], length: 2 m}
+assembly: {B: left}
+driver: {turn: crank, about: O1, speed: 1 rad/s, start: 20.5 deg}
+"""
+    with pytest.raises(lw.LinkwrightError, match="barred between two positions"):
+        lw.sensitivity(lw.loads(model), of="rocker.angle max", by=["crank.length"], steps=36)

@@ -175,7 +175,7 @@ def sensitivity(
     if not asked:
         raise RequestError("study.no_outputs")
     traced = Traced(mechanism, dimensions, positions, turning=True)
-    if not traced.nominal.ok.all():
+    if not traced.nominal.whole:
         raise refusal(traced.nominal)
     if traced.nominal.modes:
         traced = Traced(mechanism, dimensions, positions, turning=True, flipping=True)
