@@ -115,3 +115,13 @@ def test_a_mechanism_whose_file_is_not_there_is_a_finding_of_the_calculation(tmp
     (missing,) = parts_check(file)
     assert (missing.where, missing.key, missing.code) == ("bending.yaml:6:12", "mechanism", "reference")
     assert "nowhere.yaml: there is no such file" in str(missing)
+
+
+@pytest.mark.parametrize("shape", ["box: [120 mm, 0 mm, 12 mm]", "tube: [0 mm, 2 mm]", "circle: [0 mm]"])
+def test_a_section_without_height_is_a_finding(tmp_path: Path, shape: str) -> None:
+    text = (files("linkwright.gallery") / "parts/pitman_bending.yaml").read_text("utf-8")
+    file = tmp_path / "bending.yaml"
+    file.write_text(re.sub("(?m)^section: .*", f"section: {{{shape}}}", text))
+    (found,) = parts_check(file)
+    assert (found.where, found.key, found.code) == ("bending.yaml:9:10", "section", "range")
+    assert "these dimensions make no section; give lengths above zero" in str(found)

@@ -38,9 +38,18 @@ def test_whole_numbers_that_do_not_fit() -> None:
         program.solve()
 
 
+def test_products_of_whole_numbers_that_do_not_fit() -> None:
+    whole = {"x": parts.Variable(2, 10, integer=True), "y": parts.Variable(2, 10, integer=True)}
+    program = parts.Program.of(whole, minimize="x*y", subject_to={"a": "x*y = 13", "b": "x + y <= 12"})
+    with pytest.raises(lw.ModelError, match=r"cannot hold together: a \(x\*y = 13\);"):
+        program.solve()
+
+
 @pytest.mark.parametrize(
     ("text", "words"),
     [
+        ("parameters: {r: 0}\nminimize: x\nsubject_to: {a: y <= 3/r}", '"3/r" divides by zero'),
+        ("parameters: {r: 0}\nminimize: x^2/r", '"x^2/r" divides by zero'),
         ("minimize: x\nmaximize: y", "exactly one of minimize and maximize"),
         ("minimize: x + z", 'unknown name "z"'),
         ("minimize: x\nsubject_to: {a: x + y}", "is no constraint"),

@@ -119,8 +119,9 @@ def _shaped(reader: Reader, node: Node, place: Place, found: dict[str, Any]) -> 
         return None
     if not shapes:
         return Section(found["second_moment"], found.get("area"), found.get("modulus"))
-    made = SHAPES[shapes[0]][0](*found[shapes[0]])
-    if min(found[shapes[0]]) <= 0 or made.second_moment <= 0 or (made.area or 0.0) <= 0:
+    sizes = found[shapes[0]]
+    made = SHAPES[shapes[0]][0](*sizes) if min(sizes) > 0 else None
+    if made is None or made.second_moment <= 0 or (made.area or 0.0) <= 0:
         reader.error(node, place, Sentence("beam.no_section"), Sentence("beam.no_section_remedy"), "range")
         return None
     return made

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Mapping
 
@@ -78,6 +79,11 @@ def formula(text: str, kinds: Mapping[str, units.Dimension], constants: Mapping[
         else expressions.parse(plain, kinds)
     )
     used = {name: value for name, value in constants.items() if name in found.names}
+    try:
+        found.over(dict.fromkeys(found.names, math.nan) | used)
+    except ZeroDivisionError:
+        message = Sentence("model.divides_by_zero", text=text)
+        raise QuantityError(message, Sentence("model.change_values"), code="not-finite") from None
     return Formula(found, used, found.dimension(kinds))
 
 

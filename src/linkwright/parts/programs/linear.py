@@ -118,15 +118,20 @@ def runaway(model: Model) -> Floats:
     return np.asarray(found.x) * form.sizes
 
 
-def conflict(model: Model, feasible: Callable[[Model], bool]) -> tuple[list[str], list[tuple[str, str]]]:
+def conflict(
+    model: Model, feasible: Callable[[Model], bool], *, open_ends: bool = True
+) -> tuple[list[str], list[tuple[str, str]]]:
     """Names of constraints, and bounds (variable, ``low`` or ``high``), that cannot hold together; without any one of
-    them the others can (deletion filter: Chinneck and Dravnieks, ORSA Journal on Computing 3, 1991)."""
+    them the others can (deletion filter: Chinneck and Dravnieks, ORSA Journal on Computing 3, 1991).
+
+    Without ``open_ends`` all bounds stay and none is named: ``feasible`` goes through every value between them.
+    """
     constraints = [c.name for c in model.constraints]
     bounds = [
         (name, side)
         for name, v in model.variables.items()
         for side in ("low", "high")
-        if math.isfinite(getattr(v, side)) and not v.choices
+        if math.isfinite(getattr(v, side)) and not v.choices and open_ends
     ]
     kept: list[str] = []
     for name in constraints:

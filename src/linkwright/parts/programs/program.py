@@ -180,7 +180,7 @@ class Program(Problem):
         if count is not None and count <= ENUMERATED:
             found = enumerate_all(model)
             if found is None:
-                raise self._no_solution(lambda m: enumerate_all(_aimless(m)) is not None)
+                raise self._no_solution(lambda m: enumerate_all(_aimless(m)) is not None, open_ends=False)
             return Optimum(self, found.x, "enumerated", None, combinations=count)
         if any(v.discrete for v in self.variables.values()):
             found, way = branch(model), "branched"
@@ -198,8 +198,10 @@ class Program(Problem):
         prices, gap = multipliers(model, found.x) if way == "nonlinear" else (None, 0.0)
         return Optimum(self, found.x, way, prices, agreed=(found.agreed, found.starts), gap=gap)
 
-    def _no_solution(self, possible: Any, code: str = "program.infeasible") -> ModelError:
-        names, bounds = conflict(self.model, possible)
+    def _no_solution(
+        self, possible: Any, code: str = "program.infeasible", *, open_ends: bool = True
+    ) -> ModelError:
+        names, bounds = conflict(self.model, possible, open_ends=open_ends)
         texts = tuple(f"{c.name} ({c.text})" for c in self.subject_to if c.name in names)
         for name, side in bounds:
             value = self.shown(name, getattr(self.variables[name], side))
