@@ -70,7 +70,7 @@ def test_sweeps_equal_single_designs(load: str) -> None:
         mechanism, {BY: lengths}, wanted(OUTPUTS), over_cycle(mechanism, 360), Manner(backend="numpy")
     )
     assert run._loaded is not None and not len(run._loaded.evaluate({BY: lengths}, 1, "numpy")[1])
-    _, found = run.swept()
+    _, _, found = run.swept()
     for index, length in enumerate(lengths):
         forces = lw.solve_forces(mechanism.with_dimensions({BY: float(length)}))
         torque, force = forces.input_torque, np.hypot(*forces.reaction("A", on="rod").T)
@@ -154,7 +154,7 @@ def test_designs_driven_the_other_way_equal_single_ones(load: str) -> None:
         mechanism, {BY: lengths}, wanted(OUTPUTS), over_cycle(mechanism, 120), Manner(backend="numpy")
     )
     assert run._loaded is not None
-    _, found = run.swept()
+    _, _, found = run.swept()
     cycle = metric_cycle(mechanism, [BY], ["rms_input_torque", "peak_reaction"])
     assert cycle is not None
     numbers = cycle.evaluate({BY: lengths}, backend="numpy")
@@ -190,7 +190,7 @@ def test_cycles_of_three_turns_of_the_motor_go_side_by_side(load: str) -> None:
         mechanism, {BY: lengths}, wanted(OUTPUTS), over_cycle(mechanism, 360), Manner(backend="numpy")
     )
     assert run._loaded is not None and not len(run._loaded.evaluate({BY: lengths}, 1, "numpy")[1])
-    _, found = run.swept()
+    _, _, found = run.swept()
     cycle = metric_cycle(mechanism, [BY], ["rms_input_torque", "peak_reaction A"])
     assert cycle is not None and cycle.gauss.turns == 3
     numbers = cycle.evaluate({BY: lengths}, backend="numpy")
