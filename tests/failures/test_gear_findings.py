@@ -586,3 +586,26 @@ driver: {turn: motor, about: M, speed: 1440 rpm}
 """
     found = read_text(text.replace(right, wrong), "<text>")[1]
     assert key in [each.key for each in found if each.severity == "error"]
+
+
+@pytest.mark.parametrize("links", ["[ring, frame]", "[frame, ring]"])
+def test_a_ring_that_is_welded_to_the_frame_is_named_as_the_frame(links: str) -> None:
+    """Sun of 40, planet of 20, ring of 80 teeth: a third of the sun's speed with the ring at rest."""
+    text = f"""
+format: 1
+frame: {{points: {{O: [0 mm, 0 mm]}}}}
+links:
+  sun: {{points: [O]}}
+  ring: {{points: [O]}}
+  arm: {{points: {{O: [0 mm, 0 mm], P: [60 mm, 0 mm]}}}}
+  planet: {{points: [P]}}
+joints:
+  fix: {{kind: weld, links: {links}, at: O}}
+  g1: {{kind: gear, links: [sun, planet], teeth: [40, 20], module: 2 mm}}
+  g2: {{kind: gear, links: [ring, planet], teeth: [80, 20], module: 2 mm, mesh: internal}}
+driver: {{turn: sun, about: O, speed: 3 rad/s}}
+"""
+    with pytest.raises(lw.LinkwrightError, match='"ring" is welded to "frame": name "frame" in its place'):
+        lw.loads(text)
+    motion = lw.solve_motion(lw.loads(text.replace("[ring, planet]", "[frame, planet]")), steps=4)
+    assert motion.link("arm").angular_velocity == pytest.approx([1.0] * 4, rel=1e-12)

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar, Sequence
 from linkwright.files.plain_reader import Place
-from linkwright.files.reader import Reader
+from linkwright.files.reader import Names, Reader
 from linkwright.joints.base import IMPLIED, JOINTS, Entry, Joint, implied_joint
 from linkwright.mechanism.mechanism import Link
 
@@ -19,7 +19,7 @@ def scan_joints(reader: Reader, node: Node | None) -> None:
         if isinstance(node, MappingNode)
         else []
     )
-    reader.names.pins = _implied_pins(reader.names.links, [value for _, value in declared])
+    reader.names.pins = _implied_pins(reader.names, [value for _, value in declared])
     reader.names.joints = dict.fromkeys(reader.names.pins, IMPLIED)
     for key, value in declared:
         kind = _word(value, "kind")
@@ -44,11 +44,9 @@ def _words(node: MappingNode) -> dict[str, str | list[str]]:
     return found
 
 
-def _implied_pins(
-    links: Mapping[str, tuple[str, ...]], joints: list[MappingNode]
-) -> dict[str, tuple[str, ...]]:
+def _implied_pins(names: Names, joints: list[MappingNode]) -> dict[str, tuple[str, ...]]:
     holders: dict[str, list[str]] = {}
-    for link, points in links.items():
+    for link, points in names.links.items():
         for point in points:
             holders.setdefault(point, []).append(link)
     for joint in joints:
@@ -56,6 +54,7 @@ def _implied_pins(
         point, shared = (JOINTS[kind].unpinned(_words(joint)) if kind in JOINTS else None) or ("", ())
         if shared and set(shared) <= set(holders.get(point, ())):
             holders[point].remove(shared[-1])
+            names.welded |= {shared[-1]: shared[0]} if len(shared) > 1 else {}
     return {point: tuple(owners) for point, owners in holders.items() if len(owners) > 1}
 
 

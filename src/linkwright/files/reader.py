@@ -33,7 +33,8 @@ class Names:
     """The names in a model, known before its values are read.
 
     ``links`` maps every link, the frame among them, to its points; ``joints`` every joint, the implied pins
-    among them, to its kind; ``pins`` every implied pin to its links, ``blocks`` every block to its guide.
+    among them, to its kind; ``pins`` every implied pin to its links, ``blocks`` every block to its guide,
+    ``welded`` a link to the one to which a weld ties it on a pin that it would share.
     ``incomplete`` where the points of a link cannot be read, so that pins may be missing.
     """
 
@@ -41,6 +42,7 @@ class Names:
     joints: dict[str, str] = field(default_factory=dict)
     pins: dict[str, tuple[str, ...]] = field(default_factory=dict)
     blocks: dict[str, str] = field(default_factory=dict)
+    welded: dict[str, str] = field(default_factory=dict)
     incomplete: bool = False
 
     @property

@@ -328,9 +328,11 @@ class _Centres:
         own = [[pin for pin, links in pins.items() if wheel in links] for wheel in self.wheels]
         for wheel, mine in zip(self.wheels, own, strict=True):
             if not mine:
+                tied = self.entry.reader.names.welded.get(wheel)
+                way = Sentence("joints.name_welded", wheel=wheel, tied=tied) if tied else None
                 self._say(
                     Sentence(f"joints.{self._without(kind)}", wheel=wheel),
-                    Sentence("joints.give_pin", wheel=wheel),
+                    way or Sentence("joints.give_pin", wheel=wheel),
                 )
                 return None
         ways = [

@@ -52,7 +52,9 @@ class WeldJoint(RigidJoint):
     @classmethod
     def unpinned(cls, given: Mapping[str, Any]) -> tuple[str, Sequence[str]] | None:
         at, links = given.get("at"), given.get("links")
-        return (at, links) if at and isinstance(links, list) and len(links) == 2 else None
+        if not at or not isinstance(links, list) or len(links) != 2:
+            return None
+        return at, sorted(links, key=lambda link: link != "frame")
 
     # structure --------------------------------------------------------------------------------
     def constrain(self, graph: ConstraintGraph) -> None:

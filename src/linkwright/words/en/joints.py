@@ -22,6 +22,7 @@ WORDS = {
     "radii_and_pitch": "pitch with teeth already gives the radii",
     "without_pin": 'the wheel "{wheel}" has no pin about which it turns',
     "does_not_turn": 'the link "{wheel}" does not turn about a pin, so no belt or chain can run around it',
+    "name_welded": '"{wheel}" is welded to "{tied}": name "{tied}" in its place',
     "give_pin": 'give "{wheel}" a point that a carrier (the frame, an arm) has as well: its centre',
     "no_carrier": "no link carries the pins of both wheels {wheels}, so nothing keeps their centres apart",
     "give_carrier": "give one link (the frame, an arm) a point in the centre of each of {wheels}",

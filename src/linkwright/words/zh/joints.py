@@ -22,6 +22,7 @@ WORDS = {
     "radii_and_pitch": "节距与齿数已经决定半径",
     "without_pin": "轮“{wheel}”没有可绕其转动的转动副",
     "does_not_turn": "构件“{wheel}”不绕转动副转动，带或链不能绕在其上",
+    "name_welded": "“{wheel}”焊接在“{tied}”上：请在此处改写“{tied}”",
     "give_pin": "请给“{wheel}”一个与其支承构件（机架、系杆）同名的点作为轮心",
     "no_carrier": "没有构件同时支承两轮 {wheels}，中心距无从保持",
     "give_carrier": "请在同一构件（机架、系杆）上给出 {wheels} 各自轮心处的点",
