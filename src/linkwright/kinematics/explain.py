@@ -61,17 +61,15 @@ def turn_notes(motion: Motion) -> tuple[Sentence, ...]:
     positions, mechanism = motion.positions, motion.mechanism
     if not positions.cycle or mechanism.cycle is not None:
         return ()
-    count = together(mechanism)
-    if positions.period is None:
-        if count > FEW:
-            return (_apart(mechanism, count),)
-        return (Sentence("cycle.never_back", most=MOST),) if mechanism.higher and not_back(mechanism) else ()
-    turns, driver = cycle_turns(mechanism, positions.period)
-    if turns == 1:
-        return ()
-    return (
-        Sentence("cycle.turns" if turns > count else "cycle.turns_of_drivers", turns=turns, driver=driver),
-    )
+    if positions.period is not None:
+        turns, driver = cycle_turns(mechanism, positions.period)
+        if turns == 1:
+            return ()
+        key = "cycle.turns" if turns > together(mechanism) else "cycle.turns_of_drivers"
+        return (Sentence(key, turns=turns, driver=driver),)
+    if (count := together(mechanism)) > FEW:
+        return (_apart(mechanism, count),)
+    return (Sentence("cycle.never_back", most=MOST),) if mechanism.higher and not_back(mechanism) else ()
 
 
 def _apart(mechanism: Mechanism, count: float) -> Sentence:
