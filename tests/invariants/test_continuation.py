@@ -230,7 +230,7 @@ def test_a_straight_row_of_inputs_is_one_way(triad: Motion) -> None:
     q = np.linspace(0.0, 2.0, 9)
     none = np.zeros(9)
     rows = dict.fromkeys(triad.positions.coordinates, (q, none, none))
-    positions = replace(triad.positions, time=none, coordinates=rows, closed=False, period=None, cycle=False)
+    positions = replace(triad.positions, time=none, coordinates=rows, period=None, cycle=False)
     journey = _Journey(solver.follower(), positions, False)
     assert journey._in_line() and not journey._lawful()
     assert journey._shares() == pytest.approx(q / 2.0)

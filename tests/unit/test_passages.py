@@ -40,7 +40,7 @@ def row(
     q = step * np.arange(n)
     one = np.ones(n)
     period = n * step if closed else None
-    return Positions(q, {"driver": (q, one, 0 * one)}, {"driver": rotary}, closed, period, cycle)
+    return Positions(q, {"driver": (q, one, 0 * one)}, {"driver": rotary}, period, cycle)
 
 
 def passage(
@@ -184,9 +184,7 @@ def test_places_between_positions_follow_the_laws_or_lines() -> None:
     assert q == pytest.approx(begin + np.sign(speed) * np.array([3.25, 35.5]) * np.pi / 18, abs=1e-12)
     assert rate == pytest.approx([speed, speed])
     own = np.array([0.0, 0.3, 0.5, 0.4])
-    free = replace(
-        positions, time=np.zeros(4), coordinates={"driver": (own, own**2, 2 * own)}, closed=False, period=None
-    )
+    free = replace(positions, time=np.zeros(4), coordinates={"driver": (own, own**2, 2 * own)}, period=None)
     rows = way(solver, free)(np.array([0.5, 2.5, 3.0])).coordinates["driver"]
     assert [each.tolist() for each in rows] == [
         pytest.approx([0.15, 0.45, 0.4]), pytest.approx([0.045, 0.205, 0.16]), pytest.approx([0.3, 0.9, 0.8]),
@@ -232,11 +230,7 @@ def test_divided_steps_are_equal_parts_of_the_same_way() -> None:
     solver = MotionSolver(mechanism)
     for steps, closed, count in ((4, True, 20), (4, False, 21)):
         whole = over_cycle(mechanism, steps)
-        along = (
-            whole
-            if closed
-            else replace(over_cycle(mechanism, steps, endpoint=True), closed=False, period=None)
-        )
+        along = whole if closed else replace(over_cycle(mechanism, steps, endpoint=True), period=None)
         fine = _divided(solver, along, 5)
         assert (fine.count, fine.closed, fine.cycle, fine.period) == (count, closed, True, along.period)
         assert fine.time[::5] == pytest.approx(along.time, abs=1e-15)

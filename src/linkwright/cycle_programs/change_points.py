@@ -163,10 +163,7 @@ class ChangePoints:
         around = np.concatenate([[time[0] - step], time, [time[-1] + step]])
         a, b = around[place][:, None], around[place + 2][:, None]
         at = a + share * (b - a)
-        if not self.traced.positions.closed:
-            at = np.clip(at, time.min(), time.max())
-        elif period:
-            at = time[0] + np.mod(at - time[0], np.copysign(period, step))
+        at = np.clip(at, time.min(), time.max()) if period is None else time[0] + (at - time[0]) % period
         inputs: dict[str, Floats] = {}
         for name, driver in self.traced.mechanism.drivers.items():
             value = driver.law.coordinate(at.ravel())[0].reshape(at.shape)

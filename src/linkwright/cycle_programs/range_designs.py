@@ -202,7 +202,7 @@ class RangeDesigns:
         (driver,) = self.traced.mechanism.drivers.values()
         speed, positions = driver.law.constant_speed or 0.0, self.traced.positions
         first = float(next(iter(positions.coordinates.values()))[0][0])
-        way = abs(speed) * (positions.period or 0.0) if positions.closed else np.inf
+        way = np.inf if positions.period is None else abs(speed) * positions.period
         sense = 1.0 if positions.time[-1] * speed >= positions.time[0] * speed else -1.0
         return first, way, sense
 

@@ -67,28 +67,19 @@ def with_leaps(motion: Motion, edges: Floats) -> Floats:
 
 def _turning(motion: Motion) -> list[tuple[Floats, Floats]]:
     """Times, s, and the ways, rad, that what turns has gone by then: drivers by their laws, and links with them."""
-    time, mechanism = motion.time, motion.mechanism
-    period = motion.positions.period if motion.positions.closed else None
-    times = np.append(time, [] if period is None else [time[0] + np.sign(time[-1] - time[0]) * period])
-    low, high = float(times.min()), float(times.max())
-    speeds = [
-        abs(driver.law.constant_speed or 0.0) for driver in mechanism.drivers.values() if driver.law.rotary
-    ]
-    found = [(np.array([low, high]), max(speeds, default=0.0) * np.array([0.0, high - low]))]
+    mechanism, order = motion.mechanism, np.argsort(motion.positions.around)
+    time = motion.positions.around[order]
+    laws = [driver.law for driver in mechanism.drivers.values() if driver.law.rotary]
+    fastest = max((abs(law.constant_speed or 0.0) for law in laws), default=0.0)
+    found = [(time[[0, -1]], fastest * (time[[0, -1]] - time[0]))]
     if not one_formula(mechanism):
         found.append(_search(motion).way)
-    if motion.solver.motion.angles.pairs:
-        order = np.argsort(times)
-        for link in mechanism.links:
-            if motion.link(link).counted:
-                rate = np.abs(motion.row("angular_velocity", link))
-                rates = np.nan_to_num(np.resize(rate, len(times))[order])
-                found.append(
-                    (
-                        times[order],
-                        np.append(0.0, np.cumsum(np.maximum(rates[1:], rates[:-1]) * np.diff(times[order]))),
-                    )
-                )
+    counted = [link for link in mechanism.links if motion.link(link).counted]
+    for link in counted if motion.solver.motion.angles.pairs else ():
+        rate = np.resize(motion.row("angular_velocity", link), len(time))[order]
+        rate = np.abs(np.nan_to_num(rate))
+        steps = np.maximum(rate[1:], rate[:-1]) * np.diff(time)
+        found.append((time, np.append(0.0, np.cumsum(steps))))
     return found
 
 
@@ -141,9 +132,8 @@ class _Search:
         self.motion, self.between = motion, Between(motion)
         time, positions = motion.time, motion.positions
         self.sense = 1.0 if time[-1] >= time[0] else -1.0
-        self.period = positions.period if positions.closed else None
-        last = float(time[-1] if self.period is None else time[0] + self.sense * self.period)
-        self.low, self.high = min(float(time[0]), last), max(float(time[0]), last)
+        self.period = positions.period
+        self.low, self.high = float(positions.around.min()), float(positions.around.max())
         laws = [driver.law for driver in motion.mechanism.drivers.values()]
         self.bends = self._apart(*(law.breaks(self.low, self.high) for law in laws))
         self.turns = self._apart(np.empty(0), *(self._looks(law)[1] for law in laws))

@@ -53,10 +53,16 @@ class Between:
 
     def evaluate(self, names: tuple[str, ...], before: Indices, time: Floats) -> Floats:
         """Outputs of the program (names, m) at times a little after the positions ``before``; NaN out of reach."""
-        motion, positions = self.motion, self.positions(time)
-        modes = motion.modes and self._modes(positions)
-        states = self._states(positions, before)
-        return motion.solver.evaluate(names, positions, states, modes, motion.design)
+        positions = self.positions(time)
+        states, modes = self.assembly(before, positions)
+        return self.motion.solver.evaluate(names, positions, states, modes, self.motion.design)
+
+    def assembly(
+        self, before: Indices, positions: Positions
+    ) -> tuple[dict[str, Floats], Mapping[str, Floats]]:
+        """States of what is followed, NaN out of reach, and signs of the groups that pass change points, of the
+        drivers' positions a little after those ``before``."""
+        return self._states(positions, before), self.motion.modes and self._modes(positions)
 
     def positions(self, time: Floats) -> Positions:
         """The drivers at some times, s; where a table ends with the cycle, behind it those at its beginning."""
@@ -64,10 +70,9 @@ class Between:
         try:
             return at_times(mechanism, time)
         except LinkwrightError:
-            if not (positions.closed and positions.period):
+            if positions.period is None:
                 raise
-            known, period = self.motion.time, positions.period
-            start = float(known[0] if known[-1] >= known[0] else known[0] - period)
+            start, period = positions.time[0], positions.period
             outside = (time < start) | (time > start + period)
             return at_times(mechanism, np.where(outside, start + (time - start) % period, time))
 
@@ -75,11 +80,10 @@ class Between:
         """Which of some times, s, a little after the positions ``before`` are reached, to where a dyad is
         stretched or folded; what is followed from the position ``beside``, or from both where that is negative."""
         motion, positions = self.motion, self.positions(time)
-        states = self._states(positions, before)
+        states, modes = self.assembly(before, positions)
         for k in np.flatnonzero(beside >= 0) if states else ():
             for name, row in self._moved(int(beside[k]), positions.time[k : k + 1]).items():
                 states[name][k] = row[0]
-        modes = motion.modes and self._modes(positions)
         squares = tuple(row_name("quality", group) for group in modal(motion.solver.motion))
         found = motion.solver.evaluate((*squares, "outcome"), positions, states, modes, motion.design)
         good = (found[-1] <= 0.0) & (found[:-1] >= 0.0).all(axis=0)
@@ -125,9 +129,7 @@ class Between:
 
     def place(self, time: Floats) -> Floats:
         """Number of the position at these times, counted on in between."""
-        known = self.motion.time
-        if self.motion.positions.closed:
-            known = np.append(known, known[0] + (self.motion.positions.period or 0.0))
+        known = self.motion.positions.around
         direction = 1.0 if known[-1] >= known[0] else -1.0
         return np.asarray(np.interp(direction * time, direction * known, np.arange(float(len(known)))))
 
@@ -157,18 +159,15 @@ class Between:
 
     def _place(self, time: Floats) -> Floats:
         """The same for times of any turn of a closed cycle."""
-        start, period = float(self.motion.time[0]), self.motion.positions.period
-        if not self.motion.positions.closed or not period:
-            return self.place(time)
-        sense = 1.0 if self.motion.time[-1] >= start else -1.0
-        return self.place(start + sense * ((sense * (time - start)) % period))
+        start, period = self.motion.time[0], self.motion.positions.period
+        return self.place(time if period is None else start + (time - start) % period)
 
     def _moved(self, index: int, time: Floats) -> dict[str, Floats]:
         """States of groups without closed form at times (m,) near a position, followed from there."""
         motion, start, period = self.motion, float(self.motion.time[index]), self.motion.positions.period
         assert motion.followed is not None
         away = time - start
-        if motion.positions.closed and period:
+        if period is not None:
             away = away - period * np.round(away / period)
         return motion.solver.follower(motion.design).moved(
             motion.followed.coordinates[index], start, start + away

@@ -133,7 +133,7 @@ def _step(positions: Positions) -> float:
 def _divided(solver: MotionSolver, positions: Positions, parts: int) -> Positions:
     count = positions.count * parts if positions.closed else (positions.count - 1) * parts + 1
     time = positions.time[0] + _step(positions) / parts * np.arange(count)
-    return replace(at_times(solver.mechanism, time, positions.closed, positions.period), cycle=True)
+    return replace(at_times(solver.mechanism, time, positions.period), cycle=True)
 
 
 def way(solver: MotionSolver, positions: Positions) -> Way:
@@ -153,7 +153,7 @@ def way(solver: MotionSolver, positions: Positions) -> Way:
             name: (_at(place, q), _at(place, rate), _at(place, second))
             for name, (q, rate, second) in positions.coordinates.items()
         }
-        return Positions(np.zeros(len(place)), between, positions.rotary, False, None)
+        return Positions(np.zeros(len(place)), between, positions.rotary)
 
     return mixed
 

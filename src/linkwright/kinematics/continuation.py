@@ -443,7 +443,7 @@ class _Journey:
     def _along_laws(self, start: tuple[Floats, bool]) -> None:
         positions = self.positions
         time, n = positions.time, positions.count
-        around = positions.period if positions.closed else None
+        around = positions.period
         branch = self._way(start, time, time[0] + around if around else time[-1], np.arange(n), 0.0)
         reached = int(np.isfinite(self.coordinates).all(axis=1).sum())
         if branch.complete:

@@ -42,16 +42,30 @@ class CycleError(LinkwrightError):
 class Positions:
     """n positions of the input: ``time`` (n,) s; per driver coordinate, rate, second derivative, (n,) each.
 
-    ``closed``: the cycle returns to its first position after the last one; ``period`` in s, if it has one;
-    ``cycle``: the positions are equal steps of one motion, however large the steps are.
+    ``period``: time in s after which a closed cycle is back at its first position, None for an open one; ``cycle``:
+    the positions are equal steps of one motion, however large the steps are. Times of a closed cycle grow.
     """
 
     time: Floats
     coordinates: Mapping[str, tuple[Floats, Floats, Floats]]
     rotary: Mapping[str, bool]
-    closed: bool
-    period: float | None
+    period: float | None = None
     cycle: bool = False
+
+    @property
+    def closed(self) -> bool:
+        """Whether the cycle returns to its first position after the last one."""
+        return self.period is not None
+
+    @property
+    def repeated(self) -> bool:
+        """Whether the last position of a closed cycle is the first one again."""
+        return self.period is not None and bool(self.time[-1] - self.time[0] > self.period * (1.0 - 1e-9))
+
+    @cached_property
+    def around(self) -> Floats:
+        """Times, s, with that at which the first position of a closed cycle comes again."""
+        return self.time if self.period is None else np.append(self.time, self.time[0] + self.period)
 
     @property
     def count(self) -> int:
@@ -71,9 +85,7 @@ class Positions:
     @cached_property
     def longest_turn(self) -> float:
         """The farthest, rad, that a driver at its largest rate turns from one position to the next."""
-        longest = np.abs(np.diff(self.time)).max(initial=0.0)
-        if self.closed and self.period:
-            longest = max(longest, self.period - abs(self.time[-1] - self.time[0]))
+        longest = np.abs(np.diff(self.around)).max(initial=0.0)
         return float(longest) * max(
             (self.paces[name] for name, rotary in self.rotary.items() if rotary), default=0.0
         )
@@ -90,7 +102,7 @@ class Positions:
             name: (q[order], rate[order], second[order])
             for name, (q, rate, second) in self.coordinates.items()
         }
-        return Positions(self.time[order], coordinates, self.rotary, False, None)
+        return Positions(self.time[order], coordinates, self.rotary)
 
     @cached_property
     def arrays(self) -> dict[str, Floats]:
@@ -102,15 +114,13 @@ class Positions:
         return found
 
 
-def at_times(
-    mechanism: Mechanism, time: ArrayLike, closed: bool = False, period: float | None = None
-) -> Positions:
-    """The positions at given times, s."""
+def at_times(mechanism: Mechanism, time: ArrayLike, period: float | None = None) -> Positions:
+    """The positions at given times, s, of a closed cycle that is back after a ``period``, s, if one is given."""
     t = np.atleast_1d(np.asarray(time, dtype=float))
     if not np.isfinite(t).all():
         raise CycleError("motion.bad_time")
     coordinates = {name: _driven(driver, t) for name, driver in mechanism.drivers.items()}
-    return Positions(t, coordinates, rotary(mechanism), closed, period)
+    return Positions(t, coordinates, rotary(mechanism), period)
 
 
 def _driven(driver: Driver, time: Floats) -> tuple[Floats, Floats, Floats]:
@@ -166,7 +176,7 @@ def at_inputs(mechanism: Mechanism, at: ArrayLike | Mapping[str, ArrayLike]) -> 
     coordinates = {name: _driven(driver, time) for name, driver in mechanism.drivers.items()}
     for name, q in rows.items():
         coordinates[name] = (np.broadcast_to(q, (count,)).copy(), *coordinates[name][1:])
-    return Positions(np.array(time), coordinates, rotary(mechanism), False, None)
+    return Positions(np.array(time), coordinates, rotary(mechanism))
 
 
 def over_cycle(mechanism: Mechanism, steps: int, endpoint: bool = False) -> Positions:
@@ -194,7 +204,7 @@ def _over_cycle(mechanism: Mechanism, steps: int, endpoint: bool) -> Positions:
     start, duration, closed = time_span(mechanism)
     count = steps if closed and not endpoint else steps + 1
     time = start + duration * np.arange(count) / steps
-    found = replace(at_times(mechanism, time, closed, abs(duration) if closed else None), cycle=True)
+    found = replace(at_times(mechanism, time, duration if closed else None), cycle=True)
     for row in (found.time, *chain.from_iterable(found.coordinates.values())):
         row.flags.writeable = False
     return found

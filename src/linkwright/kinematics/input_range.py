@@ -195,7 +195,7 @@ class _Search:
             name: (q if name == self.driver else np.full(len(q), row[0][0]), none, none)
             for name, row in self.base.coordinates.items()
         }
-        return Positions(none, rows, self.base.rotary, False, None)
+        return Positions(none, rows, self.base.rotary)
 
     def _beginning(self) -> float:
         nominal = float(self.base.coordinates[self.driver][0][0])

@@ -152,13 +152,7 @@ class _Search:
         self.between = Between(motion)
         positions = motion.positions
         self.period = positions.period if self.between.closes else None
-        self.count = positions.count
-        if (
-            positions.closed
-            and positions.period
-            and abs(motion.time[-1] - motion.time[0]) > positions.period * (1 - 1e-9)
-        ):
-            self.count -= 1
+        self.count = positions.count - positions.repeated
         self.times, self.before = motion.time[: self.count], np.arange(self.count)
         self.one_formula, self.rests = one_formula(motion.mechanism), np.empty((0, 2))
 
@@ -219,7 +213,7 @@ class _Search:
     def _with_stretches_reached(self, rate: Floats, second: Floats) -> tuple[Floats, Floats]:
         """The rates with those between the ends of what is reached, the closer the nearer these are."""
         places = np.concatenate([[], *(a + (b - a) * NEARING for a, b in self.reach.stretches)])
-        if self.motion.positions.closed and (period := self.motion.positions.period):
+        if (period := self.motion.positions.period) is not None:
             start = float(self.motion.time[0])
             places = start + (places - start) % period
         places = np.setdiff1d(places, self.times)

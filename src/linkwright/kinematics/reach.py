@@ -28,21 +28,13 @@ class Reach:
 
     def __init__(self, motion: Motion, between: Between | None) -> None:
         self._motion, self._between = motion, between
+        self._times = motion.positions.around
 
     @cached_property
     def changes(self) -> Floats:
         """Times of the change points that the motion passes, s."""
         passing = [] if self._between is None else self._between.passing
         return np.array([self._time_at(p) for p in passing])
-
-    @cached_property
-    def _times(self) -> Floats:
-        """Times of the positions, s, with that at which the first one of a closed cycle comes again."""
-        time, positions = self._motion.time, self._motion.positions
-        if not (positions.closed and positions.period):
-            return time
-        sense = 1.0 if time[-1] >= time[0] else -1.0
-        return np.append(time, time[0] + sense * positions.period)
 
     def _time_at(self, passage: Passage) -> float:
         """When it is passed, s."""
@@ -64,7 +56,7 @@ class Reach:
 
     @cached_property
     def edges(self) -> tuple[tuple[float, int], ...]:
-        """Times, s, at which the mechanism comes into (+1) or gets out of (-1) reach, found by halving."""
+        """Times, s, at which the mechanism comes into (+1) or gets out of (-1) reach."""
         if self.whole:
             return ()
         time, found = self._times, list[tuple[int, int]]()
@@ -143,9 +135,8 @@ class Reach:
     @cached_property
     def stretches(self) -> tuple[tuple[float, float], ...]:
         """Stretches of time, s, in which all positions are reached; across the end of a closed cycle in one piece."""
-        time, positions = self._motion.time, self._motion.positions
-        period = positions.period if positions.closed else None
-        start, end = float(time[0]), float(time[-1] if period is None else time[0] + period)
+        period = self._motion.positions.period
+        start, end = self._times[[0, -1]].tolist()
         if not self.edges:
             return ((start, end),) if self.whole else ()
         times = [t for t, _ in self.edges]
@@ -163,8 +154,7 @@ class Reach:
         """Which times, s, of any turn lie within the stretches that are reached."""
         if self.whole:
             return np.ones(len(time), dtype=np.bool_)
-        start, positions = float(self._motion.time[0]), self._motion.positions
-        period = positions.period if positions.closed else None
+        start, period = self._motion.time[0], self._motion.positions.period
         laps = [time] if period is None else [start + (time - start) % period + k * period for k in (0, 1)]
         found = np.zeros(len(time), dtype=np.bool_)
         for begin, end in self.stretches:
@@ -177,9 +167,7 @@ class Reach:
         assert self._between is not None
         known = self._motion
         positions = self._between.positions(time)
-        before = self.before(positions.time)
-        states = self._between._states(positions, before)
-        modes = known.modes and self._between._modes(positions)
+        states, modes = self._between.assembly(self.before(positions.time), positions)
         names = known.solver.outputs.standard
         values = known.solver.evaluate(names, positions, states, modes, known.design)
         barred = np.zeros(positions.count) if reached is None else np.where(reached, 0.0, 1.0)
@@ -192,12 +180,12 @@ class Reach:
 
     def before(self, time: Floats) -> Indices:
         """The position at or before each time, s, through the end of a closed cycle."""
-        known, positions = self._motion.time, self._motion.positions
+        known, period = self._motion.time, self._motion.positions.period
         if len(known) < 2:
             return np.zeros(len(time), dtype=np.intp)
         share = (time - known[0]) / (known[1] - known[0])
-        if positions.closed and positions.period is not None:
-            share = share % (positions.period / abs(known[1] - known[0]))
+        if period is not None:
+            share = share % (period / (known[1] - known[0]))
         if np.ptp(np.diff(known)) > 1e-9 * abs(known[1] - known[0]):
             order = np.argsort(known)
             return np.asarray(

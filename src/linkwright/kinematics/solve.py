@@ -197,7 +197,7 @@ def reached_modes(solver: MotionSolver, positions: Positions) -> tuple[dict[str,
     if duration is None:
         return {}, ()
     begin = time_span(solver.mechanism)[0]
-    turn = at_times(solver.mechanism, begin + duration * np.arange(LOOKS) / LOOKS, True, duration)
+    turn = at_times(solver.mechanism, begin + duration * np.arange(LOOKS) / LOOKS, duration)
     passing = passages(solver, turn, None)
     if not passing or any(p.barred for p in passing):
         return {}, ()

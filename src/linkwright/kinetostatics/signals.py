@@ -10,6 +10,7 @@ import numpy as np
 from linkwright.core.arrays import Flags, Floats
 from linkwright.core.once import cached_property
 from linkwright.core.outputs import Output
+from linkwright.drivers.base import Law
 from linkwright.kinematics.cycle import CycleError, Positions, over_cycle
 from linkwright.kinematics.limits import limit_inputs, limit_positions
 from linkwright.kinematics.motion import Motion
@@ -69,13 +70,7 @@ class MotionSignals:
     @cached_property
     def closes(self) -> tuple[float, float] | None:
         """Period and gain of the input in it, where the last position is followed by the first."""
-        positions = self.motion.positions
-        if not positions.closed or positions.period is None:
-            return None
-        begin = float(positions.time[0])
-        if positions.time[-1] - begin > positions.period * (1 - 1e-9):
-            return None
-        return positions.period, self._input_at(begin + positions.period) - self._input_at(begin)
+        return None if self.motion.positions.repeated else self._lap(self.motion.positions)
 
     @cached_property
     def cycle(self) -> Motion:
@@ -96,11 +91,7 @@ class MotionSignals:
     @cached_property
     def whole(self) -> Whole:
         """The cycle over which limits are found."""
-        positions = self._turned.positions
-        if not positions.closed or positions.period is None:
-            return Whole(None)
-        begin = float(positions.time[0])
-        return Whole(positions.period, self._input_at(begin + positions.period) - self._input_at(begin))
+        return Whole(*(self._lap(self._turned.positions) or (None,)))
 
     def output(self, output: Output) -> tuple[Floats, Floats]:
         """Value and rate of an output, (n,) each."""
@@ -118,7 +109,7 @@ class MotionSignals:
         """Where an output reverses within the cycle, by increasing time."""
         if output not in self._limits:
             found = [
-                Limit(self._input_at(each.time), float(each.time), float(each.value), each.kind)
+                Limit(self._law.at(each.time), float(each.time), float(each.value), each.kind)
                 for each in limit_positions(self._turned, output)
             ]
             self._limits[output] = sorted(found, key=lambda each: each.time)
@@ -157,8 +148,17 @@ class MotionSignals:
         there = np.interp(self.time - laps * (positions.period or 0.0), time[order], values[order])
         return np.asarray(angle + TURN * np.round((there + laps * gain - angle) / TURN))
 
-    def _input_at(self, time: float) -> float:
-        return next(iter(self.mechanism.drivers.values())).law.at(time)
+    def _lap(self, positions: Positions) -> tuple[float, float] | None:
+        """Period of a closed cycle, s, and what the input goes in it."""
+        if positions.period is None:
+            return None
+        begin = float(positions.time[0])
+        return positions.period, self._law.at(begin + positions.period) - self._law.at(begin)
+
+    @property
+    def _law(self) -> Law:
+        """Of the first driver."""
+        return next(iter(self.mechanism.drivers.values())).law
 
     def _over(self, mechanism: Mechanism) -> Motion | None:
         try:

@@ -107,14 +107,12 @@ class Analysis:
     @property
     def closed(self) -> bool:
         """Whether the positions are one closed cycle."""
-        return self.motion.positions.closed and self.motion.positions.period is not None
+        return self.motion.positions.closed
 
     @property
     def once(self) -> slice:
         """The positions without the repeated first one at the end of a closed cycle."""
-        time, period = self.motion.time, self.motion.positions.period
-        repeated = self.closed and period is not None and abs(time[-1] - time[0]) > period * (1 - 1e-9)
-        return slice(0, len(time) - 1 if repeated else len(time))
+        return slice(0, self.motion.steps - self.motion.positions.repeated)
 
     @property
     def loaded(self) -> bool:

@@ -322,9 +322,8 @@ class CycleGrid:
         def rates(solved: Motion) -> Floats:
             return np.stack([joint_rate(solved, term) for term in terms])
 
-        known, time, positions = rates(self._motion), self._motion.time, self._motion.positions
-        if positions.closed and positions.period:
-            time = np.append(time, self.end if time[-1] > time[0] else self.start)
+        known, time = rates(self._motion), self._motion.positions.around
+        if self._motion.positions.closed:
             known = np.append(known, known[:, :1], axis=1)
         edges = np.zeros(len(time), dtype=np.bool_)
         if parts := stretches(self._motion):
@@ -350,7 +349,7 @@ class CycleGrid:
     def _wrapped(self, found: Iterable[Floats]) -> Floats:
         times = np.concatenate([np.empty(0), *found])
         period = self._motion.positions.period
-        if self._motion.positions.closed and period:
+        if period is not None:
             times = self.start + (times - self.start) % period
         return increasing(times[np.isfinite(times)])
 
@@ -420,12 +419,8 @@ def cycle_grid(
     """The grid of a motion all of whose positions are reached, and between which others can be solved; else None."""
     if not resolver.possible or motion.steps < 3 or not resolver.whole:
         return None
-    start, positions = float(motion.time[0]), motion.positions
-    if positions.closed and positions.period:
-        end = start + float(np.sign(motion.time[-1] - start)) * positions.period
-    else:
-        end = float(motion.time[-1])
-    grid = CycleGrid(resolver, motion, forces, (min(start, end), max(start, end)), asked)
+    start, end = sorted(motion.positions.around[[0, -1]].tolist())
+    grid = CycleGrid(resolver, motion, forces, (start, end), asked)
     try:
         return grid if grid.motion.ok.all() else None
     except LinkwrightError:

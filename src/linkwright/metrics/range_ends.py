@@ -78,13 +78,11 @@ class RangeEnds:
     @property
     def _laps(self) -> Floats:
         """A turn of a closed cycle back, none and one ahead, (3, 1) s."""
-        positions = self._motion.positions
-        return np.array([[-1.0], [0.0], [1.0]]) * (positions.period or 0.0 if positions.closed else 0.0)
+        return np.array([[-1.0], [0.0], [1.0]]) * (self._motion.positions.period or 0.0)
 
     def _near(self, slowed: float) -> Floats:
         """Times, s, near each end at which positions are reached, the nearest first, (ends, k); see ``towards``."""
-        time, positions = self._motion.time, self._motion.positions
-        period = positions.period if positions.closed else None
+        time, period = self._motion.time, self._motion.positions.period
         at, sense = (np.array(each) for each in zip(*self._edges, strict=True))
         ends = [at - period, at, at + period] if period else [at, time[[0, -1]]]
         way = sense[:, None] * (np.concatenate(ends) - at[:, None])

@@ -120,8 +120,7 @@ class Ways:
 
     def _beside(self, curves: Iterable[Floats], time: float) -> tuple[int, float]:
         """The number of the way nearest to a time, s, of an end, and the value on it there."""
-        positions = self._motion.positions
-        period = positions.period if positions.closed else None
+        period = self._motion.positions.period
         rims = [
             (float(way.time[k]) - time, number, float(values[k]))
             for number, (way, values) in enumerate(zip(self.motions, curves, strict=True))

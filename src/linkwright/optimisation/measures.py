@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pickle
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property, lru_cache
 
 import numpy as np
@@ -118,25 +118,17 @@ class Measures:
     # many designs ------------------------------------------------------------------------------------
     def _cycles(self) -> list[Numbers]:
         """What finds all numbers of all designs at once; none where some are found one by one."""
-        terms, problem = [self._term(name) for name in self.numbers], self.problem
-        if not terms:
-            return []
-        found = side_by_side(self.mechanism, problem.addresses, terms, self._asked, steps=problem.steps)
+        found = self._side_by_side(self.numbers) if self.numbers else []
         return found if {term.name for each in found for term in each.terms} == set(self.numbers) else []
 
     def _whole_cycle(self) -> list[Numbers]:
         """What tells which designs pass the whole cycle where no number of the problem does."""
-        output = self._asked.output
-        number = f"{output.name} max"
-        if not mechanism_outputs(self.mechanism):
-            return []
-        return side_by_side(
-            self.mechanism,
-            self.problem.addresses,
-            [self._term(number)],
-            self._asked,
-            steps=self.problem.steps,
-        )
+        moves = mechanism_outputs(self.mechanism)
+        return self._side_by_side([f"{self._asked.output.name} max"]) if moves else []
+
+    def _side_by_side(self, numbers: Iterable[str]) -> list[Numbers]:
+        terms, problem = [self._term(name) for name in numbers], self.problem
+        return side_by_side(self.mechanism, problem.addresses, terms, self._asked, steps=problem.steps)
 
     def _where_they_pass(self, values: dict[str, Floats], columns: Mapping[str, Floats]) -> dict[str, Floats]:
         """Values of every text, NaN where a design does not pass the whole cycle."""

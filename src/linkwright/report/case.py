@@ -201,7 +201,7 @@ class Case:
         count = self.settings.positions or self._usual
         output, limit = self._first_limit()
         period = motion.positions.period
-        if not motion.positions.closed or period is None:
+        if period is None:
             reached = np.unique(np.linspace(0, motion.steps - 1, count).round().astype(int))
             return Numbered(motion, tuple(int(i) for i in reached), None, output)
         start = float(motion.time[0]) if limit is None else limit.time

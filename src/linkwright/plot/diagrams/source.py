@@ -194,14 +194,11 @@ class Source:
     def _end(self) -> float | None:
         """Time at which a closed cycle has returned to its first position, if that is no position already."""
         motion, positions = self.motion, self.motion.positions
-        if not positions.closed or positions.period is None or motion.steps < 3:
-            return None
-        begin = float(positions.time[0])
-        if positions.time[-1] - begin > positions.period * (1 - 1e-9):
+        if not positions.closed or positions.repeated or motion.steps < 3:
             return None
         expected = at_times(motion.mechanism, motion.time[-1:])
         same = all(
             np.allclose(expected.coordinates[name][0], rows[0][-1:], atol=1e-9)
             for name, rows in positions.coordinates.items()
         )
-        return begin + positions.period if same else None
+        return float(positions.around[-1]) if same else None

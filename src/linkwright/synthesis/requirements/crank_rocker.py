@@ -54,7 +54,8 @@ def crank_rocker(
         raise refuse("crank_rocker.length")
     theta = angle_between_limits(quick_return_ratio)
     pivots, limits = _family(swing_angle, theta)
-    if frame and rocker and swing_angle < LARGEST_SWING and _good(swing_angle, theta).any():
+    both = bool(frame and rocker)
+    if both and swing_angle < LARGEST_SWING and _good(swing_angle, theta).any():
         chosen = _at_distance(swing_angle, theta, frame / rocker)
         if not len(chosen) or not _right(chosen, limits, swing_angle, theta).any():
             raise _not_both(swing_angle, quick_return_ratio, frame, rocker)
@@ -72,7 +73,7 @@ def crank_rocker(
     best = int(score.argmax())
     usable = np.flatnonzero(within & (score > 0.5 * score[best]))
     evenly = np.linspace(0, len(usable) - 1, count + 1).astype(int)[1:-1]
-    others = np.flatnonzero(good) if len(good) < SAMPLES - 1 else usable[evenly]
+    others = np.flatnonzero(good) if both else usable[evenly]
     found = []
     for i in [best, *(int(each) for each in others if each != best)][:count]:
         scale = rocker or frame / lengths[i]
