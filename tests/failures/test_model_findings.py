@@ -466,3 +466,23 @@ def test_a_weight_is_told_how_it_is_written_as_a_mass(weight: str) -> None:
     right = found.remedy.split('"')[1]
     model = loads(changed("length: 1 m", f"length: 1 m, mass: {right}, inertia: 0"))
     assert model.links["crank"].mass == pytest.approx(200 / 9.81, rel=1e-12)
+
+
+def test_a_frame_among_the_links_is_one_finding() -> None:
+    frame = "frame: {points: {O1: [0 m, 0 m], O2: [4 m, 0 m]}}\n"
+    (found,) = findings(MODEL.replace(frame, "").replace("links:\n", f"links:\n  {frame}"))
+    assert (found.where, found.key) == ("m.yaml:4:3", "links.frame") and "frame: {" in found.say()
+    (twice,) = findings(MODEL.replace("links:\n", "links:\n  frame: {points: [O1]}\n"))
+    assert twice.key == "links.frame"
+
+
+@pytest.mark.parametrize("driver", ["{crank: 10 rpm}", "{link: crank, speed: 10 rpm}", "{joint: O1}"])
+def test_a_driver_told_in_other_words_is_shown_how_it_is_written(driver: str) -> None:
+    found = findings(changed("{turn: crank, about: O1, speed: 10 rpm}", driver))
+    assert any("write turn: crank and about: O1" in each.say() for each in found)
+
+
+@pytest.mark.parametrize("section", ["optimize", "report", "course", "expected", "cycle", "loads"])
+def test_a_section_with_nothing_in_it_is_told(section: str) -> None:
+    (found,) = findings(f"{MODEL}{section}:\n")
+    assert found.key == section and "nothing stands" in found.say()

@@ -266,8 +266,7 @@ class Free(Field):
     """A free mapping that is kept and not interpreted."""
 
     def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
-        found = reader.free(node)
-        return found if found is None or reader.mapping(node, place) is not None else None
+        return None if reader.mapping(node, place) is None else reader.free(node)
 
     def shape(self) -> Schema:
         return {"type": "object"}

@@ -90,7 +90,7 @@ def _read_driver(
     every = {**way, **{key: each for law in laws.values() for key, each in law.items()}}
     if not turns and not slides:
         reader.unknown_keys(mapping, place, [*every, *SLIDE_FIELDS])
-        reader.finding(node, place, "nothing_driven", "missing-key")
+        reader.finding(node, place, "nothing_driven", "missing-key", _meant(reader, mapping))
         return None
     given = reader.table(mapping, place, every) or {}
     law = _read_law(reader, mapping, place, given, laws, rotary)
@@ -103,6 +103,16 @@ def _read_driver(
     if joint is None or law is None or reader.error_count > before:
         return None
     return Driver(name, *joint, law)
+
+
+def _meant(reader: Reader, mapping: MappingNode) -> str:
+    """What to write where a driver's keys or values name a link that a pin joins to the frame, or such a pin; empty where none does."""
+    told = {text for key, value in mapping for text in (key, value.text if isinstance(value, Scalar) else "")}
+    for pin, links in reader.names.pins.items():
+        link = next((each for each in links if each != "frame"), "")
+        if len(links) == 2 and "frame" in links and told & {pin, link}:
+            return Sentence("model.turns_link", link=link, pin=pin)
+    return ""
 
 
 @lru_cache

@@ -92,7 +92,9 @@ def read_links(reader: Reader, node: Node | None, frame: Link, drawing: Mapping[
     seen = {**frame.points, **drawing}
     for entry in mapping.entries:
         name = reader.name(entry.key, f"links.{entry.key.text}", "link")
-        if name in ("frame", "gravity", "loads", "parameters", "cycle"):
+        if name == "frame":
+            reader.finding(entry.key, "links.frame", "frame_among_links", "name")
+        elif name in ("gravity", "loads", "parameters", "cycle"):
             reader.finding(entry.key, f"links.{name}", "link_name", "name", name=name)
         elif name is not None:
             link = _read_link(reader, entry.value, name, seen)

@@ -76,7 +76,7 @@ def _sections(reader: Reader, root: MappingNode, source: str) -> Mechanism:
     _scan(reader, root)
     parameters = read_parameters(reader, root.get("parameters"))
     header = reader.table(_only(root, HEADER), top, HEADER) or {}
-    frame = read_frame(reader, root.get("frame"))
+    frame = read_frame(reader, _frame(root))
     drawn = read_drawing(reader, root.get("drawing"), frame)
     links = read_links(reader, root.get("links"), frame, drawn)
     joints = read_joints(reader, root.get("joints"), {"frame": frame, **links})
@@ -123,14 +123,20 @@ def _only(root: MappingNode, fields: Mapping[str, Field]) -> MappingNode:
     return MappingNode(root.line, root.column, root.start, root.end, kept, root.flow)
 
 
+def _frame(root: MappingNode) -> Node | None:
+    """The frame's section; the frame among the links where there is none, though it does not belong there."""
+    found = root.get("frame")
+    return found if found is not None else below(root, "links", "frame")
+
+
 def _scan(reader: Reader, root: MappingNode) -> None:
     """Gather all names first, so that references can be checked wherever they stand."""
-    reader.names.links = {"frame": scan_points(root.get("frame"))}
+    reader.names.links = {"frame": scan_points(_frame(root))}
     links = root.get("links")
     if isinstance(links, MappingNode):
         reader.names.incomplete = not all(legible(value) for _, value in links)
         reader.names.links |= {key: scan_points(value) for key, value in links if key != "frame"}
-    reader.names.incomplete |= not (isinstance(links, MappingNode) and legible(root.get("frame")))
+    reader.names.incomplete |= not (isinstance(links, MappingNode) and legible(_frame(root)))
     reader.names.settle()
     scan_joints(reader, root.get("joints"))
     scan_input(reader, root)
