@@ -106,7 +106,8 @@ def _read_driver(
 
 
 def _meant(reader: Reader, mapping: MappingNode) -> str:
-    """What to write where a driver's keys or values name a link that a pin joins to the frame, or such a pin; empty where none does."""
+    """What to write where a driver's keys or values name a link that a pin joins to the frame, or such a pin; else
+    empty."""
     told = {text for key, value in mapping for text in (key, value.text if isinstance(value, Scalar) else "")}
     for pin, links in reader.names.pins.items():
         link = next((each for each in links if each != "frame"), "")
