@@ -26,7 +26,7 @@ driver: {turn: crank, about: O1, speed: 10 rad/s, start: 60 deg}
 def test_moving_svg(tmp_path: Path) -> None:
     target = tmp_path / "a.svg"
     options = [
-        "--traces",
+        "--paths",
         "C,jaw.D",
         "--curves",
         "jaw.angle",
@@ -66,7 +66,7 @@ def test_mp4(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        (["--traces", "Q"], '--traces: there is no point "Q"'),
+        (["--paths", "Q"], '--paths: there is no point "Q"'),
         (["--curves", "jaw.angel"], 'did you mean "jaw.angle"'),
         (["--seconds", "3 kg"], "--seconds"),
         (["--frames", "many"], "--frames"),

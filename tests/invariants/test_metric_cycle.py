@@ -231,6 +231,29 @@ def test_masses_alone_take_no_work_in_a_cycle(name: str) -> None:
     assert lw.metrics(forces, ["mean_power"]).value("mean_power") == 0.0
 
 
+ROTOR = """
+format: 1
+name: Rotor on an eccentric, without load
+frame: {points: {O: [0 mm, 0 mm]}}
+links:
+  shaft: {points: [O, C], length: 15 mm}
+  rotor: {points: {C: [0 mm, 0 mm], T: [105 mm, 0 mm]}, mass: 4 kg, inertia: 0.012 kg·m², mass_centre: [0 mm, 0 mm]}
+joints: {teeth: {kind: gear, links: [frame, rotor], teeth: [30, 45], mesh: internal, module: 2 mm}}
+driver: {turn: shaft, about: O, speed: 3000 rpm}
+cycle: {turns: 3}
+"""
+
+
+@pytest.mark.parametrize("asked", [None, ["peak_input_torque", "peak_power", "energy_fluctuation"]])
+def test_torques_and_powers_that_are_nothing_beside_the_forces_are_zero(asked: list[str] | None) -> None:
+    """A rotor that turns steadily on an eccentric at a third of the shaft's speed needs no torque."""
+    forces = lw.solve_forces(lw.loads(ROTOR))
+    table = metrics(forces, asked)
+    for name in ("peak_input_torque", "peak_power", "energy_fluctuation"):
+        assert table.value(name) == 0.0
+    assert metrics(forces).value("peak_reaction", "C") == pytest.approx(4 * 0.015 * (100 * np.pi) ** 2)
+
+
 def test_a_constant_power_is_its_mean_over_inputs_of_ones_own() -> None:
     """40 N·m on the wheel of twice the teeth at 600 rpm: 20 · 20 π W at the motor, however uneven the inputs."""
     motion = lw.solve_motion(lw.load("gallery:external_gear_pair"), at=[0.0, 0.1, 0.9, 1.0, 3.0])

@@ -21,7 +21,7 @@ from linkwright.kinematics.assembly import AssemblyError
 from linkwright.kinematics.branch import CORRECTION, Branch, Way, follow, lawful, straight
 from linkwright.kinematics.certificate import distance_to_others
 from linkwright.kinematics.closed_loops import ClosedLoops, counted, iterated
-from linkwright.kinematics.cycle import Positions, at_times
+from linkwright.kinematics.cycle import Positions, at_times, coordinate_text, rotary
 from linkwright.kinematics.groups import state_name
 from linkwright.mechanism.drawing import Drawing
 
@@ -198,7 +198,9 @@ class Follower:
                 root = loops.newton(np.concatenate([rough, inputs]), 40)
                 exact = None if root is None else root[: loops.n]
         if exact is None:
-            said = tuple(f"{name} = {q:.6g}" for name, q in zip(loops.drivers, inputs, strict=True))
+            turns = rotary(self.mechanism)
+            known = zip(loops.drivers, inputs.tolist(), strict=True)
+            said = tuple(coordinate_text(name, q, turns[name]) for name, q in known)
             raise AssemblyError("motion.not_near_drawing", name=self.mechanism.name, inputs=said)
         return exact
 

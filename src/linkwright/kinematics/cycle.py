@@ -305,6 +305,13 @@ def rotary(mechanism: Mechanism) -> dict[str, bool]:
     }
 
 
+def coordinate_text(name: str, value: float, rotary: bool) -> Sentence:
+    """A driver's coordinate in words: ``crank = 30°``."""
+    shown = f"{math.degrees(value):.6g}°" if rotary else f"{value:.6g} m"
+    own = Sentence("nouns.driver") if name == "driver" else name
+    return Sentence("motion.coordinate", name=own, value=shown)
+
+
 def _driver(mechanism: Mechanism, name: str) -> Driver:
     if name not in mechanism.drivers:
         raise CycleError(no_such("driver", name, mechanism.drivers))

@@ -12,7 +12,7 @@ from linkwright.core.arrays import Indices
 from linkwright.core.outputs import row_name
 from linkwright.kinematics.change_points import closes
 from linkwright.kinematics.closed_loops import iterated
-from linkwright.kinematics.cycle import FEW, Positions, cycle_turns, not_back, together
+from linkwright.kinematics.cycle import FEW, Positions, coordinate_text, cycle_turns, not_back, together
 from linkwright.kinematics.outcome import Outcome, PositionError
 from linkwright.kinematics.passage import Passage
 from linkwright.kinematics.whole_turns import MOST
@@ -180,7 +180,7 @@ def _stopped(motion: Motion, group: Group, stop: Stop) -> Sentence:
     """Where the way of a group without closed form ends."""
     rotary = motion.positions.rotary
     where = ", ".join(
-        _shown(name, float(q), rotary[name])
+        coordinate_text(name, float(q), rotary[name])
         for name, q in zip(motion.positions.coordinates, np.round(stop.inputs, KNOWN) + 0.0, strict=True)
     )
     return _of("stopped", group, where=where)
@@ -232,12 +232,7 @@ def refusal(motion: Motion) -> PositionError:
 def input_at(motion: Motion, index: int) -> str:
     """The drivers' coordinates at a position, in words."""
     parts = [
-        _shown(name, float(q[index]), motion.positions.rotary[name]) for name, q in motion.inputs.items()
+        coordinate_text(name, float(q[index]), motion.positions.rotary[name])
+        for name, q in motion.inputs.items()
     ]
     return Sentence("motion.input", parts=tuple(parts)) if parts else Sentence("motion.only_position")
-
-
-def _shown(name: str, value: float, rotary: bool) -> str:
-    shown = f"{np.degrees(value):.6g}°" if rotary else f"{value:.6g} m"
-    own = Sentence("nouns.driver") if name == "driver" else name
-    return Sentence("motion.coordinate", name=own, value=shown)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from math import isfinite
 
@@ -50,7 +50,8 @@ def metrics(result: Motion | Forces, names: Iterable[str] | str | None = None) -
             skipped.append(name)
         else:
             raise RequestError(_refusal(name, analysis))
-    return MetricsTable(analysis.motion.mechanism.name, _without_rounding(rows), skipped, _notes(analysis))
+    shown = _without_rounding(rows, _roundings(analysis))
+    return MetricsTable(analysis.motion.mechanism.name, shown, skipped, _notes(analysis))
 
 
 def _notes(analysis: Analysis) -> tuple[Sentence, ...]:
@@ -64,8 +65,19 @@ def _notes(analysis: Analysis) -> tuple[Sentence, ...]:
     return (Sentence(said, name=name, reached=int(ok.sum()), count=len(ok)),)
 
 
-def _without_rounding(rows: Sequence[MetricValue]) -> list[MetricValue]:
-    """The values, zero and without a place where one is nothing beside the largest of its dimension.
+def _roundings(analysis: Analysis) -> dict[str, float]:
+    """Sizes, SI, of torques, powers and works that are nothing beside the joint forces of a machine, by dimension."""
+    if analysis.forces is None or analysis.partial:
+        return {}
+    positions, size = analysis.motion.positions, analysis.motion.mechanism.size
+    paces = (positions.paces[name] * (size if turns else 1.0) for name, turns in positions.rotary.items())
+    force = analysis.forces.rounding
+    return {"torque": force * size, "energy": force * size, "power": force * max(paces, default=0.0)}
+
+
+def _without_rounding(rows: Sequence[MetricValue], least: Mapping[str, float]) -> list[MetricValue]:
+    """The values, zero and without a place where one is nothing beside the largest of its dimension, or smaller than
+    the ``least``.
 
     Angles and lengths, which may be places, stay, and are shown as zero below ``quantities.NOTHING``; so do ratios,
     of which a zero has its place.
@@ -76,7 +88,7 @@ def _without_rounding(rows: Sequence[MetricValue]) -> list[MetricValue]:
             largest[row.dimension] = max(largest.get(row.dimension, 0.0), abs(row.value))
     return [
         replace(row, value=0.0, at=None)
-        if abs(row.value) <= ROUNDING * largest.get(row.dimension, -1.0)
+        if abs(row.value) <= max(ROUNDING * largest.get(row.dimension, -1.0), least.get(row.dimension, -1.0))
         else row
         for row in rows
     ]

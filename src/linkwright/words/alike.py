@@ -2,8 +2,8 @@
 
 WORDS = {
     "animate.examples": """\
-linkwright animate gallery:theo_jansen_leg --traces leg.T --output leg.svg
-linkwright animate crusher.yaml --traces C --curves jaw.angle --output crusher.gif
+linkwright animate gallery:theo_jansen_leg --paths leg.T --output leg.svg
+linkwright animate crusher.yaml --paths C --curves jaw.angle --output crusher.gif
 linkwright animate crusher.yaml --forces --curves driver.effort --seconds 4 --output crusher.mp4""",
     "balance.examples": """\
 linkwright balance gallery:jaw_crusher_fourbar --radius "crank=200 mm, jaw=500 mm"

@@ -33,7 +33,7 @@ WIDTH = 640
 def arguments(option: Options) -> None:
     source_arguments(option, steps=STEPS)
     what = option.group("draw.what_title")
-    what("--traces", "POINT", nargs="+")
+    what("--paths", "POINT", "--traces", nargs="+")
     what("--curves", "RESULT", nargs="+")
     vector_arguments(what)
     what.either("--labels", True)
@@ -58,13 +58,13 @@ def run(options: argparse.Namespace, session: Session) -> int:
     mechanism, _ = read_model(options.file, session)
     motion = cycle(mechanism, max(options.steps, options.frames), session)
     refuse_unknown_vectors(motion, options)
-    refuse_unknown(motion.point, "--traces", names(options.traces))
+    refuse_unknown(motion.point, "--paths", names(options.paths))
     forces = _forces(motion, options)
     results = motion_results(motion) if forces is None else force_results(forces)
     refuse_unknown(lambda name: named(results, name), "--curves", names(options.curves))
     animation = animate(
         motion,
-        traces=names(options.traces),
+        traces=names(options.paths),
         velocities=names_or_all(options.velocities),
         accelerations=names_or_all(options.accelerations),
         forces=forces,

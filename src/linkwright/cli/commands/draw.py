@@ -41,7 +41,7 @@ def arguments(option: Options) -> None:
     one("--time", "TIME")
     where("--overlay", "WHICH", default="")
     what = option.group("what_title")
-    what("--paths", "POINT", nargs="+")
+    what("--paths", "POINT", "--traces", nargs="+")
     vector_arguments(what)
     what("--dimensions", "LENGTH", nargs="*")
     what("--labels", choices=tuple(LABELS), default="all")
