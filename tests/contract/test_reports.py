@@ -6,6 +6,7 @@ import re
 import zipfile
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -17,6 +18,7 @@ from linkwright.cams.joint import cam_of
 from linkwright.cli import main
 from linkwright.core.outputs import Output
 from linkwright.errors import LinkwrightError
+from linkwright.files.schema import json_schema
 from linkwright.joints.cam import CamJoint
 from linkwright.joints.cam_shape import CamShape
 from linkwright.plot.force_names import reaction_pairs
@@ -477,7 +479,32 @@ def test_lengths_of_joints_and_loads_stand_in_mm_as_those_of_links() -> None:
         cell for block in found if isinstance(block, Table) for row in block.rows for cell in map(plain, row)
     ]
     assert any("offset: 12.5 mm" in cell for cell in shown)
-    assert any("stiffness: 2000 N/m; free_length: 250 mm" in cell for cell in shown)
+    assert any("stiffness: 2000 N/m; free length: 250 mm" in cell for cell in shown)
+
+
+def test_what_a_model_gives_stands_in_words_of_the_report() -> None:
+    found = report("gallery:printing_press", sections=["task"], language="zh").document.blocks
+    shown = [
+        cell for block in found if isinstance(block, Table) for row in block.rows for cell in map(plain, row)
+    ]
+    assert "转动：motor；转动中心：O0；相对于：机架；速度：-15.708 rad/s (-150 rpm)" in shown
+    assert any("大小：1500 N；相位：（运动时：U.x，方向：减小）" in cell for cell in shown)
+    assert any("凸轮：bell_crank；从动件：lower_rack；位于：P；接触形式：滚子" in cell for cell in shown)
+
+
+def keys_of(shape: Any) -> set[str]:
+    """All keys that a part of the schema names."""
+    if isinstance(shape, list):
+        return set().union(*map(keys_of, shape))
+    if not isinstance(shape, dict):
+        return set()
+    return set(shape.get("properties", ())).union(*map(keys_of, shape.values()))
+
+
+@pytest.mark.parametrize("section", ["joints", "loads", "driver"])
+def test_every_key_of_joints_drivers_and_loads_has_words(section: str) -> None:
+    keys = keys_of(json_schema()["properties"][section]) - {"kind"}
+    assert len(keys) > 10 and not [key for key in keys if not has(f"given.{key}")]
 
 
 LIFTED_OFF = """

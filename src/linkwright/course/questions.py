@@ -54,9 +54,9 @@ def drawing(found: Variants, each: Variant, language: str, diagonal: float = DIA
     return draw(motion, position=index, centres=True, language=language, diagonal=diagonal).svg
 
 
-def data_rows(found: Variants, each: Variant) -> list[tuple[str, str]]:
+def data_rows(found: Variants, each: Variant, say: Say) -> list[tuple[str, str]]:
     """What a variant gives: every dimension of links and frame, loads, input and its rate."""
-    from linkwright.report.sections.task import written
+    from linkwright.report.sections.task import given, kind_of
 
     model, rows = each.mechanism, []
     for name, (x, y) in model.frame.points.items():
@@ -69,9 +69,8 @@ def data_rows(found: Variants, each: Variant) -> list[tuple[str, str]]:
     for driver in model.drivers.values():
         rows.append((f"{driver.link} ({driver.joint})", _speed(driver.law)))
     data = to_data(model)
-    rows += [
-        (name, written(each)) for part in ("joints", "loads") for name, each in data.get(part, {}).items()
-    ]
+    for name, told in [*data.get("joints", {}).items(), *data.get("loads", {}).items()]:
+        rows.append((name, say("given.and").join([kind_of(told, say), given(told, say)])))
     if any(model.gravity):
         rows.append(("g", f"({model.gravity[0]:g}; {model.gravity[1]:g}) m/s²"))
     return rows
@@ -129,7 +128,7 @@ def sheets(found: Variants, language: str) -> Files:
         page.append(Heading(say("course.sheet_number"), 1))
         page.append(Paragraph(say("course.sheet_name")))
         page.append(Paragraph(literal(position_text(found, say)) + " " + say("course.convention")))
-        rows = tuple((literal(a), literal(b)) for a, b in data_rows(found, each))
+        rows = tuple((literal(a), literal(b)) for a, b in data_rows(found, each, say))
         left = ROOM - ROW * (len(rows) + len(found.task.questions))
         tallest = min(max(left, LOWEST), TALLEST)
         page.append(
@@ -202,7 +201,7 @@ def prairielearn(found: Variants, language: str) -> Files:
     data = [
         {
             "picture": f"variant-{v.number}.svg",
-            "rows": [{"name": a, "value": b} for a, b in data_rows(found, v)],
+            "rows": [{"name": a, "value": b} for a, b in data_rows(found, v, say)],
             "answers": {mark(q): a for q, a in zip(found.task.questions, v.answers, strict=True)},
         }
         for v in found.variants
@@ -258,7 +257,7 @@ def moodle(found: Variants, language: str) -> Files:
         text = (
             f"<p>{braceless(escape(position_text(found, say)))} {escape(say('course.convention'))}</p>"
             f'<p><img src="@@PLUGINFILE@@/{name}" alt={braceless(quoteattr(found.name))} width="{PICTURE}"/></p>'
-            f"{braceless(_html_table(data_rows(found, each)))}"
+            f"{braceless(_html_table(data_rows(found, each, say)))}"
             + "".join(
                 f"<p>{braceless(escape(q.text(language)))} = {{1:NUMERICAL:={a:.8g}:{_width(found, i, a):.3g}}} "
                 f"{escape(q.unit)}</p>"
@@ -329,7 +328,7 @@ def item(found: Variants, each: Variant, language: str) -> str:
     text = (
         f"<p>{escape(position_text(found, say))} {escape(say('course.convention'))}</p>"
         f'<p><img src="images/variant-{each.number}.svg" alt={quoteattr(found.name)}/></p>'
-        f"{_html_table(data_rows(found, each))}{lines}"
+        f"{_html_table(data_rows(found, each, say))}{lines}"
     )
     return (
         '<?xml version="1.0" encoding="UTF-8"?>\n'

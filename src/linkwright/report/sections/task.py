@@ -19,6 +19,11 @@ from linkwright.words import Say, has
 LONGEST = 12
 #: Keys of a driver that name its law.
 LAWS = ("speed", "table", "program", "position")
+#: Keys whose values are words of the model language.
+CHOICES = (
+    "closure", "direction", "from", "to", "interpolation", "mesh", "opposes", "pushes", "run", "side", "touch",
+    "turn", "over",
+)  # fmt: skip
 _QUANTITY = re.compile(r"([+-]?\d+(?:\.\d+)?(?:e[+-]?\d+)?)((?: \S+)?)")
 
 
@@ -34,7 +39,9 @@ def blocks(case: Case) -> Iterator[Block]:
     yield _points(case)
     yield _links(case)
     if mechanism.parameters:
-        rows = tuple((literal(name), literal(written(value))) for name, value in data["parameters"].items())
+        rows = tuple(
+            (literal(name), literal(written(value, say))) for name, value in data["parameters"].items()
+        )
         yield Table(say("report.parameters"), (say("report.name"), say("report.value")), rows, "<>")
     drivers = {"driver": data["driver"]} if "driver" in data else data.get("drivers", {})
     for title, part in (
@@ -44,7 +51,7 @@ def blocks(case: Case) -> Iterator[Block]:
     ):
         if part:
             head = tuple(say(f"report.{key}") for key in ("name", "kind", "as_given"))
-            body = tuple((literal(name), literal(kind_of(value, say)), literal(given(value)))
+            body = tuple((literal(name), literal(kind_of(value, say)), literal(given(value, say)))
                          for name, value in part.items())  # fmt: skip
             yield Table(say(f"report.{title}"), head, body, "<<<")
     if any(mechanism.gravity):
@@ -98,21 +105,36 @@ def kind_of(value: Any, say: Say) -> str:
     return kind or "–"
 
 
-def given(value: Any) -> str:
+def given(value: Any, say: Say) -> str:
     """What the model file says of a joint, a driver or a load, but its kind."""
-    return written({key: each for key, each in value.items() if key != "kind"})
+    return written({key: each for key, each in value.items() if key != "kind"}, say)
 
 
-def written(value: Any) -> str:
-    """A value of a model file in one line, angles in degrees, lengths in mm, six digits; long lists by their ends."""
+def written(value: Any, say: Say, key: str = "") -> str:
+    """A value of a model file in one line, keys in words, angles in degrees, lengths in mm, six digits; long lists by
+    their ends."""
     if isinstance(value, Mapping):
-        return "; ".join(f"{key}: {written(each)}" for key, each in value.items())
+        parts = [
+            say("given.pair", name=say(f"given.{name}") if has(f"given.{name}") else name, value=told)
+            for name, told in ((name, written(each, say, name)) for name, each in value.items())
+        ]
+        return (
+            say("given.within", parts=say("given.comma").join(parts)) if key else say("given.and").join(parts)
+        )
     if isinstance(value, list | tuple):
-        shown = list(map(written, value))
+        shown = [written(each, say, key) for each in value]
         if len(shown) > LONGEST:
             shown = [*shown[:3], f"… ({len(shown)}) …", shown[-1]]
         return "[" + ", ".join(shown) + "]"
-    return _rounded(str(value))
+    return _word(str(value), key, say) or _rounded(str(value))
+
+
+def _word(text: str, key: str, say: Say) -> str:
+    """A value that is a word of the model language; empty for names, numbers and expressions."""
+    if key == "law" and has(f"report.law_{text}"):
+        return say(f"report.law_{text}")
+    known = (text == "frame" or key in CHOICES) and has(f"given.value_{text}")
+    return say(f"given.value_{text}") if known else ""
 
 
 def _rounded(text: str) -> str:
