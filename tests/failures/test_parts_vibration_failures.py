@@ -15,6 +15,11 @@ HEAD += "springs: {k: {between: [ground, body], stiffness: 10 kN/m}}\n"
         (HEAD + "excitation: {on: body, force: 5 N, frequency: 3.1830988618379066 Hz}\n", "resonance"),
         (HEAD + "excitation: {on: body, force: 5 N}\n", "neither complete nor unique"),
         (HEAD + "excitation: {on: head, force: 5 N, frequency: 3 Hz}\n", 'no mass "head"'),
+        (
+            HEAD + "excitation: {on: body, force: 0 N, frequency: 3 Hz}\n",
+            "excitation.force: an amplitude of zero",
+        ),
+        (HEAD + "excitation: {base: 0 mm, frequency: 3 Hz}\n", "excitation.base: an amplitude of zero"),
         (HEAD.replace("[ground, body]", "[ground, bodi]"), 'no mass "bodi"'),
         (HEAD.replace("[ground, body]", "[body, body]"), "two different ends"),
         (HEAD.replace("25 kg}", "25 kg, disc: 3 kg·m²}"), "stand together"),

@@ -193,6 +193,8 @@ class VibratingSystem(Problem):
         forms += ["table"] if given.times else []
         if len(forms) != 1 or (forms[0] != "table" and given.frequency is None):
             return [fault("vibration.excitation_form", "excitation")]
+        if 0.0 in (given.force, given.base):
+            return [fault("vibration.no_amplitude", f"excitation.{forms[0]}")]
         if forms[0] != "base" and given.on not in self.masses:
             return [fault("vibration.no_such_mass", "excitation.on", name=given.on, known=tuple(self.masses))]
         if given.times and (len(given.times) != len(given.forces) or len(given.times) < 2 or

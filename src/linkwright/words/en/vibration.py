@@ -59,6 +59,8 @@ leaves behind in a follower; and what a mechanism's shaking force does on mounts
     "two_ends_remedy": "write between: [ground, body]",
     "rate_negative": "a negative stiffness or damping",
     "rate_negative_remedy": "give a value of zero or more",
+    "no_amplitude": "an amplitude of zero shakes nothing",
+    "no_amplitude_remedy": "give another amplitude, or leave the excitation out",
     "excitation_form": "the excitation is neither complete nor unique",
     "excitation_form_remedy": "give one of force, base, unbalance with frequency or speed, or a table",
     "table": "the measured force is no table of increasing times",

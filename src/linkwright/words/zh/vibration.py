@@ -57,6 +57,8 @@ WORDS = {
     "two_ends_remedy": "请写 between: [ground, body]",
     "rate_negative": "刚度或阻尼为负",
     "rate_negative_remedy": "请给零或正值",
+    "no_amplitude": "振幅为零，不引起振动",
+    "no_amplitude_remedy": "请给非零的振幅，或去掉 excitation",
     "excitation_form": "激励的给法不完整或不唯一",
     "excitation_form_remedy": "请给 force、base、unbalance 之一并给 frequency 或 speed，或给 table",
     "table": "实测力不是时间递增的表",
