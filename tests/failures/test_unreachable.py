@@ -233,3 +233,31 @@ def test_a_cycle_that_begins_out_of_reach_is_not_followed_at_all() -> None:
     for each in others:
         assert (each.kind, each.group, each.ok) == ("unreachable", first.group, False)
         assert "out of reach or beyond a singular position" in each.sentence
+
+
+TRIPLE_ROCKER = """
+format: 1
+name: triple rocker
+frame: {{points: {{O1: [0 m, 0 m], O2: [{x!r} m, {y!r} m]}}}}
+links:
+  crank: {{points: [O1, A], length: 2.6 m}}
+  coupler: {{points: [A, B], length: 2 m}}
+  rocker: {{points: [O2, B], length: 2.2 m}}
+assembly: {{B: left}}
+driver: {{turn: crank, about: O1, speed: 10 rpm, start: {start!r} rad}}
+"""
+
+
+@pytest.mark.parametrize("turn", np.arange(0.1, 6.2, 0.7).tolist())
+def test_a_swing_up_to_the_ends_of_reach_is_the_same_however_the_frame_is_turned(turn: float) -> None:
+    """Angles at ends are read in another turn than those of the positions where the frame lies so."""
+    reach = np.arccos((2.6**2 + 4**2 - 4.2**2) / (2 * 2.6 * 4))
+    crank = reach * np.sin(np.linspace(-np.pi / 2, np.pi / 2, 4001))
+    apart = 2.6 * np.exp(1j * crank) - 4.0
+    cosine = (2.2**2 + np.abs(apart) ** 2 - 2**2) / (2 * 2.2 * np.abs(apart))
+    rocker = np.unwrap(np.angle(apart)) - np.arccos(np.clip(cosine, -1.0, 1.0))
+    x, y = float(4 * np.cos(turn)), float(4 * np.sin(turn))
+    motion = lw.solve_motion(lw.loads(TRIPLE_ROCKER.format(x=x, y=y, start=turn)), steps=72, failures="mark")
+    found = lw.metrics(motion, ["swing_angle", "range_of_motion"])
+    assert found.value("swing_angle", "rocker") == pytest.approx(np.ptp(rocker), rel=1e-6)
+    assert found.value("range_of_motion") == pytest.approx(2 * reach, rel=1e-9)
