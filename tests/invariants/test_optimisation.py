@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from scipy.optimize import brentq
+from scipy.optimize import brentq, minimize_scalar
 
 import linkwright as lw
 from linkwright.optimisation.evolution import crowding
@@ -503,3 +503,20 @@ def test_hypervolume_and_crowding_in_closed_form() -> None:
 def test_settings_that_cannot_be_read(press: Path, settings: dict, told: str) -> None:
     with pytest.raises(lw.LinkwrightError, match=told):
         lw.optimize(press, **settings)
+
+
+def test_designs_that_go_one_by_one_are_polished_by_differences() -> None:
+    """A followed group in an open cycle: the best of all is that of a search by one number."""
+    machine = lw.load("gallery:stephenson_sixbar_triad")
+
+    def torque(length: float) -> float:
+        forces = lw.solve_forces(machine.with_dimensions({"crank.length": length}), steps=360)
+        return lw.metrics(forces, ["rms_input_torque"]).value("rms_input_torque")
+
+    searched = minimize_scalar(torque, bounds=(0.045, 0.055), method="bounded", options={"xatol": 1e-6})
+    found = lw.optimize(
+        machine, vary={"crank.length": "45..55 mm"}, minimize="rms_input_torque", evaluations=30
+    )
+    assert found.best.values["crank.length"] == pytest.approx(searched.x, abs=2e-6)
+    assert found.best.numbers["rms_input_torque"] == pytest.approx(searched.fun, rel=1e-9)
+    assert "differences" in found.text()
