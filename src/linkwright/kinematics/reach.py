@@ -57,8 +57,9 @@ class Reach:
     @cached_property
     def edges(self) -> tuple[tuple[float, int], ...]:
         """Times, s, at which the mechanism comes into (+1) or gets out of (-1) reach."""
-        if self.whole:
-            return ()
+        return () if self.whole else self._motion.kept("edges of reach", self._found_edges)
+
+    def _found_edges(self) -> tuple[tuple[float, int], ...]:
         time, found = self._times, list[tuple[int, int]]()
         passed = np.resize(self.passed, len(time)).tolist()
         for k, (here, there) in enumerate(pairwise(passed)):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Literal
 
 import numpy as np
@@ -84,6 +84,22 @@ def try_motion(mechanism: Mechanism, steps: int) -> Motion:
     Everything else is evaluated when it is asked for. Raises as :func:`solve_motion`.
     """
     return MotionRun(MotionSolver(mechanism), over_cycle(mechanism, steps)).solve("mark", ("outcome",))
+
+
+def with_times(motion: Motion, times: Iterable[float]) -> tuple[Motion, list[int]]:
+    """A motion with further times, s, among its own ones, positions that are not reached marked, and where they are
+    in it. What follows a way goes on along it; raises as :func:`solve_motion`."""
+    own, wanted = motion.time, np.array([*times], dtype=float)
+    near = 1e-9 * (abs(float(own[1] - own[0])) if len(own) > 1 else 1.0)
+    every = np.unique(np.concatenate([own, wanted]))
+    every = every[np.diff(every, prepend=-np.inf) > near]
+    if len(own) > 1 and own[-1] < own[0]:
+        every = every[::-1]
+    positions = at_times(motion.mechanism, every, motion.positions.period)
+    found = MotionRun(MotionSolver(motion.mechanism), positions, single=not is_way(motion.positions)).solve(
+        "mark"
+    )
+    return found, [int(np.argmin(np.abs(every - each))) for each in wanted]
 
 
 class MotionRun:

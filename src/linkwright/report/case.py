@@ -8,13 +8,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.cycle import at_inputs
 from linkwright.kinematics.limits import LimitPosition
 from linkwright.kinematics.motion import Motion
-from linkwright.kinematics.solve import solve_motion
+from linkwright.kinematics.solve import solve_motion, with_times
 from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.report.numbers import Heads
@@ -148,7 +147,7 @@ class Case:
         """The result at the worked position, on the way of the cycle, and its index."""
         motion, index = self.motion, 0
         if self.mechanism.drivers:
-            motion, (index,) = self._passing([self.moment])
+            motion, (index,) = with_times(motion, [self.moment])
         if not motion.ok[index]:
             raise Missing(motion.outcomes[index].sentence)
         return (solve_forces(motion) if self.mechanism.has_loads else motion), index
@@ -207,7 +206,7 @@ class Case:
         start = float(motion.time[0]) if limit is None else limit.time
         wanted = [float(motion.time[0]) + (start - float(motion.time[0]) + k * period / count) % period
                   for k in range(count)]  # fmt: skip
-        denser, rows = self._passing(wanted)
+        denser, rows = with_times(motion, wanted)
         return Numbered(denser, tuple(rows), limit, output)
 
     @property
@@ -238,18 +237,6 @@ class Case:
         wanted = kind or "min"
         found = [each for each in limits if each.kind == wanted] or list(limits)
         return name, found[0]
-
-    def _passing(self, wanted: list[float]) -> tuple[Motion, list[int]]:
-        """The cycle's motion with further times among its own, and where they are."""
-        own = self.motion.time
-        step = abs(float(own[1] - own[0])) if len(own) > 1 else 1.0
-        times: Floats = np.unique(np.concatenate([own, wanted]))
-        apart = np.concatenate([[True], np.diff(times) > 1e-9 * step])
-        times = times[apart]
-        if len(own) > 1 and own[-1] < own[0]:
-            times = times[::-1]
-        motion = solve_motion(self.mechanism, times=times, failures="mark")
-        return motion, [int(np.argmin(np.abs(times - each))) for each in wanted]
 
     @cached_property
     def numbered_forces(self) -> Forces:

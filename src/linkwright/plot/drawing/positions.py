@@ -6,13 +6,12 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.cycle import at_inputs
 from linkwright.kinematics.limits import LimitPosition, limit_positions
 from linkwright.kinematics.motion import Motion
-from linkwright.kinematics.solve import solve_motion
+from linkwright.kinematics.solve import solve_motion, with_times
 
 At = float | Mapping[str, float]
 
@@ -52,8 +51,7 @@ def at_time(motion: Motion, time: float) -> Shown:
 
 def with_limits(motion: Motion, limits: Sequence[LimitPosition]) -> tuple[Motion, list[int]]:
     """The motion with limit positions among its positions, and their indices."""
-    order = sorted(limits, key=lambda each: each.index)
-    return _inserted(motion, [each.index + 1 for each in order], [each.time for each in order])
+    return with_times(motion, (each.time for each in sorted(limits, key=lambda each: each.index)))
 
 
 def _passed(motion: Motion, time: float) -> Shown | None:
@@ -63,7 +61,7 @@ def _passed(motion: Motion, time: float) -> Shown | None:
         return None
     forward = 1.0 if way[0] > 0 else -1.0
     since, length = forward * (time - motion.time[0]), abs(float(motion.time[-1] - motion.time[0]))
-    if motion.positions.closed and motion.positions.period:
+    if motion.positions.period is not None:
         length = motion.positions.period
         since %= length
     if not -1e-12 <= since <= length * (1.0 + 1e-12):
@@ -72,15 +70,8 @@ def _passed(motion: Motion, time: float) -> Shown | None:
     near = int(np.argmin(np.abs(courses - since)))
     if abs(courses[near] - since) <= 1e-9 * length:
         return Shown(motion, near)
-    place = int(np.searchsorted(courses, since))
-    denser, indices = _inserted(motion, [place], [float(motion.time[0]) + forward * since])
-    return Shown(denser, indices[0])
-
-
-def _inserted(motion: Motion, places: Sequence[int], times: Sequence[float]) -> tuple[Motion, list[int]]:
-    everything: Floats = np.insert(motion.time, places, times)
-    denser = solve_motion(motion.mechanism, times=everything, failures="mark")
-    return denser, [place + k for k, place in enumerate(places)]
+    denser, (index,) = with_times(motion, [float(motion.time[0]) + forward * since])
+    return Shown(denser, index)
 
 
 def limits_of(motion: Motion, output: str | None = None) -> tuple[LimitPosition, ...]:
