@@ -17,7 +17,6 @@ from linkwright.kinematics.change_points import (
     _divided,
     closes,
     cut_off,
-    is_way,
     mark_singular,
     nearness,
     parts,
@@ -81,13 +80,11 @@ def test_what_cannot_be_reached_from_the_first_solved_position_is_cut_off(
 
 
 def test_positions_are_one_way_if_they_follow_each_other_closely_or_are_a_cycle() -> None:
-    assert is_way(row(3, 0.5)) and not is_way(row(3, 0.6)) and not is_way(row(2, 0.1))
+    assert row(3, 0.5).is_way and not row(3, 0.6).is_way and not row(2, 0.1).is_way
     assert (
-        is_way(row(3, 0.6, closed=True))
-        and is_way(row(3, 2.0, cycle=True))
-        and is_way(row(2, 2.0, cycle=True))
+        row(3, 0.6, closed=True).is_way and row(3, 2.0, cycle=True).is_way and row(2, 2.0, cycle=True).is_way
     )
-    assert is_way(row(3, 5.0, rotary=False))
+    assert row(3, 5.0, rotary=False).is_way
 
 
 def test_a_group_has_its_other_sign_behind_every_change_point() -> None:

@@ -39,8 +39,6 @@ TOUCH = 1e-11
 MEETING = 1e-18
 #: Positions this near to a change point (share of a step) are on it.
 ON_IT = 1e-5
-#: Positions of which a turning driver is further apart are no way, but positions of their own, rad.
-LARGEST_STEP = 0.55
 #: Samples of laws that are no straight lines in which a cycle is looked through, and the most places looked at.
 SAMPLES, MOST = 720, 40_000
 #: Into at least so many steps a cycle is divided.
@@ -53,21 +51,9 @@ MANY = 3
 Way = Callable[[Floats], Positions]
 
 
-def is_way(positions: Positions) -> bool:
-    """Whether the positions are a cycle, or follow each other closely enough to be one motion."""
-    if positions.cycle:
-        return True
-    if positions.count < 3:
-        return False
-    steps = [
-        np.abs(np.diff(q)).max() for name, (q, *_) in positions.coordinates.items() if positions.rotary[name]
-    ]
-    return positions.closed or max(steps, default=0.0) <= LARGEST_STEP
-
-
 def passages(solver: MotionSolver, positions: Positions, followed: Followed | None) -> list[Passage]:
     """All places between solved positions where a group's modes or pins meet, or where it cannot pass."""
-    if not is_way(positions):
+    if not positions.is_way:
         return []
     count = parts(solver, positions)
     if count == 1:
@@ -79,7 +65,7 @@ def passages(solver: MotionSolver, positions: Positions, followed: Followed | No
 
 def signs_of_passages(solver: MotionSolver, positions: Positions) -> tuple[str, ...] | None:
     """Names of the outputs that show where :func:`passages` may find something; None where these do not tell."""
-    if not is_way(positions) or parts(solver, positions) > 1:
+    if not positions.is_way or parts(solver, positions) > 1:
         return None
     return _measures.get(solver.motion, None, lambda: _all_measures(solver.motion))
 
@@ -437,7 +423,7 @@ def cut_off(codes: Floats, positions: Positions, breaks: Set[int] = frozenset())
     first position as well.
     """
     n, good = len(codes), codes == 0
-    if not is_way(positions) or not good.any():
+    if not positions.is_way or not good.any():
         return np.zeros(n)
     open_way = codes <= 0
     if open_way.all() and not breaks:

@@ -455,7 +455,7 @@ class _Journey:
         rest = np.arange(reached, n)
         self._stopped(branch, rest)
         self.breaks.append(reached - 1)
-        if self.apart:
+        if self.apart and not positions.is_way:
             self._apart((self.coordinates[reached - 1], bool(self.certified[reached - 1])), reached)
         elif around and len(rest):
             back = self._way(start, time - around, time[rest[0]] - around, np.append(rest, 0)[::-1], around)

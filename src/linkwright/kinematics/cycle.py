@@ -30,6 +30,8 @@ _RATES = {
     False: ("length", "velocity", "acceleration"),
 }
 
+#: Positions of which a turning driver is further apart are no way, but positions of their own, rad.
+LARGEST_STEP = 0.55
 #: A cycle in which drivers of several speeds come back is taken by itself up to so many turns of the slowest one.
 FEW = 12
 
@@ -71,6 +73,14 @@ class Positions:
     def count(self) -> int:
         """Number of positions."""
         return len(self.time)
+
+    @cached_property
+    def is_way(self) -> bool:
+        """Whether the positions are a cycle, or follow each other closely enough to be one motion."""
+        if self.cycle or self.count < 3:
+            return self.cycle
+        steps = (np.abs(np.diff(q)).max() for name, (q, *_) in self.coordinates.items() if self.rotary[name])
+        return self.closed or bool(max(steps, default=0.0) <= LARGEST_STEP)
 
     @property
     def steps(self) -> int:

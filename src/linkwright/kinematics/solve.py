@@ -13,7 +13,6 @@ from linkwright.core.inputs import mode_groups
 from linkwright.core.once import cached_property
 from linkwright.kinematics.change_points import (
     cut_off,
-    is_way,
     mark_singular,
     passages,
     signs,
@@ -96,7 +95,7 @@ def with_times(motion: Motion, times: Iterable[float]) -> tuple[Motion, list[int
     if len(own) > 1 and own[-1] < own[0]:
         every = every[::-1]
     positions = at_times(motion.mechanism, every, motion.positions.period)
-    found = MotionRun(MotionSolver(motion.mechanism), positions, single=not is_way(motion.positions)).solve(
+    found = MotionRun(MotionSolver(motion.mechanism), positions, single=not motion.positions.is_way).solve(
         "mark"
     )
     return found, [int(np.argmin(np.abs(every - each))) for each in wanted]
@@ -185,7 +184,7 @@ class MotionRun:
             rows=Rows(values, {name: i for i, name in enumerate(names)}),
             notes=passage_notes(found, self.positions),
             barred=barred,
-            breaks=breaks if is_way(self.positions) else frozenset(),
+            breaks=breaks if self.positions.is_way else frozenset(),
         )
 
 

@@ -23,7 +23,7 @@ from linkwright.engine.numpy_backend import numpy_program
 from linkwright.engine.program import Program
 from linkwright.engine.trace import Mask, Scalar, absolute, select
 from linkwright.errors import LinkwrightError, RequestError
-from linkwright.kinematics.change_points import is_way, nearness, parts
+from linkwright.kinematics.change_points import nearness, parts
 from linkwright.kinematics.cycle import Positions, over_cycle
 from linkwright.kinematics.design import Design
 from linkwright.kinematics.motion import Motion, Rows
@@ -97,7 +97,7 @@ class Prepared:
         self._places = {name: i for i, name in enumerate(self.program.parameters)}
         self._own = _Numbers(self._base)
         plain = not (self.program.fields or self.program.states)
-        self._at_once = plain and is_way(positions) and parts(self.solver, positions) == 1
+        self._at_once = plain and positions.is_way and parts(self.solver, positions) == 1
         self._modes = self.solver.assembly.modes
 
     def __reduce__(self) -> tuple[type[Prepared], tuple[object, ...]]:
