@@ -272,11 +272,15 @@ class _Search:
         ring = np.append(sign, sign[:1]) if self.positions.closed else sign
         change = np.flatnonzero(ring[:-1] * ring[1:] < 0.0)
         places = [self._crossing(name, float(i), i + 1.0) for i in change]
-        for low, high in self._valleys(np.abs(row), NEAR**0.5):
-            if not np.isin(np.arange(low, high) % len(row), change).any():
-                place, least = self._lowest(name, low, high, float(sign[int(low) % len(row)]))
-                if least < 0.0:
-                    places += [self._crossing(name, low, place), self._crossing(name, place, high)]
+        within = [
+            (low, high)
+            for low, high in self._valleys(np.abs(row), NEAR**0.5)
+            if not np.isin(np.arange(low, high) % len(row), change).any()
+        ]
+        signs = np.array([sign[int(low) % len(row)] for low, _ in within])
+        for (low, high), (place, least) in zip(within, self._lowest(name, within, signs), strict=True):
+            if least < 0.0:
+                places += [self._crossing(name, low, place), self._crossing(name, place, high)]
         return sorted(places)
 
     def _crossing(self, name: str, low: float, high: float) -> float:
@@ -299,8 +303,7 @@ class _Search:
     def _of_group(self, group: str, rows: Mapping[str, Floats]) -> list[Passage]:
         found = []
         quality, *distance = measures(self.base.motion, group)
-        for low, high in self._valleys(rows[quality], NEAR):
-            place, least = self._lowest(quality, low, high)
+        for place, least in self._lowest(quality, self._valleys(rows[quality], NEAR)):
             if abs(least) <= TOUCH:
                 kind: Kind = "end" if group in self.beneath else "change"
                 found.append(self._passage(group, self._centred(quality, place), least, kind))
@@ -309,8 +312,8 @@ class _Search:
         for name in distance:
             largest = float(np.nanmax(rows[name], initial=0.0))
             near = rows[name] < NEAR * largest
-            for low, high in self._valleys(rows[name], NEAR * largest) if near.any() else ():
-                place, least = self._lowest(name, low, high)
+            valleys = self._valleys(rows[name], NEAR * largest) if near.any() else []
+            for place, least in self._lowest(name, valleys):
                 at, *beside = self._evaluate((quality,), place + np.array([0.0, -1e-3, 1e-3]))[0]
                 if at < -TOUCH and self._alone(place, rows[quality], found):
                     found.append(self._passage(group, place, float(at), "gap"))
@@ -337,14 +340,21 @@ class _Search:
         first, last = self.ends
         return [(max(i - 1.0, first), min(i + 1.0, last)) for i in np.flatnonzero(lowest)]
 
-    def _lowest(self, name: str, low: float, high: float, sign: float = 1.0) -> tuple[float, float]:
-        """Place and value of the minimum, of the value times ``sign``."""
-        at, best = lowest(
-            lambda places: sign * self._evaluate((name,), places[0])[0][None, :],
-            np.array([low]),
-            np.array([high]),
-        )
-        return float(at[0]), float(best[0])
+    def _lowest(
+        self, name: str, stretches: Sequence[tuple[float, float]], signs: Floats | None = None
+    ) -> list[tuple[float, float]]:
+        """Places and values of the minima in stretches (k), of the value times ``signs`` (k,)."""
+        if not stretches:
+            return []
+        factor = np.ones(len(stretches)) if signs is None else signs
+        low, high = np.array(stretches).T
+
+        def values(places: Floats) -> Floats:
+            return np.asarray(
+                factor[:, None] * self._evaluate((name,), places.ravel())[0].reshape(places.shape)
+            )
+
+        return list(zip(*(row.tolist() for row in lowest(values, low, high)), strict=True))
 
     def _centred(self, name: str, place: float) -> float:
         """The zero of the root (which passes through zero in a straight line) from its values on both sides."""

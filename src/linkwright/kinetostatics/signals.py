@@ -75,7 +75,8 @@ class MotionSignals:
     @cached_property
     def cycle(self) -> Motion:
         """The motion over the mechanism's cycle; the motion itself where no cycle is known."""
-        if self.motion.positions.closed and self.motion.steps >= STEPS:
+        positions = self.motion.positions
+        if (positions.closed or positions.cycle) and self.motion.steps >= STEPS:
             return self.motion
         found = self._over(self.mechanism)
         return self.motion if found is None else found
