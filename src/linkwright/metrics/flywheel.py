@@ -45,6 +45,7 @@ class EnergyFluctuation(Metric):
         steady = np.ptp(rate) <= 1e-9 * abs(rate[0]) and abs(turns - round(turns)) <= 1e-9
         if not steady:
             return False
+        analysis.ask(("equivalent_inertia mean",))  # of flywheels, found together with the mean torque
         mean = float(analysis.part("input_torque mean").value)
         return abs(mean) > NOTHING * float(np.abs(analysis.forces.input_torque).max())
 
