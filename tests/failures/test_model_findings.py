@@ -486,3 +486,8 @@ def test_a_driver_told_in_other_words_is_shown_how_it_is_written(driver: str) ->
 def test_a_section_with_nothing_in_it_is_told(section: str) -> None:
     (found,) = findings(f"{MODEL}{section}:\n")
     assert found.key == section and "nothing stands" in found.say()
+
+
+def test_a_calculation_of_the_gallery_is_told_to_be_one() -> None:
+    (found,) = check("gallery:cantilever")
+    assert (found.where, found.key) == ("cantilever.yaml:2:7", "kind") and "linkwright beam" in found.say()

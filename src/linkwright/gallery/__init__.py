@@ -44,9 +44,10 @@ def file(name: str) -> Path:
 
 
 def content(name: str) -> bytes:
-    """What the file of a model, else of a task called ``name`` holds; raises KeyError where there is none."""
+    """What the file of a model, else of a task or a calculation called ``name`` holds; raises KeyError where there is
+    none."""
     if name.replace("_", "").isalnum():
-        for folder in ("", "tasks"):
+        for folder in ("", "tasks", "parts"):
             try:
                 with open(os.path.join(_FOLDER, folder, f"{name}{_SUFFIX}"), "rb") as file:
                     return file.read()
