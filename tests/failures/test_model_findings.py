@@ -491,3 +491,15 @@ def test_a_section_with_nothing_in_it_is_told(section: str) -> None:
 def test_a_calculation_of_the_gallery_is_told_to_be_one() -> None:
     (found,) = check("gallery:cantilever")
     assert (found.where, found.key) == ("cantilever.yaml:2:7", "kind") and "linkwright beam" in found.say()
+
+
+@pytest.mark.parametrize(("points", "warned"), [("O1, M, A", True), ("O1, A, M", False)])
+def test_a_mass_centre_that_is_not_the_middle_is_asked_for(points: str, warned: bool) -> None:
+    """A bar with a pin in its middle has its default centre there only where its ends are named first."""
+    places = {"O1": "[0 m, 0 m]", "M": "[0.5 m, 0 m]", "A": "[1 m, 0 m]"}
+    bar = ", ".join(f"{name}: {places[name]}" for name in points.split(", "))
+    found = findings(
+        changed("{points: [O1, A], length: 1 m}", f"{{points: {{{bar}}}, mass: 2 kg, inertia: 0.2 kg·m²}}")
+    )
+    assert [each.key for each in found] == ["links.crank.mass_centre"] * warned
+    assert not warned or "midway between the first two, O1 and M" in found[0].say()

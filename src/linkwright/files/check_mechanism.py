@@ -33,6 +33,7 @@ def check_whole(reader: Reader, root: MappingNode, mechanism: Mechanism) -> None
     _guides_at_odds(reader, root, mechanism)
     _unlikely_inertias(reader, root, mechanism)
     _missing_inertias(reader, root, mechanism)
+    _assumed_centres(reader, root, mechanism)
     _phases_of_no_motion(reader, root, mechanism)
 
 
@@ -200,6 +201,23 @@ def _missing_inertias(reader: Reader, root: MappingNode, mechanism: Mechanism) -
         message = Sentence("model.no_inertia", link=name, mass=number(link.mass, 6))
         at, remedy = below(root, "links", name, "mass"), Sentence("model.add_inertia")
         reader.error(at, f"links.{name}.inertia", message, remedy, "no-inertia", severity="warning")
+
+
+def _assumed_centres(reader: Reader, root: MappingNode, mechanism: Mechanism) -> None:
+    """Links of three points and more, in axes of their own, with a mass, but no word about their mass centre, where
+    midway between the first two points is not the middle of all."""
+    for name, link in mechanism.links.items():
+        drawn = link.geometry not in ("coordinates", "bent")
+        if drawn or len(link.points) < 3 or not link.mass or link.mass_centre is not None:
+            continue
+        middle = [(min(row) + max(row)) / 2 for row in zip(*link.points.values(), strict=True)]
+        if math.dist(middle, link.centre) > 1e-9 * link.reach:
+            first, second = list(link.points)[:2]
+            message = Sentence("model.no_mass_centre", link=name, first=first, second=second)
+            at, remedy = below(root, "links", name, "mass"), Sentence("model.add_mass_centre")
+            reader.error(
+                at, f"links.{name}.mass_centre", message, remedy, "no-mass-centre", severity="warning"
+            )
 
 
 def _sliding(mechanism: Mechanism) -> set[str]:
