@@ -11,7 +11,7 @@ import pytest
 
 import linkwright as lw
 from linkwright.kinematics.constraint_system import ConstraintSystem, coordinates
-from linkwright.kinematics.rank import jacobian_rank, rank_from_drawing
+from linkwright.kinematics.rank import jacobian_rank, rank_from_dimensions, rank_from_drawing
 
 GALLERY = sorted(path.stem for path in (Path(lw.__file__).parent / "gallery").glob("*.yaml"))
 
@@ -129,12 +129,6 @@ def test_without_a_drawing_there_is_nothing_to_say() -> None:
     assert rank_from_drawing(lw.load("gallery:crank_rocker")) is None
 
 
-def test_position_that_is_not_solved() -> None:
-    motion = lw.solve_motion(lw.load("gallery:change_point_fourbar"), at=[1.0, np.pi], failures="mark")
-    with pytest.raises(lw.LinkwrightError, match="position 1 is not solved"):
-        jacobian_rank(motion, 1)
-
-
 TWO_GUIDES = """
 format: 1
 name: a piston on two guides
@@ -144,11 +138,80 @@ links:
   rod: {points: [A, B], length: 0.7 m}
   piston: {points: {B: [0 m, 0 m], C: [0 m, 0.3 m]}}
 joints:
-  upper: {kind: prismatic, guide: frame, through: G, direction: LEAN deg, block: piston, at: C, block_angle: LEAN deg}
+  upper: {kind: prismatic, guide: frame, through: G, direction: SIZE, block: piston, at: C, block_angle: SIZE}
   lower: {kind: prismatic, guide: frame, through: O, direction: 0 deg, block: piston, at: B}
-drawing: {A: [0.2 m, 0 m], B: [0.9 m, 0 m], C: [0.9 m, 0.3 m]}
 driver: {turn: crank, about: O, speed: 3 rad/s}
 """
+TWO_GUIDES_DRAWN = f"{TWO_GUIDES}drawing: {{A: [0.2 m, 0 m], B: [0.9 m, 0 m], C: [0.9 m, 0.3 m]}}"
+COUPLED_WHEELS = """
+format: 1
+name: coupled wheels
+frame: {points: {A: [0 m, 0 m], B: [1 m, 0 m], C: [2 m, 0 m]}}
+links:
+  front: {points: [A, D], length: 0.3 m}
+  middle: {points: [B, E], length: SIZE}
+  rear: {points: [C, F], length: 0.3 m}
+  rod: {points: {D: [0 m, 0 m], E: [1 m, 0 m], F: [2 m, 0 m]}}
+driver: {turn: front, about: A, speed: 60 rpm}
+"""
+TRAMMEL_WITH_CRANK = """
+format: 1
+name: an elliptic trammel with a crank
+frame: {points: {O: [0 mm, 0 mm]}}
+links:
+  crank: {points: [O, C], length: SIZE}
+  bar: {points: {C: [0 mm, 0 mm], A: [-50 mm, 0 mm], B: [50 mm, 0 mm]}}
+  across: {points: [A]}
+  upright: {points: [B]}
+joints:
+  level: {kind: prismatic, guide: frame, through: O, direction: 0 deg, block: across, at: A}
+  plumb: {kind: prismatic, guide: frame, through: O, direction: 90 deg, block: upright, at: B}
+driver: {turn: crank, about: O, speed: 60 rpm}
+"""
+
+
+@pytest.mark.parametrize(
+    ("text", "fits", "other", "spare"),
+    [
+        (COUPLED_WHEELS, "0.3 m", "0.31 m", "rear"),
+        (TRAMMEL_WITH_CRANK, "50 mm", "51 mm", "upright"),
+        (TWO_GUIDES, "0 deg", "10 deg", "lower"),
+    ],
+    ids=["coupled wheels", "trammel", "two guides"],
+)
+def test_passive_constraints_are_named_without_a_drawing(
+    text: str, fits: str, other: str, spare: str
+) -> None:
+    """The classical examples: what others demand already by their lengths is told, by other lengths nothing is."""
+    with pytest.raises(lw.StructureError, match=rf"the Jacobian where the joints close gives 1: .*'{spare}'"):
+        lw.solve_motion(lw.loads(text.replace("SIZE", fits)))
+    with pytest.raises(lw.StructureError, match="determined more than once") as refused:
+        lw.solve_motion(lw.loads(text.replace("SIZE", other)))
+    assert "Jacobian" not in str(refused.value)
+
+
+def test_driven_more_than_once_has_nothing_passive() -> None:
+    twice = lw.loads(
+        """
+format: 1
+name: driven twice
+frame: {points: {A: [0 m, 0 m], D: [1 m, 0 m]}}
+links:
+  crank: {points: [A, B], length: 0.3 m}
+  coupler: {points: [B, C], length: 0.9 m}
+  rocker: {points: [D, C], length: 0.7 m}
+drivers:
+  one: {turn: crank, about: A, speed: 60 rpm}
+  two: {turn: rocker, about: D, speed: 60 rpm}
+"""
+    )
+    assert rank_from_dimensions(twice) is None
+
+
+def test_position_that_is_not_solved() -> None:
+    motion = lw.solve_motion(lw.load("gallery:change_point_fourbar"), at=[1.0, np.pi], failures="mark")
+    with pytest.raises(lw.LinkwrightError, match="position 1 is not solved"):
+        jacobian_rank(motion, 1)
 
 
 def test_a_second_guide_beside_the_first_is_named() -> None:
@@ -156,6 +219,6 @@ def test_a_second_guide_beside_the_first_is_named() -> None:
     with pytest.raises(
         lw.StructureError, match=r"mobility -1 .* gives 1: the joint 'lower' demands only what"
     ):
-        lw.solve_motion(lw.loads(TWO_GUIDES.replace("LEAN", "0")))
-    report = rank_from_drawing(lw.loads(TWO_GUIDES.replace("LEAN", "10")))
+        lw.solve_motion(lw.loads(TWO_GUIDES_DRAWN.replace("SIZE", "0 deg")))
+    report = rank_from_drawing(lw.loads(TWO_GUIDES_DRAWN.replace("SIZE", "10 deg")))
     assert report is not None and report.mobility == 0 and "'lower'" not in report.say()

@@ -34,6 +34,8 @@ ZERO = 1e-9
 ZERO_DRAWN = 1e-6
 #: A drawing whose joints gape by less than this share of the size closes.
 CLOSED = 1e-9
+#: Of at most so many links positions are sought from places at random: from so many of these, until so many close.
+MOST_STREWN, STREWN, ENOUGH = 30, 24, 4
 
 
 @dataclass(frozen=True)
@@ -81,7 +83,7 @@ def jacobian_rank(motion: Motion, index: int = 0) -> RankReport:
         rank, redundant = len(system.rows(here)), tuple[Row, ...]()
     else:
         rank, redundant = _rank(system, here, ZERO)
-    return _report(mechanism, system, rank, redundant, (), False, False, guides=motion.structure.redundant)
+    return _report(mechanism, system, rank, redundant, (), False, guides=motion.structure.redundant)
 
 
 def rank_from_drawing(mechanism: Mechanism) -> RankReport | None:
@@ -95,13 +97,35 @@ def rank_from_drawing(mechanism: Mechanism) -> RankReport | None:
         return None
     system = ConstraintSystem(mechanism)
     here, gap = _closed(system, drawn)
-    rank, redundant = _rank(system, here, ZERO_DRAWN)
     if gap > CLOSED:
-        return _gaping(mechanism, system, rank, redundant, gap)
+        return _gaping(mechanism, system, *_rank(system, here, ZERO_DRAWN), gap)
+    return _rank_where_closed(mechanism, system, here, "_drawn")
+
+
+def rank_from_dimensions(mechanism: Mechanism) -> RankReport | None:
+    """Rank where the joints close by the dimensions alone, for models without a drawing that counting refuses.
+
+    Positions are sought from all links strewn at random, the same at every call; the one of the greatest rank
+    counts, as others may be special. None where no position is found, where the rank confirms the count, of higher
+    pairs, whose phases a position found so need not keep, and of more than 30 links.
+    """
+    system = ConstraintSystem(mechanism)
+    if mechanism.higher or len(system.links) > MOST_STREWN:
+        return None
+    here, rank = _assembled(system)
+    if here is None or system.freedoms - rank == grubler(counts(mechanism)):
+        return None
+    return _rank_where_closed(mechanism, system, here, "_assembled")
+
+
+def _rank_where_closed(
+    mechanism: Mechanism, system: ConstraintSystem, here: Floats, where: str
+) -> RankReport:
+    rank, redundant = _rank(system, here, ZERO_DRAWN)
     special = rank < system.freedoms and not _moves(system, here, rank)
     links = () if special else _spare_links(mechanism, here, ZERO_DRAWN)
     joints = () if special or links else _spare_joints(system.rows(here), redundant)
-    return _report(mechanism, system, rank, redundant, links, special, True, joints=joints)
+    return _report(mechanism, system, rank, redundant, links, special, where, joints=joints)
 
 
 def rank_sentence(mechanism: Mechanism, language: str = "en") -> str:
@@ -256,6 +280,19 @@ def _closed(system: ConstraintSystem, x: Floats) -> tuple[Floats, float]:
     return x, float(np.abs(system.residual(x)).max(initial=0.0))
 
 
+def _assembled(system: ConstraintSystem) -> tuple[Floats | None, int]:
+    """Coordinates that satisfy the joints and the rank there, the greatest among some; None where none are found."""
+    random, found = np.random.default_rng(0), list[tuple[Floats | None, int]]()
+    extent = np.tile([1.0, 1.0, math.pi], len(system.links))
+    for _ in range(STREWN):
+        here, gap = _closed(system, random.uniform(-1.0, 1.0, system.freedoms) * extent)
+        if gap <= CLOSED:
+            found.append((here, _numeric_rank(system.jacobian(here), ZERO_DRAWN)))
+        if len(found) == ENOUGH:
+            break
+    return max(found, key=lambda each: each[1], default=(None, 0))
+
+
 def _moves(system: ConstraintSystem, x: Floats, rank: int) -> bool:
     """Whether a small finite motion along one of the free directions exists at the same rank."""
     for direction in _null_space(system.jacobian(x), rank).T:
@@ -274,7 +311,7 @@ def _report(
     implied: Sequence[Row],
     links: tuple[str, ...],
     special: bool,
-    drawn: bool,
+    where: str = "",
     guides: tuple[str, ...] = (),
     joints: tuple[str, ...] = (),
 ) -> RankReport:
@@ -282,7 +319,6 @@ def _report(
     mobility = system.freedoms - rank
     equations, redundant = system.freedoms - count, _said(implied)
     make = partial(RankReport, rank, system.freedoms, equations, count, redundant, links, special)
-    where = "_drawn" if drawn else ""
     if mobility == count:
         return make(Sentence(f"rank.confirmed{where}", count=count))
     wheels = bool(guides) and all(mechanism.joints[name].higher for name in guides)

@@ -6,6 +6,8 @@ WORDS = {
     "differs": "Grübler gives {count}, but the rank of the Jacobian gives {mobility}: {reason}",
     "differs_drawn": "Grübler gives {count}, but the rank of the Jacobian in the drawing gives {mobility}: "
     "{reason}",
+    "differs_assembled": "Grübler gives {count}, but the rank of the Jacobian where the joints close gives "
+    "{mobility}: {reason}",
     "special": "this is a special position, where the joints' equations are dependent ({redundant}); "
     "the additional freedom is lost as soon as the mechanism leaves it",
     "link": "the link {links} is redundant in this special geometry; remove it",

@@ -5,6 +5,7 @@ WORDS = {
     "confirmed_drawn": "图示位置雅可比矩阵的秩证实了按格吕布勒公式计算的自由度 {count}",
     "differs": "按格吕布勒公式自由度为 {count}，而由雅可比矩阵的秩得 {mobility}：{reason}",
     "differs_drawn": "按格吕布勒公式自由度为 {count}，而由图示位置雅可比矩阵的秩得 {mobility}：{reason}",
+    "differs_assembled": "按格吕布勒公式自由度为 {count}，而由各运动副闭合位置雅可比矩阵的秩得 {mobility}：{reason}",
     "special": "这是特殊位置，此处各运动副的约束方程线性相关（{redundant}）；机构一离开该位置，"
     "多出的自由度即消失",
     "link": "在此特殊几何条件下构件 {links} 是多余的；请将其去掉",
