@@ -169,6 +169,18 @@ joints:
 driver: {turn: crank, about: O, speed: 60 rpm}
 """
 
+PLATFORM = """
+format: 1
+name: a platform lifted by two bars of one pair of cranks
+frame: {points: {A: [0 m, 0 m], B: [0.5 m, 0 m]}}
+links:
+  left: {points: {A: [0 m, 0 m], C: [0.2 m, 0 m], E: [SIZE, 0 m]}}
+  right: {points: {B: [0 m, 0 m], D: [0.2 m, 0 m], F: [0.4 m, 0 m]}}
+  lower: {points: [C, D], length: 0.5 m}
+  upper: {points: [E, F], length: 0.5 m}
+driver: {turn: left, about: A, speed: 60 rpm}
+"""
+
 
 @pytest.mark.parametrize(
     ("text", "fits", "other", "spare"),
@@ -176,8 +188,9 @@ driver: {turn: crank, about: O, speed: 60 rpm}
         (COUPLED_WHEELS, "0.3 m", "0.31 m", "rear"),
         (TRAMMEL_WITH_CRANK, "50 mm", "51 mm", "upright"),
         (TWO_GUIDES, "0 deg", "10 deg", "lower"),
+        (PLATFORM, "0.4 m", "0.42 m", "upper"),
     ],
-    ids=["coupled wheels", "trammel", "two guides"],
+    ids=["coupled wheels", "trammel", "two guides", "platform"],
 )
 def test_passive_constraints_are_named_without_a_drawing(
     text: str, fits: str, other: str, spare: str

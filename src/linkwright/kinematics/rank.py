@@ -260,10 +260,11 @@ def _freedoms_without(full: ConstraintSystem, rows: Sequence[Row], without: Sequ
 
 
 # drawings -----------------------------------------------------------------------------------------
-def _closed(system: ConstraintSystem, x: Floats) -> tuple[Floats, float]:
+def _closed(system: ConstraintSystem, x: Floats, held: str | None = None) -> tuple[Floats, float]:
     """The nearest coordinates that satisfy the joints (Gauss and Newton, shortest steps), and what still gapes.
 
-    Ends where steps are zero, or so short that only rounding is left of them: they do not become shorter.
+    Ends where steps are zero, or so short that only rounding is left of them: they do not become shorter. ``held``: a
+    driver that keeps its coordinate.
     """
     from scipy.linalg import lstsq
 
@@ -271,6 +272,8 @@ def _closed(system: ConstraintSystem, x: Floats) -> tuple[Floats, float]:
     for _ in range(60):
         rows = system.rows(x)
         gap = np.array([row.value for row in rows])
+        if held is not None:
+            rows, gap = [*rows, system.driver_row(held, x)], np.append(gap, 0.0)
         step = lstsq(system.matrix(rows), gap, cond=1e-9, lapack_driver="gelsy")[0] if rows else 0.0 * x
         length = float(np.linalg.norm(step))
         x = x - step * min(1.0, 0.5 / max(length, 1e-300))
@@ -281,11 +284,15 @@ def _closed(system: ConstraintSystem, x: Floats) -> tuple[Floats, float]:
 
 
 def _assembled(system: ConstraintSystem) -> tuple[Floats | None, int]:
-    """Coordinates that satisfy the joints and the rank there, the greatest among some; None where none are found."""
+    """Coordinates that satisfy the joints and the rank there, the greatest among some; None where none are found.
+
+    The first driver is held where it was strewn, as steps towards no position in particular often end in special ones.
+    """
     random, found = np.random.default_rng(0), list[tuple[Floats | None, int]]()
     extent = np.tile([1.0, 1.0, math.pi], len(system.links))
     for _ in range(STREWN):
-        here, gap = _closed(system, random.uniform(-1.0, 1.0, system.freedoms) * extent)
+        strewn = random.uniform(-1.0, 1.0, system.freedoms) * extent
+        here, gap = _closed(system, strewn, held=next(iter(system.mechanism.drivers), None))
         if gap <= CLOSED:
             found.append((here, _numeric_rank(system.jacobian(here), ZERO_DRAWN)))
         if len(found) == ENOUGH:
