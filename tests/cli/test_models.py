@@ -51,6 +51,25 @@ def test_check_lists_findings_of_every_file(tmp_path: Path, capsys: pytest.Captu
     assert files[0]["findings"][0]["where"].startswith("wrong.yaml:6:")
 
 
+ROLLER = """
+  roller: {points: {HUB: [0 mm, 0 mm], RIM: [10 mm, 0 mm]}}
+"""
+
+
+@pytest.mark.parametrize(("hub", "idle"), [("B", True), ("O", False)])
+def test_check_tells_a_local_freedom(
+    hub: str, idle: bool, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A wheel that is pinned to a moving link alone is an idle freedom; one on the frame may lack a driver."""
+    text = read_document("gallery:slider_crank_inline").text
+    model = tmp_path / "roller.yaml"
+    model.write_text(text.replace("links:\n", f"links:{ROLLER.replace('HUB', hub).rstrip()}\n"))
+    assert main(["check", str(model)]) == 1
+    shown = capsys.readouterr().out
+    assert "nothing determines the motion of 'roller'" in shown
+    assert ("a local freedom" in shown) is idle
+
+
 def test_check_names_the_place_of_every_assembly_word(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -286,7 +286,7 @@ def _closed(system: ConstraintSystem, x: Floats, held: str | None = None) -> tup
 def _assembled(system: ConstraintSystem) -> tuple[Floats | None, int]:
     """Coordinates that satisfy the joints and the rank there, the greatest among some; None where none are found.
 
-    The first driver is held where it was strewn, as steps towards no position in particular often end in special ones.
+    The first driver is held where it was strewn, as steps that move everything often end in special positions.
     """
     random, found = np.random.default_rng(0), list[tuple[Floats | None, int]]()
     extent = np.tile([1.0, 1.0, math.pi], len(system.links))

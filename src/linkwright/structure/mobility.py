@@ -70,8 +70,9 @@ def explain_free(mechanism: Mechanism, free: Sequence[str], lacking: int, mobili
     """The sentence for freedoms that nothing determines."""
     parts = islands(mechanism)
     apart = tuple("{" + ", ".join(part) + "}" for part in parts)
+    key = "free_idle" if _idle(mechanism, free) else "free"
     said = Sentence(
-        "mobility.islands" if len(parts) > 1 else "mobility.free",
+        "mobility.islands" if len(parts) > 1 else f"mobility.{key}",
         has=_has(mechanism, mobility),
         count=len(parts),
         parts=together(apart),
@@ -79,6 +80,12 @@ def explain_free(mechanism: Mechanism, free: Sequence[str], lacking: int, mobili
         more=_drivers("more", lacking),
     )
     return StructureError(said)
+
+
+def _idle(mechanism: Mechanism, links: Sequence[str]) -> bool:
+    """Whether each of these links hangs on another by one pin alone, as a roller does that is a link of its own."""
+    joints = [[each for each in mechanism.joints.values() if name in each.joined] for name in links]
+    return all(len(own) == 1 and own[0].freedoms == 1 and FRAME not in own[0].joined for own in joints)
 
 
 def explain_excess(

@@ -4,6 +4,9 @@ WORDS = {
     "has": "{name!r} has mobility {mobility} and {drivers}",
     "free": "{has}; nothing determines the motion of {links}; give {more} (driver: {{turn: …, about: …, "
     "speed: …}}), or join the links further",
+    "free_idle": "{has}; nothing determines the motion of {links}, and nothing else depends on it: a local freedom, "
+    "as of a roller on its pin; leave out what turns so (a cam's roller is told by touch: roller), or give {more} "
+    "(driver: {{turn: …, about: …, speed: …}})",
     "islands": "{has}; the file holds {count} mechanisms that share nothing but the frame: {parts}; nothing "
     "determines the motion of {links}; give {more} (driver: {{turn: …, about: …, speed: …}}), or join the "
     "links further",

@@ -4,6 +4,8 @@ WORDS = {
     "has": "“{name}”的自由度为 {mobility}，有{drivers}",
     "free": "{has}；构件 {links} 的运动不能确定；请给出{more}（driver: {{turn: …, about: …, speed: …}}），"
     "或增加构件间的联接",
+    "free_idle": "{has}；构件 {links} 的运动不能确定，也不影响其他构件：这是局部自由度（如滚子绕自身销轴的转动）；"
+    "请去掉这样的构件（凸轮的滚子由 touch: roller 给出），或给出{more}（driver: {{turn: …, about: …, speed: …}}）",
     "islands": "{has}；文件中有 {count} 个只有机架相同的机构：{parts}；构件 {links} 的运动不能确定；"
     "请给出{more}（driver: {{turn: …, about: …, speed: …}}），或增加构件间的联接",
     "cannot_be_driven": "“{name}”按格吕布勒公式自由度为 {mobility}，不能驱动，却给出了{drivers}",
