@@ -53,23 +53,6 @@ def test_the_bits_are_those_of_numpy_however_often_it_is_evaluated(op, monkeypat
 
 
 @needs_llvm
-def test_the_bits_are_those_of_numpy_over_other_positions_each_time(monkeypatch):
-    """Also over fewer positions than numbers in a vector."""
-    positions = [{"x": np.random.default_rng(k).normal(size=41 if k % 2 else 3)} for k in range(6)]
-
-    def found(program):
-        return [
-            program.run({"a": 1.3}, each, lambda v: {"limit": float(v[0].max()) / 7.0}, len(each["x"]), {})
-            for each in positions
-        ]
-
-    expected = found(machine(sqrt))
-    monkeypatch.setattr(in_turn, "REPEATED", 2)
-    for one, other in zip(found(machine(sqrt)), expected, strict=True):
-        assert np.array_equal(one, other)
-
-
-@needs_llvm
 def test_nothing_is_given_where_the_late_inputs_are_not_found(monkeypatch):
     monkeypatch.setattr(in_turn, "REPEATED", 2)
     program, positions = machine(sqrt), {"x": np.arange(41.0)}
@@ -86,15 +69,11 @@ def test_an_edited_machine_has_the_same_bits_at_the_first_and_at_the_last_edit(n
     def edited(share):
         return lw.solve_forces(mechanism.with_dimensions({address: share * length}), steps=45)
 
-    def numbers(forces):
-        return [(row.value, row.at, row.exact) for row in lw.metrics(forces)]
-
     first = [edited(1.0 + 1e-3 * k) for k in range(4)]
     monkeypatch.setattr(in_turn, "REPEATED", 3)
     for _ in range(2):
         last = [edited(1.0 + 1e-3 * k) for k in range(4)]
         for one, other in zip(first, last, strict=True):
             assert np.array_equal(one.rows.values, other.rows.values)
-            assert numbers(one) == numbers(other)
             assert one.fields.keys() == other.fields.keys()
             assert all(np.array_equal(one.fields[load], other.fields[load]) for load in one.fields)

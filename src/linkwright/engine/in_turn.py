@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from functools import cached_property, partial
-from typing import TYPE_CHECKING, Any
+from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -17,15 +17,11 @@ from linkwright.engine.program import Program
 from linkwright.engine.recent import Recent
 from linkwright.engine.table import Tables
 
-if TYPE_CHECKING:
-    from linkwright.engine.llvm_backend import CompiledProgram
-
 Arrays = Mapping[str, Floats]
 Found = Callable[[Floats], Mapping[str, Any] | None]
 Compiled = Callable[[Floats], Floats]
 
-#: From this evaluation on the program is compiled, where that gives the same bits; over the same positions, bound to
-#: these.
+#: From this evaluation over the same positions on the program is compiled, where that gives the same bits.
 REPEATED = 100
 
 
@@ -41,62 +37,53 @@ class InTurn:
         self.early = early
         self._numpy = NumpyProgram(self.program, late)
         self._over: Recent[Arrays, _Over] = Recent(4)
-        self._calls = 0
 
     def run(
         self, parameters: Mapping[str, float], positions: Arrays, late: Found, length: int, tables: Tables
     ) -> Floats | None:
         """Outputs (outputs, n) of one design; arguments as for :meth:`NumpyProgram.run_in_turn`."""
         over = self._over.get(positions, None, _Over)
-        over.calls, self._calls = over.calls + 1, self._calls + 1
-        if self._calls < REPEATED or self._parts is None:
+        over.calls += 1
+        if over.calls < REPEATED or self._parts is None:
             return self._numpy.run_in_turn(
                 parameters, positions, late, early=self.early, length=length, tables=tables
             )
-        run_first, run_second = self._bound(over, positions, length)
         first, second = self._parts
+        if over.code is None:
+            over.code = self._bind(positions)
+        run_first, run_second = over.code
         found = np.empty((len(self.program.outputs), length))
-        found[: self.early] = run_first(np.array([parameters[name] for name in first.program.parameters]))
+        found[: self.early] = run_first(np.array([parameters[name] for name in first.parameters]))
         given = late(found)
         if given is None:
             return None
         known = {**parameters, **given}
-        found[self.early :] = run_second(np.array([known[name] for name in second.program.parameters]))
+        found[self.early :] = run_second(np.array([known[name] for name in second.parameters]))
         return found
 
     @cached_property
-    def _parts(self) -> tuple[CompiledProgram, CompiledProgram] | None:
-        """The early and the other outputs as code; None where it would not have the same bits."""
+    def _parts(self) -> tuple[Program, Program] | None:
+        """Programs of the early and of the other outputs; None where code would not have the same bits."""
         program, names = self.program, list(self.program.output_names)
         if program.fields or program.states or not available():
             return None
         if not all(op in _ALIKE for op, args, *_ in program.entries if args):
             return None
+        return program.only(names[: self.early]), program.only(names[self.early :])
+
+    def _bind(self, positions: Arrays) -> tuple[Compiled, Compiled]:
+        """The parts as code over some positions."""
         from linkwright.engine.llvm_backend import compile_program
 
-        parts = (names[: self.early], names[self.early :])
-        first, second = (compile_program(program.only(part), exact=True) for part in parts)
-        return None if first is None or second is None else (first, second)
-
-    def _bound(self, over: _Over, positions: Arrays, length: int) -> tuple[Compiled, Compiled]:
-        """The parts over some positions, which are kept there where they come again and again."""
         assert self._parts is not None
-        if over.code is not None:
-            return over.code
-        if over.calls < REPEATED:
-            early, late = self._parts
-            return (
-                partial(early.run, positions=positions, length=length),
-                partial(late.run, positions=positions, length=length),
-            )
-        first, second = (part.repeated(positions) for part in self._parts)
-        over.code = first, second
-        return over.code
+        parts = [compile_program(part, exact=True) for part in self._parts]
+        first, second = (part.repeated(positions) for part in parts if part is not None)
+        return first, second
 
 
 @dataclass
 class _Over:
-    """How often a program was evaluated over some positions, and its parts bound to them."""
+    """How often a program was evaluated over some positions, and its parts compiled for them."""
 
     calls: int = 0
     code: tuple[Compiled, Compiled] | None = None
