@@ -226,7 +226,7 @@ def mass_centre_wrong_end(sheet: Sheet) -> Made:
     for name, link in sheet.mechanism.links.items():
         if link.mass and link.mass_centre is not None and len(link.points) > 1:
             (ax, ay), (bx, by) = list(link.points.values())[:2]
-            x, y = link.mass_centre
+            x, y = link.centre
             moved = (ax + bx - x, ay + by - y)
             if math.dist(moved, (x, y)) > OFF * math.dist((ax, ay), (bx, by)):
                 turned[name] = replace(link, mass_centre=moved)

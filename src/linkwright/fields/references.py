@@ -19,7 +19,7 @@ from linkwright.fields.base import (
     written_quantity,
 )
 from linkwright.fields.nodes import Mapping as MappingNode
-from linkwright.fields.nodes import Node, Sequence
+from linkwright.fields.nodes import Node, Scalar, Sequence
 from linkwright.words.sentence import Sentence
 
 
@@ -82,6 +82,22 @@ class PointReference(Field):
 
     def written(self, value: Any) -> Any:
         return str(value)
+
+
+@dataclass(frozen=True)
+class PlaceOrPoint(Quantities):
+    """Coordinates in a link's axes, or the name of a point; the reader of the link knows whether it is there."""
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
+        if isinstance(node, Scalar) and node.text[:1].isalpha():
+            return reader.text(node, place)
+        return super().read(reader, node, place, given)
+
+    def shape(self) -> Schema:
+        return {"anyOf": [super().shape(), {"type": "string", "x-reference": "point"}]}
+
+    def written(self, value: Any) -> Any:
+        return value if isinstance(value, str) else super().written(value)
 
 
 @dataclass(frozen=True)

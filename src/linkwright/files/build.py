@@ -58,9 +58,9 @@ class Model:
         also: Mapping[str, Pair] | None = None,
         mass: Value | None = None,
         inertia: Value | None = None,
-        mass_centre: Pair | None = None,
+        mass_centre: Pair | str | None = None,
     ) -> None:
-        """A moving link; the keys are those of a file: m, rad, kg, kg·m²."""
+        """A moving link; the keys are those of a file: m, rad, kg, kg·m². ``mass_centre``: (x, y) or a point."""
         listed = points if isinstance(points, Mapping) else list(points)
         sizes = _present(length=length, lengths=lengths, angle=angle, also=also)
         masses = _present(mass=mass, inertia=inertia, mass_centre=mass_centre)

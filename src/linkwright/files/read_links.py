@@ -126,6 +126,11 @@ def _read_link(reader: Reader, node: Node, name: str, drawing: Mapping[str, Vec]
             )
         coordinates[point] = position
     _coincident(reader, node, place, coordinates)
+    centre = given.get("mass_centre")
+    if isinstance(centre, str) and not reader.point_of(
+        node.get("mass_centre") or node, place.child("mass_centre"), centre, name
+    ):
+        return None
     return Link(
         name,
         geometry,
@@ -134,7 +139,7 @@ def _read_link(reader: Reader, node: Node, name: str, drawing: Mapping[str, Vec]
         given.get("angle") or 0.0,
         given.get("mass") or 0.0,
         given.get("inertia") or 0.0,
-        given.get("mass_centre"),
+        centre,
     )
 
 

@@ -80,7 +80,8 @@ def _known(numbers: Mapping[str, float], free: frozenset[str]) -> tuple[int | No
 
 
 def _link(link: Link) -> Hashable:
-    return link.name, link.geometry, tuple(link.points), link.mass_centre is None
+    centre = link.mass_centre if isinstance(link.mass_centre, str) else link.mass_centre is None
+    return link.name, link.geometry, tuple(link.points), centre
 
 
 def _ahead(mechanism: Mechanism, joint: Any) -> bool:

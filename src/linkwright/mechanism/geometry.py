@@ -70,8 +70,10 @@ def from_drawing(
 
 
 def centre(link: Link, points: Mapping[str, Pair], dimension: Callable[[str], Any]) -> Pair:
-    """Mass centre (m) in the link's axes: as given, else midway between the first two points (one point:
-    at it)."""
+    """Mass centre (m) in the link's axes: as given, at the point named, else midway between the first two points (one
+    point: at it)."""
+    if isinstance(link.mass_centre, str):
+        return points[link.mass_centre]
     if link.mass_centre is not None:
         return dimension(f"{link.name}.mass_centre.x"), dimension(f"{link.name}.mass_centre.y")
     first, *others = list(points.values())[:2] or [(0.0, 0.0)]

@@ -13,7 +13,7 @@ from linkwright.core.once import cached_property
 from linkwright.drivers.base import Driver
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.fields.base import Field, Quantities, Quantity
-from linkwright.fields.references import PLACE, Coordinates, LinkPoints
+from linkwright.fields.references import PLACE, Coordinates, LinkPoints, PlaceOrPoint
 from linkwright.joints.base import Joint
 from linkwright.joints.lower import RigidJoint, SlidingJoint, TurningJoint
 from linkwright.loads.base import Load
@@ -43,7 +43,7 @@ LINK_FIELDS: Mapping[str, Field] = {
     "also": Coordinates(doc="further points, by coordinates in the link's axes"),
     "mass": Quantity("mass", minimum=0, doc="mass (default 0)"),
     "inertia": Quantity("inertia", minimum=0, doc="moment of inertia about the mass centre (default 0)"),
-    "mass_centre": Quantities("length", ("x", "y"), doc="mass centre in the link's axes (default: midway)"),
+    "mass_centre": PlaceOrPoint("length", ("x", "y"), doc="mass centre: [x, y] or a point (default: midway)"),
 }
 FRAME_FIELDS: Mapping[str, Field] = {
     "points": Coordinates(required=True, doc="fixed points: {O1: [0 m, 0 m], …}"),
@@ -60,8 +60,8 @@ class Link:
     ``geometry`` says how the user gave it: ``length`` (two points), ``bent`` (two lengths and an angle),
     ``coordinates``, ``drawing`` (from the coordinates of an assembled drawing), ``point`` (one point, at
     the origin).
-    ``points`` holds all points in order, those of ``also`` last. ``mass_centre`` None means the default:
-    midway between the first two points, or at the only one.
+    ``points`` holds all points in order, those of ``also`` last. ``mass_centre`` may name one of them;
+    None means the default: midway between the first two points, or at the only one.
     """
 
     name: str
@@ -71,7 +71,7 @@ class Link:
     angle: float = 0.0
     mass: float = 0.0
     inertia: float = 0.0
-    mass_centre: Vec | None = None
+    mass_centre: Vec | str | None = None
 
     def fields(self) -> Mapping[str, Field]:
         """What a file may say about the link."""
@@ -115,7 +115,7 @@ class Link:
         if self.name == "frame":
             return found
         found[f"{self.name}.mass"], found[f"{self.name}.inertia"] = self.mass, self.inertia
-        if self.mass_centre is not None:
+        if isinstance(self.mass_centre, tuple):
             found[f"{self.name}.mass_centre.x"], found[f"{self.name}.mass_centre.y"] = self.mass_centre
         return found
 
@@ -134,7 +134,9 @@ class Link:
         angle = value(f"{name}.angle") if self.geometry == "bent" else self.angle
         if name == "frame":
             return Link(name, self.geometry, moved, lengths, angle)
-        centre = self.mass_centre and (value(f"{name}.mass_centre.x"), value(f"{name}.mass_centre.y"))
+        centre = self.mass_centre
+        if isinstance(centre, tuple):
+            centre = value(f"{name}.mass_centre.x"), value(f"{name}.mass_centre.y")
         mass, inertia = value(f"{name}.mass"), value(f"{name}.inertia")
         return Link(name, self.geometry, moved, lengths, angle, mass, inertia, centre)
 

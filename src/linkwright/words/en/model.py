@@ -276,7 +276,7 @@ WORDS = {
     "set_beyond": "{address} is set to {value:g}, which is more than any machine has; check the number",
     "no_mass_centre": 'the link "{link}" has a mass and more than two points, but no mass centre: it is taken midway '
     "between the first two, {first} and {second}",
-    "add_mass_centre": "give mass_centre: [x, y] in the link's axes",
+    "add_mass_centre": "give mass_centre: [x, y] in the link's axes, or one of its points",
     "no_inertia": 'the link "{link}" turns and has a mass of {mass} kg, but no moment of inertia: it counts '
     "as zero",
     "add_inertia": "add the moment of inertia about its mass centre (inertia: … kg·m²), or inertia: 0 if that is "

@@ -271,7 +271,7 @@ WORDS = {
     "beyond_do": "请检查数值和单位；最大 {limit}",
     "set_beyond": "{address} 设为 {value:g}，超出了任何机器可能的数值；请检查",
     "no_mass_centre": "构件“{link}”有质量且有两个以上的点，但没有质心：按前两点 {first}、{second} 的中点计算",
-    "add_mass_centre": "请在构件坐标系中给出 mass_centre: [x, y]",
+    "add_mass_centre": "请在构件坐标系中给出 mass_centre: [x, y]，或写构件上一点的名称",
     "no_inertia": "构件“{link}”会转动且质量为 {mass} kg，但没有转动惯量：按零计算",
     "add_inertia": "请加上对质心的转动惯量（inertia: … kg·m²），若确为零则写 inertia: 0",
     "no_mechanism": "该文件是类型“{kind}”的计算，不是机构",
