@@ -27,7 +27,7 @@ MEANINGS = {
     "further points, by coordinates in the link's axes": "更多的点，按构件坐标系中的坐标",
     "mass (default 0)": "质量（默认 0）",
     "moment of inertia about the mass centre (default 0)": "绕质心的转动惯量（默认 0）",
-    "mass centre in the link's axes (default: midway)": "质心在构件坐标系中的位置（默认：前两点的中点）",
+    "mass centre: [x, y] or a point (default: midway)": "质心：[x, y] 或一点的名称（默认：前两点的中点）",
     "guides, welds, and attributes of pins": "导路、刚性连接、高副，以及转动副的属性",
     "the two wheels [a, b]": "两个轮 [a, b]",
     "their pitch radii [a, b]": "节圆半径 [a, b]",

@@ -86,7 +86,7 @@ def _islands(reader: Reader, root: MappingNode, mechanism: Mechanism) -> None:
         }
     apart = [name for name in mechanism.links if name not in reached]
     joined = [name for name in apart if any(name in joint.joined for joint in mechanism.joints.values())]
-    if joined:
+    if joined and not reader.names.incomplete:
         reader.finding(
             below(root, "links", joined[0]),
             f"links.{joined[0]}",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Protocol, TypeVar, cast
 
 from linkwright.core.dataclass import dataclass
@@ -179,25 +180,39 @@ class PlainReader:
         table = self.mapping(node, place)
         if table is None:
             return None
+        table = self._with_kind(table, place)
         said = table.get("kind")
         if said is None:
             told = Sentence(remedy, kinds=tuple(kinds))
             self.error(table, place.child("kind"), Sentence(missing), told, "missing-key")
             return None
         word = self.word(said, place.child("kind"), kinds)
-        found = None if word is None else self.table(table, place, {"kind": Text(), **kinds[word].fields()})
-        if word is None or found is None:
+        if word is None:
             return None
+        table, found = self._fields(table, place, {"kind": Text(), **kinds[word].fields()})
         given = {key: value for key, value in found.items() if key != "kind" and value is not None}
         return table, kinds[word], given
 
+    def _with_kind(self, table: MappingNode, place: Place) -> MappingNode:
+        """The table; without a ``kind``, with a key that is nearly it in its place, which is a finding."""
+        near = [each for each in table.entries if nearest(each.key.text[:100], ["kind"])][:1]
+        if not near or table.get("kind") is not None:
+            return table
+        only, _ = self.unknown_keys(replace(table, entries=near), place, ["kind"])
+        return replace(table, entries=[*only.entries, *(each for each in table.entries if each not in near)])
+
     def table(self, node: Node, place: Place, fields: Mapping[str, Field]) -> dict[str, Any] | None:
-        """The values of a mapping by its fields; unknown and missing keys are findings."""
+        """The values of a mapping by its fields; unknown and missing keys are findings, a value under a key that is
+        nearly known is read as the one of that."""
         mapping = self.mapping(node, place)
-        if mapping is None:
-            return None
+        return None if mapping is None else self._fields(mapping, place, fields)[1]
+
+    def _fields(
+        self, mapping: MappingNode, place: Place, fields: Mapping[str, Field]
+    ) -> tuple[MappingNode, dict[str, Any]]:
+        """The mapping with keys that are nearly known in the place of those, and its values."""
         keys = {each.key or name: name for name, each in fields.items()}
-        split = self.unknown_keys(mapping, place, list(keys))
+        mapping, split = self.unknown_keys(mapping, place, list(keys))
         found: dict[str, Any] = {}
         for key, name in keys.items():
             value = mapping.get(key)
@@ -208,16 +223,18 @@ class PlainReader:
             elif value is not None:
                 reader = cast("Reader", self)
                 found[name] = None if key in split else each.read(reader, value, place.child(key), found)
-        return found
+        return mapping, found
 
-    def unknown_keys(self, mapping: MappingNode, place: Place, known: list[str]) -> set[str]:
+    def unknown_keys(
+        self, mapping: MappingNode, place: Place, known: list[str]
+    ) -> tuple[MappingNode, set[str]]:
         """A finding for each key that is not known, with the nearest that is.
 
-        Gives the keys whose value a decimal comma has split (``{length: 60,5 mm}`` has the key ``5 mm``), and those
-        that are one word with their value (``length:60 mm``).
+        Gives the mapping with those nearest ones in their place, and the keys whose value a decimal comma has split
+        (``{length: 60,5 mm}`` has the key ``5 mm``), and those that are one word with their value (``length:60 mm``).
         """
         present = {entry.key.text for entry in mapping.entries}
-        split: set[str] = set()
+        split, meant = set[str](), dict[int, Entry]()
         for index, entry in enumerate(mapping.entries):
             key = entry.key.text
             if key in known:
@@ -232,7 +249,13 @@ class PlainReader:
             offer = nearest(key[:100], [each for each in known if each not in present] or known)
             remedy = Sentence(f"names.{'near' if offer else 'all'}_known", offer=offer, names=tuple(known))
             self.finding(entry.key, place.child(key), "unknown_key", "unknown-key", remedy, key_=key[:100])
-        return split
+            if offer and offer not in present and offer == nearest(key[:100], known):
+                meant[index] = Entry(replace(entry.key, text=offer), entry.value)
+                present.add(offer)
+        if meant:
+            entries = [meant.get(index, entry) for index, entry in enumerate(mapping.entries)]
+            mapping = replace(mapping, entries=entries)
+        return mapping, split
 
     def _joined(self, entry: Entry, place: Place, known: list[str]) -> str | None:
         """The known key whose value stands behind it without a space after the colon, or behind another sign."""

@@ -130,7 +130,7 @@ def _read_law(
     laws: Mapping[str, Mapping[str, Field]],
     rotary: bool,
 ) -> Law | None:
-    chosen = [key for key in laws if node.get(key) is not None]
+    chosen = [key for key in laws if key in given]
     if len(chosen) != 1:
         speed = "170 rpm" if rotary else "0.1 m/s"
         message = Sentence("model.both_laws", laws=together(chosen)) if chosen else Sentence("model.no_law")

@@ -72,7 +72,7 @@ def read_model(root: Node, source: str, *, si: bool = False) -> tuple[Mechanism 
 
 def _sections(reader: Reader, root: MappingNode, source: str) -> Mechanism:
     top = Place("", "")
-    reader.unknown_keys(root, top, list(SECTIONS))
+    root, _ = reader.unknown_keys(root, top, list(SECTIONS))
     _scan(reader, root)
     parameters = read_parameters(reader, root.get("parameters"))
     header = reader.table(_only(root, HEADER), top, HEADER) or {}

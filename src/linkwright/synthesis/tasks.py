@@ -143,7 +143,7 @@ def check_text(text: str, name: str) -> tuple[list[Finding], str] | None:
     if root.get("links") is not None or root.get("frame") is not None:
         return None
     reader = Reader(name)
-    reader.unknown_keys(root, Place("", ""), list(TASK_KEYS))
+    root, _ = reader.unknown_keys(root, Place("", ""), list(TASK_KEYS))
     section = root.get("synthesis")
     if not isinstance(section, MappingNode):
         reader.mapping(section, "synthesis")

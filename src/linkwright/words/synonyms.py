@@ -59,6 +59,15 @@ polynomial_345 五次多项式
 gear wheel pinion 齿轮
 mesh internal external engagement 啮合 内啮合
 jaw plate 颚板 动颚
+kind type sort 类型 种类
+name title 名称 题目
+magnitude amount 大小
+parameters constants 参数
+teeth 齿数
+module 模数
+assembly 装配 装配模式
+drawing 装配图
+cycle 循环 工作循环
 toggle knee 肘板 肘杆
 """
 

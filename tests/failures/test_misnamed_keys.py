@@ -1,0 +1,64 @@
+"""Keys under other names: one finding each, and the findings of what stands under them."""
+
+from __future__ import annotations
+
+import pytest
+
+import linkwright as lw
+
+MODEL = """
+format: 1
+frame: {points: {A: [0 m, 0 m], D: [1 m, 0 m]}}
+links:
+  crank: {points: [A, B], length: 0.3 m}
+  coupler: {points: [B, C], length: 0.9 m, mass: 1 kg, inertia: 0.1 kg·m²}
+  rocker: {points: [D, C], length: 0.7 m}
+driver: {turn: crank, about: A, speed: 60 rpm}
+assembly: {C: left}
+loads: {push: {kind: force, on: rocker, at: C, magnitude: 3 kN, direction: 180 deg}}
+"""
+
+
+@pytest.mark.parametrize(
+    ("key", "wrong"),
+    [
+        ("frame", "ground"),
+        ("links", "link"),
+        ("points", "point"),
+        ("length", "lenght"),
+        ("driver", "drive"),
+        ("speed", "speeds"),
+        ("about", "abuot"),
+        ("loads", "forces"),
+        ("kind", "type"),
+        ("magnitude", "magnitud"),
+        ("frame", "机架"),
+        ("links", "构件"),
+        ("length", "长度"),
+        ("driver", "原动件"),
+        ("speed", "转速"),
+        ("loads", "载荷"),
+        ("kind", "类型"),
+        ("magnitude", "大小"),
+    ],
+)
+def test_a_key_that_is_nearly_known_is_one_finding(key: str, wrong: str) -> None:
+    with pytest.raises(lw.ModelError) as refused:
+        lw.loads(MODEL.replace(f"{key}:", f"{wrong}:", 1))
+    (finding,) = refused.value.findings
+    assert finding.code == "unknown-key"
+    assert f'"{wrong}"' in finding.message and f'did you mean "{key}"?' in finding.remedy
+
+
+def test_what_stands_under_misnamed_keys_is_checked_with_the_rest() -> None:
+    text = MODEL.replace("links:", "构件:").replace("length: 0.9 m", "长度: 0.9")
+    with pytest.raises(lw.ModelError) as refused:
+        lw.loads(text)
+    assert [each.code for each in refused.value.findings] == ["unknown-key", "unknown-key", "missing-unit"]
+
+
+def test_a_key_that_is_there_is_not_taken_from_another() -> None:
+    text = MODEL.replace("length: 0.3 m", "length: 0.3 m, lenght: 5 kg")
+    with pytest.raises(lw.ModelError) as refused:
+        lw.loads(text)
+    assert [each.code for each in refused.value.findings] == ["unknown-key"]
