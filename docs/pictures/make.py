@@ -27,9 +27,9 @@ STILL: dict[str, tuple[str, dict[str, Any]]] = {
 MOVING: dict[str, tuple[str, dict[str, Any]]] = {
     "jaw_crusher_moving": (
         "jaw_crusher_sixbar",
-        {"traces": ("C",), "forces": True, "curves": ("jaw.angle",)},
+        {"paths": ("C",), "forces": True, "curves": ("jaw.angle",)},
     ),
-    "theo_jansen_leg_moving": ("theo_jansen_leg", {"traces": ("leg.T",), "frames": 36}),
+    "theo_jansen_leg_moving": ("theo_jansen_leg", {"paths": ("leg.T",), "frames": 36}),
 }
 
 

@@ -69,7 +69,7 @@ def test_loads_and_joint_forces_keep_their_colours_in_a_gif(crusher: lw.Motion, 
 
 def test_traces_vectors_and_cursor(crusher: lw.Motion) -> None:
     forces = lw.solve_forces(crusher)
-    animation = animate(crusher, traces=("B",), forces=forces, curves=("jaw.angle",), frames=12, seconds=3)
+    animation = animate(crusher, paths=("B",), forces=forces, curves=("jaw.angle",), frames=12, seconds=3)
     root = ET.fromstring(animation.svg)
     durations = {e.get("dur") for e in root.iter() if e.get("dur")}
     assert durations == {"3s"}
@@ -84,7 +84,7 @@ def test_traces_vectors_and_cursor(crusher: lw.Motion) -> None:
     [
         ({"frames": 1}, "1 frames"),
         ({"seconds": 0.0}, "0.0 s"),
-        ({"traces": ("Q",)}, "Q"),
+        ({"paths": ("Q",)}, "Q"),
         ({"curves": ("jaw.angel",)}, "jaw.angle"),
     ],
 )

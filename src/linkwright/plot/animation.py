@@ -47,7 +47,7 @@ WIDTHS = (16, 3840)
 def animate(
     source: Motion | Mechanism,
     *,
-    traces: Sequence[str] = (),
+    paths: Sequence[str] = (),
     velocities: Names = (),
     accelerations: Names = (),
     forces: Forces | bool | None = None,
@@ -64,7 +64,7 @@ def animate(
 
     Args:
         source: a motion, or a mechanism whose cycle is solved first.
-        traces: points whose paths are shown, with a dot that runs along.
+        paths: points whose paths are shown, with a dot that runs along.
         velocities, accelerations, forces, reactions_of, centres, size, language: as for ``draw``.
         curves: results drawn below with a cursor that runs with the drawing (``"jaw.angle"``, a column of
             ``motion.columns()`` or of the forces').
@@ -94,7 +94,7 @@ def animate(
         run=tuple(run),
         keys=tuple(key_indices(scene.machine, frames)),
         seconds=seconds or usual_seconds(motion),
-        traces=tuple(traces),
+        paths=tuple(paths),
         arrows=tuple((each, scale_of(each.vectors, run)) for each in arrows),
         curves=tuple(curves),
         forces=known,
@@ -123,7 +123,7 @@ class Animation:
     run: tuple[int, ...]
     keys: tuple[int, ...]
     seconds: float
-    traces: tuple[str, ...]
+    paths: tuple[str, ...]
     arrows: tuple[tuple[Arrows, float], ...]
     curves: tuple[str, ...]
     forces: Forces | None
@@ -135,10 +135,10 @@ class Animation:
     def svg(self) -> str:
         """SVG text that moves by itself in browsers, notebooks and readme files."""
         scene, run, seconds = self.scene, self.keys, self.seconds
-        content = scene.traces(self.traces)
+        content = scene.traces(self.paths)
         content += moving_springs(scene, run, seconds)
         content += moving_links(scene, run, seconds)
-        for name in self.traces:
+        for name in self.paths:
             content.append(shifted(self._track(name), seconds, [circle((0, 0), 3.2, "lw-dot")]))
         for arrows, scale in self.arrows:
             for vectors in arrows.vectors:
@@ -157,10 +157,10 @@ class Animation:
     def frame(self, index: int) -> str:
         """SVG text of the still picture at one position of the motion."""
         scene = self.scene
-        content = scene.traces(self.traces)
+        content = scene.traces(self.paths)
         content += load_marks(scene.machine, index, forces=False).elements
         content += scene.at(index)
-        for name in self.traces:
+        for name in self.paths:
             x, y = scene.trace(name)[index]
             content.append(circle((float(x), float(y)), 3.2, "lw-dot"))
         for arrows, scale in self.arrows:

@@ -64,7 +64,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     refuse_unknown(lambda name: named(results, name), "--curves", names(options.curves))
     animation = animate(
         motion,
-        traces=names(options.paths),
+        paths=names(options.paths),
         velocities=names_or_all(options.velocities),
         accelerations=names_or_all(options.accelerations),
         forces=forces,
