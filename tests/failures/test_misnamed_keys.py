@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 import linkwright as lw
+from linkwright.files.document import read_document
 
 MODEL = """
 format: 1
@@ -27,6 +28,7 @@ loads: {push: {kind: force, on: rocker, at: C, magnitude: 3 kN, direction: 180 d
         ("points", "point"),
         ("length", "lenght"),
         ("driver", "drive"),
+        ("turn", "tuurn"),
         ("speed", "speeds"),
         ("about", "abuot"),
         ("loads", "forces"),
@@ -48,6 +50,18 @@ def test_a_key_that_is_nearly_known_is_one_finding(key: str, wrong: str) -> None
     (finding,) = refused.value.findings
     assert finding.code == "unknown-key"
     assert f'"{wrong}"' in finding.message and f'did you mean "{key}"?' in finding.remedy
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong"),
+    [("head: {points", "head: {poits"), ("floor: {kind", "floor: {kin"), ("{slide:", "{slides:")],
+)
+def test_names_that_others_refer_to_are_known_under_misnamed_keys(right: str, wrong: str) -> None:
+    text = read_document("gallery:double_slider").text
+    assert right in text
+    with pytest.raises(lw.ModelError) as refused:
+        lw.loads(text.replace(right, wrong, 1))
+    assert [each.code for each in refused.value.findings] == ["unknown-key"]
 
 
 def test_what_stands_under_misnamed_keys_is_checked_with_the_rest() -> None:

@@ -43,6 +43,20 @@ class TooManyFindings(Exception):
     """There is more to say about a file than anybody reads."""
 
 
+def as_meant(mapping: MappingNode, known: Collection[str]) -> MappingNode:
+    """The mapping with known keys in the place of such as are nearly these, where these are not there themselves."""
+    present = {entry.key.text for entry in mapping.entries}
+    if present.issubset(known) or present.issuperset(known):
+        return mapping
+    entries = list(mapping.entries)
+    for index, entry in enumerate(entries):
+        near = None if entry.key.text in known else nearest(entry.key.text[:100], list(known))
+        if near is not None and near not in present:
+            present.add(near)
+            entries[index] = Entry(replace(entry.key, text=near), entry.value)
+    return replace(mapping, entries=entries)
+
+
 @dataclass(frozen=True)
 class Place:
     """Where a value stands: ``key`` in the file, ``address`` among the mechanism's dimensions."""
@@ -195,11 +209,10 @@ class PlainReader:
 
     def _with_kind(self, table: MappingNode, place: Place) -> MappingNode:
         """The table; without a ``kind``, with a key that is nearly it in its place, which is a finding."""
-        near = [each for each in table.entries if nearest(each.key.text[:100], ["kind"])][:1]
-        if not near or table.get("kind") is not None:
-            return table
-        only, _ = self.unknown_keys(replace(table, entries=near), place, ["kind"])
-        return replace(table, entries=[*only.entries, *(each for each in table.entries if each not in near)])
+        meant = as_meant(table, ["kind"])
+        changed = [was for was, now in zip(table.entries, meant.entries, strict=True) if was is not now]
+        self.unknown_keys(replace(table, entries=changed), place, ["kind"])
+        return meant
 
     def table(self, node: Node, place: Place, fields: Mapping[str, Field]) -> dict[str, Any] | None:
         """The values of a mapping by its fields; unknown and missing keys are findings, a value under a key that is
@@ -234,7 +247,7 @@ class PlainReader:
         (``{length: 60,5 mm}`` has the key ``5 mm``), and those that are one word with their value (``length:60 mm``).
         """
         present = {entry.key.text for entry in mapping.entries}
-        split, meant = set[str](), dict[int, Entry]()
+        split: set[str] = set()
         for index, entry in enumerate(mapping.entries):
             key = entry.key.text
             if key in known:
@@ -249,13 +262,7 @@ class PlainReader:
             offer = nearest(key[:100], [each for each in known if each not in present] or known)
             remedy = Sentence(f"names.{'near' if offer else 'all'}_known", offer=offer, names=tuple(known))
             self.finding(entry.key, place.child(key), "unknown_key", "unknown-key", remedy, key_=key[:100])
-            if offer and offer not in present and offer == nearest(key[:100], known):
-                meant[index] = Entry(replace(entry.key, text=offer), entry.value)
-                present.add(offer)
-        if meant:
-            entries = [meant.get(index, entry) for index, entry in enumerate(mapping.entries)]
-            mapping = replace(mapping, entries=entries)
-        return mapping, split
+        return as_meant(mapping, known), split
 
     def _joined(self, entry: Entry, place: Place, known: list[str]) -> str | None:
         """The known key whose value stands behind it without a space after the colon, or behind another sign."""

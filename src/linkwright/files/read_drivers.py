@@ -9,9 +9,9 @@ from typing import Any
 from linkwright.drivers.base import LAWS, Driver, Law
 from linkwright.fields.base import Field
 from linkwright.fields.nodes import Mapping as MappingNode
-from linkwright.fields.nodes import Node, Scalar, below
+from linkwright.fields.nodes import Node, Scalar
 from linkwright.fields.references import LinkName
-from linkwright.files.plain_reader import Place
+from linkwright.files.plain_reader import Place, as_meant
 from linkwright.files.reader import Reader
 from linkwright.joints.base import Joint, JointName
 from linkwright.mechanism.mechanism import Cycle
@@ -33,7 +33,9 @@ def scan_input(reader: Reader, root: MappingNode) -> None:
     several = root.get("drivers")
     if node is None and isinstance(several, MappingNode) and several.entries:
         node = several.entries[0].value
-    reader.input_rotary = below(node, "slide") is None
+    reader.input_rotary = (
+        not isinstance(node, MappingNode) or as_meant(node, _every_key()).get("slide") is None
+    )
 
 
 def read_drivers(reader: Reader, root: MappingNode, joints: Mapping[str, Joint]) -> dict[str, Driver]:
@@ -80,7 +82,8 @@ def _read_driver(
     if mapping is None:
         return None
     before = reader.error_count
-    turns, slides = mapping.get("turn") is not None, mapping.get("slide") is not None
+    meant = as_meant(mapping, _every_key())
+    turns, slides = (meant.get(key) is not None for key in ("turn", "slide"))
     if turns and slides:
         reader.finding(node, place, "turn_and_slide", "choice")
         return None
@@ -89,7 +92,7 @@ def _read_driver(
     laws = _law_fields(rotary, tuple(LAWS.items()))
     every = {**way, **{key: each for law in laws.values() for key, each in law.items()}}
     if not turns and not slides:
-        reader.unknown_keys(mapping, place, [*every, *SLIDE_FIELDS])
+        reader.unknown_keys(mapping, place, _every_key())
         reader.finding(node, place, "nothing_driven", "missing-key", _meant(reader, mapping))
         return None
     given = reader.table(mapping, place, every) or {}
@@ -120,6 +123,12 @@ def _meant(reader: Reader, mapping: MappingNode) -> str:
 def _law_fields(rotary: bool, laws: tuple[tuple[str, type[Law]], ...]) -> Mapping[str, Mapping[str, Field]]:
     """What files may say about every law of turning or sliding drivers."""
     return {key: law.fields(rotary) for key, law in laws}
+
+
+def _every_key() -> list[str]:
+    """What may stand in the table of a driver."""
+    laws = _law_fields(True, tuple(LAWS.items()))
+    return [*TURN_FIELDS, *SLIDE_FIELDS, *(key for law in laws.values() for key in law)]
 
 
 def _read_law(

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar, Sequence
-from linkwright.files.plain_reader import Place
+from linkwright.files.plain_reader import Place, as_meant
 from linkwright.files.reader import Names, Reader
 from linkwright.joints.base import IMPLIED, JOINTS, Entry, Joint, implied_joint
 from linkwright.mechanism.mechanism import Link
@@ -15,7 +15,7 @@ from linkwright.mechanism.mechanism import Link
 def scan_joints(reader: Reader, node: Node | None) -> None:
     """Fill the reader's names with the implied pins and the explicit joints."""
     declared = (
-        [(key, value) for key, value in node if isinstance(value, MappingNode)]
+        [(key, as_meant(value, ["kind"])) for key, value in node if isinstance(value, MappingNode)]
         if isinstance(node, MappingNode)
         else []
     )

@@ -9,7 +9,7 @@ from typing import Any
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar, Sequence, below
 from linkwright.fields.references import Coordinates
-from linkwright.files.plain_reader import NAME, Place
+from linkwright.files.plain_reader import NAME, Place, as_meant
 from linkwright.files.reader import Reader
 from linkwright.mechanism.geometry import from_drawing
 from linkwright.mechanism.mechanism import FRAME_FIELDS, LINK_FIELDS, Geometry, Link, Vec
@@ -21,7 +21,7 @@ MOST_LINKS = 1000
 
 def legible(node: Node | None) -> bool:
     """Whether all points that a link's node may have can be read from it."""
-    points = below(node, "points")
+    points = as_meant(node, LINK_FIELDS).get("points") if isinstance(node, MappingNode) else None
     if isinstance(points, Sequence):
         return all(isinstance(item, Scalar) and NAME.fullmatch(item.text) for item in points.items)
     return isinstance(points, MappingNode)
@@ -31,7 +31,7 @@ def scan_points(node: Node | None) -> tuple[str, ...]:
     """The points that a link's node names, whatever else is wrong with it."""
     if not isinstance(node, MappingNode):
         return ()
-    found: list[str] = []
+    node, found = as_meant(node, LINK_FIELDS), list[str]()
     for key in ("points", "also"):
         part = node.get(key)
         if isinstance(part, MappingNode):
