@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 import linkwright as lw
-from linkwright.files.document import read_document
+from linkwright.files.model_file import read_document
 
 MODEL = """
 format: 1
