@@ -5,7 +5,9 @@ from __future__ import annotations
 import pytest
 
 import linkwright as lw
+from linkwright import gallery
 from linkwright.files.model_file import read_document
+from linkwright.parts.file import loads
 
 MODEL = """
 format: 1
@@ -62,6 +64,24 @@ def test_names_that_others_refer_to_are_known_under_misnamed_keys(right: str, wr
     with pytest.raises(lw.ModelError) as refused:
         lw.loads(text.replace(right, wrong, 1))
     assert [each.code for each in refused.value.findings] == ["unknown-key"]
+
+
+@pytest.mark.parametrize(
+    ("name", "right", "wrong"),
+    [
+        ("lightest_spring", "parameters:", "parameterss:"),
+        ("lightest_spring", "D: {from:", "D: {frm:"),
+        ("lightest_spring", "n: {from:", "n: {from: 1 apple, start:"),
+        ("shaft_diameters", "values:", "valuess:"),
+    ],
+)
+def test_calculations_too(name: str, right: str, wrong: str) -> None:
+    """What follows from a variable that is wrong itself is not told beside it."""
+    text = gallery.file(name).read_text(encoding="utf-8")
+    assert right in text
+    with pytest.raises(lw.ModelError) as refused:
+        loads(text.replace(right, wrong, 1))
+    assert len(refused.value.findings) == 1
 
 
 def test_what_stands_under_misnamed_keys_is_checked_with_the_rest() -> None:

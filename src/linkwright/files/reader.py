@@ -140,13 +140,18 @@ class Reader(PlainReader):
     def quantity_error(self, error: QuantityError, node: Node, place: Place, text: str) -> None:
         """Note the finding for a QuantityError, unless it only follows from a parameter that is wrong
         itself."""
-        if not self.broken.isdisjoint(re.findall(r"\w+", text)):
-            self.unread += 1
+        if self.follows(text):
             return
         offset = 0
         if isinstance(node, Scalar) and "\n" not in node.text:
             offset = error.column + (0 if node.plain else 1)
         self.error(node, place, error.message, error.remedy, error.code, column=offset)
+
+    def follows(self, text: str) -> bool:
+        """Whether a text has a name that is wrong itself, so that what is wrong with the text may only follow."""
+        found = not self.broken.isdisjoint(re.findall(r"\w+", text))
+        self.unread += found
+        return found
 
     def formula(
         self, node: Node, place: Place, dimension: str, variables: MutableMapping[str, units.Dimension]

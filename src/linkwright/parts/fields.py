@@ -182,7 +182,7 @@ class Sample(Field):
     def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Numbers | None:
         unit, factor, kind = "", 1.0, None
         if isinstance(node, MappingNode):
-            reader.unknown_keys(node, place, ["unit", "values"])
+            node, _ = reader.unknown_keys(node, place, ["unit", "values"])
             named, node_values = node.get("unit"), node.get("values")
             if isinstance(named, Scalar):
                 unit = named.text

@@ -15,7 +15,7 @@ from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node
 from linkwright.fields.nodes import Sequence as SequenceNode
 from linkwright.files.model_file import declared_kind, read_root
-from linkwright.files.plain_reader import Place
+from linkwright.files.plain_reader import Place, as_meant
 from linkwright.files.read_model import FORMAT, TASK_KEYS, read_parameters
 from linkwright.files.reader import Reader
 from linkwright.files.schema import json_schema
@@ -163,8 +163,11 @@ def _read(text: str, name: str, folder: Path) -> tuple[Problem | None, list[Find
     if mapping is None or kind is None:
         return None, reader.findings
     owner = problem_class(kind)
-    read_parameters(reader, mapping.get("parameters"))
-    values = reader.table(mapping, Place("", ""), {**HEADING, **owner.fields})
+    fields = {**HEADING, **owner.fields}
+    read_parameters(
+        reader, as_meant(mapping, [each.key or name for name, each in fields.items()]).get("parameters")
+    )
+    values = reader.table(mapping, Place("", ""), fields)
     if values is None or reader.error_count:
         return None, reader.findings
     return _built(owner, values, mapping, reader, folder)

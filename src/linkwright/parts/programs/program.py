@@ -67,7 +67,7 @@ class Objective(Field):
         if text is None or variables is None:
             return None
         try:
-            return formula(text, _kinds(reader.kinds, variables), reader.values)
+            return formula(text, _kinds(reader, variables), reader.values)
         except QuantityError as error:
             reader.quantity_error(error, node, place, text)
             return None
@@ -87,18 +87,21 @@ class Conditions(Field):
             child = place.child(entry.key.text)
             text = entry.value.text if isinstance(entry.value, Scalar) else reader.text(entry.value, child)
             try:
-                kinds = _kinds(reader.kinds, variables or {})
+                kinds = _kinds(reader, variables or {})
                 found += constraint(entry.key.text, text or "", kinds, reader.values)
             except QuantityError as error:
-                reader.error(entry.value, child, error.message, error.remedy, error.code)
+                if not reader.follows(text or ""):
+                    reader.error(entry.value, child, error.message, error.remedy, error.code)
         return tuple(found)
 
     def shape(self) -> dict[str, Any]:
         return {"type": "object", "additionalProperties": {"type": "string"}}
 
 
-def _kinds(known: Mapping[str, Any], variables: Mapping[str, Variable | None]) -> dict[str, units.Dimension]:
-    return {**known, **{name: v.dimension for name, v in variables.items() if v is not None}}
+def _kinds(reader: Reader, variables: Mapping[str, Variable | None]) -> dict[str, units.Dimension]:
+    """Dimensions of parameters and variables; variables that are wrong themselves are noted as such."""
+    reader.broken.update(name for name, each in variables.items() if each is None)
+    return {**reader.kinds, **{name: each.dimension for name, each in variables.items() if each is not None}}
 
 
 @dataclass(frozen=True)
