@@ -209,6 +209,8 @@ class PlainReader:
 
     def _with_kind(self, table: MappingNode, place: Place) -> MappingNode:
         """The table; without a ``kind``, with a key that is nearly it in its place, which is a finding."""
+        if table.get("kind") is not None:
+            return table
         meant = as_meant(table, ["kind"])
         changed = [was for was, now in zip(table.entries, meant.entries, strict=True) if was is not now]
         self.unknown_keys(replace(table, entries=changed), place, ["kind"])

@@ -83,7 +83,7 @@ def explain_free(mechanism: Mechanism, free: Sequence[str], lacking: int, mobili
 
 
 def _idle(mechanism: Mechanism, links: Sequence[str]) -> bool:
-    """Whether each of these links hangs on another by one pin alone, as a roller does that is a link of its own."""
+    """Whether each of these links hangs on another by one joint alone, as a roller does that is a link of its own."""
     joints = [[each for each in mechanism.joints.values() if name in each.joined] for name in links]
     return all(len(own) == 1 and own[0].freedoms == 1 and FRAME not in own[0].joined for own in joints)
 
