@@ -35,7 +35,7 @@ ZERO_DRAWN = 1e-6
 #: A drawing whose joints gape by less than this share of the size closes.
 CLOSED = 1e-9
 #: Of at most so many links positions are sought from places at random: from so many of these, until so many close.
-MOST_STREWN, STREWN, ENOUGH = 30, 24, 4
+MOST_STREWN, STREWN, ENOUGH = 30, 16, 4
 
 
 @dataclass(frozen=True)
