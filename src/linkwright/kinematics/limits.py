@@ -252,7 +252,7 @@ class _Search:
         """Whether no rate counts as zero, whatever the fastest point of the mechanism."""
         size, motion = self.motion.mechanism.size, self.motion
         values = motion.rows.values[: len(motion.solver.outputs.standard) - 1]
-        fastest = math.sqrt(np.vdot(values, values)) * max(size, 1.0 / size)
+        fastest = math.sqrt(np.einsum("ij,ij->", values, values)) * max(size, 1.0 / size)
         sizes = np.abs(rate)
         least, largest = sizes.item(sizes.argmin()), sizes.item(sizes.argmax())  # NaN where one is
         return bool(largest > CONSTANT * fastest and least > STILL * max(largest, 1e-3 * fastest))
