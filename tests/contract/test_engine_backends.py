@@ -9,9 +9,9 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from tests.objectives import Term, gradient_of, table_of
 
 from linkwright.engine import ir_kernel, machine_code
-from linkwright.engine.derivative import value_and_gradient
 from linkwright.engine.llvm_backend import available, compile_program
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
@@ -285,10 +285,10 @@ def test_reductions_of_random_programs_agree_with_numpy(n: int) -> None:
 def test_gradients_of_random_programs_equal_differences(seed: int, backend: str) -> None:
     program, formulas = random_program(seed)
     p, x, f = case(seed, 9, designs=2)
-    gradient = value_and_gradient(program, [("v0", "sum"), ("v3", "mean")], list(PARAMETERS), valid=None)
+    gradient = gradient_of(program, [Term("v0"), Term("v3", "mean")], list(PARAMETERS), valid=None)
     positions = dict(zip(POSITIONS, x, strict=True))
     parameters = dict(zip(PARAMETERS, p.T, strict=True))
-    values, slopes = gradient(parameters, positions, {"f": f}, backend=backend)  # type: ignore[arg-type]
+    values, slopes = gradient.evaluate(table_of(gradient, parameters), positions, {"f": f}, backend=backend)  # type: ignore[arg-type]
 
     def objective(d: int, row: Floats) -> float:
         rows = direct(formulas, row, x, f[d])

@@ -31,7 +31,6 @@ def sweep(
     after: Program | None = None,
     threads: int | None = None,
     backend: Backend = "auto",
-    progress: Progress | None = None,
 ) -> Results:
     """Reductions of a program's outputs over the positions, for every design.
 
@@ -56,9 +55,7 @@ def sweep(
     steps = None if positions or fields else length
     key = (wanted, valid, id(after), steps, start is not None)
     cycle = _cycles.get(program, key, lambda: _cycle(program, wanted, valid, after, steps, start is not None))
-    return cycle.evaluate(
-        table, positions, fields, tables=tables, threads=threads, backend=backend, progress=progress
-    )
+    return cycle.evaluate(table, positions, fields, tables=tables, threads=threads, backend=backend)
 
 
 def _cycle(
