@@ -198,7 +198,8 @@ def test_compiled_code_agrees_with_direct_evaluation_for_every_length(n: int) ->
     for d in range(3):
         want = direct(formulas, p[d], x, f[d])
         agree(stored[d], want)
-        np.testing.assert_array_equal(compiled.run(table[d], positions, {"f": f[d]}), stored[d])
+        alone = compiled.store(table[d : d + 1], positions, {"f": f[d : d + 1]})
+        np.testing.assert_array_equal(alone[0], stored[d])
 
 
 @pytest.mark.usefixtures("vectors")
@@ -214,11 +215,11 @@ def test_states_are_carried_alike(seed: int, designs: int) -> None:
     want = np.array([direct(formulas, p[d], x, f[d], list(begin[d])) for d in range(designs)])
     evaluator = NumpyProgram(program)
     agree(evaluator.run_designs(table, positions, {"f": f}, start=start), want)
-    agree(evaluator.run(table[0], positions, {"f": f[0]}, start=start[0]), want[0])
+    agree(evaluator.run_designs(table[:1], positions, {"f": f[:1]}, start=start[0]), want[:1])
     compiled = compile_program(program)
     if compiled is not None:
         agree(compiled.store(table, positions, {"f": f}, start=start), want)
-        agree(compiled.run(table[0], positions, {"f": f[0]}, start=start[0]), want[0])
+        agree(compiled.store(table[:1], positions, {"f": f[:1]}, start=start[:1]), want[:1])
 
 
 @needs_compiler
@@ -230,7 +231,7 @@ def test_not_a_number_stays_where_it_arises() -> None:
     outputs = {"root": root, "quotient": a / x, "kept": select(x < 0.0, a, root), "beyond": root < 1.0}
     compiled = compile_program(Program.of(t, outputs))
     assert compiled is not None
-    got = compiled.run([2.0], {"x": np.array([-4.0, 0.0, 0.25, math.inf, math.nan])})
+    got = compiled.store([[2.0]], {"x": np.array([-4.0, 0.0, 0.25, math.inf, math.nan])})[0]
     want = [
         [math.nan, 0.0, 0.5, math.inf, math.nan],
         [-0.5, math.inf, 8.0, 0.0, math.nan],
@@ -342,7 +343,8 @@ def test_truths_count_as_one_and_numbers_but_zero_as_true(carried: bool) -> None
         np.testing.assert_array_equal(found, [each[place] for each in want[0]])
     for parameters, found in zip(table, want, strict=True):
         own = None if start is None else start[0]
-        np.testing.assert_array_equal(evaluator.run(parameters, positions, start=own), found)
+        (alone,) = evaluator.run_designs(parameters[None, :], positions, start=own)
+        np.testing.assert_array_equal(alone, found)
     compiled = compile_program(program) if available() else None
     if compiled is not None:
         np.testing.assert_array_equal(compiled.store(table, positions, start=starts), want)

@@ -202,7 +202,11 @@ def test_states_are_constants_and_gradients_take_them_as_fields() -> None:
     program = Program.of(t, {"y": following * a}, {"s": following})
     derived = forward(program, ["a"])
     got = dict(
-        zip(derived.output_names, NumpyProgram(derived).run([0.5], {"x": X}, start=[1.0]), strict=True)
+        zip(
+            derived.output_names,
+            NumpyProgram(derived).run_designs([[0.5]], {"x": X}, start=[1.0])[0],
+            strict=True,
+        )
     )
     value, states = 1.0, []
     for x_value in X:

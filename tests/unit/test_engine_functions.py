@@ -60,7 +60,8 @@ def evaluate(program: Program, backend: str, p: list[float], x: dict[str, Floats
     if backend == "llvm":
         compiled = compile_program(program)
         assert compiled is not None
-        return compiled.run(p, x, **more)
+        stored: Floats = compiled.store([p], x, **more)[0]
+        return stored
     scalar = ScalarProgram(program, more.get("tables"))
     rows = zip(*(x[name] for name in program.positions), strict=True)
     return np.array([scalar.step(p, [float(v) for v in row])[0] for row in rows]).T

@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 from array import array
 from collections.abc import Callable, Iterable, Mapping
-from functools import cached_property
+from functools import cached_property, partial
 from math import inf
 from typing import Literal
 
@@ -16,9 +16,10 @@ from linkwright.core.outputs import row_name
 from linkwright.cycle_programs.limit_stages import CONVERGED, agree, constants, limit_stages, near_limits
 from linkwright.cycle_programs.loaded_cycle import along_input, with_loads
 from linkwright.cycle_programs.traced import Traced
+from linkwright.engine.call_block import address_of
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.llvm_backend import CompiledProgram, compile_program
-from linkwright.engine.machine_code import available
+from linkwright.engine.machine_code import OF_ONE_ADDRESS, available
 from linkwright.engine.numpy_backend import numpy_program
 from linkwright.engine.program import Program
 from linkwright.engine.trace import Mask, Scalar, absolute, select
@@ -293,7 +294,9 @@ class _Newton:
         names = program.output_names
         self._rows = array("d", bytes(8 * LANES * len(names)))
         out = np.frombuffer(self._rows).reshape(-1, LANES)
-        self._run = compiled.bound(np.frombuffer(self._numbers), starts, out)
+        entry, block, _ = compiled.one_by_one(np.frombuffer(self._numbers), starts, out)
+        self._run = partial(OF_ONE_ADDRESS(entry), address_of(block))
+        self._read = compiled, starts, block
         lanes = [
             (lane, f"{name}:{kind}")
             for row, name in enumerate(names)
