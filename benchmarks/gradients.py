@@ -8,13 +8,12 @@ import numpy as np
 
 from benchmarks.cases import Floats, Work, fourbar_designs, sixbar_designs
 from benchmarks.timing import Candidate
-from linkwright.engine.cycle import CycleProgram
+from linkwright.engine.cycle import CycleProgram, summaries
 from linkwright.engine.cycle_gradient import CycleGradient, cycle_gradient
 from linkwright.engine.llvm_backend import available
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import Reduction
 from linkwright.engine.stage import Stage
-from linkwright.engine.sweep import sweep
 from linkwright.engine.vector import Vec
 
 VALUE, BOTH = "value", "value and gradient"
@@ -64,11 +63,9 @@ class GradientWork:
     def value(self) -> Floats:
         """Objective of every design, (designs,)."""
         reduction = Reduction("objective", "mean")
-        found = sweep(
-            self.program,
+        found = summaries(self.program, [reduction]).evaluate(
             self.table,
             self.arrays,
-            [reduction],
             threads=1,
             backend=self.backend,  # type: ignore[arg-type]
         )

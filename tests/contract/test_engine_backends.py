@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from tests.objectives import Term, gradient_of, table_of
+from tests.sweeps import sweep
 
 from linkwright.engine import ir_kernel, machine_code
 from linkwright.engine.llvm_backend import available, compile_program
@@ -17,7 +18,6 @@ from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import KINDS, Reduction
 from linkwright.engine.scalar_backend import ScalarProgram
-from linkwright.engine.sweep import sweep
 from linkwright.engine.trace import (
     Trace,
     absolute,

@@ -8,13 +8,13 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
+from tests.sweeps import sweep
 
 from linkwright.engine.lines import Lines
 from linkwright.engine.llvm_backend import CompiledProgram, available, compile_program
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
 from linkwright.engine.scalar_backend import ScalarProgram
-from linkwright.engine.sweep import sweep
 from linkwright.engine.threads import cores, spread_over, tapering
 from linkwright.engine.trace import Trace
 from linkwright.engine.wasm import wasm_module
@@ -135,7 +135,7 @@ def test_numbers_of_inputs_that_do_not_fit_are_refused() -> None:
         ScalarProgram(program).step([1.0], [1.0, 2.0], fields=[1.0])
     with pytest.raises(ValueError, match="the program has 1 field inputs, but 0 are given"):
         ScalarProgram(program).step([1.0], [1.0])
-    with pytest.raises(ValueError, match=r"shape \(designs, 1\), but have \(2, 2\)"):
+    with pytest.raises(ValueError, match=r"the columns a, not the shape \(2, 2\)"):
         sweep(program, np.ones((2, 2)), {"x": X}, [("y", "max")], fields={"f": np.ones((2, 40))})
     other = Trace()
     s, r = other.state("s"), other.state("r")

@@ -12,6 +12,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline, PchipInterpolator
 from tests.objectives import Term, gradient_of, table_of
+from tests.sweeps import sweep
 
 from linkwright.engine import trace as tr
 from linkwright.engine.cycle import CycleProgram
@@ -23,7 +24,6 @@ from linkwright.engine.program import Program
 from linkwright.engine.reductions import Reduction
 from linkwright.engine.scalar_backend import ScalarProgram
 from linkwright.engine.stage import Stage
-from linkwright.engine.sweep import sweep
 from linkwright.engine.table import Table
 
 Floats = NDArray[np.float64]

@@ -8,12 +8,12 @@ import mpmath
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from tests.sweeps import sweep
 
 from linkwright.engine.llvm_backend import available, compile_program
 from linkwright.engine.program import Program
-from linkwright.engine.reductions import KINDS, Kind, Reduction
+from linkwright.engine.reductions import KINDS, VALID_COUNT, Kind, Reduction
 from linkwright.engine.replay import along_input
-from linkwright.engine.sweep import VALID_COUNT, sweep
 from linkwright.engine.table import Table
 from linkwright.engine.trace import Trace, exp, maximum, select, slope, sqrt
 

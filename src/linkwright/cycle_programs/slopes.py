@@ -14,8 +14,8 @@ from linkwright.cycle_programs.traced import VALID, Traced
 from linkwright.engine.derivative import forward, reverse
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
+from linkwright.engine.stage import Backend
 from linkwright.engine.states import parameters_as_fields, states_as_fields
-from linkwright.engine.sweep import Backend
 from linkwright.errors import LinkwrightError
 from linkwright.kinetostatics.named import Quantity
 from linkwright.kinetostatics.site import middle_name

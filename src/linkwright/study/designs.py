@@ -14,8 +14,9 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.frozen import Frozen
 from linkwright.core.html import columns_html
 from linkwright.core.plotted import Plotted
+from linkwright.engine.cycle import Progress
 from linkwright.engine.machine_code import available
-from linkwright.engine.sweep import Backend, Progress
+from linkwright.engine.stage import Backend
 from linkwright.engine.threads import chunks
 from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import over_cycle

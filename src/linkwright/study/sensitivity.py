@@ -16,7 +16,7 @@ from linkwright.core.plotted import Plotted
 from linkwright.cycle_programs.known_loads import known_loads
 from linkwright.cycle_programs.slopes import Slopes
 from linkwright.cycle_programs.traced import Traced
-from linkwright.engine.sweep import Backend
+from linkwright.engine.stage import Backend
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinematics.explain import refusal

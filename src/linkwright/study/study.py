@@ -43,7 +43,8 @@ from linkwright.words.sentence import Sentence
 if TYPE_CHECKING:
     import pandas
 
-    from linkwright.engine.sweep import Backend, Progress
+    from linkwright.engine.cycle import Progress
+    from linkwright.engine.stage import Backend
     from linkwright.study.design_numbers import Numbers
 
 Sampling = Literal["grid", "sobol"]
