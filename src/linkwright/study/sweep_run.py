@@ -22,7 +22,7 @@ from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import Reduction, Results
 from linkwright.engine.stage import Backend
-from linkwright.engine.states import states_as_fields
+from linkwright.engine.states import inputs_as_fields
 from linkwright.engine.threads import chunks, cores
 from linkwright.files.write import dump
 from linkwright.kinematics.cycle import Positions
@@ -282,10 +282,5 @@ class SweepRun:
 
 def _fed(program: Program) -> Program:
     """The same program with states and signs of assembly modes as inputs per design and position."""
-    program = states_as_fields(program) if program.states else program
-    modes = {Input("mode", group).name for group in mode_groups(program.positions)}
-    nodes = tuple(
-        node._replace(op="field") if node.op == "position" and node.name in modes else node
-        for node in program.nodes
-    )
-    return Program(nodes, program.outputs, program.next_states)
+    modes = [Input("mode", group).name for group in mode_groups(program.positions)]
+    return inputs_as_fields(program, [*program.states, *modes])
