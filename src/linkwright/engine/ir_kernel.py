@@ -64,31 +64,20 @@ def kernel(
     ``library``: all functions are called from outside, lane by lane; ``exact``: every operation is rounded by itself
     (of programs without states).
     """
-    text = kernel_text(lines, width, accumulation, library=library, exact=exact)
-    return text, 0 if text.count("\n") > LARGE else 3
-
-
-def kernel_text(
-    lines: Lines,
-    width: int,
-    accumulation: Accumulation | None,
-    *,
-    library: bool = False,
-    exact: bool = False,
-) -> str:
-    """The module's text."""
     if lines.carried:
         from linkwright.engine.ir_states import StateKernel
 
-        return StateKernel(lines, width, accumulation, library).text()
-    return PositionKernel(lines, width, accumulation, library, exact).text()
+        text = StateKernel(lines, width, accumulation, library).text()
+    else:
+        text = PositionKernel(lines, width, accumulation, library, exact).text()
+    return text, 0 if text.count("\n") > LARGE else 3
 
 
 class PositionKernel:
     """Lanes are positions: full vectors first, then the last ones, overlapping the others."""
 
     def __init__(
-        self, lines: Lines, width: int, accumulation: Accumulation | None, library: bool, exact: bool = False
+        self, lines: Lines, width: int, accumulation: Accumulation | None, library: bool, exact: bool
     ) -> None:
         self.lines = lines
         self.shape = Shape.of(lines, accumulation)
