@@ -297,12 +297,11 @@ class _Work:
     def _shared(self, client: Any, asked: list[Criterion], designs: Indices) -> None:
         """The same in pieces on a cluster."""
         parts = [designs[first : first + PIECE] for first in range(0, len(designs), PIECE)]
-        columns = [{a: c[part] for a, c in self.columns.items()} for part in parts]
+        columns = ({a: c[part] for a, c in self.columns.items()} for part in parts)
         rest = [each.name for each in asked], str(self.output), self.fluctuation, self.steps
         tasks = [(self.mechanism, each, *rest) for each in columns]
-        keys = [(self._own, each, *rest) for each in columns]
         pieces: dict[int, _Piece] = {}
-        for done, (number, piece) in enumerate(in_turn(client, _piece, tasks, keys), 1):
+        for done, (number, piece) in enumerate(in_turn(client, _piece, tasks, self._own), 1):
             pieces[number] = piece
             if self.progress is not None:
                 self.progress(done, len(parts))
