@@ -14,7 +14,6 @@ from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.dataclass import dataclass
 from linkwright.core.frozen import Frozen
 from linkwright.core.html import columns_html
-from linkwright.core.outputs import Output
 from linkwright.core.plotted import Plotted
 from linkwright.cycle_programs.terms import Asked
 from linkwright.engine.machine_code import available
@@ -24,7 +23,7 @@ from linkwright.files.write import dump
 from linkwright.machine import flywheel_inertia
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.evaluate import unloaded
-from linkwright.metrics.outputs import mechanism_outputs
+from linkwright.metrics.outputs import usual_output
 from linkwright.metrics.quantities import si_unit
 from linkwright.metrics.summary import is_summary
 from linkwright.registry import offered
@@ -245,7 +244,7 @@ class _Work:
     ) -> None:
         self.mechanism, self.columns, self.asked = mechanism, columns, asked
         self.fluctuation, self.steps, self.progress = fluctuation, steps, progress
-        self.output = _output(mechanism, output)
+        self.output = usual_output(mechanism) if output is None else output_of_machine(mechanism, output)
         self.count = len(next(iter(columns.values())))
         self.values = {each.name: np.full(self.count, np.nan) for each in asked}
         self.dimensions = {each.name: "dimensionless" for each in asked}
@@ -429,17 +428,6 @@ def _piece(
         asked, np.arange(work.count), True, "llvm" if available() else "auto"
     )  # as many designs have it
     return work.values, work.dimensions, work.notes, work.troubled
-
-
-def _output(mechanism: Mechanism, name: str | None) -> Output:
-    """The output whose travel counts."""
-    if name is not None:
-        return output_of_machine(mechanism, name)
-    own = mechanism_outputs(mechanism)
-    if own:
-        return own[-1]
-    last = list(mechanism.links)[-1]
-    return Output("angle", last)
 
 
 def _none_moves(count: int, failures: Iterable[Failure]) -> str:
