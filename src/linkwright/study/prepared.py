@@ -22,6 +22,7 @@ from linkwright.engine.llvm_backend import CompiledProgram, compile_program
 from linkwright.engine.machine_code import OF_ONE_ADDRESS, available
 from linkwright.engine.numpy_backend import numpy_program
 from linkwright.engine.program import Program
+from linkwright.engine.stage import Backend
 from linkwright.engine.trace import Mask, Scalar, absolute, select
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.change_points import nearness, parts
@@ -36,15 +37,13 @@ from linkwright.kinetostatics.site import limit_name
 from linkwright.kinetostatics.solver import ForceSolver
 from linkwright.kinetostatics.traced_loads import AlongInput, traced_magnitude
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.registry import offered
+from linkwright.study.vary import checked_addresses
 
 #: The row of how near a group is to a change point or a gap; 0 where it cannot be assembled, where a load has no
 #: value, and where limit positions do not agree with the rates.
 NEAREST = "nearest change point"
 #: Lanes in which limit positions are looked for beside each other, as many as a processor may have.
 LANES = 8
-
-Backend = Literal["auto", "numpy", "llvm"]
 
 
 def prepare(
@@ -76,11 +75,7 @@ class Prepared:
     def __init__(
         self, mechanism: Mechanism, vary: tuple[str, ...], positions: Positions, backend: Backend
     ) -> None:
-        known = mechanism.dimensions()
-        for address in vary:
-            if address not in known:
-                hint = offered(address, known, "study.such_as", most=6)
-                raise RequestError("study.no_dimension", address=address, name=mechanism.name, hint=hint)
+        checked_addresses(mechanism, vary)
         self.mechanism = mechanism
         self.vary = vary
         self.positions = positions

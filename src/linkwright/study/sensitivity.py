@@ -293,15 +293,11 @@ def _is_number(each: str | Summary) -> bool:
     return isinstance(each, Summary) and not each.kind
 
 
-def _range(curve: Floats) -> float:
-    return float(curve.max() - curve.min())
-
-
 _SUMMARIES: Mapping[str, Callable[[Floats], float]] = {
     "mean": lambda curve: float(curve.mean()),
     "rms": lambda curve: float(np.sqrt((curve * curve).mean())),
     "min": lambda curve: float(curve.min()),
     "max": lambda curve: float(curve.max()),
-    "range": _range,
+    "range": lambda curve: float(np.ptp(curve)),
     "peak": lambda curve: float(np.abs(curve).max()),
 }
