@@ -161,7 +161,7 @@ def _routes(work: Work, design: Floats, at: tuple[float, float] | None = None) -
     routes = {"NumPy": np.asarray(NumpyProgram(program).run(numbers, arrays))}
     compiled = compile_program(program)
     if compiled is not None:
-        routes["compiled"] = compiled.run(numbers, arrays)
+        routes["compiled"] = compiled.repeated(arrays)(numbers)
     return routes
 
 

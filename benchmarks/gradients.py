@@ -8,12 +8,12 @@ import numpy as np
 
 from benchmarks.cases import Floats, Work, fourbar_designs, sixbar_designs
 from benchmarks.timing import Candidate
-from linkwright.engine.cycle_gradient import CycleGradient
-from linkwright.engine.derivative import Term, value_and_gradient
+from linkwright.engine.cycle import CycleProgram, summaries
+from linkwright.engine.cycle_gradient import CycleGradient, cycle_gradient
 from linkwright.engine.llvm_backend import available
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import Reduction
-from linkwright.engine.sweep import sweep
+from linkwright.engine.stage import Stage
 from linkwright.engine.vector import Vec
 
 VALUE, BOTH = "value", "value and gradient"
@@ -30,7 +30,9 @@ class GradientWork:
         self.wrt = tuple(
             each for each in self.program.parameters if not each.startswith(("mode:", "driver."))
         )
-        self.gradient: CycleGradient = value_and_gradient(self.program, [Term("objective", "mean")], self.wrt)
+        stage = Stage(self.program, {"mean": Reduction("objective", "mean")})
+        cycle = CycleProgram((stage,), self.program.parameters)
+        self.gradient: CycleGradient = cycle_gradient(cycle, "mean", self.wrt)
         self.table = work.table(self.program, designs)
         own = [self.program.parameters.index(each) for each in self.gradient.parameters]
         self.own_table = np.ascontiguousarray(self.table[:, own])
@@ -61,11 +63,9 @@ class GradientWork:
     def value(self) -> Floats:
         """Objective of every design, (designs,)."""
         reduction = Reduction("objective", "mean")
-        found = sweep(
-            self.program,
+        found = summaries(self.program, [reduction]).evaluate(
             self.table,
             self.arrays,
-            [reduction],
             threads=1,
             backend=self.backend,  # type: ignore[arg-type]
         )

@@ -11,12 +11,12 @@ import numpy as np
 import linkwright as lw
 from benchmarks.timing import Candidate, Rounds, in_turns
 from linkwright.engine import machine_code
+from linkwright.engine.cycle import summaries
 from linkwright.engine.ir_kernel import ENTRY, kernel
 from linkwright.engine.lines import Lines
 from linkwright.engine.llvm_backend import available
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import Accumulation, Reduction
-from linkwright.engine.sweep import sweep
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinematics.trace import MotionTrace, trace_motion
@@ -75,7 +75,8 @@ class Chain:
     def evaluated(self, backend: str = "llvm") -> object:
         """Largest and mean torque of some designs."""
         wanted = [Reduction(EFFORT, "max"), Reduction(EFFORT, "rms")]
-        return sweep(self.program, self.table, self.arrays, wanted, threads=1, backend=backend)  # type: ignore[arg-type]
+        cycle = summaries(self.program, wanted)
+        return cycle.evaluate(self.table, self.arrays, threads=1, backend=backend)  # type: ignore[arg-type]
 
     def candidates(self) -> list[Candidate]:
         """Every step of this chain."""

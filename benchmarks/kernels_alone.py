@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import partial
 
 import numpy as np
@@ -10,8 +10,9 @@ import numpy as np
 from benchmarks import by_c, by_numpy
 from benchmarks.cases import Floats, Work
 from benchmarks.timing import Candidate
-from linkwright.engine.call_block import aligned
-from linkwright.engine.llvm_backend import compile_program
+from linkwright.engine.call_block import address_of, aligned
+from linkwright.engine.llvm_backend import CompiledProgram, compile_program
+from linkwright.engine.machine_code import OF_ONE_ADDRESS
 from linkwright.engine.numpy_backend import NumpyProgram
 
 COMPILED, NUMPY_ROUTE, C, HAND = "linkwright, compiled", "linkwright, NumPy route", "C", "NumPy by hand"
@@ -24,6 +25,23 @@ def c_run(name: str, work: Work) -> tuple[Callable[[], object], Floats]:
     return by_c.kernel(name, work.cosine, work.sine, work.nominal(), out), out
 
 
+def bare_call(
+    compiled: CompiledProgram,
+    numbers: Floats,
+    positions: Mapping[str, Floats],
+    out: Floats,
+    fields: Mapping[str, Floats] | None = None,
+) -> Callable[[], None]:
+    """The code on arrays that are read and written where they lie, without a further look."""
+    entry, block, _ = compiled.one_by_one(numbers, positions, out, fields=fields or {})
+    function, address = OF_ONE_ADDRESS(entry), address_of(block)
+
+    def run(kept: object = (compiled, numbers, positions, out, fields, block)) -> None:
+        function(address)
+
+    return run
+
+
 def candidates(name: str, work: Work) -> list[Candidate]:
     """Ours, C and NumPy for ``fourbar`` or ``sixbar``."""
     program = work.program()
@@ -33,8 +51,8 @@ def candidates(name: str, work: Work) -> list[Candidate]:
     found: list[Candidate] = []
     if compiled is not None:
         out = aligned((len(program.outputs), work.positions.count))
-        found.append(Candidate(COMPILED, compiled.bound(numbers, arrays, out)))
-        found.append(Candidate(CHECKED, partial(compiled.run, numbers, arrays, out=out)))
+        found.append(Candidate(COMPILED, bare_call(compiled, numbers, arrays, out)))
+        found.append(Candidate(CHECKED, partial(compiled.repeated(arrays), numbers)))
     if by_c.compiler():
         found.append(Candidate(C, c_run(name, work)[0]))
     evaluator = NumpyProgram(program)
@@ -53,7 +71,7 @@ def disagreement(name: str, work: Work) -> dict[str, float]:
     ways = {NUMPY_ROUTE: np.asarray(NumpyProgram(program).run(numbers, arrays))}
     compiled = compile_program(program)
     if compiled is not None:
-        ways[COMPILED] = compiled.run(numbers, arrays)
+        ways[COMPILED] = compiled.repeated(arrays)(numbers)
     if by_c.compiler():
         run, ways[C] = c_run(name, work)
         run()

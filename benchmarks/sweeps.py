@@ -10,10 +10,11 @@ from benchmarks import by_c, by_numpy
 from benchmarks.cases import Floats, Work, fourbar_designs, fourbar_metrics, sixbar_designs, sixbar_metrics
 from benchmarks.kernels_alone import COMPILED, HAND, C
 from benchmarks.timing import Candidate
+from linkwright.engine.cycle import summaries
 from linkwright.engine.llvm_backend import available
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import Reduction
-from linkwright.engine.sweep import Backend, sweep
+from linkwright.engine.stage import Backend
 
 TWO, NUMPY_ROUTE = "linkwright, compiled, two threads", "linkwright, NumPy route"
 #: The share of the designs that slow candidates do.
@@ -37,14 +38,8 @@ class SweepWork:
 
     def ours(self, table: Floats, backend: Backend, threads: int) -> dict[str, Floats]:
         """Summaries by the package."""
-        return sweep(  # type: ignore[return-value]
-            self.program,
-            table,
-            self.arrays,
-            self.reductions,
-            backend=backend,
-            threads=threads,
-        )
+        cycle = summaries(self.program, self.reductions)
+        return cycle.evaluate(table, self.arrays, threads=threads, backend=backend)  # type: ignore[return-value]
 
     def few(self) -> int:
         """Number of designs for slow candidates."""

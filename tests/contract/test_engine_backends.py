@@ -9,15 +9,15 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from tests.objectives import Term, gradient_of, table_of
+from tests.sweeps import sweep
 
 from linkwright.engine import ir_kernel, machine_code
-from linkwright.engine.derivative import value_and_gradient
 from linkwright.engine.llvm_backend import available, compile_program
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import KINDS, Reduction
 from linkwright.engine.scalar_backend import ScalarProgram
-from linkwright.engine.sweep import sweep
 from linkwright.engine.trace import (
     Trace,
     absolute,
@@ -198,7 +198,8 @@ def test_compiled_code_agrees_with_direct_evaluation_for_every_length(n: int) ->
     for d in range(3):
         want = direct(formulas, p[d], x, f[d])
         agree(stored[d], want)
-        np.testing.assert_array_equal(compiled.run(table[d], positions, {"f": f[d]}), stored[d])
+        alone = compiled.store(table[d : d + 1], positions, {"f": f[d : d + 1]})
+        np.testing.assert_array_equal(alone[0], stored[d])
 
 
 @pytest.mark.usefixtures("vectors")
@@ -214,11 +215,11 @@ def test_states_are_carried_alike(seed: int, designs: int) -> None:
     want = np.array([direct(formulas, p[d], x, f[d], list(begin[d])) for d in range(designs)])
     evaluator = NumpyProgram(program)
     agree(evaluator.run_designs(table, positions, {"f": f}, start=start), want)
-    agree(evaluator.run(table[0], positions, {"f": f[0]}, start=start[0]), want[0])
+    agree(evaluator.run_designs(table[:1], positions, {"f": f[:1]}, start=start[0]), want[:1])
     compiled = compile_program(program)
     if compiled is not None:
         agree(compiled.store(table, positions, {"f": f}, start=start), want)
-        agree(compiled.run(table[0], positions, {"f": f[0]}, start=start[0]), want[0])
+        agree(compiled.store(table[:1], positions, {"f": f[:1]}, start=start[:1]), want[:1])
 
 
 @needs_compiler
@@ -230,7 +231,7 @@ def test_not_a_number_stays_where_it_arises() -> None:
     outputs = {"root": root, "quotient": a / x, "kept": select(x < 0.0, a, root), "beyond": root < 1.0}
     compiled = compile_program(Program.of(t, outputs))
     assert compiled is not None
-    got = compiled.run([2.0], {"x": np.array([-4.0, 0.0, 0.25, math.inf, math.nan])})
+    got = compiled.store([[2.0]], {"x": np.array([-4.0, 0.0, 0.25, math.inf, math.nan])})[0]
     want = [
         [math.nan, 0.0, 0.5, math.inf, math.nan],
         [-0.5, math.inf, 8.0, 0.0, math.nan],
@@ -285,10 +286,10 @@ def test_reductions_of_random_programs_agree_with_numpy(n: int) -> None:
 def test_gradients_of_random_programs_equal_differences(seed: int, backend: str) -> None:
     program, formulas = random_program(seed)
     p, x, f = case(seed, 9, designs=2)
-    gradient = value_and_gradient(program, [("v0", "sum"), ("v3", "mean")], list(PARAMETERS), valid=None)
+    gradient = gradient_of(program, [Term("v0"), Term("v3", "mean")], list(PARAMETERS), valid=None)
     positions = dict(zip(POSITIONS, x, strict=True))
     parameters = dict(zip(PARAMETERS, p.T, strict=True))
-    values, slopes = gradient(parameters, positions, {"f": f}, backend=backend)  # type: ignore[arg-type]
+    values, slopes = gradient.evaluate(table_of(gradient, parameters), positions, {"f": f}, backend=backend)  # type: ignore[arg-type]
 
     def objective(d: int, row: Floats) -> float:
         rows = direct(formulas, row, x, f[d])
@@ -342,7 +343,8 @@ def test_truths_count_as_one_and_numbers_but_zero_as_true(carried: bool) -> None
         np.testing.assert_array_equal(found, [each[place] for each in want[0]])
     for parameters, found in zip(table, want, strict=True):
         own = None if start is None else start[0]
-        np.testing.assert_array_equal(evaluator.run(parameters, positions, start=own), found)
+        (alone,) = evaluator.run_designs(parameters[None, :], positions, start=own)
+        np.testing.assert_array_equal(alone, found)
     compiled = compile_program(program) if available() else None
     if compiled is not None:
         np.testing.assert_array_equal(compiled.store(table, positions, start=starts), want)

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from tests.objectives import Term, gradient_of, table_of
 
 import linkwright as lw
-from linkwright.engine.derivative import Term, value_and_gradient
 from linkwright.engine.llvm_backend import available, compile_program
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
@@ -79,10 +79,10 @@ def test_gradients_of_mechanisms_equal_differences(used: list[Used], backend: st
     size = np.sqrt((case.outputs() ** 2).mean(axis=1))
     name = case.program.output_names[int(np.argmax(np.where(np.isfinite(size), size, 0.0)))]
     row = case.program.output_names.index(name)
-    gradient = value_and_gradient(case.program, [Term(name, "rms")], valid=None)
+    gradient = gradient_of(case.program, [Term(name, "rms")], valid=None)
     fields = {key: np.asarray(array)[None, :] for key, array in case.fields.items()}
     given = dict(zip(case.program.parameters, case.parameters, strict=True))
-    value, slopes = gradient(given, case.positions, fields, backend=backend)  # type: ignore[arg-type]
+    value, slopes = gradient.evaluate(table_of(gradient, given), case.positions, fields, backend=backend)  # type: ignore[arg-type]
     assert value[0] == pytest.approx(size[row], rel=1e-9)
     scale = np.abs(slopes[0]).max()
     for column, parameter in enumerate(case.parameters):

@@ -17,7 +17,7 @@ import pytest
 import linkwright as lw
 from linkwright.cli import main
 from linkwright.core.arrays import Floats
-from linkwright.engine.sweep import Results
+from linkwright.engine.reductions import Results
 from linkwright.study import finished_parts
 from linkwright.study.criteria import Criterion
 from linkwright.study.designs import sweep_curves

@@ -98,7 +98,7 @@ def test_functions_look_ups_and_states(tmp_path: Path) -> None:
     table = Table.spline([0.0, 1.0, 2.5, 4.0], [1.0, 3.0, 2.0, 1.5], "periodic")
     n = 41
     positions = {"x": np.linspace(-7.0, 9.0, n)}
-    want = NumpyProgram(program).run([0.7], positions, start=[0.25], tables={"table": table})
+    (want,) = NumpyProgram(program).run_designs([[0.7]], positions, start=[0.25], tables={"table": table})
     job = work(program, {"a": 0.7}, positions, n, starts=[0.25], tables={"table": table})
     (got,) = in_node([job], tmp_path)
     for kind in ("wasm", "text"):

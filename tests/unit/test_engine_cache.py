@@ -38,7 +38,7 @@ def works(factor: float = 3.0) -> bool:
     x = np.linspace(0.0, 1.0, 21)
     compiled = compile_program(program(factor))
     assert compiled is not None
-    return bool(np.allclose(compiled.run([0.4], {"x": x})[0], x * np.sin(0.4) * factor, rtol=1e-14))
+    return bool(np.allclose(compiled.store([[0.4]], {"x": x})[0, 0], x * np.sin(0.4) * factor, rtol=1e-14))
 
 
 def count_compilations(monkeypatch: pytest.MonkeyPatch) -> list[str]:

@@ -8,13 +8,13 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
+from tests.sweeps import sweep
 
 from linkwright.engine.lines import Lines
 from linkwright.engine.llvm_backend import CompiledProgram, available, compile_program
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
 from linkwright.engine.scalar_backend import ScalarProgram
-from linkwright.engine.sweep import sweep
 from linkwright.engine.threads import cores, spread_over, tapering
 from linkwright.engine.trace import Trace
 from linkwright.engine.wasm import wasm_module
@@ -37,64 +37,43 @@ def line(*, carried: bool = False) -> CompiledProgram:
     return compiled
 
 
+def product() -> CompiledProgram:
+    """a x, and x."""
+    t = Trace()
+    compiled = compile_program(Program.of(t, {"y": t.parameter("a") * t.position("x"), "x": t.position("x")}))
+    assert compiled is not None
+    return compiled
+
+
 def test_missing_inputs_and_other_shapes_are_refused() -> None:
-    program, f = line(), np.ones(40)
+    program, f = line(), np.ones((1, 40))
     with pytest.raises(ValueError, match="needs the position inputs x: give them"):
-        program.run([1.0], {}, {"f": f})
+        program.store([[1.0]], {}, {"f": f})
     with pytest.raises(ValueError, match="needs the field inputs f: give them"):
-        program.run([1.0], {"x": X})
+        program.store([[1.0]], {"x": X})
     with pytest.raises(ValueError, match=r"one length, but have \[39, 40\]"):
-        program.run([1.0], {"x": X}, {"f": f[1:]})
+        program.store([[1.0]], {"x": X}, {"f": f[:, 1:]})
     with pytest.raises(ValueError, match=r"parameters must have the shape \(1,\), not \(2,\)"):
-        program.run([1.0, 2.0], {"x": X}, {"f": f})
-    with pytest.raises(
-        ValueError, match=r"out must be a C-contiguous array of floats of the shape \(1, 40\)"
-    ):
-        program.run([1.0], {"x": X}, {"f": f}, np.empty((1, 39)))
+        product().repeated({"x": X})(np.ones(2))
     with pytest.raises(ValueError, match=r"shape \(designs, 1\), but have \(2, 2\)"):
         program.store(np.ones((2, 2)), {"x": X}, {"f": np.ones((2, 40))})
     with pytest.raises(ValueError, match="carries the states s: give their start"):
         line(carried=True).store(np.ones((2, 1)), {"x": X}, {"f": np.ones((2, 40))})
 
 
-def test_a_program_with_states_fills_the_array_that_is_given() -> None:
-    out = np.empty((1, 40))
-    found = line(carried=True).run([2.0], {"x": X}, {"f": np.ones(40)}, out, start=[0.5])
-    assert found is out
-    assert out[0] == pytest.approx(2.0 * (0.5 + np.cumsum(X)) + 1.0, rel=1e-14)
-
-
 def test_parameters_given_again_are_read_where_they_lie() -> None:
-    program, f, given = line(), np.ones(40), np.array([2.0])
+    call, given = product().repeated({"x": X}), np.array([2.0])
     for value in (2.0, 3.0, 4.0, 5.0):
         given[0] = value
-        assert program.run(given, {"x": X}, {"f": f})[0] == pytest.approx(value * X + 1.0, rel=1e-15)
-    other = np.array([7.0])
-    assert program.run(other, {"x": X}, {"f": f})[0] == pytest.approx(7.0 * X + 1.0, rel=1e-15)
-    assert program.run(given, {"x": X}, {"f": f})[0] == pytest.approx(5.0 * X + 1.0, rel=1e-15)
-
-
-def test_a_bound_call_follows_its_arrays_and_takes_none_that_it_would_copy() -> None:
-    program, f, given, out = line(), np.ones(40), np.array([2.0]), np.empty((1, 40))
-    call = program.bound(given, {"x": X}, out, {"f": f})
-    given[0] = 3.0
-    call()
-    assert out[0] == pytest.approx(3.0 * X + 1.0, rel=1e-15)
-    with pytest.raises(ValueError, match="as contiguous arrays of floats"):
-        program.bound(given, {"x": np.repeat(X, 2)[::2]}, out, {"f": f})
-    with pytest.raises(ValueError, match="only programs without states are bound"):
-        line(carried=True).bound(given, {"x": X}, out, {"f": f})
-    with pytest.raises(ValueError, match="only programs without states are bound, to"):
-        program.bound(given, {"x": X[:1]}, out[:, :1], {"f": f[:1]})
+        assert call(given)[0] == pytest.approx(value * X, rel=1e-15)
+    assert call(np.array([7.0]))[0] == pytest.approx(7.0 * X, rel=1e-15)
+    assert call(given)[0] == pytest.approx(5.0 * X, rel=1e-15)
 
 
 @pytest.mark.parametrize("count", [40, 1])
 def test_repeated_calls_keep_what_they_found(count: int) -> None:
     """Each result is its own array, whatever thread asks, for as few positions as one as well."""
-    t = Trace()
-    compiled = compile_program(Program.of(t, {"y": t.parameter("a") * t.position("x"), "x": t.position("x")}))
-    assert compiled is not None
-    again, given = compiled.repeated({"x": X[-count:]}), np.empty(1)
+    again, given = product().repeated({"x": X[-count:]}), np.empty(1)
     found = []
     for value in (2.0, 3.0, -4.0):
         given[0] = value
@@ -109,10 +88,7 @@ def test_repeated_calls_keep_what_they_found(count: int) -> None:
 
 def test_outputs_that_nobody_holds_make_room_for_the_next() -> None:
     """A view keeps them as well as they do themselves; nobody can write them."""
-    t = Trace()
-    compiled = compile_program(Program.of(t, {"y": t.parameter("a") * t.position("x"), "x": t.position("x")}))
-    assert compiled is not None
-    again, given = compiled.repeated({"x": X}), np.array([2.0])
+    again, given = product().repeated({"x": X}), np.array([2.0])
     address = again(given).__array_interface__["data"][0]
     given[0] = 3.0
     row = again(given)[0]
@@ -138,33 +114,18 @@ def test_a_program_of_parameters_alone_has_the_length_of_the_inputs_that_are_giv
     program = Program.of(t, {"y": 2.0 * t.parameter("a")})
     compiled = compile_program(program)
     assert compiled is not None
-    for run in (compiled.run, NumpyProgram(program).run):
-        assert run([3.0], {"x": X}).tolist() == [[6.0] * 40]
-        assert run([3.0], {}, length=5).tolist() == [[6.0] * 5]
+    for run in (compiled.store, NumpyProgram(program).run_designs):
+        assert run([[3.0]], {"x": X}).tolist() == [[[6.0] * 40]]
+        assert run([[3.0]], {}, length=5).tolist() == [[[6.0] * 5]]
         with pytest.raises(ValueError, match=r"one length, but have \[\]"):
-            run([3.0], {})
-
-
-def test_an_array_for_the_outputs_is_written_again_and_another_after_it() -> None:
-    program, f, out = line(), np.ones(40), np.empty((1, 40))
-    for value in (2.0, 3.0):
-        assert program.run([value], {"x": X}, {"f": f}, out) is out
-        assert out[0] == pytest.approx(value * X + 1.0, rel=1e-15)
-    other, own = np.empty((1, 40)), program.run([5.0], {"x": X}, {"f": f})
-    program.run([4.0], {"x": X}, {"f": f}, other)
-    assert other[0] == pytest.approx(4.0 * X + 1.0, rel=1e-15)
-    assert out[0] == pytest.approx(3.0 * X + 1.0, rel=1e-15)
-    assert own[0] == pytest.approx(5.0 * X + 1.0, rel=1e-15)
+            run([[3.0]], {})
 
 
 def test_kernels_are_lent_no_code_that_needs_more_than_they_give() -> None:
     with pytest.raises(ValueError, match="needs the field inputs f: give them"):
         line().one_by_one(np.ones((2, 1)), {"x": X}, np.empty((1, 40)))
-    t = Trace()
-    short = compile_program(Program.of(t, {"y": t.parameter("a") * t.position("x")}))
-    assert short is not None
     with pytest.raises(ValueError, match=r"only programs of \d+ or more positions, without states"):
-        short.one_by_one(np.ones((2, 1)), {"x": X[:1]}, np.empty((1, 1)))
+        product().one_by_one(np.ones((2, 1)), {"x": X[:1]}, np.empty((1, 1)))
 
 
 def test_numbers_of_inputs_that_do_not_fit_are_refused() -> None:
@@ -174,7 +135,7 @@ def test_numbers_of_inputs_that_do_not_fit_are_refused() -> None:
         ScalarProgram(program).step([1.0], [1.0, 2.0], fields=[1.0])
     with pytest.raises(ValueError, match="the program has 1 field inputs, but 0 are given"):
         ScalarProgram(program).step([1.0], [1.0])
-    with pytest.raises(ValueError, match=r"shape \(designs, 1\), but have \(2, 2\)"):
+    with pytest.raises(ValueError, match=r"the columns a, not the shape \(2, 2\)"):
         sweep(program, np.ones((2, 2)), {"x": X}, [("y", "max")], fields={"f": np.ones((2, 40))})
     other = Trace()
     s, r = other.state("s"), other.state("r")

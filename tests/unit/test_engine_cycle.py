@@ -142,14 +142,13 @@ def test_outputs_are_kept_as_fields_for_later_stages(backend: Backend) -> None:
 @pytest.mark.parametrize("backend", BACKENDS)
 def test_results_depend_neither_on_threads_nor_on_the_other_designs(backend: Backend) -> None:
     table = designs(2000)
-    cycle, done = whole(), []
+    cycle = whole()
     one = cycle.evaluate(table, INPUT, threads=1, backend=backend)
-    two = cycle.evaluate(table, INPUT, threads=3, backend=backend, progress=lambda d, n: done.append((d, n)))
+    two = cycle.evaluate(table, INPUT, threads=3, backend=backend)
     part = cycle.evaluate(table[700:717], INPUT, backend=backend)
     for name, values in one.items():
         np.testing.assert_array_equal(values, two[name])
         np.testing.assert_array_equal(values[700:717], part[name])
-    assert done == [(2000, 2000)]
     empty = cycle.evaluate(table[:0], INPUT, backend=backend)
     assert all(values.shape == (0,) for values in empty.values())
 
@@ -306,20 +305,16 @@ def test_the_example_of_the_documentation_runs(capsys: pytest.CaptureFixture[str
 def test_designs_that_go_in_several_parts_are_put_together(
     backend: Backend, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """A few at a time, results, gradients and the count of what is done are those of all at once."""
+    """A few at a time, results and gradients are those of all at once."""
     table, cycle = designs(19), whole()
     wanted = cycle.evaluate(table, INPUT, backend=backend)
     stroke, slopes = cycle_gradient(cycle, "stroke").evaluate(table, INPUT, backend=backend)
-    monkeypatch.setattr("linkwright.engine.cycle._REPORT", 8 * COUNT)
-    done: list[tuple[int, int]] = []
-    found = cycle.evaluate(table, INPUT, backend=backend, progress=lambda *each: done.append(each))
-    assert done == [(8, 19), (16, 19), (19, 19)]
+    for size in ("_RESULTS", "_KNOWN"):
+        monkeypatch.setattr(f"linkwright.engine.cycle.{size}", 8 * COUNT)
+    found = cycle.evaluate(table, INPUT, backend=backend)
     for name, column in wanted.items():
         np.testing.assert_array_equal(found[name], column, err_msg=name)
-    done.clear()
-    gradient = cycle_gradient(cycle, "stroke")
-    values, again = gradient.evaluate(table, INPUT, backend=backend, progress=lambda *each: done.append(each))
-    assert done == [(8, 19), (16, 19), (19, 19)]
+    values, again = cycle_gradient(cycle, "stroke").evaluate(table, INPUT, backend=backend)
     np.testing.assert_array_equal(values, stroke)
     np.testing.assert_array_equal(again, slopes)
 
@@ -329,26 +324,17 @@ def test_inputs_of_two_lengths_and_missing_parameters_are_refused() -> None:
         whole().evaluate(designs(2), INPUT, {"other": np.ones((2, 3))}, backend="numpy")
     with pytest.raises(ValueError, match=r"one length, but have \[\]"):
         whole().evaluate(designs(2), {}, backend="numpy")
-    gradient = cycle_gradient(whole(), "stroke")
-    with pytest.raises(ValueError, match="the parameters l, e are not given"):
-        gradient({"r": 1.0}, INPUT, backend="numpy")
-    table = designs(3)
-    stroke, slopes = gradient(dict(zip("rle", table.T, strict=True)), INPUT, backend="numpy")
-    wanted = gradient.evaluate(table, INPUT, backend="numpy")
-    np.testing.assert_array_equal(stroke, wanted[0])
-    np.testing.assert_array_equal(slopes, wanted[1])
-    one, _ = gradient({"r": table[0, 0], "l": table[0, 1], "e": table[0, 2]}, INPUT, backend="numpy")
-    assert one.shape == (1,) and one[0] == stroke[0]
+    with pytest.raises(ValueError, match="the columns r, l, e"):
+        cycle_gradient(whole(), "stroke").evaluate(designs(2)[:, :1], INPUT, backend="numpy")
 
 
 @pytest.mark.parametrize("blocks", [1, 2, 3])
 def test_blocks_of_designs_come_back_as_one_table(blocks: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("linkwright.engine.cycle._REPORT", 10 * COUNT)
+    monkeypatch.setattr("linkwright.engine.cycle._RESULTS", 10 * COUNT)
     t = Trace()
     sums = Stage(Program.of(t, {"y": t.parameter("a") * t.position("q")}), {"y.mean": Reduction("y", "mean")})
-    table, said = np.arange(10.0 * blocks)[:, None], []
-    found = CycleProgram((sums,)).evaluate(table, INPUT, progress=lambda done, _: said.append(done))
-    assert said == [10 * k for k in range(1, blocks + 1)]
+    table = np.arange(10.0 * blocks)[:, None]
+    found = CycleProgram((sums,)).evaluate(table, INPUT)
     np.testing.assert_allclose(found["y.mean"], table[:, 0] * math.pi * (COUNT - 1) / COUNT, rtol=1e-13)
 
 

@@ -11,18 +11,19 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline, PchipInterpolator
+from tests.objectives import Term, gradient_of, table_of
+from tests.sweeps import sweep
 
 from linkwright.engine import trace as tr
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.cycle_gradient import cycle_gradient
-from linkwright.engine.derivative import forward, value_and_gradient
+from linkwright.engine.derivative import forward
 from linkwright.engine.llvm_backend import available, compile_program
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import Reduction
 from linkwright.engine.scalar_backend import ScalarProgram
 from linkwright.engine.stage import Stage
-from linkwright.engine.sweep import sweep
 from linkwright.engine.table import Table
 
 Floats = NDArray[np.float64]
@@ -59,7 +60,8 @@ def evaluate(program: Program, backend: str, p: list[float], x: dict[str, Floats
     if backend == "llvm":
         compiled = compile_program(program)
         assert compiled is not None
-        return compiled.run(p, x, **more)
+        stored: Floats = compiled.store([p], x, **more)[0]
+        return stored
     scalar = ScalarProgram(program, more.get("tables"))
     rows = zip(*(x[name] for name in program.positions), strict=True)
     return np.array([scalar.step(p, [float(v) for v in row])[0] for row in rows]).T
@@ -106,9 +108,10 @@ def test_gradients_through_functions_equal_those_of_mpmath(name: str) -> None:
     names = [f"x{k}" for k in range(len(arguments))]
     t = tr.Trace()
     y = traced(*[t.parameter(n) for n in names]) * t.position("w")
-    gradient = value_and_gradient(Program.of(t, {"y": y}), [("y", "sum")], names)
+    gradient = gradient_of(Program.of(t, {"y": y}), [Term("y")], names)
     weights = np.array([0.5, -2.0, 3.25])
-    values, slopes = gradient(dict(zip(names, arguments, strict=True)), {"w": weights})
+    table = table_of(gradient, dict(zip(names, arguments, strict=True)))
+    values, slopes = gradient.evaluate(table, {"w": weights})
     with mpmath.workdps(40):
         for d in range(len(arguments[0])):
             numbers = [mpmath.mpf(float(a[d])) for a in arguments]

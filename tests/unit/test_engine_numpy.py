@@ -127,7 +127,7 @@ def test_states_are_carried_from_position_to_position() -> None:
     program = newton_root()
     x = np.linspace(1.0, 4.0, 50)
     evaluator = NumpyProgram(program)
-    one = evaluator.run([2.0], {"x": x}, start=[1.0])
+    (one,) = evaluator.run_designs([[2.0]], {"x": x}, start=[1.0])
     root, roots = 1.0, []
     for value in x:
         for _ in range(2):
@@ -151,5 +151,7 @@ def test_missing_and_unequal_inputs_are_refused(program: Program) -> None:
         evaluator.run([1.0, 2.0, 3.0], {"x": x, "y": np.ones(4)}, {"f": x})
     with pytest.raises(ValueError, match="designs, 3"):
         evaluator.run_designs(np.ones((2, 2)), {"x": x, "y": x}, {"f": np.ones((2, 3))})
-    with pytest.raises(ValueError, match="carries the states s"):
+    with pytest.raises(ValueError, match="needs the state inputs s"):
         NumpyProgram(newton_root()).run([1.0], {"x": x})
+    with pytest.raises(ValueError, match="carries the states s"):
+        NumpyProgram(newton_root()).run_designs([[1.0]], {"x": x})

@@ -8,12 +8,12 @@ import mpmath
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from tests.sweeps import sweep
 
 from linkwright.engine.llvm_backend import available, compile_program
 from linkwright.engine.program import Program
-from linkwright.engine.reductions import KINDS, Kind, Reduction
+from linkwright.engine.reductions import KINDS, VALID_COUNT, Kind, Reduction
 from linkwright.engine.replay import along_input
-from linkwright.engine.sweep import VALID_COUNT, sweep
 from linkwright.engine.table import Table
 from linkwright.engine.trace import Trace, exp, maximum, select, slope, sqrt
 
@@ -99,24 +99,12 @@ def test_results_do_not_depend_on_threads_or_chunks(backend: str) -> None:
     rng = np.random.default_rng(5)
     radii = rng.uniform(0.1, 3.0, (3000, 1))
     x = rng.uniform(-2.0, 2.0, 361)
-    done = []
     one = sweep(chord(), radii, {"x": x}, EVERY, backend=backend, threads=1)
-    several = sweep(
-        chord(), radii, {"x": x}, EVERY, backend=backend, threads=3, progress=lambda d, n: done.append((d, n))
-    )
+    several = sweep(chord(), radii, {"x": x}, EVERY, backend=backend, threads=3)
     part = sweep(chord(), radii[1000:1013], {"x": x}, EVERY, backend=backend)
     for name, values in one.items():
         np.testing.assert_array_equal(values, several[name])
         np.testing.assert_array_equal(values[1000:1013], part[name])
-    assert done[-1] == (3000, 3000)
-
-
-def test_a_sweep_can_be_stopped_by_its_progress() -> None:
-    def stop(done: int, designs: int) -> None:
-        raise KeyboardInterrupt
-
-    with pytest.raises(KeyboardInterrupt):
-        sweep(chord(), [[1.0]], {"x": np.zeros(3)}, EVERY, progress=stop)
 
 
 @pytest.mark.parametrize("backend", BACKENDS)

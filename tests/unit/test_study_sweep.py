@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 import linkwright as lw
 from linkwright.cycle_programs.one_by_one import OneByOne
-from linkwright.engine.sweep import Backend
+from linkwright.engine.stage import Backend
 from linkwright.study import sweep
 from linkwright.study.designs import sweep_curves
 

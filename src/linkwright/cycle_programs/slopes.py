@@ -14,8 +14,8 @@ from linkwright.cycle_programs.traced import VALID, Traced
 from linkwright.engine.derivative import forward, reverse
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
-from linkwright.engine.states import parameters_as_fields, states_as_fields
-from linkwright.engine.sweep import Backend
+from linkwright.engine.stage import Backend
+from linkwright.engine.states import inputs_as_fields
 from linkwright.errors import LinkwrightError
 from linkwright.kinetostatics.named import Quantity
 from linkwright.kinetostatics.site import middle_name
@@ -128,4 +128,4 @@ def _known_as_fields(program: Program) -> Program:
     """The program with states, and the angles near which angles stay, taken per position."""
     known = middle_name("", "").partition(":")[0]
     angles = [name for name in program.parameters if name.startswith(f"{known}:")]
-    return states_as_fields(parameters_as_fields(program, angles))
+    return inputs_as_fields(program, [*program.states, *angles])

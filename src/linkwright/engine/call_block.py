@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 from linkwright.core.arrays import Floats, Whole
 from linkwright.engine.ir_kernel import Block
 from linkwright.engine.program import Program
-from linkwright.engine.table import Table, Tables, given_tables
+from linkwright.engine.table import Table
 
 Arrays = Mapping[str, ArrayLike]
 _LINE = 64  # bytes of a cache line
@@ -162,36 +162,16 @@ def _is_plain(array: object, shape: tuple[int, ...]) -> TypeGuard[Floats]:
 
 
 class SingleCall:
-    """A call for one design on arrays that stay where they are."""
+    """A call for one design on inputs that stay where they are."""
 
-    def __init__(
-        self,
-        program: Program,
-        width: int,
-        positions: Arrays,
-        fields: Arrays,
-        *,
-        length: int | None = None,
-        tables: Tables | None = None,
-    ) -> None:
-        self._names = program.tables
-        self.inputs = Inputs(
-            program, width, positions, fields, length=length, tables=given_tables(program.tables, tables)
-        )
+    def __init__(self, program: Program, inputs: Inputs) -> None:
         self._own: Floats = np.empty(len(program.parameters))
         self._seen: object = None
         self._bound: object = None
-        self._out: Floats | None = None
         self._lent: _Lent | None = None
-        self._block = self.inputs.block(address_of(self._own), 0)
+        self._block = inputs.block(address_of(self._own), 0)
         self.address = address_of(self._block)
-        self.shape = (len(program.outputs), self.inputs.length)
-
-    def fits(
-        self, positions: Arrays, fields: Arrays, length: int | None = None, tables: Tables | None = None
-    ) -> bool:
-        """Whether the same arrays and tables are given again."""
-        return self.inputs.fits(positions, fields, length, given_tables(self._names, tables))
+        self.shape = (len(program.outputs), inputs.length)
 
     def set_parameters(self, parameters: ArrayLike) -> None:
         """The design: copied, or read where it lies if the same array is given again and again."""
@@ -209,26 +189,10 @@ class SingleCall:
         self._seen = parameters
         self._own[:] = parameters
 
-    def new_out(self) -> Floats:
-        """An array of its own for the outputs, which starts at a cache line."""
-        self._out = self._lent = None
-        out, self._block[Block.OUT] = _at_a_line(self.shape)
-        return out
-
     def free_out(self) -> Floats:
-        """The same, read-only: the one before where neither it nor a view of it is held any more."""
+        """Read-only outputs: those before where neither they nor a view of them are held any more, else new ones."""
         lent = self._lent
         if lent is None or lent.holders() > _UNHELD:
-            self._out = None
             lent = self._lent = _Lent(self.shape)
             self._block[Block.OUT] = lent.address
         return lent.rows
-
-    def set_out(self, out: Floats) -> None:
-        """Where the outputs go."""
-        if out is self._out:
-            return
-        if not _is_plain(out, self.shape):
-            raise ValueError(f"out must be a C-contiguous array of floats of the shape {self.shape}")
-        self._out, self._lent = out, None
-        self._block[Block.OUT] = address_of(out)

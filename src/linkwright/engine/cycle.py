@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import field
 from functools import cached_property
 
@@ -11,15 +11,17 @@ from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Floats, Whole
 from linkwright.core.dataclass import dataclass
-from linkwright.engine.reductions import Results
+from linkwright.engine.program import Program
+from linkwright.engine.recent import Recent
+from linkwright.engine.reductions import VALID_COUNT, Reduction, Results
 from linkwright.engine.stage import BACKENDS, Arrays, Backend, Run, Stage, blank
 from linkwright.engine.table import Tables
 from linkwright.engine.threads import chunks, cores
 
 Progress = Callable[[int, int], None]
 
-#: Configurations of a block: between two reports of progress, where nobody wants any, and where stages keep fields.
-_REPORT, _UNREPORTED, _WITH_FIELDS = 1 << 23, 1 << 26, 1 << 20
+#: Configurations of a block: of results alone, of what gradients are found from, and where stages keep fields.
+_RESULTS, _KNOWN, _WITH_FIELDS = 1 << 26, 1 << 23, 1 << 20
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,26 +68,20 @@ class CycleProgram:
         tables: Tables | None = None,
         threads: int | None = None,
         backend: Backend = "auto",
-        progress: Progress | None = None,
     ) -> Results:
         """Results of all stages, (designs,) per name.
 
         ``table``: (designs, dimensions); ``positions``: (n,) per name; ``fields``: (designs, n) per
         name; ``tables``: those that the programs look up. ``threads``: None for all cores; results do not
-        depend on it. ``progress(done, designs)`` is called now and then; what it raises stops the
-        evaluation, as the keyboard's interrupt does. ``backend`` ``auto`` compiles where that pays and
-        llvmlite is there. Memory does not grow with the designs, but for fields and results. Raises
-        ValueError for unknown back ends, missing inputs and wrong shapes.
+        depend on it. ``backend`` ``auto`` compiles where that pays and llvmlite is there. Memory does not grow with
+        the designs, but for fields and results. Raises ValueError for unknown back ends, missing inputs and wrong
+        shapes.
         """
-        parts: list[Results] = []
-        plain = _UNREPORTED if progress is None else _REPORT
-        size = None if any(stage.keep for stage in self.stages) else plain
-        for end, known, _ in self.blocks(
+        size = None if any(stage.keep for stage in self.stages) else _RESULTS
+        blocks = self.blocks(
             table, positions, fields, tables=tables, threads=threads, backend=backend, size=size
-        ):
-            parts.append(known.values)
-            if progress is not None:
-                progress(end, len(np.asarray(table)))
+        )
+        parts = [known.values for _, known, _ in blocks]
         if len(parts) == 1:
             return parts[0]
         return {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
@@ -114,7 +110,7 @@ class CycleProgram:
         given = {name: np.ascontiguousarray(a, dtype=np.float64) for name, a in (fields or {}).items()}
         n = self._length(positions or {}, given)
         run = Run(positions or {}, n, tables, cores() if threads is None else threads, backend)
-        most = size or (_WITH_FIELDS if any(stage.keep for stage in self.stages) else _REPORT)
+        most = size or (_WITH_FIELDS if any(stage.keep for stage in self.stages) else _KNOWN)
         for first, end in chunks(len(numbers), max(1, most // max(n, 1))) if len(numbers) else [(0, 0)]:
             rows = {name: array[first:end] for name, array in given.items()}
             yield end, self._block(numbers[first:end], rows, run), run
@@ -178,3 +174,18 @@ class Known:
             source = stage.starts[name]
             start[:, column] = self.column(source) if isinstance(source, str) else source
         return start
+
+
+def summaries(program: Program, reductions: Sequence[Reduction], valid: str | None = "valid") -> CycleProgram:
+    """Reductions of a program's outputs over the positions, by their own names, and the number of valid positions as
+    ``valid.count``; kept for the program."""
+    key = (*reductions, valid)
+    return _summaries.get(program, key, lambda: _of_one_stage(program, reductions, valid))
+
+
+_summaries: Recent[Program, CycleProgram] = Recent(64)
+
+
+def _of_one_stage(program: Program, reductions: Sequence[Reduction], valid: str | None) -> CycleProgram:
+    named = {each.name: each for each in reductions}
+    return CycleProgram((Stage(program, named, valid=valid, count=VALID_COUNT),), program.parameters)

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.engine.cycle import CycleProgram, Known, Progress
+from linkwright.engine.cycle import CycleProgram, Known
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import PLACE, VALID_COUNT, Accumulation, Reduction
 from linkwright.engine.reverse_programs import (
@@ -118,25 +118,6 @@ class CycleGradient:
         """Names of the columns that :meth:`evaluate` takes."""
         return self.cycle.dimensions
 
-    def __call__(
-        self,
-        parameters: Mapping[str, ArrayLike],
-        positions: Arrays | None = None,
-        fields: Arrays | None = None,
-        *,
-        threads: int | None = None,
-        backend: Backend = "auto",
-    ) -> tuple[Floats, Floats]:
-        """Values and gradients as :meth:`evaluate`; parameters (designs,) or a number by name."""
-        missing = [name for name in self.parameters if name not in parameters]
-        if missing:
-            raise ValueError(f"the parameters {', '.join(missing)} are not given")
-        designs = max((np.size(parameters[name]) for name in self.parameters), default=1)
-        table = np.empty((designs, len(self.parameters)))
-        for column, name in enumerate(self.parameters):
-            table[:, column] = parameters[name]
-        return self.evaluate(table, positions, fields, threads=threads, backend=backend)
-
     def evaluate(
         self,
         table: ArrayLike,
@@ -146,11 +127,10 @@ class CycleGradient:
         tables: Tables | None = None,
         threads: int | None = None,
         backend: Backend = "auto",
-        progress: Progress | None = None,
     ) -> tuple[Floats, Floats]:
         """The first value (designs,) and its gradient (designs, wrt), as :meth:`evaluate_all`."""
         values, gradients = self.evaluate_all(
-            table, positions, fields, tables=tables, threads=threads, backend=backend, progress=progress
+            table, positions, fields, tables=tables, threads=threads, backend=backend
         )
         return values[0], gradients[0]
 
@@ -163,7 +143,6 @@ class CycleGradient:
         tables: Tables | None = None,
         threads: int | None = None,
         backend: Backend = "auto",
-        progress: Progress | None = None,
     ) -> tuple[Floats, Floats]:
         """All values (values, designs) and gradients (values, designs, wrt); inputs as for
         :meth:`CycleProgram.evaluate`. NaN for designs without the result.
@@ -184,8 +163,6 @@ class CycleGradient:
                 for column, name in enumerate(self.wrt):
                     gradients[row, first:end, column] = bars.get(name, 0.0)
             first = end
-            if progress is not None:
-                progress(end, count)
         gradients[np.isnan(values)] = np.nan
         return values, gradients
 

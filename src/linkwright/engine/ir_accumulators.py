@@ -23,7 +23,6 @@ class AccumulatorWriter:
         self.w = writer
         self.steps = accumulation.steps
         self.rows = dict(zip(accumulation.needed.output_names, writer.outputs, strict=True))
-        self.integers = f"<{writer.width} x i64>"
         self._fresh = fresh
         self._valid = accumulation.valid
         self._column = accumulation.column
@@ -31,12 +30,12 @@ class AccumulatorWriter:
 
     def kind(self, step: str) -> str:
         """LLVM type of an accumulator."""
-        return self.integers if step in ("argmin", "argmax", "count") else self.w.vector
+        return self.w.integers if step in ("argmin", "argmax", "count") else self.w.vector
 
     def start(self, step: str) -> str:
         """Its value before the first position."""
         if step in ("argmin", "argmax"):
-            return f"<{', '.join([f'i64 {NO_INDEX}'] * self.w.width)}>"
+            return self.w.same("i64", NO_INDEX)
         if step in _START:
             return self.w.constant(_START[step], True)
         return "zeroinitializer"
@@ -86,9 +85,9 @@ class AccumulatorWriter:
         return [
             *self.w.spread(at, f"%best{k}", kind),
             f"%at{k} = {compare} {vector} {source}, %best{k}",
-            f"%bits{k} = bitcast {self.w.vector} %b{k} to {self.integers}",
-            f"%kept{k} = select {self.w.mask} %at{k}, {self.integers} %bits{k}, {self.integers} zeroinitializer",
-            f"%q{k} = call i64 @llvm.vector.reduce.or.v{self.w.width}i64({self.integers} %kept{k})",
+            f"%bits{k} = bitcast {self.w.vector} %b{k} to {self.w.integers}",
+            f"%kept{k} = select {self.w.mask} %at{k}, {self.w.integers} %bits{k}, {self.w.integers} zeroinitializer",
+            f"%q{k} = call i64 @llvm.vector.reduce.or.v{self.w.width}i64({self.w.integers} %kept{k})",
             f"%r{k} = bitcast i64 %q{k} to double",
         ]
 
@@ -99,8 +98,8 @@ class AccumulatorWriter:
         return [
             *self.w.spread(f"%r{side}", f"%best{k}", "double"),
             f"%at{k} = fcmp oeq {vector} %b{side}, %best{k}",
-            f"%i{k} = select {mask} %at{k}, {self.integers} %b{k}, {self.integers} {none}",
-            f"%q{k} = call i64 @llvm.vector.reduce.smin.v{self.w.width}i64({self.integers} %i{k})",
+            f"%i{k} = select {mask} %at{k}, {self.w.integers} %b{k}, {self.w.integers} {none}",
+            f"%q{k} = call i64 @llvm.vector.reduce.smin.v{self.w.width}i64({self.w.integers} %i{k})",
             f"%none{k} = icmp eq i64 %q{k}, {NO_INDEX}",
             f"%p{k} = select i1 %none{k}, i64 -1, i64 %q{k}",
             f"%r{k} = sitofp i64 %p{k} to double",
@@ -110,15 +109,15 @@ class AccumulatorWriter:
         """One accumulator as a vector of numbers (the lanes are designs)."""
         step = self.steps[k].kind
         if step in ("argmin", "argmax"):
-            none = f"<{', '.join(['i64 -1'] * self.w.width)}>"
             code = [
-                f"%none{k} = icmp eq {self.integers} %b{k}, {self.start(step)}",
-                f"%p{k} = select {self.w.mask} %none{k}, {self.integers} {none}, {self.integers} %b{k}",
-                f"%r{k} = sitofp {self.integers} %p{k} to {self.w.vector}",
+                f"%none{k} = icmp eq {self.w.integers} %b{k}, {self.start(step)}",
+                f"%p{k} = select {self.w.mask} %none{k}, {self.w.integers} {self.w.same('i64', -1)}, "
+                f"{self.w.integers} %b{k}",
+                f"%r{k} = sitofp {self.w.integers} %p{k} to {self.w.vector}",
             ]
             return code, f"%r{k}"
         if step == "count":
-            return [f"%r{k} = sitofp {self.integers} %b{k} to {self.w.vector}"], f"%r{k}"
+            return [f"%r{k} = sitofp {self.w.integers} %b{k} to {self.w.vector}"], f"%r{k}"
         return [], f"%b{k}"
 
     def _entering(self, code: list[str], *, once: bool) -> str | None:
@@ -150,7 +149,7 @@ class AccumulatorWriter:
             return self.w.as_number(self.rows[output], code)
         if PLACE not in self._masks:
             self._masks[PLACE] = "%place"
-            code.append(f"%place = sitofp {self.integers} %position to {self.w.vector}")
+            code.append(f"%place = sitofp {self.w.integers} %position to {self.w.vector}")
         return self._masks[PLACE]
 
     def _extreme(self, k: int, step: Step) -> list[str]:
@@ -178,7 +177,7 @@ class AccumulatorWriter:
             code.append(f"%e{k} = and {mask} %c{k}, {entering}")
         code.append(f"%b{k} = select {mask} {better}, {vector} {value}, {vector} %a{k}")
         if arg is not None:
-            kinds = self.integers
+            kinds = self.w.integers
             code.append(f"%b{arg} = select {mask} {better}, {kinds} %position, {kinds} %a{arg}")
         for place, other in there:
             taken = self._number(other.output, code)
@@ -194,8 +193,8 @@ class AccumulatorWriter:
             held = f"%h{k}"
         return [
             *code,
-            f"%o{k} = zext {self.w.mask} {held} to {self.integers}",
-            f"%b{k} = add {self.integers} %a{k}, %o{k}",
+            f"%o{k} = zext {self.w.mask} {held} to {self.w.integers}",
+            f"%b{k} = add {self.w.integers} %a{k}, %o{k}",
         ]
 
     def _sum(self, k: int, step: str, output: str) -> list[str]:

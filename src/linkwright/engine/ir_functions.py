@@ -9,6 +9,8 @@ from __future__ import annotations
 import struct
 from collections.abc import Callable, Mapping, Sequence
 
+from linkwright.engine.ir_vectors import Lanes
+
 #: Prefix of the functions; the function's name in the C library follows.
 VECTOR = "linkwright_vector_"
 #: Beyond it, multiples of a quarter turn are no longer exact.
@@ -55,12 +57,12 @@ def vector_functions(body: list[str], width: int) -> list[str]:
     return [line for name in wanted for line in _WRITERS[name](_Lanes(name, width))]
 
 
-class _Lanes:
+class _Lanes(Lanes):
     """Writes one function of vectors."""
 
     def __init__(self, name: str, width: int) -> None:
-        self.name, self.width, self.count = name, width, 0
-        self.vector, self.integers, self.mask = (f"<{width} x {kind}>" for kind in ("double", "i64", "i1"))
+        super().__init__(width)
+        self.name, self.count = name, 0
         self.lines: list[str] = []
 
     def put(self, text: str) -> str:
@@ -71,11 +73,11 @@ class _Lanes:
 
     def all(self, value: float) -> str:
         """A number in all lanes."""
-        return f"<{', '.join([f'double {number(value)}'] * self.width)}>"
+        return self.same("double", number(value))
 
     def whole(self, value: int) -> str:
         """A whole number in all lanes."""
-        return f"<{', '.join([f'i64 {value}'] * self.width)}>"
+        return self.same("i64", value)
 
     def add(self, a: str, b: str) -> str:
         return self.put(f"fadd {self.vector} {a}, {b}")

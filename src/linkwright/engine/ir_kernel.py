@@ -9,6 +9,7 @@ from linkwright.engine.ir_after import following_lines
 from linkwright.engine.ir_functions import vector_functions
 from linkwright.engine.ir_lines import LineWriter
 from linkwright.engine.ir_lookup import lookup_functions
+from linkwright.engine.ir_vectors import Lanes
 from linkwright.engine.lines import Lines
 from linkwright.engine.reductions import PLACE, Accumulation
 
@@ -63,31 +64,20 @@ def kernel(
     ``library``: all functions are called from outside, lane by lane; ``exact``: every operation is rounded by itself
     (of programs without states).
     """
-    text = kernel_text(lines, width, accumulation, library=library, exact=exact)
-    return text, 0 if text.count("\n") > LARGE else 3
-
-
-def kernel_text(
-    lines: Lines,
-    width: int,
-    accumulation: Accumulation | None,
-    *,
-    library: bool = False,
-    exact: bool = False,
-) -> str:
-    """The module's text."""
     if lines.carried:
         from linkwright.engine.ir_states import StateKernel
 
-        return StateKernel(lines, width, accumulation, library).text()
-    return PositionKernel(lines, width, accumulation, library, exact).text()
+        text = StateKernel(lines, width, accumulation, library).text()
+    else:
+        text = PositionKernel(lines, width, accumulation, library, exact).text()
+    return text, 0 if text.count("\n") > LARGE else 3
 
 
 class PositionKernel:
     """Lanes are positions: full vectors first, then the last ones, overlapping the others."""
 
     def __init__(
-        self, lines: Lines, width: int, accumulation: Accumulation | None, library: bool, exact: bool = False
+        self, lines: Lines, width: int, accumulation: Accumulation | None, library: bool, exact: bool
     ) -> None:
         self.lines = lines
         self.shape = Shape.of(lines, accumulation)
@@ -178,8 +168,7 @@ class PositionKernel:
         return code
 
     def _tail_mask(self) -> list[str]:
-        integers = f"<{self.width} x i64>"
-        lanes = lane_numbers(self.width)
+        integers, lanes = self.writer.integers, self.writer.numbers()
         return [
             *self.writer.spread("%tail.low", "%low", "i64"),
             *self.writer.spread("%tail.high", "%high", "i64"),
@@ -193,7 +182,7 @@ class PositionKernel:
             "%first.end = select i1 %has.full, i64 %full.end, i64 %tail.end",
             "%first.again = and i1 %has.full, %has.tail",
             f"%first.mask = select i1 %has.full, {self.writer.mask} "
-            f"<{', '.join(['i1 true'] * self.width)}>, {self.writer.mask} %tail.mask",
+            f"{self.writer.all_true}, {self.writer.mask} %tail.mask",
         ]
 
     def _segment(self, ready: str) -> list[str]:
@@ -224,10 +213,9 @@ class PositionKernel:
         assert self.sums is not None
         code = self.sums.update()
         if any(step.kind.startswith("arg") or PLACE in step for step in self.sums.steps):
-            integers = self.sums.integers
             position = [
                 *self.writer.spread("%i", "%i.all", "i64"),
-                f"%position = add {integers} %i.all, {lane_numbers(self.width)}",
+                f"%position = add {self.writer.integers} %i.all, {self.writer.numbers()}",
             ]
             code = position + code
         return code
@@ -307,11 +295,6 @@ def in_blocks(label: str, code: list[str]) -> tuple[list[str], str]:
     return cut, f"{label}.{number}"
 
 
-def lane_numbers(width: int) -> str:
-    """0, 1, 2, … as a constant vector."""
-    return f"<{', '.join(f'i64 {lane}' for lane in range(width))}>"
-
-
 def load_block(shape: Shape) -> list[str]:
     """Instructions that read the call block."""
     numbers = [
@@ -337,8 +320,8 @@ def load_block(shape: Shape) -> list[str]:
 
 def module_text(body: list[str], width: int) -> str:
     """The function with the declarations that it may need."""
-    vector, integers = f"<{width} x double>", f"<{width} x i64>"
-    suffix, pointers, mask = f"v{width}f64", f"<{width} x ptr>", f"<{width} x i1>"
+    lanes, suffix = Lanes(width), f"v{width}f64"
+    vector, integers, pointers, mask = lanes.vector, lanes.integers, lanes.pointers, lanes.mask
     exact = [f.exact for f in FUNCTIONS.values() if f.exact]
     declarations = [
         *(f"declare {vector} @llvm.{name}.{suffix}({vector})" for name in exact),

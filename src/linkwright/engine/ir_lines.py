@@ -7,6 +7,7 @@ from collections.abc import Callable
 from linkwright.engine.functions import FUNCTIONS, Function
 from linkwright.engine.ir_functions import FORMS, IN_LANES, VECTOR, number
 from linkwright.engine.ir_lookup import LOOKUP
+from linkwright.engine.ir_vectors import Lanes
 from linkwright.engine.lines import Line, Lines
 
 #: What the compiler may assume of code that is not exact: signs of zero, reciprocals, fused and regrouped operations.
@@ -17,7 +18,7 @@ _COMPARISON = {"less": "olt", "less_equal": "ole"}
 _LOGIC = {"and": "and", "or": "or"}
 
 
-class LineWriter:
+class LineWriter(Lanes):
     """Writes lines as instructions; ``%v12`` is line 12, ``%w12`` the same in all lanes.
 
     ``wide``: whether the lines per design are vectors too (the lanes are designs). ``library``: functions
@@ -29,14 +30,12 @@ class LineWriter:
     def __init__(
         self, lines: Lines, width: int, wide: bool, library: bool = False, exact: bool = False
     ) -> None:
+        super().__init__(width)
         self.may = "" if exact else f"{FAST} "
         self.lines = lines.lines
         self.outputs = lines.outputs
-        self.width = width
         self.wide = wide
         self._in_lanes = {} if library or width < 2 else IN_LANES
-        self.vector = f"<{width} x double>"
-        self.mask = f"<{width} x i1>"
         self.names: dict[int, str] = {}
         self.tables = list(range(lines.tables))
         self.preamble: list[str] = []
@@ -73,17 +72,7 @@ class LineWriter:
 
     def constant(self, value: float, vector: bool) -> str:
         """A number as an operand."""
-        text = number(value)
-        return f"<{', '.join([f'double {text}'] * self.width)}>" if vector else text
-
-    def spread(self, scalar: str, name: str, kind: str) -> list[str]:
-        """Instructions that put a scalar into all lanes of ``name``."""
-        vector = f"<{self.width} x {kind}>"
-        lanes = f"<{self.width} x i32> zeroinitializer"
-        return [
-            f"{name}.0 = insertelement {vector} poison, {kind} {scalar}, i32 0",
-            f"{name} = shufflevector {vector} {name}.0, {vector} poison, {lanes}",
-        ]
+        return self.same("double", number(value)) if vector else number(value)
 
     def write(self, index: int) -> None:
         """Write an operation where it belongs: before the loop or in it."""
@@ -174,8 +163,7 @@ def _negation(w: LineWriter, line: Line, value: str, kind: str, args: list[str],
 
 
 def _inverse(w: LineWriter, line: Line, value: str, kind: str, args: list[str], vector: bool) -> list[str]:
-    true = f"<{', '.join(['i1 true'] * w.width)}>" if vector else "true"
-    return [f"{value} = xor {kind} {args[0]}, {true}"]
+    return [f"{value} = xor {kind} {args[0]}, {w.all_true if vector else 'true'}"]
 
 
 def _choice(w: LineWriter, line: Line, value: str, kind: str, args: list[str], vector: bool) -> list[str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from linkwright.engine.ir_vectors import Lanes
 from linkwright.engine.table import HEAD
 
 #: Prefix of the functions; the order of the derivative follows.
@@ -16,7 +17,7 @@ def lookup_functions(body: list[str], width: int) -> list[str]:
 
 def _function(order: int, width: int) -> list[str]:
     """Operations in the order of :meth:`Table.__call__`, none fused, so that the bits are the same."""
-    w = _Lanes(width)
+    w = Lanes(width)
     return [
         f"define internal {w.vector} @{LOOKUP}{order}(ptr %table, {w.vector} %x) nounwind {{",
         "entry:",
@@ -52,15 +53,15 @@ def _function(order: int, width: int) -> list[str]:
         "found:",
         *w.gather("%low", "%breaks", "%piece"),
         f"%u = fsub {w.vector} %y, %low",
-        f"%row = mul {w.integers} %piece, {w.all('i64', '4')}",
-        *(line for k in range(min(order, 3), 4) for line in w.coefficient(k)),
+        f"%row = mul {w.integers} %piece, {w.same('i64', 4)}",
+        *(line for k in range(min(order, 3), 4) for line in _coefficient(w, k)),
         *_polynomial(order, w),
         f"ret {w.vector} %value",
         "}",
     ]
 
 
-def _polynomial(order: int, w: _Lanes) -> list[str]:
+def _polynomial(order: int, w: Lanes) -> list[str]:
     def times(name: str, a: str, b: str) -> str:
         return f"{name} = fmul {w.vector} {a}, {b}"
 
@@ -74,7 +75,7 @@ def _polynomial(order: int, w: _Lanes) -> list[str]:
             *(times("%gain", "%whole", "%s4"), plus("%high", "%q0", "%gain")),
             f"%value = select i1 %periodic, {w.vector} %high, {w.vector} %q0",
         ]
-    three, two, six = (w.all("double", number) for number in ("3.0", "2.0", "6.0"))
+    three, two, six = (w.same("double", number) for number in ("3.0", "2.0", "6.0"))
     if order == 1:
         return [
             *(times("%t3", three, "%c3"), times("%p3", "%u", "%t3"), times("%t2", two, "%c2")),
@@ -85,41 +86,11 @@ def _polynomial(order: int, w: _Lanes) -> list[str]:
             *(times("%t3", six, "%c3"), times("%p3", "%u", "%t3"), times("%t2", two, "%c2")),
             plus("%value", "%t2", "%p3"),
         ]
-    zero = w.all("double", "0.0")
+    zero = w.same("double", "0.0")
     return [times("%t3", six, "%c3"), times("%nothing", zero, "%u"), plus("%value", "%t3", "%nothing")]
 
 
-class _Lanes:
-    """Vectors of one width."""
-
-    def __init__(self, width: int) -> None:
-        self.width = width
-        self.vector, self.integers = f"<{width} x double>", f"<{width} x i64>"
-        self.mask, self.pointers = f"<{width} x i1>", f"<{width} x ptr>"
-
-    def all(self, kind: str, value: str) -> str:
-        """The same constant in all lanes."""
-        return f"<{', '.join([f'{kind} {value}'] * self.width)}>"
-
-    def spread(self, scalar: str, name: str, kind: str) -> list[str]:
-        """A scalar put into all lanes of ``name``."""
-        vector = f"<{self.width} x {kind}>"
-        lanes = f"<{self.width} x i32> zeroinitializer"
-        return [
-            f"{name}.0 = insertelement {vector} poison, {kind} {scalar}, i32 0",
-            f"{name} = shufflevector {vector} {name}.0, {vector} poison, {lanes}",
-        ]
-
-    def gather(self, name: str, base: str, offset: str) -> list[str]:
-        """The numbers at ``base`` + ``offset``, lane by lane."""
-        suffix = f"v{self.width}f64.v{self.width}p0"
-        return [
-            f"{name}.at = getelementptr double, ptr {base}, {self.integers} {offset}",
-            f"{name} = call {self.vector} @llvm.masked.gather.{suffix}({self.pointers} {name}.at, i32 8, "
-            f"{self.mask} {self.all('i1', 'true')}, {self.vector} zeroinitializer)",
-        ]
-
-    def coefficient(self, power: int) -> list[str]:
-        """Coefficient ``power`` of every lane's piece."""
-        code = [f"%place{power} = add {self.integers} %row, {self.all('i64', str(power))}"]
-        return code + self.gather(f"%c{power}", "%rows", f"%place{power}")
+def _coefficient(w: Lanes, power: int) -> list[str]:
+    """Coefficient ``power`` of every lane's piece."""
+    place = f"%place{power} = add {w.integers} %row, {w.same('i64', power)}"
+    return [place, *w.gather(f"%c{power}", "%rows", f"%place{power}")]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from linkwright.engine.ir_accumulators import AccumulatorWriter
 from linkwright.engine.ir_after import following_lines
-from linkwright.engine.ir_kernel import ENTRY, Shape, in_blocks, lane_numbers, load_block, module_text
+from linkwright.engine.ir_kernel import ENTRY, Shape, in_blocks, load_block, module_text
 from linkwright.engine.ir_lines import LineWriter
 from linkwright.engine.lines import Lines
 from linkwright.engine.reductions import Accumulation
@@ -18,9 +18,6 @@ class StateKernel:
         self.shape = Shape.of(lines, accumulation)
         self.width = width
         self.accumulation = accumulation
-        self.integers = f"<{width} x i64>"
-        self.pointers = f"<{width} x ptr>"
-        self.all = f"<{', '.join(['i1 true'] * width)}>"
         self.writer = LineWriter(lines, width, wide=True, library=library)
         self.sums = None if accumulation is None else AccumulatorWriter(self.writer, accumulation, None)
 
@@ -57,9 +54,6 @@ class StateKernel:
     def _splat(self, scalar: str, name: str) -> list[str]:
         return self.writer.spread(scalar, name, "i64")
 
-    def _numbers(self, value: int) -> str:
-        return f"<{', '.join([f'i64 {value}'] * self.width)}>"
-
     def _write_lines(self) -> None:
         for index, line in enumerate(self.lines.lines):
             if line.is_operation:
@@ -72,55 +66,40 @@ class StateKernel:
                 f"%o{row}.row = mul i64 %length, {row}",
                 f"%o{row}.at = add i64 %o{row}.row, %i",
                 f"%o{row}.base = getelementptr double, ptr %out, i64 %o{row}.at",
-                *self._scatter(value, f"%o{row}.base", "%out.offset", f"%o{row}"),
+                *self.writer.scatter(value, f"%o{row}.base", "%out.offset", f"%o{row}"),
             ]
 
-    def _gather(self, name: str, base: str, offset: str) -> list[str]:
-        v = self.writer
-        suffix = f"v{self.width}f64.v{self.width}p0"
-        return [
-            f"{name}.at = getelementptr double, ptr {base}, {self.integers} {offset}",
-            f"{name} = call {v.vector} @llvm.masked.gather.{suffix}({self.pointers} {name}.at, i32 8, "
-            f"{v.mask} {self.all}, {v.vector} zeroinitializer)",
-        ]
-
-    def _scatter(self, value: str, base: str, offset: str, name: str) -> list[str]:
-        v = self.writer
-        suffix = f"v{self.width}f64.v{self.width}p0"
-        return [
-            f"{name}.to = getelementptr double, ptr {base}, {self.integers} {offset}",
-            f"call void @llvm.masked.scatter.{suffix}({v.vector} {value}, {self.pointers} {name}.to, i32 8, "
-            f"{v.mask} {self.all})",
-        ]
-
     def _design_inputs(self) -> list[str]:
-        stored = self.sums is None
-        row = self._numbers(self.shape.outputs if self.accumulation is None else self.accumulation.width)
-        kind = self.integers
+        stored, kind = self.sums is None, self.writer.integers
+
+        def numbers(value: int) -> str:
+            return self.writer.same("i64", value)
+
+        row = numbers(self.shape.outputs if self.accumulation is None else self.accumulation.width)
         parameters = self.shape.parameters if self.accumulation is None else len(self.accumulation.parameters)
         code = [
             *self._splat("%d", "%d.all"),
-            f"%d.lanes = add {kind} %d.all, {lane_numbers(self.width)}",
+            f"%d.lanes = add {kind} %d.all, {self.writer.numbers()}",
             f"%d.below = icmp slt {kind} %d.lanes, %last.all",
             f"%lane = select {self.writer.mask} %d.below, {kind} %d.lanes, {kind} %last.all",
-            f"%parameter.offset = mul {kind} %lane, {self._numbers(parameters)}",
-            f"%state.offset = mul {kind} %lane, {self._numbers(self.shape.states)}",
+            f"%parameter.offset = mul {kind} %lane, {numbers(parameters)}",
+            f"%state.offset = mul {kind} %lane, {numbers(self.shape.states)}",
             f"%field.offset = mul {kind} %lane, %length.all",
             f"%row.offset = mul {kind} %lane, {row}",
         ]
-        factor = "%length.all" if stored else self._numbers(1)
+        factor = "%length.all" if stored else numbers(1)
         code.append(f"%out.offset = mul {kind} %row.offset, {factor}")
         for index, line in enumerate(self.lines.lines):
             if line.op in ("parameter", "state"):
                 table = "%parameters" if line.op == "parameter" else "%starts"
                 name = f"%v{index}" if line.op == "parameter" else f"%start{line.place}"
                 code.append(f"%base{index} = getelementptr double, ptr {table}, i64 {line.place}")
-                code += self._gather(name, f"%base{index}", f"%{line.op}.offset")
+                code += self.writer.gather(name, f"%base{index}", f"%{line.op}.offset")
         return code
 
     def _parameter(self, name: str, place: int) -> list[str]:
         base = f"{name}.base = getelementptr double, ptr %parameters, i64 {place}"
-        return [base, *self._gather(name, f"{name}.base", "%parameter.offset")]
+        return [base, *self.writer.gather(name, f"{name}.base", "%parameter.offset")]
 
     def _phis(self, ready: str, last: str) -> list[str]:
         v = self.writer
@@ -147,7 +126,7 @@ class StateKernel:
                 ]
             elif line.op == "field":
                 code.append(f"%l{index} = getelementptr double, ptr %field{line.place}, i64 %i")
-                code += self._gather(f"%v{index}", f"%l{index}", "%field.offset")
+                code += self.writer.gather(f"%v{index}", f"%l{index}", "%field.offset")
         return code
 
     def _finish(self) -> list[str]:
@@ -165,7 +144,7 @@ class StateKernel:
             code, values = code + more, values + outputs
         for k, value in enumerate(values):
             code.append(f"%z{k} = getelementptr double, ptr %out, i64 {k}")
-            code += self._scatter(value, f"%z{k}", "%out.offset", f"%z{k}")
+            code += self.writer.scatter(value, f"%z{k}", "%out.offset", f"%z{k}")
         return [
             "finish:",
             *in_blocks("finish", code)[0],

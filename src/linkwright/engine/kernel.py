@@ -25,6 +25,7 @@ from typing import Any
 from linkwright.engine import machine_code
 from linkwright.engine.cache import loaded_code
 from linkwright.engine.kernel_writer import KernelWriter, annotation
+from linkwright.engine.late import ir
 
 
 class Vector:
@@ -162,8 +163,6 @@ class Kernels:
 
     def text(self) -> str:
         """The module in LLVM's language, optimised."""
-        from llvmlite import ir
-
         module = ir.Module("kernels")
         made: dict[str, Any] = {}
         for name, tree in self.trees.items():

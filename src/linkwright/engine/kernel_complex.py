@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from linkwright.engine.late import ir
+
 if TYPE_CHECKING:
     from linkwright.engine.kernel import Reals, Vector
 
@@ -59,8 +61,6 @@ class ComplexWriter:
     _as: Any
 
     def _is_pair(self, value: Any) -> bool:
-        from llvmlite import ir
-
         return isinstance(value.type, ir.LiteralStructType)
 
     def _parts(self, value: Any) -> tuple[Any, Any]:
@@ -70,8 +70,6 @@ class ComplexWriter:
         return self._as(value, self.vector), None
 
     def _pair(self, real: Any, imaginary: Any) -> Any:
-        from llvmlite import ir
-
         empty = ir.Constant(ir.LiteralStructType([self.vector, self.vector]), ir.Undefined)
         return self.b.insert_value(self.b.insert_value(empty, real, 0), imaginary, 1)
 
@@ -105,8 +103,6 @@ class ComplexWriter:
         return self.b.fmul(a, b, flags=self.flags)
 
     def _entry(self, address: Any, entry: Any, half: int) -> Any:
-        from llvmlite import ir
-
         whole = entry.type
         place = self.b.mul(entry, ir.Constant(whole, 2 * self.lanes))
         place = self.b.add(place, ir.Constant(whole, half * self.lanes))
@@ -125,8 +121,6 @@ class ComplexWriter:
         return self._fadd(self._fmul(a, a), self._fmul(b, b))
 
     def _call_inverse(self, value: Any) -> Any:
-        from llvmlite import ir
-
         one = ir.Constant(self.vector, [1.0] * self.lanes)
         size = self.b.fdiv(one, self._call_square(value), flags=self.flags)
         a, b = self._parts(value)

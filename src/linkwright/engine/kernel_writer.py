@@ -8,6 +8,7 @@ from functools import cache
 from typing import Any
 
 from linkwright.engine.kernel_complex import ComplexWriter
+from linkwright.engine.late import ir
 
 LANES = 8
 _FLAGS = ("contract", "reassoc", "nsz", "arcp")
@@ -24,8 +25,6 @@ def annotation(node: ast.expr | None) -> str | None:
 
 @cache
 def _types() -> tuple[Any, ...]:
-    from llvmlite import ir
-
     whole, real = ir.IntType(64), ir.DoubleType()
     return whole, real, ir.VectorType(real, LANES), ir.VectorType(whole, LANES), ir.PointerType()
 
@@ -51,8 +50,6 @@ class KernelWriter(ComplexWriter):
 
     def function(self, tree: ast.FunctionDef) -> Any:
         """The function of a definition."""
-        from llvmlite import ir
-
         kinds = {"int": self.whole, "float": self.real, "Vector": self.vector}
         names = [each.arg for each in tree.args.args]
         notes = [str(annotation(each.annotation)) for each in tree.args.args]
@@ -83,8 +80,6 @@ class KernelWriter(ComplexWriter):
         self.b.store(value.value if entry is not None else self._as(value, kind), slot)
 
     def _get(self, name: str) -> Any:
-        from llvmlite import ir
-
         if name in self.slots:
             slot, (kind, entry) = self.slots[name]
             value = self.b.load(slot, typ=kind)
@@ -102,8 +97,6 @@ class KernelWriter(ComplexWriter):
         raise TypeError(f"{value.type} is no {kind}")
 
     def _spread(self, value: Any) -> Any:
-        from llvmlite import ir
-
         short = ir.IntType(32)
         empty = ir.Constant(self.vector, ir.Undefined)
         first = self.b.insert_element(empty, value, ir.Constant(short, 0))
@@ -197,8 +190,6 @@ class KernelWriter(ComplexWriter):
         return getattr(self, f"_of_{type(node).__name__}")(node)
 
     def _of_Constant(self, node: ast.Constant) -> Any:
-        from llvmlite import ir
-
         return ir.Constant(self.whole if isinstance(node.value, int) else self.real, node.value)
 
     def _of_Name(self, node: ast.Name) -> Any:
@@ -273,8 +264,6 @@ class KernelWriter(ComplexWriter):
         return self.b.call(self._outside(f"llvm.{name}.{suffix}", value.type, value.type), [value])
 
     def _outside(self, name: str, result: Any, *arguments: Any) -> Any:
-        from llvmlite import ir
-
         known = self.module.globals.get(name)
         return known or ir.Function(self.module, ir.FunctionType(result, arguments), name)
 
@@ -303,14 +292,10 @@ class KernelWriter(ComplexWriter):
         return self.b.store(self._as(value, self.vector), place, align=8)
 
     def _call_invoke(self, code: Any, block: _Address) -> Any:
-        from llvmlite import ir
-
         kind = ir.FunctionType(ir.VoidType(), [self.pointer]).as_pointer()
         return self.b.call(self.b.inttoptr(code, kind), [block.value])
 
     def _call_ramp(self, first: Any) -> Any:
-        from llvmlite import ir
-
         steps = ir.Constant(self.vector, [float(each) for each in range(LANES)])
         return self.b.fadd(self._as(first, self.vector), steps)
 
@@ -321,8 +306,6 @@ class KernelWriter(ComplexWriter):
         return self._intrinsic("sqrt", value)
 
     def _call_total(self, value: Any) -> Any:
-        from llvmlite import ir
-
         name = f"llvm.vector.reduce.fadd.v{LANES}f64"
         add = self._outside(name, self.real, self.real, self.vector)
         return self.b.call(add, [ir.Constant(self.real, 0.0), value], fastmath=_FLAGS)
@@ -333,12 +316,8 @@ class KernelWriter(ComplexWriter):
         )
 
     def _call_marked(self, value: Any, index: Any) -> Any:
-        from llvmlite import ir
-
         kept = self.b.and_(self.b.bitcast(value, self.wholes), ir.Constant(self.wholes, [~4095] * LANES))
         return self.b.bitcast(self.b.or_(kept, self.b.fptosi(index, self.wholes)), self.vector)
 
     def _call_mark_of(self, value: Any) -> Any:
-        from llvmlite import ir
-
         return self.b.and_(self.b.bitcast(value, self.whole), ir.Constant(self.whole, 4095))

@@ -5,7 +5,6 @@ from __future__ import annotations
 import ctypes
 import threading
 from collections.abc import Callable, Mapping
-from functools import partial
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -38,7 +37,7 @@ def compile_program(
 ) -> CompiledProgram | None:
     """The program as machine code, or None where llvmlite is missing.
 
-    Without an ``accumulation`` every output is stored (:meth:`CompiledProgram.run`, ``.store``); with
+    Without an ``accumulation`` every output is stored (:meth:`CompiledProgram.store`, ``.repeated``); with
     one, of this program, its reductions are found inside the loop (:meth:`CompiledProgram.sweep`).
     ``exact``: every operation is rounded by itself, as NumPy does. Machine code is kept in memory and on disk. Raises
     ValueError for unknown outputs.
@@ -78,94 +77,25 @@ class CompiledProgram:
         self._function = code.function(ENTRY)
         self._own = threading.local()
 
-    def run(
-        self,
-        parameters: ArrayLike,
-        positions: Arrays,
-        fields: Arrays = _NONE,
-        out: Floats | None = None,
-        *,
-        start: ArrayLike | None = None,
-        length: int | None = None,
-        tables: Tables | None = None,
-    ) -> Floats:
-        """Outputs of one design, (outputs, n), in ``out`` where given (C-contiguous).
-
-        ``parameters``: (parameters,); ``positions``, ``fields``: (n,) per name; ``start``: (states,);
-        ``length``: n where no input is an array; ``tables``: those that the program looks up. The
-        same mappings of the same arrays given again cost nothing but the call. Raises ValueError for
-        missing inputs, unequal lengths and an ``out`` of another shape.
-        """
-        call: SingleCall | None = getattr(self._own, "call", None)
-        if call is None or not call.fits(positions, fields, length, tables):
-            call = self._own.call = SingleCall(
-                self.program, self.width, positions, fields, length=length, tables=tables
-            )
-        if self.program.next_states or call.inputs.stride != call.inputs.length:
-            table = np.asarray(parameters, dtype=np.float64)[None, :]
-            rows = {name: np.asarray(fields[name])[None, :] for name in self.program.fields}
-            stored: Floats = self.store(table, positions, rows, start=start, length=length, tables=tables)[0]
-            if out is None:
-                return stored
-            out[...] = stored
-            return out
-        call.set_parameters(parameters)
-        if out is None:
-            out = call.new_out()
-        else:
-            call.set_out(out)
-        self._function(call.address)
-        return out
-
-    def bound(
-        self,
-        parameters: Floats,
-        positions: Arrays,
-        out: Floats,
-        fields: Arrays = _NONE,
-        *,
-        tables: Tables | None = None,
-    ) -> Callable[[], None]:
-        """A call of one design on arrays that are read and written where they lie, without a further look.
-
-        Shapes as for :meth:`run`; what ``parameters`` holds at the time of the call counts. Raises
-        ValueError for arrays that are not contiguous floats of these shapes, for fewer positions than
-        numbers in a vector, and for programs that carry states.
-        """
-        call = SingleCall(self.program, self.width, positions, fields, tables=tables)
-        if self.program.next_states or call.inputs.stride != call.inputs.length:
-            raise ValueError(f"only programs without states are bound, to {self.width} or more positions")
-        if not call.fits(positions, fields, tables=tables) or not (
-            parameters.flags.c_contiguous and parameters.dtype == float
-        ):
-            raise ValueError("give parameters, positions and fields as contiguous arrays of floats")
-        for _ in range(2):  # given again, they are no longer copied
-            call.set_parameters(parameters)
-        call.set_out(out)
-        function, address = self._function, call.address
-
-        def run(kept: object = (call, parameters, out)) -> None:
-            function(address)
-
-        return run
-
     def repeated(self, positions: Arrays, *, tables: Tables | None = None) -> Callable[[Floats], Floats]:
-        """:meth:`run` of one design (parameters,) after another on positions and tables that are looked at once.
+        """Outputs (outputs, n) of one design (parameters,) after another, on positions and tables that are looked at
+        once.
 
-        Outputs are read-only; those that nobody holds any more, nor a view of them, make room for the next ones.
-        Raises ValueError as :meth:`run`, and for programs that take fields or carry states.
+        The same array of parameters given again is read where it lies. Outputs are read-only; those that nobody holds
+        any more, nor a view of them, make room for the next ones. Raises ValueError for missing inputs, unequal
+        lengths, and programs that take fields or carry states.
         """
         if self.program.fields or self.program.next_states:
             raise ValueError("only programs without fields and states are repeated")
         own, function = threading.local(), self._function
         inputs = self._inputs(positions, _NONE, None, tables)
         if inputs.stride != inputs.length:
-            return partial(self.run, positions=positions, tables=tables)
+            return lambda parameters: self.store(parameters[None, :], positions, tables=tables)[0]
 
         def run(parameters: Floats) -> Floats:
             call: SingleCall | None = getattr(own, "call", None)
             if call is None:
-                call = own.call = SingleCall(self.program, self.width, positions, _NONE, tables=tables)
+                call = own.call = SingleCall(self.program, inputs)
             call.set_parameters(parameters)
             out = call.free_out()
             function(call.address)
@@ -182,12 +112,12 @@ class CompiledProgram:
         fields: Arrays = _NONE,
         tables: Tables | None = None,
     ) -> tuple[int, Whole, Whole]:
-        """For kernels that call it: the address of the code, the call block of the first design, and the addresses of
-        the fields in it.
+        """For those that call it themselves, kernels among them: the address of the code, the call block of the first
+        design, and the addresses of the fields in it.
 
         Kernels move the addresses of the parameters and the fields on, by the bytes of a design. ``parameters``
-        (designs, parameters), ``fields`` (designs, n) and ``out`` (outputs, n) are read and written where they lie,
-        and must live as long as the block is used.
+        (designs, parameters), ``positions`` (n,), ``fields`` (designs, n) and ``out`` (outputs, n) are read and
+        written where they lie; contiguous floats, they must live as long as the block is used, as must this program.
         """
         inputs = self._inputs(positions, fields, None, tables)
         if self.program.next_states or inputs.stride != inputs.length:

@@ -81,10 +81,15 @@ def object_code(text: str, level: int = 3) -> bytes:
     """Object code of a module; ``level``: how much the compiler optimises, 0 to 3."""
     with _LOCK:
         machine = _target_machine(level)
-        module = _binding().parse_assembly(text)
-        module.triple = machine.triple
-        module.data_layout = str(machine.target_data)
-        return bytes(machine.emit_object(module))
+        return bytes(machine.emit_object(module_for(_binding(), machine, text)))
+
+
+def module_for(binding: Any, machine: Any, text: str) -> Any:
+    """A module to be compiled for a machine."""
+    module = binding.parse_assembly(text)
+    module.triple = machine.triple
+    module.data_layout = str(machine.target_data)
+    return module
 
 
 def optimised(text: str) -> str:
@@ -92,9 +97,7 @@ def optimised(text: str) -> str:
     with _LOCK:
         binding = _binding()
         machine = _target_machine()
-        module = binding.parse_assembly(text)
-        module.triple = machine.triple
-        module.data_layout = str(machine.target_data)
+        module = module_for(binding, machine, text)
         options = binding.create_pipeline_tuning_options(speed_level=3)
         passes = binding.create_pass_builder(machine, options)
         passes.getModulePassManager().run(module, passes)

@@ -15,7 +15,7 @@ from linkwright.engine.lines import Lines
 from linkwright.engine.program import Program
 from linkwright.engine.recent import Recent
 from linkwright.engine.registers import Registers
-from linkwright.engine.scalar_backend import LineRunner, ScalarProgram, start_values
+from linkwright.engine.scalar_backend import LineRunner, start_values
 from linkwright.engine.table import Table, Tables, given_tables
 
 Arrays = Mapping[str, ArrayLike]
@@ -60,27 +60,21 @@ class NumpyProgram:
         fields: Arrays | None = None,
         states: Arrays | None = None,
         *,
-        start: ArrayLike | None = None,
         length: int | None = None,
         tables: Tables | None = None,
     ) -> Floats:
         """Outputs of one design, shape (outputs, n).
 
         ``parameters``: (parameters,) in the order of ``program.parameters``. ``positions``,
-        ``fields``: one (n,) array per name; names that the program does not need are ignored.
-        A program with states takes either ``states``, an (n,) array per name, or ``start``, the
-        (states,) values before the first position, carried on from there. ``length``: n, where
-        no input is an array. ``tables``: those that the program looks up, by name.
+        ``fields``, ``states``: one (n,) array per name; names that the program does not need are ignored.
+        ``length``: n, where no input is an array. ``tables``: those that the program looks up, by name.
         Raises ValueError for missing inputs and unequal lengths.
         """
         fields, states = fields or {}, states or {}
-        given = {name: fields[name] for name in self.program.fields if name in fields}
-        if self.program.states and not states:
-            return self._continued(parameters, positions, given, start, length, tables)
-        n = self._length(positions, {**given, **states}, length)
+        n = self._length(positions, {**fields, **states}, length)
         plan = self._plan(None, n)
         self._set_design(plan, _numbers(parameters), tables)
-        for kind, names, arrays in self._sources(positions, given, states):
+        for kind, names, arrays in self._sources(positions, fields, states):
             for buffer, name in zip(plan.inputs[kind], names, strict=True):
                 buffer[...] = arrays[name]
         with np.errstate(all="ignore"):
@@ -159,8 +153,9 @@ class NumpyProgram:
     ) -> Floats:
         """Outputs of many designs, shape (designs, outputs, n).
 
-        ``parameters``: (designs, parameters); ``fields`` and ``states``: (designs, n) per name;
-        ``start``: (designs, states); otherwise as :meth:`run`.
+        ``parameters``: (designs, parameters); ``fields`` and ``states``: (designs, n) per name. A program with
+        states takes either these, or ``start``, the (designs, states) values before the first position, carried on
+        from there; otherwise as :meth:`run`.
         """
         table = self._table(parameters)
         n = self._length(positions, {**(fields or {}), **(states or {})}, length)
@@ -193,7 +188,8 @@ class NumpyProgram:
         size, width = self.block(n, continued)
         for first in range(0, len(table), size):
             part = slice(first, min(first + size, len(table)))
-            sources = self._sources(positions, _cut(fields, part), _cut(states, part))
+            own_states = None if continued else _cut(states, part)
+            sources = self._sources(positions, _cut(fields, part), own_states)
             own = None if starts is None else starts[part]
             for columns, outputs in self._columns(table[part], sources, own, found, n, width):
                 yield part, columns, outputs
@@ -233,25 +229,6 @@ class NumpyProgram:
         width = min(n, room) or 1
         return max(1, room // width), width
 
-    def _continued(
-        self,
-        parameters: ArrayLike,
-        positions: Arrays,
-        fields: Arrays,
-        start: ArrayLike | None,
-        length: int | None,
-        tables: Tables | None,
-    ) -> Floats:
-        n = self._length(positions, fields, length)
-        scalar = ScalarProgram(self.program, tables)
-        numbers, state = _numbers(parameters), self._starts(start, 1)[0].tolist()
-        along = _rows(positions, self.program.positions, n)
-        across = _rows(fields, self.program.fields, n)
-        result = np.empty((n, len(self.program.outputs)))
-        for i in range(n):
-            result[i], state = scalar.step(numbers, along[i], state, across[i])
-        return np.ascontiguousarray(result.T)
-
     def _starts(self, start: ArrayLike | None, designs: int) -> Floats:
         if start is None:
             names = ", ".join(self.program.states)
@@ -259,12 +236,12 @@ class NumpyProgram:
         given = np.asarray(start, dtype=np.float64)
         return np.broadcast_to(given, (designs, len(self.program.states)))
 
-    def _sources(self, positions: Arrays, fields: Arrays, states: Arrays) -> list[Source]:
+    def _sources(self, positions: Arrays, fields: Arrays, states: Arrays | None) -> list[Source]:
         sources: list[Source] = [
             ("position", self.program.positions, positions),
             ("field", self.program.fields, fields),
         ]
-        if states:
+        if states is not None:
             sources.append(("state", self.program.states, states))
         for kind, names, arrays in sources:
             missing = [name for name in names if name not in arrays]
@@ -330,10 +307,3 @@ def _numbers(parameters: ArrayLike) -> list[float]:
 
 def _cut(arrays: Arrays, part: slice) -> dict[str, Floats]:
     return {name: np.asarray(array, dtype=np.float64)[part] for name, array in arrays.items()}
-
-
-def _rows(arrays: Arrays, names: tuple[str, ...], n: int) -> list[list[float]]:
-    """One list of numbers per position."""
-    if not names:
-        return [[] for _ in range(n)]
-    return np.array([np.asarray(arrays[name], dtype=np.float64) for name in names]).T.tolist()  # type: ignore[no-any-return]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Container, Mapping
+from collections.abc import Container, Iterable, Mapping, Sequence
 from functools import cached_property
 
 from linkwright.core.dataclass import dataclass
@@ -55,14 +55,9 @@ class Program:
     def only(self, names: list[str]) -> Program:
         """The same program for some of its outputs."""
         entries, by_name = self.entries, dict(self.outputs)
-        wanted = [*(by_name[name] for name in names), *(i for _, i in self.next_states)]
-        kept = needed(lambda index: entries[index][1], wanted)
-        number = {old: new for new, old in enumerate(kept)}
-        return Program(
-            tuple(_renumbered(self.entries[old], number) for old in kept),
-            tuple((name, number[by_name[name]]) for name in names),
-            tuple((name, number[i]) for name, i in self.next_states),
-        )
+        outputs = [(name, by_name[name]) for name in names]
+        wanted = [i for _, i in (*outputs, *self.next_states)]
+        return self._of(needed(lambda index: entries[index][1], wanted), outputs)
 
     def last(self, inputs: Container[str]) -> Program:
         """The same program with all lines that need some of its parameters or fields behind those that do not."""
@@ -70,11 +65,14 @@ class Program:
         for index, (_, args, _, name, _) in enumerate(self.entries):
             if (not args and name in inputs) or not late.isdisjoint(args):
                 late.add(index)
-        order = [i for i in range(len(self.entries)) if i not in late] + sorted(late)
+        return self._of([i for i in range(len(self.entries)) if i not in late] + sorted(late), self.outputs)
+
+    def _of(self, order: Sequence[int], outputs: Iterable[tuple[str, int]]) -> Program:
+        """Lines in a new order."""
         number = {old: new for new, old in enumerate(order)}
         return Program(
             tuple(_renumbered(self.entries[old], number) for old in order),
-            tuple((name, number[i]) for name, i in self.outputs),
+            tuple((name, number[i]) for name, i in outputs),
             tuple((name, number[i]) for name, i in self.next_states),
         )
 

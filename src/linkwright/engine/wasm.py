@@ -18,6 +18,7 @@ from typing import Any
 from linkwright.engine.ir_kernel import ENTRY, kernel
 from linkwright.engine.ir_lookup import LOOKUP
 from linkwright.engine.lines import Lines
+from linkwright.engine.machine_code import module_for
 from linkwright.engine.program import Program
 from linkwright.engine.wasm_module import linked
 
@@ -53,9 +54,7 @@ def wasm_module(programs: Sequence[Program]) -> bytes | None:
 def _object(text: str, machine: Any) -> bytes:
     import llvmlite.binding as binding
 
-    module = binding.parse_assembly(text)
-    module.triple = machine.triple
-    module.data_layout = str(machine.target_data)
+    module = module_for(binding, machine, text)
     builder = binding.create_pass_builder(machine, binding.create_pipeline_tuning_options())
     passes = binding.create_new_module_pass_manager()
     passes.add_always_inliner_pass()

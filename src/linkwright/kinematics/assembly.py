@@ -14,7 +14,7 @@ from linkwright.engine.scalar_backend import ScalarProgram
 from linkwright.engine.trace import Scalar
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.angles import geared, turn_state
-from linkwright.kinematics.groups import closed_form, dyad_shape, state_name
+from linkwright.kinematics.groups import dyad_shape, iterated, state_name
 from linkwright.kinematics.trace import MotionTrace, trace_motion
 from linkwright.mechanism.drawing import Drawing
 from linkwright.mechanism.mechanism import Mechanism
@@ -96,7 +96,7 @@ def _from_words(mechanism: Mechanism, structure: Structure) -> dict[str, float]:
             of_joint.setdefault(connection.joint, entry)
     for joint, word in mechanism.assembly.items():
         if joint not in of_joint:
-            problems[joint] = _no_such_joint(joint, groups, _without_closed_form(structure))
+            problems[joint] = _no_such_joint(joint, groups, iterated(structure))
             continue
         group, words = of_joint[joint]
         if word not in words:
@@ -138,7 +138,7 @@ def _to_draw(group: Group) -> str:
 def _drawn_states(mechanism: Mechanism, structure: Structure, drawing: Drawing) -> dict[str, float]:
     """Chain coordinates of the groups without closed form."""
     states: dict[str, float] = {}
-    for group in _open.get(structure, None, lambda: _without_closed_form(structure)):
+    for group in iterated(structure):
         if not drawing and any(step.turns for step in group.unknowns):
             raise AssemblyError(
                 "motion.needs_drawing",
@@ -159,13 +159,6 @@ def _drawn_states(mechanism: Mechanism, structure: Structure, drawing: Drawing) 
     for link in _counted(mechanism, structure):
         states[turn_state(link)] = drawing.angle(link) or 0.0
     return states
-
-
-def _without_closed_form(structure: Structure) -> tuple[Group, ...]:
-    return tuple(group for group in structure.groups if group.unknowns and not closed_form(group))
-
-
-_open: Recent[Structure, tuple[Group, ...]] = Recent(64)
 
 
 def _counted(mechanism: Mechanism, structure: Structure) -> list[str]:

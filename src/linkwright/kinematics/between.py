@@ -11,7 +11,7 @@ from linkwright.core.cached_property import cached_property
 from linkwright.core.outputs import row_name
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.change_points import closes, passages, signs
-from linkwright.kinematics.cycle import Positions, at_one_time, at_times
+from linkwright.kinematics.cycle import Positions, at_one_time, at_times, off_law
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.passage import Passage
 from linkwright.kinematics.passing import modal
@@ -25,11 +25,8 @@ class Between:
         self.motion = motion
         if motion.positions.cycle:
             return
-        nominal = at_times(motion.mechanism, motion.time)
-        for name, (q, *_) in motion.positions.coordinates.items():
-            lawful = nominal.coordinates[name][0]
-            if not (np.abs(q - lawful) <= 1e-12 + 1e-9 * np.abs(lawful)).all():
-                raise LinkwrightError("motion.no_way_between", name=name)
+        if (name := off_law(motion.mechanism, motion.positions)) is not None:
+            raise LinkwrightError("motion.no_way_between", name=name)
 
     @cached_property
     def passing(self) -> list[Passage]:

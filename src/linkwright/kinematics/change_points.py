@@ -25,7 +25,7 @@ from linkwright.engine.recent import Recent
 from linkwright.engine.trace import Scalar, minimum
 from linkwright.kinematics.closed_loops import upstream
 from linkwright.kinematics.continuation import Followed
-from linkwright.kinematics.cycle import Positions, at_times
+from linkwright.kinematics.cycle import Positions, at_times, off_law
 from linkwright.kinematics.passage import Kind, Passage
 from linkwright.kinematics.passing import FINE, NEAR, measures, modal
 from linkwright.kinematics.solver import MotionSolver
@@ -126,12 +126,7 @@ def way(solver: MotionSolver, positions: Positions) -> Way:
     """Positions at given places (numbers of positions, counted on in between), by the drivers' laws if those hold."""
     mechanism, index = solver.mechanism, np.arange(positions.count + 1.0)
     time = np.append(positions.time, positions.time[0] + (positions.period or 0.0))
-    known = at_times(mechanism, positions.time) if mechanism.drivers else positions
-    lawful = all(
-        np.allclose(q, known.coordinates[name][0], rtol=1e-9, atol=1e-12)
-        for name, (q, *_) in positions.coordinates.items()
-    )
-    if lawful and (np.diff(positions.time) != 0.0).all():
+    if off_law(mechanism, positions) is None and (np.diff(positions.time) != 0.0).all():
         return lambda place: at_times(mechanism, np.interp(place, index, time))
 
     def mixed(place: Floats) -> Positions:

@@ -20,7 +20,7 @@ import numpy as np
 from linkwright.core.arrays import Complexes, Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.kinematics.angles import counted_links, geared
-from linkwright.kinematics.groups import closed_form, whole_form
+from linkwright.kinematics.groups import iterated, whole_form
 from linkwright.mechanism.geometry import mechanism_size
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.structure.group import Group, Structure
@@ -52,11 +52,6 @@ class Turned:
     unit: Complexes
     arms: Complexes
     slides: Complexes
-
-
-def iterated(structure: Structure) -> list[Group]:
-    """The groups that have no closed form."""
-    return [group for group in structure.groups if group.unknowns and not closed_form(group)]
 
 
 def counted(structure: Structure, mechanism: Mechanism) -> list[str]:

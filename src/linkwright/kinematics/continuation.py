@@ -20,9 +20,9 @@ from linkwright.kinematics.angles import geared, turn_state
 from linkwright.kinematics.assembly import AssemblyError
 from linkwright.kinematics.branch import CORRECTION, Branch, Way, follow, lawful, straight
 from linkwright.kinematics.certificate import distance_to_others
-from linkwright.kinematics.closed_loops import ClosedLoops, counted, iterated
-from linkwright.kinematics.cycle import Positions, at_times, coordinate_text, rotary
-from linkwright.kinematics.groups import state_name
+from linkwright.kinematics.closed_loops import ClosedLoops, counted
+from linkwright.kinematics.cycle import Positions, coordinate_text, off_law, rotary
+from linkwright.kinematics.groups import iterated, state_name
 from linkwright.mechanism.drawing import Drawing
 
 if TYPE_CHECKING:
@@ -368,11 +368,7 @@ class _Journey:
         steps = np.diff(time)
         if not ((steps > 0.0).all() or (steps < 0.0).all()):
             return False
-        known = at_times(self.follower.mechanism, time).coordinates
-        return all(
-            np.allclose(q, known[name][0], rtol=1e-9, atol=1e-12)
-            for name, (q, *_) in self.positions.coordinates.items()
-        )
+        return off_law(self.follower.mechanism, self.positions) is None
 
     def _in_line(self) -> bool:
         """Whether the drivers' coordinates follow each other on one straight line."""

@@ -149,6 +149,16 @@ def _driven(driver: Driver, time: Floats) -> tuple[Floats, Floats, Floats]:
     return rows
 
 
+def off_law(mechanism: Mechanism, positions: Positions) -> str | None:
+    """The first driver whose coordinates are not those of its law at the times of the positions; None without one."""
+    known = at_times(mechanism, positions.time).coordinates
+    for name, (q, *_) in positions.coordinates.items():
+        lawful = known[name][0]
+        if not (np.abs(q - lawful) <= 1e-12 + 1e-9 * np.abs(lawful)).all():
+            return name
+    return None
+
+
 def at_one_time(mechanism: Mechanism, time: float) -> dict[str, float]:
     """The programs' inputs at one time, s, by name, of drivers that all have constant speeds."""
     found = {"time": time}

@@ -11,8 +11,8 @@ import numpy as np
 from linkwright.core.arrays import Indices
 from linkwright.core.outputs import row_name
 from linkwright.kinematics.change_points import closes
-from linkwright.kinematics.closed_loops import iterated
 from linkwright.kinematics.cycle import FEW, Positions, coordinate_text, cycle_turns, not_back, together
+from linkwright.kinematics.groups import iterated
 from linkwright.kinematics.outcome import Outcome, PositionError
 from linkwright.kinematics.passage import Passage
 from linkwright.kinematics.whole_turns import MOST

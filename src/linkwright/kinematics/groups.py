@@ -11,14 +11,14 @@ from linkwright.engine.linear import Matrix, determinant, inverse, product
 from linkwright.engine.recent import Recent
 from linkwright.engine.trace import Mask, Scalar, cos, sin, stop
 from linkwright.engine.vector import Vec
-from linkwright.groups.base import DYADS, Chain, Dyad, WholeGroup
+from linkwright.groups.base import DYADS, Chain, Dyad, Solved, WholeGroup
 from linkwright.joints.base import JOINTS, Cut
 from linkwright.joints.pose import UNTURNED, Pose, Rotor
 from linkwright.kinematics.angles import Angles, geared
 from linkwright.kinematics.closure import Coordinate, cut_of, jacobian, pair_of
 from linkwright.kinematics.dimensions import Dimensions, DriverInput
 from linkwright.mechanism.geometry import mechanism_size
-from linkwright.structure.group import Group, TreeJoint
+from linkwright.structure.group import Group, Structure, TreeJoint
 
 #: Below this ratio of the square under the root to its best value a position is called singular.
 SINGULAR = 1e-10
@@ -42,6 +42,13 @@ class Placed:
     coordinates: Mapping[TreeJoint, Coordinate] = field(default_factory=dict)
     rates: Mapping[TreeJoint, Scalar] = field(default_factory=dict)
     seconds: Mapping[TreeJoint, Scalar] = field(default_factory=dict)
+
+    def judge(self, solved: Solved) -> None:
+        """Notes how a closed form was met."""
+        self.facts = solved.facts
+        self.reached = solved.square >= -SINGULAR * solved.scale
+        self.valid = solved.square > SINGULAR * solved.scale
+        self.quality = solved.square / solved.scale
 
 
 class GroupTracer:
@@ -125,10 +132,7 @@ class GroupTracer:
         steps = [step for end in ends for step in chain_unknowns(group, end)]
         self._hang(group, dict(zip(steps, solved.coordinates, strict=True)))
         placed.dyad = dyad
-        placed.facts = solved.facts
-        placed.reached = solved.square >= -SINGULAR * solved.scale
-        placed.valid = solved.square > SINGULAR * solved.scale
-        placed.quality = solved.square / solved.scale
+        placed.judge(solved)
         sign = 1.0 if steps == list(group.unknowns) else -1.0
         matrix = jacobian(group, placed.cuts, self.poses, self.dimensions)
         placed.inverse = inverse(matrix, solved.inverse_determinant * sign)
@@ -154,10 +158,7 @@ class GroupTracer:
         group, solved = placed.group, form.place(self, placed.group)
         self._hang(group, dict(zip(group.unknowns, solved.coordinates, strict=True)))
         placed.dyad = form  # type: ignore[assignment]
-        placed.facts = solved.facts
-        placed.reached = solved.square >= -SINGULAR * solved.scale
-        placed.valid = solved.square > SINGULAR * solved.scale
-        placed.quality = solved.square / solved.scale
+        placed.judge(solved)
         placed.inverse = inverse(jacobian(group, placed.cuts, self.poses, self.dimensions))
 
     # higher pairs alone -------------------------------------------------------------------
@@ -264,6 +265,18 @@ def whole_form(group: Group) -> WholeGroup | None:
 def closed_form(group: Group) -> bool:
     """Whether a group is placed without iteration."""
     return dyad_shape(group) is not None or in_one_step(group) or whole_form(group) is not None
+
+
+def iterated(structure: Structure) -> tuple[Group, ...]:
+    """The groups that have no closed form."""
+    return _iterated.get(
+        structure,
+        None,
+        lambda: tuple(each for each in structure.groups if each.unknowns and not closed_form(each)),
+    )
+
+
+_iterated: Recent[Structure, tuple[Group, ...]] = Recent(64)
 
 
 def in_one_step(group: Group) -> bool:

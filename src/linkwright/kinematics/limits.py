@@ -10,7 +10,6 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
-from typing import Literal
 
 import numpy as np
 
@@ -28,6 +27,7 @@ from linkwright.kinematics.brackets import Bracket, Columns, part_of, places_of,
 from linkwright.kinematics.motion import TURN, Motion
 from linkwright.kinematics.names import program_names
 from linkwright.kinematics.reach import Reach
+from linkwright.loads.signals import Limit
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
 
@@ -50,7 +50,7 @@ LEAST_WAY = 1e-7
 
 
 @dataclass(frozen=True)
-class LimitPosition:
+class LimitPosition(Limit):
     """A reversal of an output.
 
     ``input``: the first driver's coordinate (rad or m); ``time`` s; ``value`` of the output (rad or m); ``kind``
@@ -58,10 +58,6 @@ class LimitPosition:
     last position of the motion before it, or at it.
     """
 
-    input: float
-    time: float
-    value: float
-    kind: Literal["max", "min"]
     index: int
 
 

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import threading
-from collections import OrderedDict
-from collections.abc import Hashable, Mapping
+from collections.abc import Mapping
 
 from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
@@ -19,8 +18,6 @@ from linkwright.kinematics.shape import Form, shape
 from linkwright.kinematics.trace import MotionTrace, trace_motion
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.structure import Structure
-
-_KEPT = 32
 
 
 @dataclass(frozen=True)
@@ -96,17 +93,7 @@ def motion_programs(mechanism: Mechanism, manner: Manner) -> MotionPrograms:
         StructureError: as :func:`linkwright.structure.structure`.
     """
     key = Form((shape(mechanism, manner.free), manner.flipping, manner.iterations))
-    with _lock:
-        if key in _kept:
-            _kept.move_to_end(key)
-            return _kept[key]
-    made = MotionPrograms(mechanism, analysed(mechanism), manner)
-    with _lock:
-        made = _kept.setdefault(key, made)
-        while len(_kept) > _KEPT:
-            _kept.popitem(last=False)
-    return made
+    return _kept.get(None, key, lambda: MotionPrograms(mechanism, analysed(mechanism), manner))
 
 
-_kept: OrderedDict[Hashable, MotionPrograms] = OrderedDict()
-_lock = threading.Lock()
+_kept: Recent[None, MotionPrograms] = Recent(32)

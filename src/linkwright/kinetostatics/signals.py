@@ -34,7 +34,6 @@ class MotionSignals:
 
     def __init__(self, motion: Motion) -> None:
         self.motion = motion
-        self._limits: dict[Output, Sequence[Limit]] = {}
 
     @property
     def mechanism(self) -> Mechanism:
@@ -108,13 +107,7 @@ class MotionSignals:
 
     def limits(self, output: Output) -> Sequence[Limit]:
         """Where an output reverses within the cycle, by increasing time."""
-        if output not in self._limits:
-            found = [
-                Limit(self._law.at(each.time), float(each.time), float(each.value), each.kind)
-                for each in limit_positions(self._turned, output)
-            ]
-            self._limits[output] = sorted(found, key=lambda each: each.time)
-        return self._limits[output]
+        return sorted(limit_positions(self._turned, output), key=lambda each: each.time)
 
     def limit_inputs(self, output: Output) -> list[tuple[float, str]]:
         """The inputs at which an output reverses, with the kinds of limits."""

@@ -33,6 +33,11 @@ def mechanism_outputs(mechanism: Mechanism) -> tuple[Output, ...]:
     return tuple(found)
 
 
+def usual_output(mechanism: Mechanism) -> Output:
+    """The output that counts where none is named: the last one, else the angle of the last link."""
+    return (*mechanism_outputs(mechanism)[-1:], Output("angle", [*mechanism.links][-1]))[0]
+
+
 def output_link(mechanism: Mechanism, output: Output) -> str:
     """The link that carries an output."""
     if output.kind == "angle":

@@ -12,7 +12,6 @@ import numpy as np
 from linkwright import units
 from linkwright.core.arrays import Floats
 from linkwright.core.expressions import Expression, parse
-from linkwright.core.outputs import Output
 from linkwright.cycle_programs.terms import OWN, Asked, Term, metric_of
 from linkwright.engine.machine_code import available
 from linkwright.engine.stage import Backend
@@ -22,7 +21,7 @@ from linkwright.kinematics.cycle import over_cycle
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.base import Number
 from linkwright.metrics.evaluate import unloaded
-from linkwright.metrics.outputs import mechanism_outputs
+from linkwright.metrics.outputs import mechanism_outputs, usual_output
 from linkwright.metrics.quantities import powers
 from linkwright.metrics.summary import is_summary, one, wanted
 from linkwright.optimisation.paths import PathErrors
@@ -234,8 +233,7 @@ class Measures:
     @cached_property
     def _asked(self) -> Asked:
         """The output whose travel counts, and δ."""
-        own, last = mechanism_outputs(self.mechanism), list(self.mechanism.links)[-1]
-        return Asked(own[-1] if own else Output("angle", last), self.problem.fluctuation)
+        return Asked(usual_output(self.mechanism), self.problem.fluctuation)
 
     def _held(self, columns: Mapping[str, Floats], count: int) -> dict[str, Floats]:
         """Dimensions that stand in expressions."""

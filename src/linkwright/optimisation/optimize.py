@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.engine.sweep import Progress
+from linkwright.engine.cycle import Progress
 from linkwright.errors import LinkwrightError, ModelError, RequestError
 from linkwright.files.document import Document
 from linkwright.files.model_file import read_document

@@ -18,7 +18,7 @@ from linkwright.cycle_programs.traced import Traced
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.program import Program
 from linkwright.engine.stage import Stage
-from linkwright.engine.states import parameters_as_fields
+from linkwright.engine.states import inputs_as_fields
 from linkwright.engine.table import Tables
 from linkwright.engine.trace import Scalar, select
 from linkwright.kinematics.motion import Motion
@@ -173,9 +173,7 @@ class PagePrograms:
 
     def _with_angles(self, program: Program) -> Program:
         """The program with the angles near which angles stay, where these turn through, taken per position."""
-        return parameters_as_fields(
-            program, [str(each["field"]) for each in self.found_per_position["angles"]]
-        )
+        return inputs_as_fields(program, [str(each["field"]) for each in self.found_per_position["angles"]])
 
     @cached_property
     def starts(self) -> dict[str, float | str]:

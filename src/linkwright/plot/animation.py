@@ -34,7 +34,7 @@ from linkwright.whole_files import write_whole
 from linkwright.words import say
 
 if TYPE_CHECKING:
-    from linkwright.engine.sweep import Progress
+    from linkwright.engine.cycle import Progress
     from linkwright.kinetostatics.forces import Forces
 
 FILM_RATE = 25

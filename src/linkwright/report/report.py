@@ -8,7 +8,7 @@ from itertools import chain
 from pathlib import Path
 
 from linkwright.core.dataclass import dataclass
-from linkwright.engine.sweep import Progress
+from linkwright.engine.cycle import Progress
 from linkwright.errors import LinkwrightError, QuantityError, RequestError, require_language
 from linkwright.files.model_file import load
 from linkwright.files.source import GALLERY

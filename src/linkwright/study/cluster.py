@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from importlib import import_module
@@ -73,18 +73,16 @@ def hands(client: Any) -> int:
 
 
 def in_turn(
-    client: Any,
-    work: Callable[..., Any],
-    tasks: Sequence[tuple[Any, ...]],
-    keys: Iterable[tuple[object, ...]] = (),
+    client: Any, work: Callable[..., Any], tasks: Sequence[tuple[Any, ...]], own: str = ""
 ) -> Iterator[tuple[int, Any]]:
     """Results of ``work(*task)`` with the tasks' numbers, as they come; a few are on the cluster at a time.
 
-    A task whose workers died is given out again; an error of the work itself is raised. ``keys``: all that each
-    result depends on; the surrounding ``kept_in`` then keeps them, and those that it has are not computed again.
+    A task whose workers died is given out again; an error of the work itself is raised. ``own``: what stands for
+    the first of every task in the names of results; the surrounding ``kept_in`` then keeps them, and those that it
+    has are not computed again.
     """
     kept = surrounding()
-    names = [] if kept is None else [identity(*key) for key in keys]
+    names = [identity(own, *task[1:]) for task in tasks] if kept is not None and own else []
     missing = [*range(len(tasks))]
     for number, name in enumerate(names):
         if kept is not None and (there := kept.part(name)) is not None:
@@ -131,15 +129,11 @@ def _computed(
 
 
 def in_order(
-    client: Any,
-    work: Callable[..., Any],
-    tasks: Sequence[tuple[Any, ...]],
-    keys: Sequence[tuple[object, ...]] = (),
+    client: Any, work: Callable[..., Any], tasks: Sequence[tuple[Any, ...]], own: str
 ) -> Iterator[Any]:
     """Results in the order of the tasks; at most ``HELD`` wait for those before them, so that memory stays fixed."""
     for first in range(0, len(tasks), HELD):
-        some = slice(first, first + HELD)
-        found = dict(in_turn(client, work, tasks[some], keys[some]))
+        found = dict(in_turn(client, work, tasks[first : first + HELD], own))
         yield from (found[number] for number in range(len(found)))
 
 

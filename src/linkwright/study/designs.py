@@ -14,8 +14,9 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.html import columns_html
 from linkwright.core.plot_method import Plotted
 from linkwright.core.read_only import Frozen
+from linkwright.engine.cycle import Progress
 from linkwright.engine.machine_code import available
-from linkwright.engine.sweep import Backend, Progress
+from linkwright.engine.stage import Backend
 from linkwright.engine.threads import chunks
 from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import over_cycle
@@ -199,11 +200,9 @@ def _of_all(backend: Backend, columns: Mapping[str, Floats]) -> Backend:
 
 def _shared(client: Any, run: SweepRun, asked: Sequence[Summary], steps: int) -> Sweep:
     """The same sweep in pieces on a cluster."""
-    places = [slice(*ends) for ends in chunks(run.designs, SHARED)]
-    rest = [each.name.strip() for each in asked], steps, run.manner.partial, run.manner.backend
-    parts = [{a: np.array(c[each]) for a, c in run.columns.items()} for each in places]
-    tasks, keys = [(run.mechanism, each, *rest) for each in parts], [(run.own, each, *rest) for each in parts]
-    found: dict[int, _Piece] = dict(in_turn(client, _piece, tasks, keys))
+    names = [each.name.strip() for each in asked]
+    places, tasks = _tasks(run, names, steps, run.manner.partial, run.manner.backend)
+    found: dict[int, _Piece] = dict(in_turn(client, _piece, tasks, run.own))
     assembled, passed, summaries, unloaded, margins, dimensions = zip(
         *map(found.get, range(len(tasks))), strict=True
     )
@@ -214,6 +213,13 @@ def _shared(client: Any, run: SweepRun, asked: Sequence[Summary], steps: int) ->
         run.traced.nominal.notes, None if margins[0] is None else np.concatenate(margins),
         {name: kind for each in dimensions for name, kind in each.items()},
     )  # fmt: skip
+
+
+def _tasks(run: SweepRun, *rest: object) -> tuple[list[slice], list[tuple[Any, ...]]]:
+    """Which designs go to a cluster together, and what it takes to compute them."""
+    places = [slice(*ends) for ends in chunks(run.designs, SHARED)]
+    parts = ({a: np.array(c[each]) for a, c in run.columns.items()} for each in places)
+    return places, [(run.mechanism, part, *rest) for part in parts]
 
 
 def _piece(
@@ -228,15 +234,12 @@ def _piece(
     found = sweep(
         mechanism, columns, outputs=outputs, steps=steps, partial=partial, threads=1, backend=backend
     )
-    summaries = [*found.summaries.values()]
-    return (
-        found.assembled,
-        found.ok,
-        summaries,
+    summaries, unloaded, dimensions = (
+        [*found.summaries.values()],
         dict(found.unloaded),
-        found.branch_margin,
         dict(found.dimensions),
     )
+    return found.assembled, found.ok, summaries, unloaded, found.branch_margin, dimensions
 
 
 def sweep_curves(
@@ -268,11 +271,8 @@ def _shared_curves(
     client: Any, run: SweepRun, outputs: list[str], steps: int
 ) -> Iterator[tuple[slice, dict[str, Floats]]]:
     """The same curves in pieces on a cluster, in the designs' order."""
-    places = [slice(*ends) for ends in chunks(run.designs, SHARED)]
-    rest = outputs, steps, run.manner.backend
-    parts = [{a: np.array(c[each]) for a, c in run.columns.items()} for each in places]
-    tasks, keys = [(run.mechanism, each, *rest) for each in parts], [(run.own, each, *rest) for each in parts]
-    yield from zip(places, in_order(client, _curves, tasks, keys), strict=True)
+    places, tasks = _tasks(run, outputs, steps, run.manner.backend)
+    yield from zip(places, in_order(client, _curves, tasks, run.own), strict=True)
 
 
 def _curves(

@@ -72,9 +72,8 @@ def ranking(comparison: Comparison, say: Say) -> list[str]:
 
 def _reasons(comparison: Comparison, rank: Rank, say: Say) -> list[str]:
     """What an alternative is best in, and what costs it most against the best."""
-    language = say("compare.language")
-    best = [row.criterion.label(language) for row in comparison.judged if rank.index in row.best]
-    found = [say("compare.best_in", names=say("finding.comma").join(best))] if best else []
+    best = _best_in(comparison, rank, say)
+    found = [say("compare.best_in", names=best)] if best else []
     costly = sorted(
         (row for row in comparison.judged if row.score(rank.index) < 1.0 - 1e-9),
         key=lambda row: -row.weight * (1.0 - row.score(rank.index)),
@@ -101,26 +100,25 @@ def _against(comparison: Comparison, row: Row, index: int, say: Say) -> str:
 def evaluation(comparison: Comparison, language: str) -> list[str]:
     """Sentences about the motion, the pivot, the torque, the flywheel, and a verdict."""
     say = speaker(language)
-    found = [_motion(comparison, say)]
+    subjects = {"motion": _motion}
     if any(each.loaded for each in comparison.alternatives):
-        found += [_pivot(comparison, say), _torque(comparison, say), *_flywheel(comparison, say)]
+        subjects |= {"pivot": _pivot, "torque": _torque, "flywheels": _flywheel}
+    found = []
+    for name, part in subjects.items():
+        parts = say("finding.semicolon").join(part(each, say) for each in comparison.alternatives)
+        found.append(say(f"compare.{name}", parts=parts, fluctuation=f"{comparison.fluctuation:g}"))
     return [*found, *_verdict(comparison, say)]
 
 
-def _motion(comparison: Comparison, say: Say) -> str:
-    parts = []
-    for each in comparison.alternatives:
-        parts.append(
-            say(
-                "compare.motion_of",
-                label=each.label,
-                output=str(each.output),
-                travel=_measured(each, "travel") or told(each.way, each.output.dimension),
-                rate=_measured(each, "output_velocity"),
-                second=_measured(each, "output_acceleration"),
-            )
-        )
-    return say("compare.motion", parts=say("finding.semicolon").join(parts))
+def _motion(each: Alternative, say: Say) -> str:
+    return say(
+        "compare.motion_of",
+        label=each.label,
+        output=str(each.output),
+        travel=_measured(each, "travel") or told(each.way, each.output.dimension),
+        rate=_measured(each, "output_velocity"),
+        second=_measured(each, "output_acceleration"),
+    )
 
 
 def _measured(each: Alternative, name: str) -> str:
@@ -129,58 +127,43 @@ def _measured(each: Alternative, name: str) -> str:
     return "" if found is None else told(found.value, found.dimension)
 
 
-def _pivot(comparison: Comparison, say: Say) -> str:
-    parts = []
-    for each in comparison.alternatives:
-        joint, link = each.pivot
-        most, least = (each.analysis.part(f"reaction {joint} on {link} {kind}") for kind in ("max", "min"))
-        force = each.forces_at(most.time).reaction(joint, on=link)[0]
-        if not np.isfinite(force).all():  # on a change point: as it is beside
-            beside = most.time - BESIDE * (each.motion.positions.period or 0.0)
-            force = each.forces_at(beside).reaction(joint, on=link)[0]
-        parts.append(
-            say(
-                "compare.pivot_of",
-                label=each.label,
-                joint=joint,
-                most=told(most.value, "force"),
-                least=told(least.value, "force"),
-                direction=told(float(np.arctan2(force[1], force[0])), "angle"),
-                at=told(most.input, each.analysis.input_dimension),
-            )
-        )
-    return say("compare.pivot", parts=say("finding.semicolon").join(parts))
+def _pivot(each: Alternative, say: Say) -> str:
+    joint, link = each.pivot
+    most, least = (each.analysis.part(f"reaction {joint} on {link} {kind}") for kind in ("max", "min"))
+    force = each.forces_at(most.time).reaction(joint, on=link)[0]
+    if not np.isfinite(force).all():  # on a change point: as it is beside
+        beside = most.time - BESIDE * (each.motion.positions.period or 0.0)
+        force = each.forces_at(beside).reaction(joint, on=link)[0]
+    return say(
+        "compare.pivot_of",
+        label=each.label,
+        joint=joint,
+        most=told(most.value, "force"),
+        least=told(least.value, "force"),
+        direction=told(float(np.arctan2(force[1], force[0])), "angle"),
+        at=told(most.input, each.analysis.input_dimension),
+    )
 
 
-def _torque(comparison: Comparison, say: Say) -> str:
-    parts = []
-    for each in comparison.alternatives:
-        high, low, root = (each.analysis.part(f"input_torque {kind}").value for kind in ("max", "min", "rms"))
-        dimension = "torque" if each.analysis.input_dimension == "angle" else "force"
-        speed = np.abs(next(iter(each.motion.positions.coordinates.values()))[1]).max()
-        gap = float(np.abs(each.forces.power_residual).max() / speed) if speed > 0.0 else 0.0
-        parts.append(
-            say(
-                "compare.torque_of",
-                label=each.label,
-                low=told(low, dimension),
-                high=told(high, dimension),
-                root=told(root, dimension),
-                gap=shown(gap, dimension, 2),
-            )
-        )
-    return say("compare.torque", parts=say("finding.semicolon").join(parts))
+def _torque(each: Alternative, say: Say) -> str:
+    high, low, root = (each.analysis.part(f"input_torque {kind}").value for kind in ("max", "min", "rms"))
+    dimension = "torque" if each.analysis.input_dimension == "angle" else "force"
+    speed = np.abs(next(iter(each.motion.positions.coordinates.values()))[1]).max()
+    gap = float(np.abs(each.forces.power_residual).max() / speed) if speed > 0.0 else 0.0
+    return say(
+        "compare.torque_of",
+        label=each.label,
+        low=told(low, dimension),
+        high=told(high, dimension),
+        root=told(root, dimension),
+        gap=shown(gap, dimension, 2),
+    )
 
 
-def _flywheel(comparison: Comparison, say: Say) -> list[str]:
-    parts = []
-    for each in comparison.alternatives:
-        names = {"inertia": "flywheel", "energy": "energy_fluctuation", "power": "mean_power"}
-        numbers = {word: _measured(each, name) for word, name in names.items()}
-        key = "compare.flywheel_of" if numbers["inertia"] else "compare.flywheel_none"
-        parts.append(say(key, label=each.label, **numbers))
-    fluctuation = f"{comparison.fluctuation:g}"
-    return [say("compare.flywheels", fluctuation=fluctuation, parts=say("finding.semicolon").join(parts))]
+def _flywheel(each: Alternative, say: Say) -> str:
+    names = {"inertia": "flywheel", "energy": "energy_fluctuation", "power": "mean_power"}
+    numbers = {word: _measured(each, name) for word, name in names.items()}
+    return say(f"compare.flywheel_{'of' if numbers['inertia'] else 'none'}", label=each.label, **numbers)
 
 
 def _verdict(comparison: Comparison, say: Say) -> list[str]:
@@ -188,19 +171,18 @@ def _verdict(comparison: Comparison, say: Say) -> list[str]:
     if not comparison.judged:
         return []
     first, *others = comparison.ranking
-    language = say("compare.language")
-    comma = say("finding.comma")
-    names = [row.criterion.label(language) for row in comparison.judged if first.index in row.best]
-    lines = [
-        say(
-            "compare.first",
-            label=first.label,
-            score=f"{100 * first.score:.0f}",
-            names=comma.join(names) or "—",
-        )
-    ]
+    names = _best_in(comparison, first, say)
+    lines = [say("compare.first", label=first.label, score=f"{100 * first.score:.0f}", names=names or "—")]
     for rank in others:
-        mine = [row.criterion.label(language) for row in comparison.judged if rank.index in row.best]
-        key = "compare.other" if mine else "compare.never"
-        lines.append(say(key, label=rank.label, score=f"{100 * rank.score:.0f}", names=comma.join(mine)))
+        names = _best_in(comparison, rank, say)
+        key = "compare.other" if names else "compare.never"
+        lines.append(say(key, label=rank.label, score=f"{100 * rank.score:.0f}", names=names))
     return lines
+
+
+def _best_in(comparison: Comparison, rank: Rank, say: Say) -> str:
+    """The criteria in which an alternative is best."""
+    best = [
+        row.criterion.label(say("compare.language")) for row in comparison.judged if rank.index in row.best
+    ]
+    return say("finding.comma").join(best)

@@ -11,9 +11,9 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.cycle_programs.one_by_one import changes_of, sentence_of
 from linkwright.cycle_programs.traced import Traced
+from linkwright.engine.cycle import summaries
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import Reduction
-from linkwright.engine.sweep import sweep as engine_sweep
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words.sentence import Sentence
@@ -102,7 +102,7 @@ def _by_group(
     program = Program.of(traced.solver.motion.trace, flags)
     wanted = [Reduction(name, "sum") for name in program.output_names]
     table = traced.table(program, columns)
-    results = engine_sweep(program, table, traced.positions.arrays, wanted, valid=None)
+    results = summaries(program, wanted, None).evaluate(table, traced.positions.arrays)
     sums = np.array(
         [results[reduction.name] for reduction in wanted] or [np.zeros(len(numbers))], dtype=float
     )

@@ -23,7 +23,7 @@ from linkwright.whole_files import refuse_target, write_whole
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
-    from linkwright.engine.sweep import Progress
+    from linkwright.engine.cycle import Progress
 
 T = TypeVar("T")
 #: Seconds between two times that finished parts are written.

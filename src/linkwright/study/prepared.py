@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 from array import array
 from collections.abc import Callable, Iterable, Mapping
-from functools import cached_property
+from functools import cached_property, partial
 from math import inf
 from typing import Literal
 
@@ -16,11 +16,13 @@ from linkwright.core.outputs import row_name
 from linkwright.cycle_programs.limit_stages import CONVERGED, agree, constants, limit_stages, near_limits
 from linkwright.cycle_programs.loaded_cycle import along_input, with_loads
 from linkwright.cycle_programs.traced import Traced
+from linkwright.engine.call_block import address_of
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.llvm_backend import CompiledProgram, compile_program
-from linkwright.engine.machine_code import available
+from linkwright.engine.machine_code import OF_ONE_ADDRESS, available
 from linkwright.engine.numpy_backend import numpy_program
 from linkwright.engine.program import Program
+from linkwright.engine.stage import Backend
 from linkwright.engine.trace import Mask, Scalar, absolute, select
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.change_points import nearness, parts
@@ -35,15 +37,13 @@ from linkwright.kinetostatics.site import limit_name
 from linkwright.kinetostatics.solver import ForceSolver
 from linkwright.kinetostatics.traced_loads import AlongInput, traced_magnitude
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.registry import offered
+from linkwright.study.varied_dimensions import checked_addresses
 
 #: The row of how near a group is to a change point or a gap; 0 where it cannot be assembled, where a load has no
 #: value, and where limit positions do not agree with the rates.
 NEAREST = "nearest change point"
 #: Lanes in which limit positions are looked for beside each other, as many as a processor may have.
 LANES = 8
-
-Backend = Literal["auto", "numpy", "llvm"]
 
 
 def prepare(
@@ -75,11 +75,7 @@ class Prepared:
     def __init__(
         self, mechanism: Mechanism, vary: tuple[str, ...], positions: Positions, backend: Backend
     ) -> None:
-        known = mechanism.dimensions()
-        for address in vary:
-            if address not in known:
-                hint = offered(address, known, "study.such_as", most=6)
-                raise RequestError("study.no_dimension", address=address, name=mechanism.name, hint=hint)
+        checked_addresses(mechanism, vary)
         self.mechanism = mechanism
         self.vary = vary
         self.positions = positions
@@ -293,7 +289,9 @@ class _Newton:
         names = program.output_names
         self._rows = array("d", bytes(8 * LANES * len(names)))
         out = np.frombuffer(self._rows).reshape(-1, LANES)
-        self._run = compiled.bound(np.frombuffer(self._numbers), starts, out)
+        entry, block, _ = compiled.one_by_one(np.frombuffer(self._numbers), starts, out)
+        self._run = partial(OF_ONE_ADDRESS(entry), address_of(block))
+        self._read = compiled, starts, block
         lanes = [
             (lane, f"{name}:{kind}")
             for row, name in enumerate(names)

@@ -16,7 +16,7 @@ from linkwright.core.read_only import Frozen, locked
 from linkwright.cycle_programs.known_loads import known_loads
 from linkwright.cycle_programs.slopes import Slopes
 from linkwright.cycle_programs.traced import Traced
-from linkwright.engine.sweep import Backend
+from linkwright.engine.stage import Backend
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinematics.explain import refusal
@@ -293,15 +293,11 @@ def _is_number(each: str | Summary) -> bool:
     return isinstance(each, Summary) and not each.kind
 
 
-def _range(curve: Floats) -> float:
-    return float(curve.max() - curve.min())
-
-
 _SUMMARIES: Mapping[str, Callable[[Floats], float]] = {
     "mean": lambda curve: float(curve.mean()),
     "rms": lambda curve: float(np.sqrt((curve * curve).mean())),
     "min": lambda curve: float(curve.min()),
     "max": lambda curve: float(curve.max()),
-    "range": _range,
+    "range": lambda curve: float(np.ptp(curve)),
     "peak": lambda curve: float(np.abs(curve).max()),
 }

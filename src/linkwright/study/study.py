@@ -13,7 +13,6 @@ from numpy.typing import ArrayLike
 from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.dataclass import dataclass
 from linkwright.core.html import columns_html
-from linkwright.core.outputs import Output
 from linkwright.core.plot_method import Plotted
 from linkwright.core.read_only import Frozen
 from linkwright.cycle_programs.terms import Asked
@@ -24,7 +23,7 @@ from linkwright.files.write import dump
 from linkwright.machine import flywheel_inertia
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.evaluate import unloaded
-from linkwright.metrics.outputs import mechanism_outputs
+from linkwright.metrics.outputs import usual_output
 from linkwright.metrics.quantities import si_unit
 from linkwright.metrics.summary import is_summary
 from linkwright.registry import offered
@@ -43,7 +42,8 @@ from linkwright.words.sentence import Sentence
 if TYPE_CHECKING:
     import pandas
 
-    from linkwright.engine.sweep import Backend, Progress
+    from linkwright.engine.cycle import Progress
+    from linkwright.engine.stage import Backend
     from linkwright.study.design_numbers import Numbers
 
 Sampling = Literal["grid", "sobol"]
@@ -244,7 +244,7 @@ class _Work:
     ) -> None:
         self.mechanism, self.columns, self.asked = mechanism, columns, asked
         self.fluctuation, self.steps, self.progress = fluctuation, steps, progress
-        self.output = _output(mechanism, output)
+        self.output = usual_output(mechanism) if output is None else output_of_machine(mechanism, output)
         self.count = len(next(iter(columns.values())))
         self.values = {each.name: np.full(self.count, np.nan) for each in asked}
         self.dimensions = {each.name: "dimensionless" for each in asked}
@@ -296,12 +296,11 @@ class _Work:
     def _shared(self, client: Any, asked: list[Criterion], designs: Indices) -> None:
         """The same in pieces on a cluster."""
         parts = [designs[first : first + PIECE] for first in range(0, len(designs), PIECE)]
-        columns = [{a: c[part] for a, c in self.columns.items()} for part in parts]
+        columns = ({a: c[part] for a, c in self.columns.items()} for part in parts)
         rest = [each.name for each in asked], str(self.output), self.fluctuation, self.steps
         tasks = [(self.mechanism, each, *rest) for each in columns]
-        keys = [(self._own, each, *rest) for each in columns]
         pieces: dict[int, _Piece] = {}
-        for done, (number, piece) in enumerate(in_turn(client, _piece, tasks, keys), 1):
+        for done, (number, piece) in enumerate(in_turn(client, _piece, tasks, self._own), 1):
             pieces[number] = piece
             if self.progress is not None:
                 self.progress(done, len(parts))
@@ -429,17 +428,6 @@ def _piece(
         asked, np.arange(work.count), True, "llvm" if available() else "auto"
     )  # as many designs have it
     return work.values, work.dimensions, work.notes, work.troubled
-
-
-def _output(mechanism: Mechanism, name: str | None) -> Output:
-    """The output whose travel counts."""
-    if name is not None:
-        return output_of_machine(mechanism, name)
-    own = mechanism_outputs(mechanism)
-    if own:
-        return own[-1]
-    last = list(mechanism.links)[-1]
-    return Output("angle", last)
 
 
 def _none_moves(count: int, failures: Iterable[Failure]) -> str:

@@ -16,13 +16,13 @@ from linkwright.cycle_programs.iterated_groups import MARGIN, following
 from linkwright.cycle_programs.loaded_cycle import LoadedCycle, loaded_cycle
 from linkwright.cycle_programs.one_by_one import OneByOne
 from linkwright.cycle_programs.traced import NEAREST, VALID, Traced
+from linkwright.engine.cycle import Progress, summaries
 from linkwright.engine.llvm_backend import compile_program
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
-from linkwright.engine.reductions import Reduction
-from linkwright.engine.states import states_as_fields
-from linkwright.engine.sweep import Backend, Progress, Results
-from linkwright.engine.sweep import sweep as engine_sweep
+from linkwright.engine.reductions import Reduction, Results
+from linkwright.engine.stage import Backend
+from linkwright.engine.states import inputs_as_fields
 from linkwright.engine.threads import chunks, cores
 from linkwright.files.write import dump
 from linkwright.kinematics.cycle import Positions
@@ -269,13 +269,10 @@ class SweepRun:
     def _reduced(
         self, traced: Traced, program: Program, part: Mapping[str, Floats], rows: Mapping[str, Floats]
     ) -> Results:
-        results = engine_sweep(
-            program,
+        results = summaries(program, self.reductions, VALID).evaluate(
             traced.table(program, part),
             self.positions.arrays,
-            self.reductions,
-            fields=rows,
-            valid=VALID,
+            rows,
             threads=self.manner.threads,
             backend=self.manner.backend,
         )
@@ -285,10 +282,5 @@ class SweepRun:
 
 def _fed(program: Program) -> Program:
     """The same program with states and signs of assembly modes as inputs per design and position."""
-    program = states_as_fields(program) if program.states else program
-    modes = {Input("mode", group).name for group in mode_groups(program.positions)}
-    nodes = tuple(
-        node._replace(op="field") if node.op == "position" and node.name in modes else node
-        for node in program.nodes
-    )
-    return Program(nodes, program.outputs, program.next_states)
+    modes = [Input("mode", group).name for group in mode_groups(program.positions)]
+    return inputs_as_fields(program, [*program.states, *modes])
