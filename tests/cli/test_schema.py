@@ -108,3 +108,9 @@ def test_a_file_with_a_task_alone_is_known() -> None:
     task = {"format": 1, "synthesis": {"task": "toggle"}}
     assert faults(task, shape) == [] and faults({**task, "sythesis": {}}, shape) != []
     assert faults({"format": 1}, shape) != []
+
+
+def test_a_name_is_a_text_or_one_in_each_language() -> None:
+    shape = json.loads(json.dumps(lw.json_schema()))["properties"]["name"]
+    assert faults("Press", shape) == faults({"en": "Press", "zh": "压力机"}, shape) == []
+    assert faults({"fr": "Presse"}, shape) != [] and faults(["Press"], shape) != []

@@ -15,12 +15,14 @@ from linkwright.words.titles import title_said
 def read_model(source: str, session: Session) -> tuple[Mechanism, list[Finding]]:
     """The mechanism of a path or ``gallery:NAME``, and findings that do not hinder; raises ModelError.
 
-    A model of the gallery has its title in the reader's language, except in data.
+    A model of the gallery, and one that gives its name in several languages, has its title in the reader's language,
+    except in data.
     """
     mechanism, findings = read_text(*read_source(source))
     if mechanism is None:
         raise ModelError(findings)
-    if source.startswith(GALLERY) and not session.json:
-        title = title_said(mechanism.name, session.language)
-        mechanism = replace(mechanism, name=title)
-    return mechanism, findings
+    if session.json:
+        return mechanism, findings
+    if source.startswith(GALLERY):
+        mechanism = replace(mechanism, name=title_said(mechanism.name, session.language))
+    return mechanism.said_in(session.language), findings

@@ -17,8 +17,10 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 from linkwright import units
 from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import Expression
+from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar
-from linkwright.words.sentence import Sentence
+from linkwright.words import LANGUAGES
+from linkwright.words.sentence import Sentence, Worded
 
 if TYPE_CHECKING:
     from linkwright.files import node_reader, reader
@@ -246,6 +248,34 @@ class Text(Field):
 
     def shape(self) -> Schema:
         return {"type": "string"}
+
+
+@dataclass(frozen=True)
+class WordedText(Text):
+    """Any text, or one in each language: ``{en: Press, zh: 压力机}``."""
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> str | None:
+        if not isinstance(node, MappingNode) or not node.entries:
+            return super().read(reader, node, place, given)
+        texts = reader.table(node, place, _IN_LANGUAGES) or {}
+        said = {language: text for language, text in texts.items() if text}
+        return Worded(said) if said else None
+
+    def shape(self) -> Schema:
+        texts = {language: field.shape() for language, field in _IN_LANGUAGES.items()}
+        given: Schema = {
+            "type": "object",
+            "properties": texts,
+            "additionalProperties": False,
+            "minProperties": 1,
+        }
+        return {"anyOf": [super().shape(), given]}
+
+    def written(self, value: Any) -> Any:
+        return dict(value.texts) if isinstance(value, Worded) else value
+
+
+_IN_LANGUAGES: Mapping[str, Field] = {language: Text(doc=f"the text, {language}") for language in LANGUAGES}
 
 
 @dataclass(frozen=True)

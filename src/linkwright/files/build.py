@@ -14,6 +14,7 @@ from linkwright.units import number
 
 Value = float | str
 Pair = tuple[Value, Value] | list[Value]
+Wording = str | Mapping[str, str]
 
 
 class Model:
@@ -28,7 +29,8 @@ class Model:
     >>> mechanism = model.build()
     """
 
-    def __init__(self, name: str, *, purpose: str = "", source: str = "") -> None:
+    def __init__(self, name: Wording, *, purpose: Wording = "", source: Wording = "") -> None:
+        """Each a text, or one in each language: ``{"en": "Press", "zh": "压力机"}``."""
         self._data: dict[str, Any] = {"format": 1, "name": name}
         self._data |= {key: text for key, text in (("purpose", purpose), ("source", source)) if text}
 

@@ -11,7 +11,7 @@ from functools import partial
 from linkwright import units
 from linkwright.core import expressions
 from linkwright.errors import Finding, QuantityError
-from linkwright.fields.base import Count, Field, Free, Text
+from linkwright.fields.base import Count, Field, Free, WordedText
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar, below
 from linkwright.files.check_mechanism import check_whole
@@ -31,9 +31,9 @@ TASK_KEYS = ("format", "name", "purpose", "source", "expected", "synthesis", "re
 WORDS = ("left", "right", "forward", "backward")
 HEADER: Mapping[str, Field] = {
     "format": Count(FORMAT, required=True, doc="1, in the first line"),
-    "name": Text(doc="name of the mechanism"),
-    "purpose": Text(doc="what it is for, one sentence"),
-    "source": Text(doc="where it is taken from"),
+    "name": WordedText(doc="name of the mechanism"),
+    "purpose": WordedText(doc="what it is for, one sentence"),
+    "source": WordedText(doc="where it is taken from"),
     "expected": Free(doc="numbers to compare results with; not interpreted"),
     "synthesis": Free(doc="a task with its demands for the command synthesize"),
     "report": Free(doc="title, own text, order of sections and more for the command report"),

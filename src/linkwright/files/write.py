@@ -10,7 +10,7 @@ from typing import Any
 from linkwright.core.json_data import Plain
 from linkwright.drivers.base import Driver
 from linkwright.fields.references import PLACE
-from linkwright.files.read_model import KEPT
+from linkwright.files.read_model import HEADER, KEPT
 from linkwright.joints.base import IMPLIED, Joint
 from linkwright.mechanism.geometry import STRUCTURAL_POINTS, from_drawing
 from linkwright.mechanism.mechanism import GRAVITY, LINK_FIELDS, Cycle, Link, Mechanism, Vec
@@ -30,8 +30,10 @@ def dump(mechanism: Mechanism) -> str:
 def to_data(mechanism: Mechanism) -> Plain:
     """The mechanism as plain data in the layout of a model file."""
     texts = {address: expression.text for address, expression in mechanism.expressions.items()}
-    data: Plain = {"format": 1, "name": mechanism.name}
-    data |= {key: text for key in ("purpose", "source") if (text := getattr(mechanism, key))}
+    data: Plain = {"format": 1, "name": HEADER["name"].written(mechanism.name)}
+    data |= {
+        key: HEADER[key].written(text) for key in ("purpose", "source") if (text := getattr(mechanism, key))
+    }
     data["parameters"] = {
         name: texts.get(name) or _parameter(mechanism, name) for name in mechanism.parameters
     }

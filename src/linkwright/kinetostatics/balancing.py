@@ -67,7 +67,8 @@ def balance(mechanism: Mechanism, *, radius: Radius, share: float = 1.0, steps: 
     the rod brings the centre of rod and slider to the crank pin, and the shaking force vanishes.
 
     Args:
-        mechanism: a four-bar (four pins), or a slider-crank with its guide on the frame.
+        mechanism: a four-bar (four pins), or a slider-crank with its guide on the frame; what is welded to the frame
+            counts as frame.
         radius: distance (m) of the counterweights from the pins that carry them, one or by link.
         share: 0 … 1, how much is balanced.
         steps: positions of the comparison.
@@ -114,14 +115,16 @@ def _radius(radius: Radius, link: str) -> float:
 
 def _moments(mechanism: Mechanism, radius: Radius, share: float) -> list[tuple[str, complex, complex]]:
     """Link, pin that carries the counterweight (link axes), needed mass moment (kg·m, link axes)."""
+    ground = mechanism.grounded
+    moving = [name for name in mechanism.links if name not in ground]
     grounded = {
-        joint.joined[1] if joint.joined[0] == "frame" else joint.joined[0]: joint
+        next(link for link in joint.joined if link not in ground): joint
         for joint in mechanism.joints.values()
-        if "frame" in joint.joined and len(joint.joined) == 2
+        if len(joint.joined) == 2 and len(ground.intersection(joint.joined)) == 1
     }
-    floating = [name for name in mechanism.links if name not in grounded]
+    floating = [name for name in moving if name not in grounded]
     sliders = [name for name, joint in grounded.items() if joint.coordinate == "slide"]
-    if len(mechanism.links) != 3 or len(floating) != 1 or len(grounded) != 2 or len(sliders) > 1:
+    if len(moving) != 3 or len(floating) != 1 or len(grounded) != 2 or len(sliders) > 1:
         raise LinkwrightError("forces.not_balanced", name=mechanism.name)
     coupler = mechanism.links[floating[0]]
     pins = {name: _shared_pin(mechanism, name, coupler.name) for name in grounded}

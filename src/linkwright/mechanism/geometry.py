@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -105,3 +106,26 @@ def mechanism_size(mechanism: Mechanism) -> float:
             reach.append(abs(driver.law.at(0.0)))
     largest = max(reach)
     return 2.0 ** math.frexp(largest)[1] if largest > 0.0 else 1.0
+
+
+def ground_place(mechanism: Mechanism, link: str, point: str) -> complex:
+    """Where a point of the frame, or of a link that is welded to it, stands in frame axes: x + iy, m."""
+    turn, shift = _ground_poses(mechanism)[link]
+    return shift + turn * complex(*mechanism.link(link).points[point])
+
+
+def _ground_poses(mechanism: Mechanism) -> dict[str, tuple[complex, complex]]:
+    """Unit turn and shift of the axes of the frame and of every link that is welded to it, also through others."""
+    poses = {"frame": (1.0 + 0j, 0j)}
+    open_ends = ["frame"]
+    while open_ends:
+        held = open_ends.pop()
+        for weld in mechanism.welds.values():
+            other = next((each for each in weld.joined if each not in poses), None)
+            if held not in weld.joined or other is None:
+                continue
+            turn = poses[held][0] * cmath.rect(1.0, weld.turn_of(other, mechanism))
+            at = poses[held][1] + poses[held][0] * complex(*mechanism.link(held).points[weld.at])
+            poses[other] = (turn, at - turn * complex(*mechanism.link(other).points[weld.at]))
+            open_ends.append(other)
+    return poses

@@ -26,7 +26,7 @@ from linkwright.mechanism.geometry import (
 )
 from linkwright.registry import nearest, no_such
 from linkwright.units import LARGEST_OF_ALL, SI_UNITS, Dimension
-from linkwright.words.sentence import Sentence
+from linkwright.words.sentence import Sentence, Worded, in_language
 
 if TYPE_CHECKING:
     from linkwright.core.expressions import Expression
@@ -330,6 +330,11 @@ class Mechanism(Frozen):
         """The links on the pin of that name; none where there is no such pin."""
         joint = self.joints.get(name)
         return joint.joined if joint is not None and joint.coordinate == "turn" else ()
+
+    def said_in(self, language: str) -> Mechanism:
+        """The same with name, purpose and source in a language, where the file gives them in several."""
+        told = {key: in_language(getattr(self, key), language) for key in ("name", "purpose", "source")}
+        return self._changed({}, **told) if any(isinstance(text, Worded) for text in told.values()) else self
 
     def structure(self) -> Any:
         """Mobility and Assur groups of the mechanism (see ``linkwright.structure``)."""

@@ -10,6 +10,7 @@ from math import hypot
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.trace import Scalar, maximum, minimum
 from linkwright.joints.lower import TurningJoint
+from linkwright.mechanism.geometry import ground_place
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Metric, MetricValue, Number, Remark
@@ -22,7 +23,7 @@ EQUAL = 1e-12
 @dataclass(frozen=True)
 class FourBar:
     """A loop of four pinned links: ``first`` and ``second`` turn about the frame, ``coupler`` between; lengths m, and
-    the two pins of every link."""
+    the two pins of every link as LINK.POINT (those of the frame may be of links that are welded to it)."""
 
     first: str
     coupler: str
@@ -63,21 +64,24 @@ def _margin(*lengths: Scalar) -> Scalar:
 
 
 def four_bars(mechanism: Mechanism) -> tuple[FourBar, ...]:
-    """All four-bar loops that contain the frame and have pins only."""
+    """All four-bar loops of pins only that contain the frame, and what is welded to it."""
     pins = mechanism.pins
-    grounded = [
-        (link, name) for name, joint in pins.items() if "frame" in joint.links for link in joint.links
-    ]
-    sides = [(link, pin) for link, pin in grounded if link != "frame"]
+    ground = mechanism.grounded
+    held = {name: next((link for link in joint.links if link in ground), "") for name, joint in pins.items()}
+    sides = [(link, pin) for pin in pins if held[pin] for link in pins[pin].links if link not in ground]
     found = []
     for (first, a0), (second, b0) in combinations(sides, 2):
         if first == second or a0 == b0:
             continue
         for a, b, coupler in _couplers(mechanism, pins, (first, a0), (second, b0)):
-            ends = {"frame": (a0, b0), first: (a0, a), coupler: (a, b), second: (b0, b)}
-            lengths = {link: _length(mechanism, link, *pair) for link, pair in ends.items()}
+            ends = {first: (a0, a), coupler: (a, b), second: (b0, b)}
+            frame = ground_place(mechanism, held[b0], b0) - ground_place(mechanism, held[a0], a0)
+            lengths = {"frame": abs(frame)}
+            lengths |= {link: _length(mechanism, link, *pair) for link, pair in ends.items()}
+            named = {"frame": (f"{held[a0]}.{a0}", f"{held[b0]}.{b0}")}
+            named |= {link: (f"{link}.{one}", f"{link}.{other}") for link, (one, other) in ends.items()}
             if min(lengths.values()) > 0:
-                found.append(FourBar(first, coupler, second, lengths, ends))
+                found.append(FourBar(first, coupler, second, lengths, named))
     return tuple(found)
 
 
@@ -89,7 +93,7 @@ def _couplers(
     on_second = [name for name, joint in pins.items() if second[0] in joint.links and name != second[1]]
     for a in on_first:
         for b in on_second:
-            shared = set(pins[a].links) & set(pins[b].links) - {"frame", first[0], second[0]}
+            shared = set(pins[a].links) & set(pins[b].links) - {*mechanism.grounded, first[0], second[0]}
             yield from ((a, b, link) for link in sorted(shared) if a != b)
 
 
@@ -116,7 +120,7 @@ class Grashof(Metric):
 
     def numbers(self, analysis: Analysis) -> Iterator[Number]:
         for loop in _loops(analysis):
-            parts = (f"distance {link}.{a} {link}.{b} mean" for link, (a, b) in loop.pins.items())
+            parts = (f"distance {a} {b} mean" for a, b in loop.pins.values())
             yield Number(loop.name, tuple(parts), _margin)
 
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:

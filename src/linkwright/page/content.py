@@ -36,6 +36,7 @@ from linkwright.page.quantities import numbers, point_keys, signals, usual_curve
 from linkwright.plot.drawing.machine import Machine
 from linkwright.plot.drawing.view import fitted, placements
 from linkwright.words import LANGUAGES, catalogue, say
+from linkwright.words.sentence import in_language
 
 #: What of a position's outcome a page can find itself.
 _OUTCOMES = ("apart", "singular", "lost", "rrr_far", "rrr_near", "rrp_far", "rpr_near", "rpp_parallel")
@@ -53,13 +54,13 @@ def solved(machine: Mechanism | Document, steps: int) -> tuple[Motion, str | Non
 def page(models: Sequence[tuple[Motion, str | None]], language: str = "en") -> str:
     """The text of a page with machines side by side, each with its motion and the text of its file."""
     data, text = page_data(models, language)
-    name = ", ".join(dict.fromkeys(motion.mechanism.name for motion, _ in models))
+    name = ", ".join(dict.fromkeys(in_language(motion.mechanism.name, language) for motion, _ in models))
     return document(data, text, say("page.title", language, name=name), language)
 
 
 def page_data(models: Sequence[tuple[Motion, str | None]], language: str) -> tuple[Plain, str]:
     """What a page is made of as plain data, and the kernels' JavaScript text where there is no module."""
-    found = [_model(motion, text, number) for number, (motion, text) in enumerate(models)]
+    found = [_model(motion, text, number, language) for number, (motion, text) in enumerate(models)]
     words = {
         each: {f"page.{key}": text for key, text in catalogue("page", each).items() if key not in _NAMES}
         | {f"outcome.{key}": catalogue("outcome", each)[key] for key in _OUTCOMES}
@@ -69,7 +70,7 @@ def page_data(models: Sequence[tuple[Motion, str | None]], language: str) -> tup
     return data, "\n".join(text for _, text in found)
 
 
-def _model(motion: Motion, text: str | None, number: int) -> tuple[Plain, str]:
+def _model(motion: Motion, text: str | None, number: int, language: str) -> tuple[Plain, str]:
     text = dump(motion.mechanism) if text is None else text
     programs = PagePrograms(motion)
     kernels = Kernels()
@@ -86,7 +87,7 @@ def _model(motion: Motion, text: str | None, number: int) -> tuple[Plain, str]:
     machine = _machine(motion)
     changeable = dimensions(Document(text, "model", read_text), set(values))
     data = {
-        **_said(motion, text),
+        **_said(motion.mechanism, text, language),
         "module": None if module is None else base64.b64encode(module).decode(),
         "programs": kernels.described(),
         "main": main,
@@ -115,9 +116,9 @@ def _model(motion: Motion, text: str | None, number: int) -> tuple[Plain, str]:
     return data, script
 
 
-def _said(motion: Motion, text: str) -> Plain:
-    mechanism = motion.mechanism
-    return {"name": mechanism.name, "purpose": mechanism.purpose, "source": mechanism.source, "text": text}
+def _said(mechanism: Mechanism, text: str, language: str) -> Plain:
+    told = {key: in_language(getattr(mechanism, key), language) for key in ("name", "purpose", "source")}
+    return {**told, "text": text}
 
 
 def _machine(motion: Motion) -> Machine:

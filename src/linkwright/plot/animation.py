@@ -32,6 +32,7 @@ from linkwright.plot.svg.element import Element, circle, group
 from linkwright.plot.svg.render import png
 from linkwright.whole_files import write_whole
 from linkwright.words import say
+from linkwright.words.sentence import in_language
 
 if TYPE_CHECKING:
     from linkwright.engine.cycle import Progress
@@ -223,7 +224,11 @@ class Animation:
 
     @cached_property
     def _title(self) -> str:
-        return say("drawing.animation", self.language, name=self.scene.machine.motion.mechanism.name)
+        return say(
+            "drawing.animation",
+            self.language,
+            name=in_language(self.scene.machine.motion.mechanism.name, self.language),
+        )
 
     @cached_property
     def _ink(self) -> list[Floats]:

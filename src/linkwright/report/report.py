@@ -192,6 +192,7 @@ def _cases(
     found = []
     for index, each in enumerate(given):
         mechanism = each if isinstance(each, Mechanism) else _loaded(str(each), language)
+        mechanism = mechanism.said_in(language)
         source = sources[index] if index < len(sources) else "" if isinstance(each, Mechanism) else str(each)
         own = dict(mechanism.report)
         if position:

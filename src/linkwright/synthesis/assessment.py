@@ -38,8 +38,8 @@ class Assessment:
 
     ``kind``: index into TYPES; ``turns``: the input link turns fully; ``order``, ``branch``, ``circuit``: defects;
     ``transmission``: smallest transmission angle over a turn of the input, or between its first and last position
-    where it does not turn (rad); ``ratio``: longest to shortest link; ``first``, ``last``: input angles of that range
-    from the line O1→O2 or the guide (rad).
+    where it does not turn (rad); ``ratio``: longest to shortest link; ``longest``: the longest of these links (m);
+    ``first``, ``last``: input angles of that range from the line O1→O2 or the guide (rad).
     """
 
     kind: Whole
@@ -49,6 +49,7 @@ class Assessment:
     circuit: Flags
     transmission: Floats
     ratio: Floats
+    longest: Floats
     first: Floats
     last: Floats
 
@@ -81,8 +82,8 @@ def assess_four_bars(o1: Complexes, a: Complexes, b: Complexes, o2: Complexes) -
     square = lengths[0] ** 2 + lengths[3] ** 2 - 2 * lengths[0] * lengths[3] * extremes
     cosine = (lengths[1] ** 2 + lengths[2] ** 2 - square) / (2 * lengths[1] * lengths[2])
     transmission = np.arccos(np.clip(np.nanmax(np.abs(cosine), 0), 0, 1))
-    ratio = lengths.max(0) / np.maximum(lengths.min(0), 1e-300)
-    return _assessment(kind, place, order, branch, circuit, transmission, ratio, first, last)
+    ends = lengths.min(0), lengths.max(0)
+    return _assessment(kind, place, order, branch, circuit, transmission, ends, first, last)
 
 
 def assess_slider_cranks(
@@ -107,8 +108,8 @@ def assess_slider_cranks(
     height = np.abs(crank * sines - offset) / rod
     transmission = np.arccos(np.clip(np.nanmax(height, 0), 0, 1))
     kind = np.where(place == FULL, TYPES.index("slider_crank"), TYPES.index("slider_rocker"))
-    ratio = np.maximum(crank, rod) / np.minimum(crank, rod)
-    return _assessment(kind, place, order, branch, circuit, transmission, ratio, first, last)
+    ends = np.minimum(crank, rod), np.maximum(crank, rod)
+    return _assessment(kind, place, order, branch, circuit, transmission, ends, first, last)
 
 
 def grashof_types(lengths: Floats) -> Whole:
@@ -171,12 +172,14 @@ def _cosines(first: Floats, last: Floats, special: NDArray[np.floating[Any]]) ->
 
 def _assessment(
     kind: Whole, place: Whole, order: Flags, branch: Whole, circuit: Whole,
-    transmission: Floats, ratio: Floats, first: Floats, last: Floats,
+    transmission: Floats, ends: tuple[Floats, Floats], first: Floats, last: Floats,
 ) -> Assessment:  # fmt: skip
     off_circuit, off_branch = _differs(circuit), _differs(branch)
+    shortest, longest = ends
     return Assessment(
-        kind, place == FULL, order, off_branch & ~off_circuit, off_circuit, transmission, ratio, first, last
-    )
+        kind, place == FULL, order, off_branch & ~off_circuit, off_circuit, transmission,
+        longest / np.maximum(shortest, 1e-300), longest, first, last,
+    )  # fmt: skip
 
 
 def _differs(sign: Whole) -> Flags:

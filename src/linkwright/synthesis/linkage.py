@@ -6,6 +6,7 @@ import cmath
 import math
 from collections.abc import Mapping
 from dataclasses import field, replace
+from itertools import combinations
 
 from linkwright.core.dataclass import dataclass
 from linkwright.files.model_file import loads
@@ -69,6 +70,11 @@ class Linkage:
         if len(self.frame) > 1:
             found["frame"] = self.length(*self.frame[:2])
         return found
+
+    def longest(self) -> float:
+        """The largest distance between two points of one link, the frame among them, m."""
+        bodies = (self.frame, *self.links.values())
+        return max(self.length(*pair) for body in bodies for pair in combinations(body, 2))
 
     @property
     def start(self) -> float:

@@ -11,17 +11,17 @@ from linkwright.words.sentence import in_language
 
 #: Share of the longest length, or of a radian, below which a deviation is rounding.
 ROUNDING = 1e-12
-COLUMNS = ("number", "type", "error", "worst", "defects", "input", "transmission", "ratio")
+COLUMNS = ("number", "type", "error", "worst", "defects", "input", "transmission", "ratio", "longest")
 
 
 def report(found: Synthesis, language: str) -> list[str]:
     """Title, table of candidates, dimensions of each, counts and notes."""
     tell = speaker(language)
     rows = [[tell(f"synthesize.column.{name}") for name in COLUMNS]]
-    rows += [_row(number, each, tell) for number, each in enumerate(found.candidates, 1)]
+    rows += [_row(number, each, found.extent, tell) for number, each in enumerate(found.candidates, 1)]
     title = tell("synthesize.title", task=name_said(found.task, tell), count=len(found))
     between = tell("finding.comma")
-    lines = [title, tell(f"synthesize.error.{found.error_name}"), "", *aligned(rows, "><>><<>>"), ""]
+    lines = [title, tell(f"synthesize.error.{found.error_name}"), "", *aligned(rows, "><>><<>>>"), ""]
     for number, each in enumerate(found.candidates, 1):
         lengths = between.join(
             f"{name_said(name, tell)} {_length(value)}" for name, value in each.linkage.lengths().items()
@@ -61,7 +61,7 @@ def defects_text(each: Candidate, tell: Say) -> str:
     return tell("finding.comma").join(words) or tell("synthesize.no_defect")
 
 
-def _row(number: int, each: Candidate, tell: Say) -> list[str]:
+def _row(number: int, each: Candidate, extent: float, tell: Say) -> list[str]:
     return [
         str(number),
         tell(f"synthesize.type.{each.grashof_type}"),
@@ -70,7 +70,14 @@ def _row(number: int, each: Candidate, tell: Say) -> list[str]:
         tell("synthesize.turns" if each.turns else "synthesize.swings"),
         f"{degrees(each.transmission_angle):.2f}°",
         f"{each.link_ratio:.3g}",
+        _longest(each.linkage.longest(), extent),
     ]
+
+
+def _longest(longest: float, extent: float) -> str:
+    """The longest distance on a link, and how many times the demand that is."""
+    length = f"{longest * 1e3:.4g} mm" if longest < 1 else f"{longest:.4g} m"
+    return f"{length} ({longest / extent:.3g}×)" if extent else length
 
 
 def _errors(each: Candidate) -> tuple[str, str]:

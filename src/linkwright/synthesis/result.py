@@ -17,6 +17,7 @@ from linkwright.core.plot_method import Plotted
 from linkwright.errors import LinkwrightError
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.synthesis.linkage import Linkage
+from linkwright.synthesis.merit import merit
 from linkwright.words.sentence import Sentence
 
 #: Share of its size within which a linkage does what another one does.
@@ -81,6 +82,7 @@ class Candidate:
             "input_turns": self.turns,
             "transmission_angle_min [rad]": self.transmission_angle,
             "link_ratio": self.link_ratio,
+            "longest [m]": linkage.longest(),
             "lengths [m]": linkage.lengths(),
             "points [m]": {name: [place.real, place.imag] for name, place in linkage.points.items()},
             **self.values,
@@ -89,7 +91,7 @@ class Candidate:
 
 @dataclass(frozen=True, eq=False)
 class Synthesis(Plotted):
-    """The candidates of a task, best first: without defects before others, then by error, then transmission angle.
+    """The candidates of a task, best first: without defects before others, then by error, then by merit (``merit``).
 
     Args:
         task: ``path``, ``motion``, ``function``, ``slider_crank`` …
@@ -99,6 +101,7 @@ class Synthesis(Plotted):
         counts: how many solutions of which sort were found.
         notes: sentences that belong to the result.
         curves: further curves for the picture by name (circle- and centre-point curves).
+        extent: largest distance between two demanded places, m; 0: no length is demanded.
     """
 
     task: str
@@ -108,6 +111,7 @@ class Synthesis(Plotted):
     counts: Mapping[str, int] = field(default_factory=dict)
     notes: tuple[Sentence, ...] = ()
     curves: Mapping[str, Complexes] = field(default_factory=dict)
+    extent: float = 0.0
 
     def __repr__(self) -> str:
         best = f", the best {self.best!r}" if self.candidates else ""
@@ -138,6 +142,7 @@ class Synthesis(Plotted):
         return {
             "task": self.task,
             "error": self.error_name,
+            "extent [m]": self.extent,
             "counts": dict(self.counts),
             "notes": [str(note) for note in self.notes],
             "candidates": [each.data() for each in self.candidates],
@@ -182,13 +187,13 @@ def note(key: str, **values: object) -> Sentence:
     return Sentence(f"synthesize.{key}", **values)
 
 
-def ranking(error: Floats, transmission: Floats, sound: Flags, size: float) -> Whole:
-    """Order of candidates: sound ones first, then by error, then by transmission angle.
+def ranking(error: Floats, merits: Floats, sound: Flags, size: float) -> Whole:
+    """Order of candidates: sound ones first, then by error, then by merit.
 
     Errors below 1e-9 of ``size`` (the target's own) are alike; others are compared to about a quarter of a per cent.
     """
     step = np.where(error <= 1e-9 * size, -1e9, np.round(1e3 * np.log10(np.maximum(error, 1e-300))))
-    return np.asarray(np.lexsort((-transmission, step, ~sound)))
+    return np.asarray(np.lexsort((-merits, step, ~sound)))
 
 
 def different(candidates: tuple[Candidate, ...], distance: float) -> tuple[Candidate, ...]:
@@ -213,14 +218,20 @@ def _alike(a: Linkage, b: Linkage, distance: float) -> bool:
     return bool(same and off <= SAME * np.abs(others - others[0]).max())
 
 
-def ranked(candidates: Sequence[Candidate], size: float) -> tuple[Candidate, ...]:
-    """The candidates in the order of :func:`ranking`."""
+def ranked(candidates: Sequence[Candidate], size: float, extent: float = 0.0) -> tuple[Candidate, ...]:
+    """The candidates in the order of :func:`ranking`; ``extent`` as in ``Synthesis``."""
     if not candidates:
         return ()
     error = np.array([each.error for each in candidates])
-    transmission = np.array([each.transmission_angle for each in candidates])
     sound = np.array([not each.defects for each in candidates])
-    return tuple(candidates[i] for i in ranking(error, transmission, sound, size))
+    return tuple(candidates[i] for i in ranking(error, merits(candidates, extent), sound, size))
+
+
+def merits(candidates: Sequence[Candidate], extent: float) -> Floats:
+    """The merit of every candidate."""
+    facts = [(each.transmission_angle, each.link_ratio, each.linkage.longest()) for each in candidates]
+    transmission, ratio, longest = np.array(facts).T
+    return merit(transmission, ratio, longest, extent)
 
 
 def whole(*, least: int = 1, **values: float) -> None:

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import errno
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Protocol, runtime_checkable
 
 from linkwright.core.dataclass import dataclass
-from linkwright.words import has, say
+from linkwright.words import LANGUAGES, has, say
+from linkwright.words.characters import one_line
 
 _OWN_NAMES = re.compile(
     r"(?<![\w.-])(?:frame|driver)(?![\w-])|\b(?:max|min)(?=→)|(?<=→)(?:max|min)\b|(?<= )(?:max|min)$"
@@ -59,9 +60,34 @@ class Sentence(str):
         return _said(self.key, language, self.values)
 
 
+class Worded(str):
+    """A text that a file gives in several languages: ``texts``, by language.
+
+    It reads as the text of one language, English unless ``say("zh")`` gave it, or as the first one that there is.
+    """
+
+    texts: Mapping[str, str]
+
+    def __new__(cls, texts: Mapping[str, str], language: str = LANGUAGES[0]) -> Worded:
+        worded = super().__new__(cls, texts.get(language) or next(iter(texts.values())))
+        worded.texts = dict(texts)
+        return worded
+
+    def __getnewargs__(self) -> tuple[Mapping[str, str]]:  # type: ignore[override]
+        return (self.texts,)
+
+    def say(self, language: str = LANGUAGES[0]) -> Worded:
+        """The text in a language."""
+        return Worded(self.texts, language)
+
+    def on_one_line(self) -> Worded:
+        """The same, each text on one line."""
+        return Worded({language: one_line(text) for language, text in self.texts.items()})
+
+
 def in_language(text: str, language: str) -> str:
-    """A sentence in a language; other texts as they are."""
-    return text.say(language) if isinstance(text, Sentence) else text
+    """A sentence, or a text that is given in several languages, in a language; other texts as they are."""
+    return text.say(language) if isinstance(text, Sentence | Worded) else text
 
 
 def in_words(subject: str, language: str) -> str:

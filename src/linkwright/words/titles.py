@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from linkwright.words.sentence import in_language
+
 #: Chinese titles by the English ones, which stand in the files.
 CHINESE = {
     "A motion that is found": "求得的运动规律",
@@ -115,5 +117,7 @@ CHINESE = {
 
 
 def title_said(title: str, language: str) -> str:
-    """An English title of a model or a published case in a language; others as they are."""
-    return CHINESE.get(title, title) if language == "zh" else title
+    """A title in a language: an English one of the gallery or of a published case, one that is given in several
+    languages; others as they are."""
+    said = in_language(title, language)
+    return CHINESE.get(title, said) if language == "zh" else said

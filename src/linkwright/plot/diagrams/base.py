@@ -16,6 +16,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.plot.diagrams.picture import Figure
 from linkwright.registry import Registry
 from linkwright.words import Say, say
+from linkwright.words.sentence import in_language
 
 if TYPE_CHECKING:
     from linkwright.plot.diagrams.source import Source
@@ -57,7 +58,7 @@ class Request:
     def titled(self, name: str, subject: str = "") -> str:
         """The title of a diagram, ``Crank-rocker: joint forces``: its subject is its kind unless given."""
         told = subject or self.say(f"kind.{self.kind}")
-        return self.say("titled", name=name, subject=told) if name else told
+        return self.say("titled", name=in_language(name, self.language), subject=told) if name else told
 
 
 class Kind(ABC):

@@ -21,6 +21,7 @@ from linkwright.metrics.analysis import Analysis, Extreme, Kind
 from linkwright.plot.diagrams.axes import Unit, unit_of
 from linkwright.words import Say
 from linkwright.words.characters import one_line
+from linkwright.words.sentence import Worded
 
 Result: TypeAlias = Mechanism | Motion | Forces | SteadyRunning
 STEPS = 720
@@ -67,7 +68,8 @@ class Source:
     @property
     def label(self) -> str:
         """Its name in the legend."""
-        return one_line(self._label or (self.mechanism.name if self.result_running is None else ""))
+        name = self._label or (self.mechanism.name if self.result_running is None else "")
+        return name.on_one_line() if isinstance(name, Worded) else one_line(name)
 
     @property
     def mechanism(self) -> Mechanism:

@@ -31,6 +31,7 @@ from linkwright.plot.drawing.view import DIAGONAL
 from linkwright.plot.svg.element import Element, group
 from linkwright.plot.symbols.base import points
 from linkwright.words import say
+from linkwright.words.sentence import in_language
 
 if TYPE_CHECKING:
     from linkwright.kinetostatics.forces import Forces
@@ -107,7 +108,9 @@ def draw(
     sheet.dimensions(dimensions)
     sheet.labels(labels)
     sheet.legend(arrows, language)
-    return sheet.drawing(say("drawing.title", language, name=motion.mechanism.name), size)
+    return sheet.drawing(
+        say("drawing.title", language, name=in_language(motion.mechanism.name, language)), size
+    )
 
 
 class Sheet:

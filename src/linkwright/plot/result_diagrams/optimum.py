@@ -11,6 +11,7 @@ from linkwright.optimisation.report import label, shown_unit
 from linkwright.plot.diagrams.base import Request, result_diagram
 from linkwright.plot.diagrams.picture import COLOURS, INK, Figure, new_figure
 from linkwright.words import say
+from linkwright.words.sentence import in_language
 
 #: A front of less than this share of the way to the start would be a dot beside it; the start stays outside then.
 NEAR = 0.1
@@ -27,7 +28,11 @@ def draw_optimisation(result: Optimum, request: Request) -> Figure:
         _progress(axes[0], result, request.language)
     for one, goal in zip(axes, goals[1:], strict=False):
         _front(one, result, goal.text, request.language)
-    title = say("optimize.picture", request.language, name=result.problem.mechanism.name)
+    title = say(
+        "optimize.picture",
+        request.language,
+        name=in_language(result.problem.mechanism.name, request.language),
+    )
     figure.suptitle(title if request.title is None else request.title)
     return figure
 

@@ -21,6 +21,7 @@ from linkwright.synthesis.function_generation.generators import (
     Run,
     TurningFourBar,
 )
+from linkwright.synthesis.merit import merit
 from linkwright.synthesis.result import (
     Candidate,
     Synthesis,
@@ -148,7 +149,8 @@ def _exact(demand: FunctionDemand, frame: float, count: int, seed: int) -> Synth
     joint = 1 + lengths[:, 2:] * np.exp(1j * (demand.outputs + zeros[:, 1:]))
     one: Complexes = np.ones(len(pin), complex)
     facts = assess_four_bars(0 * one, pin * frame, joint * frame, frame * one)
-    order = np.lexsort((-facts.transmission, ~facts.sound))[: 40 * count]
+    merits = merit(facts.transmission, facts.ratio, facts.longest, 0.0)
+    order = np.lexsort((-merits, ~facts.sound))[: 40 * count]
     made = []
     against = lengths[:, [0, 2]] < 0.0  # a negative length: the link points the other way
     links = np.where(against, (zeros + math.pi) % (2 * math.pi), zeros)
@@ -209,12 +211,13 @@ def _fitted(generator: Generator, demand: FunctionDemand, frame: float, count: i
         for i in range(len(x))
         if (found := _candidate(generator, demand, x[i : i + 1], signs[i : i + 1], scale)) is not None
     ]
-    chosen = different(ranked(made, demand.size), DISTINCT * scale)[:count]
+    extent = 0.0 if generator.output_is_angle else float(np.ptp(demand.outputs))
+    chosen = different(ranked(made, demand.size, extent), DISTINCT * scale)[:count]
     if not chosen:
         raise refuse("function.none", linkage=note(f"type.{generator.name}"))
     name = "angle" if generator.output_is_angle else "length"
     target = np.stack([demand.inputs, demand.outputs])
-    return Synthesis("function", chosen, name, target, {"optima": len(made)})
+    return Synthesis("function", chosen, name, target, {"optima": len(made)}, extent=extent)
 
 
 def _candidate(

@@ -18,6 +18,7 @@ from linkwright.synthesis.build import (
     slider_crank,
     working_span,
 )
+from linkwright.synthesis.merit import extent_of, merit
 from linkwright.synthesis.motion_generation.burmester import Dyads, centres, circles, join, relative_poses
 from linkwright.synthesis.motion_generation.families import (
     LINES,
@@ -30,7 +31,17 @@ from linkwright.synthesis.motion_generation.families import (
     usual_window,
 )
 from linkwright.synthesis.motion_generation.mixed_poses import counted_solutions, mixed_solutions
-from linkwright.synthesis.result import Candidate, Synthesis, different, note, ranked, ranking, refuse, whole
+from linkwright.synthesis.result import (
+    Candidate,
+    Synthesis,
+    different,
+    merits,
+    note,
+    ranked,
+    ranking,
+    refuse,
+    whole,
+)
 
 Pose = Sequence[float]
 
@@ -65,7 +76,7 @@ def motion_generation(
         count: candidates wanted.
 
     Returns:
-        Candidates without circuit, branch and order defects, by transmission angle. ``error``: the greatest
+        Candidates without circuit, branch and order defects, by merit. ``error``: the greatest
         difference of a link's length between poses, m: 0 for exact ones.
 
     Raises:
@@ -85,7 +96,9 @@ def motion_generation(
     chosen = _pairs(found, error, p, phi, link_ratio, count)
     counts["pairs"] = len(found) * (len(found) - 1) // 2
     curves = _curves(p, phi, window) if len(p) == 4 else {}
-    result = Synthesis("motion", chosen, "deviation", np.stack([p, np.exp(1j * phi)]), counts, curves=curves)
+    result = Synthesis(
+        "motion", chosen, "deviation", _shown(p, phi), counts, curves=curves, extent=extent_of(p)
+    )
     if not chosen:
         raise refuse("motion.no_pairs")
     if all(each.defects for each in chosen):
@@ -133,7 +146,7 @@ def _special(p: Complexes, phi: Floats, link_ratio: float, count: int) -> None:
     if np.sqrt(error.max()) > 1e-9 * size:
         made = _pairs(found, error, p, phi, link_ratio, count)
         notes = (note("motion.fitted", poses=len(p)),)
-        nearest = Synthesis("motion", made, "deviation", np.stack([p, np.exp(1j * phi)]), notes=notes)
+        nearest = Synthesis("motion", made, "deviation", _shown(p, phi), notes=notes, extent=extent_of(p))
         raise refuse("motion.no_turn", nearest, off=f"{np.sqrt(error.max() / len(p)):.4g}")
 
 
@@ -154,12 +167,17 @@ def _mixed(p: Complexes, phi: Floats, link_ratio: float, count: int) -> Synthesi
                 pair[np.array([first, second])], np.array([squares, 0.0]), p, angles, link_ratio, 1
             )
     size = _scale(p)
-    chosen = different(ranked(made, size), 0.02 * size)[:count]
+    chosen = different(ranked(made, size, extent_of(p)), 0.02 * size)[:count]
     if not chosen:
         raise refuse("motion.no_pairs")
-    turns = np.where(np.isnan(phi), 0, np.exp(1j * np.nan_to_num(phi)))
     result = Synthesis(
-        "motion", chosen, "deviation", np.stack([p, turns]), counts | {"pairs": len(made)}, notes
+        "motion",
+        chosen,
+        "deviation",
+        _shown(p, phi),
+        counts | {"pairs": len(made)},
+        notes,
+        extent=extent_of(p),
     )
     if every is not None and not every[0]:
         raise refuse("motion.mixed_none", result, found=every[1], error=f"{chosen[0].error:.4g}")
@@ -242,10 +260,10 @@ def _pairs(
     ]
     made = [_candidate(found, facts, i, j, k, worst, p, phi) for facts, i, j, k, worst in keys]
     sound = np.array([not each.defects and each.link_ratio <= link_ratio for each in made], dtype=bool)
-    angles = np.array([each.transmission_angle for each in made])
     if not made:
         return ()
-    order = ranking(np.array([each.error for each in made]), angles, sound, _scale(p))
+    error = np.array([each.error for each in made])
+    order = ranking(error, merits(made, extent_of(p)), sound, _scale(p))
     return different(tuple(made[i] for i in order), 0.08 * _scale(p) if len(p) < 5 else 0.0)[:count]
 
 
@@ -255,7 +273,8 @@ def _scale(p: Complexes) -> float:
 
 def _best(facts: Assessment, error: Floats, p: Complexes, link_ratio: float, count: int) -> list[int]:
     sound = facts.sound & (facts.ratio <= link_ratio)
-    order = ranking(np.sqrt(error), np.nan_to_num(facts.transmission), sound, _scale(p))
+    worth = merit(facts.transmission, facts.ratio, facts.longest, extent_of(p))
+    order = ranking(np.sqrt(error), worth, sound, _scale(p))
     return [int(k) for k in order[: 30 * count]]
 
 
@@ -288,11 +307,14 @@ def _nearest(p: Complexes, phi: Floats, link_ratio: float, count: int) -> Synthe
     found, squares = fitted(p, phi, np.random.default_rng(0))
     chosen = _pairs(found, squares, p, phi, link_ratio, count) if len(found) > 1 else ()
     notes = (note("motion.fitted", poses=len(p)),)
-    return (
-        Synthesis("motion", chosen, "deviation", np.stack([p, np.exp(1j * phi)]), notes=notes)
-        if chosen
-        else None
-    )
+    if not chosen:
+        return None
+    return Synthesis("motion", chosen, "deviation", _shown(p, phi), notes=notes, extent=extent_of(p))
+
+
+def _shown(p: Complexes, phi: Floats) -> Complexes:
+    """Places and turns of the poses for the picture; 0 for a free angle."""
+    return np.stack([p, np.where(np.isnan(phi), 0, np.exp(1j * np.nan_to_num(phi)))])
 
 
 def _curves(p: Complexes, phi: Floats, window: Window) -> dict[str, Complexes]:

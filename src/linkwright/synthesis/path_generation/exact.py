@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike
 from linkwright.core.arrays import Complexes
 from linkwright.synthesis.assessment import Assessment, assess_four_bars
 from linkwright.synthesis.build import four_bar_candidate, path_of_four_bar
+from linkwright.synthesis.merit import extent_of, merit
 from linkwright.synthesis.nine_points.classes import is_real, relatives
 from linkwright.synthesis.nine_points.query import NinePoints, nine_points
 from linkwright.synthesis.path_generation.generate import complex_points, path_generation
@@ -56,7 +57,7 @@ def _fewer(z: Complexes, size: float, count: int, seed: int) -> Synthesis:
     exact = tuple(each for each in found if each.error <= EXACT * size**2 and not each.defects)
     if not exact:
         raise refuse("path.no_real", found, count=len(z), error=f"{found.best.error:.4g}")
-    return Synthesis("exact_path", exact[:count], "squares", z, {"exact": len(exact)})
+    return Synthesis("exact_path", exact[:count], "squares", z, {"exact": len(exact)}, extent=found.extent)
 
 
 def _nine(z: Complexes, found: NinePoints, count: int, seed: int) -> Synthesis:
@@ -72,11 +73,14 @@ def _nine(z: Complexes, found: NinePoints, count: int, seed: int) -> Synthesis:
     pins = [z + found.scale * u[:, o, None] * turn for o in (0, 4)]
     pivots = [z[0] + found.scale * (u[:, o] + u[:, o + 2]) for o in (0, 4)]
     facts = assess_four_bars(pivots[0], pins[0], pins[1], pivots[1])
-    order = np.lexsort((-facts.transmission, facts.ratio > 20, ~facts.sound))[:count]
+    extent = extent_of(z)
+    arms = [np.abs(z[0] - each[:, 0]) for each in pins]
+    merits = merit(facts.transmission, facts.ratio, np.maximum.reduce([facts.longest, *arms]), extent)
+    order = np.lexsort((-merits, ~facts.sound))[:count]
     made = tuple(_candidate(z, pivots, pins, facts, int(i)) for i in order)
     counts |= {"four_bars": len(u), "sound": int(facts.sound.sum())}
     notes = (note("path.nine", classes=counts["classes"], real=counts["real"], sound=counts["sound"]),)
-    result = Synthesis("exact_path", made, "squares", z, counts, notes)
+    result = Synthesis("exact_path", made, "squares", z, counts, notes, extent=extent)
     if made[0].defects:
         why = note("motion.defects", defects=tuple(note(f"defect.{name}") for name in made[0].defects))
         raise refuse("path.no_movable", result, real=len(u), why=why)

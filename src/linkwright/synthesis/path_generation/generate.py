@@ -11,6 +11,7 @@ from linkwright.core.arrays import Complexes
 from linkwright.synthesis.assessment import assess_four_bars
 from linkwright.synthesis.build import four_bar_candidate, path_of_four_bar
 from linkwright.synthesis.crank_family import couplers
+from linkwright.synthesis.merit import extent_of
 from linkwright.synthesis.path_generation.projection import Demand
 from linkwright.synthesis.path_generation.search import Found, search
 from linkwright.synthesis.requirements.slider_crank import positive
@@ -77,11 +78,12 @@ def path_generation(
     if not turning:
         candidates += _candidates(search(demand, bound, transmission_angle, True, rng))
         candidates = [each for each in candidates if each.transmission_angle >= transmission_angle - 1e-9]
-    chosen = different(ranked(candidates, demand.size**2), ALIKE * demand.size)[:count]
+    extent = extent_of(demand.points)
+    chosen = different(ranked(candidates, demand.size**2, extent), ALIKE * demand.size)[:count]
     if not chosen:
         raise refuse("path.none")
     notes = (note("path.ordered"),) if chosen[0].defects else ()
-    result = Synthesis("path", chosen, "squares", demand.points, notes=notes)
+    result = Synthesis("path", chosen, "squares", demand.points, notes=notes, extent=extent)
     _contradictions(demand, bound, result)
     return result
 

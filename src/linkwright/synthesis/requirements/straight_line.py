@@ -71,7 +71,7 @@ def straight_line(length: float, *, deviation: float | None = None, kind: str | 
     while not good:
         within *= 1.5
         good = _straight(names, length, within)
-    result = Synthesis("straight_line", good, "deviation")
+    result = Synthesis("straight_line", good, "deviation", extent=length)
     if within > allowed:
         given, least = f"{allowed * length:.4g}", f"{good[0].error:.4g}"
         raise refuse("straight_line.none", result, kind=str(kind), given=given, least=least)

@@ -23,6 +23,7 @@ Grashof 类型、整个范围内的缺陷、最小传动角、最长与最短杆
     "column.defects": "缺陷",
     "column.input": "输入构件",
     "column.ratio": "最长/最短",
+    "column.longest": "最长",
     "column.torque": "力矩峰值",
     "column.reaction": "反力峰值",
     "turns": "整转",

@@ -1,0 +1,88 @@
+"""A model's name, purpose and source in several languages: read, shown, written back."""
+
+import copy
+import pickle
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+import linkwright as lw
+from linkwright.cli import main
+from linkwright.errors import ModelError
+
+TEXT = """\
+format: 1
+name: {en: Sheet press, zh: 薄板压力机}   # both
+purpose: {zh: 冲压薄板}
+source: Own sketch
+frame: {points: {O1: [0 mm, 0 mm], O2: [400 mm, 0 mm]}}
+links:
+  crank: {points: [O1, A], length: 100 mm}
+  coupler: {points: [A, B], length: 400 mm}
+  rocker: {points: [O2, B], length: 300 mm}
+assembly: {B: left}
+driver: {turn: crank, about: O1, speed: 60 rpm}
+"""
+NAMES = {"en": "Sheet press", "zh": "薄板压力机"}
+
+
+def test_each_language_has_its_texts() -> None:
+    press = lw.loads(TEXT)
+    assert (press.name, press.purpose, press.source) == ("Sheet press", "冲压薄板", "Own sketch")
+    chinese = press.said_in("zh")
+    assert (chinese.name, chinese.purpose, chinese.source) == ("薄板压力机", "冲压薄板", "Own sketch")
+
+
+@pytest.mark.parametrize(
+    "kept",
+    [copy.deepcopy, lambda press: pickle.loads(pickle.dumps(press)), lambda press: lw.loads(lw.dump(press))],
+)
+def test_no_language_is_lost(kept: Callable[[lw.Mechanism], lw.Mechanism]) -> None:
+    for press in (lw.loads(TEXT), lw.loads(TEXT).said_in("zh")):
+        again = kept(press)
+        assert {language: again.said_in(language).name for language in NAMES} == NAMES
+
+
+def test_a_machine_built_in_code_has_names_too() -> None:
+    model = lw.Model(NAMES)
+    model.frame(O=(0, 0))
+    model.link("crank", ["O", "A"], length=0.1)
+    model.drive("crank", about="O", speed=1)
+    assert model.build().said_in("zh").name == NAMES["zh"]
+
+
+@pytest.mark.parametrize("language", list(NAMES))
+@pytest.mark.parametrize(
+    "command",
+    [["solve"], ["metrics"], ["structure"], ["draw"], ["report"], ["export", "--to", "html"]],
+    ids=" ".join,
+)
+def test_commands_show_the_name_of_their_language(
+    command: list[str], language: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    model = tmp_path / "press.yaml"
+    model.write_text(TEXT, encoding="utf-8")
+    written = {"draw": "press.svg", "report": "press.html", "export": "page.html"}.get(command[0])
+    output = [] if written is None else ["--output", str(tmp_path / written)]
+    assert main([command[0], str(model), *command[1:], *output, "--lang", language]) == 0
+    shown = capsys.readouterr().out if written is None else (tmp_path / written).read_text(encoding="utf-8")
+    other = next(each for each in NAMES if each != language)
+    assert NAMES[language] in shown
+    if command[0] != "export":  # a page holds the file
+        assert NAMES[other] not in shown
+
+
+def test_drawings_in_python_have_the_name_of_their_language() -> None:
+    assert NAMES["zh"] in lw.draw(lw.loads(TEXT), language="zh").svg
+
+
+@pytest.mark.parametrize(
+    ("given", "told"),
+    [("{en: Press, fr: Presse}", 'unknown key "fr"'), ("{}", "name"), ("[Press]", "name: a list")],
+)
+def test_what_is_no_name_is_refused_with_its_place(given: str, told: str) -> None:
+    text = TEXT.replace("{en: Sheet press, zh: 薄板压力机}", given)
+    with pytest.raises(ModelError, match="name") as refused:
+        lw.loads(text)
+    assert told in str(refused.value)
