@@ -107,18 +107,19 @@ def _metric_cycle(
     others = (*reversing(plain, program), *(each for each in ways if each is not None))
     rubbing = loads.swinging if turns and can_have_corners(plain) else ()
     swinging = others if rubbing else (*loads.swinging, *others)
-    loads = replace(loads, swinging=tuple(dict.fromkeys(swinging)))
+    if not turns:
+        rubbing, swinging = (*loads.swinging, *loads.moving, *reversing(plain, program)), ()
+    loads = replace(loads, swinging=tuple(dict.fromkeys(swinging)), moving=loads.moving if turns else ())
     traced = with_loads(plain, loads)
     gauss = gauss_points(traced, loads, analysis, PIECES[0])
     nominal = {address: np.array([mechanism.dimension(address)]) for address in addresses}
     if gauss is None:
         return None
     first = MetricCycle(traced, gauss, terms, analysis, loads)
-    if isinstance(gauss, GaussCycle):
-        signals = [each.value for each in traced.quantities(outputs).values()]
-        cut = gauss.cornered(loads, signals, rubbing)
-        if cut.corners and (rubbing or not first.met(nominal)[1].all()):
-            first = MetricCycle(traced, cut, terms, analysis, loads)
+    signals = [each.value for each in traced.quantities(outputs).values()]
+    cut = gauss.cornered(loads, signals, rubbing)
+    if cut is not gauss and (rubbing or not first.met(nominal)[1].all()):
+        first = MetricCycle(traced, cut, terms, analysis, loads)
     return _met(first, nominal)
 
 
