@@ -9,6 +9,7 @@ from tests.invariants.test_friction_of_designs import refuse_single, rubbing
 import linkwright as lw
 from linkwright.cycle_programs.metric_cycle import metric_cycle
 from linkwright.cycle_programs.terms import Term, term
+from linkwright.loads.phases import NEAR
 from linkwright.metrics import METRICS, Analysis, metrics
 
 #: Machines with what varies: an expression, a table and an expression of three cylinders, a part of a turn, two
@@ -160,22 +161,21 @@ def ram(course: str, load: str) -> lw.Mechanism:
     return lw.loads(RAM.replace("LAW", law).replace("CYCLE", cycle).replace("LOAD", load))
 
 
+def ram_place(angle: complex, crank: complex, rod: complex) -> complex:
+    """How far the ram is from the crank's pin along the guide, m."""
+    return complex(crank * np.cos(angle) + np.sqrt(rod**2 - (crank * np.sin(angle) + 0.02) ** 2))
+
+
 def gone(course: str, crank: complex, rod: complex) -> tuple[complex, complex]:
     """How far the ram goes in all, and how far inwards, m: its innermost place is where the crank is in line with
     the rod, sqrt((l - r)² - e²) from the pin."""
-
-    def place(angle: float) -> complex:
-        return complex(crank * np.cos(angle) + np.sqrt(rod**2 - (crank * np.sin(angle) + 0.02) ** 2))
 
     inner = np.sqrt((rod - crank) ** 2 - 0.02**2)
     back = np.pi - np.arctan(0.02 / inner.real)
     out, inwards, angles = 0.0 + 0.0j, 0.0 + 0.0j, COURSES[course][3]
     for first, last in pairwise(angles):
-        places = (
-            [place(first), inner, place(last)]
-            if (first - back) * (last - back) < 0.0
-            else [place(first), place(last)]
-        )
+        places = [ram_place(angle, crank, rod) for angle in (first, last)]
+        places[1:1] = [inner] if (first - back) * (last - back) < 0.0 else []
         for a, b in pairwise(places):
             out, inwards = out + max(b - a, 0.0, key=np.real), inwards + max(a - b, 0.0, key=np.real)
     return out + inwards, inwards
@@ -209,6 +209,106 @@ def test_power_against_a_load_that_goes_by_a_velocity_is_that_of_the_way(
         for place, slope in enumerate(gradient):
             shifted = [x + 1e-30j * (place == j) for j, x in enumerate(point)]
             assert slope == pytest.approx(power(*shifted).imag / 1e-30, rel=1e-10)
+
+
+#: Laws with their cycles, the time that these take, s, and the angles, rad, that the crank has gone through in order
+#: when it has gone inwards as far as it does.
+INWARDS = {
+    "expression": (
+        'position: "-0.5 rad + 3 rad*t/(1 s) + 0.3 rad*sin(t/(1 s))"',
+        "duration: 1.6 s",
+        1.6,
+        (-0.5, 4.3),
+    ),
+    "part of a turn": ("speed: 3 rad/s", "from: 0.3 rad, to: 4.5 rad", 1.4, (0.3, 4.5)),
+    "table": (
+        "table: {time: [0 s, 0.5 s, 1.2 s, 2 s], position: [-0.5 rad, 1.1 rad, 3.1 rad, 5.2 rad], "
+        "interpolation: cubic}",
+        "duration: 2 s",
+        2.0,
+        (-0.5, 5.2),
+    ),
+    "program": (
+        "program: [{rise: 2.6 rad, over: 0.7 s, law: modified_sine}, {dwell: 0.2 s}, {fall: 2.6 rad, over: 1.1 s}]",
+        "duration: 2 s",
+        2.0,
+        (0.0, 2.6),
+    ),
+}
+#: Loads between the outermost and the innermost place of the ram, with the forces, N, with which they begin and end.
+BETWEEN = {
+    "magnitude: 100 N, phase: {of: guide, from: max, to: min}": (100.0, 100.0),
+    "ramp: [10 N, 100 N], phase: {of: guide, from: max, to: min}": (10.0, 100.0),
+    "ramp: [100 N, 0 N], phase: {moving: guide, direction: decreasing}": (100.0, 0.0),
+    "magnitude: 100 N, phase: {of: guide, from: max, to: min, last: 20 mm}": None,
+}
+
+
+def work_inwards(course: str, load: str, crank: complex, rod: complex) -> complex:
+    """Work, J, against a force that changes with the angle of the crank from the outermost place of the ram, where
+    crank and rod are in line, to the innermost one, or does so between the ends of the crank's way; a part of the
+    stroke holds ``NEAR`` of that more."""
+    forces, (first, last) = BETWEEN[load], INWARDS[course][3]
+    outer, inner = (np.sqrt((rod + sign * crank) ** 2 - 0.02**2) for sign in (1.0, -1.0))
+    begin, end = -np.arctan(0.02 / outer), np.pi - np.arctan(0.02 / inner)
+    if course == "program":
+        begin, end = first + 0.0 * crank, last + 0.0 * crank
+        outer, inner = (ram_place(angle, crank, rod) for angle in (begin, end))
+    if forces is None:
+        return 100.0 * (0.02 + NEAR * (outer - inner))
+    start = begin if begin.real > first else first
+    nodes, weights = np.polynomial.legendre.leggauss(60)
+    angle = start + 0.5 * (end - start) * (1.0 + nodes)
+    height = crank * np.sin(angle) + 0.02
+    rate = -crank * np.sin(angle) - height * crank * np.cos(angle) / np.sqrt(rod**2 - height**2)
+    force = forces[0] + (forces[1] - forces[0]) * (angle - begin) / (end - begin)
+    return complex(-0.5 * (end - start) * np.sum(weights * force * rate))
+
+
+@pytest.mark.parametrize("course", INWARDS)
+@pytest.mark.parametrize("load", BETWEEN)
+def test_power_against_a_load_between_limits_is_that_of_its_work(
+    course: str, load: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The limits lie at other times in every design, beyond the part of a turn, or where the driver turns round."""
+    refuse_single(monkeypatch)
+    law, cycle, time, _ = INWARDS[course]
+    text = RAM.replace("LAW", law).replace("CYCLE", cycle).replace("LOAD", f"direction: 0 deg, {load}")
+    machine, by = lw.loads(text), ["crank.length", "rod.length"]
+    points = [(0.05, 0.16), (0.051, 0.158), (0.0485, 0.161)]
+    columns = dict(zip(by, np.array(points).T, strict=True))
+    cycle = metric_cycle(machine, by, ["mean_power"])
+    assert cycle is not None and cycle.evaluate(columns).certain.all()
+    swept = lw.sweep(machine, columns, outputs=["mean_power"])
+    objective = lw.objective(machine, "mean_power", vary=by)
+    for k, point in enumerate(points):
+        expected = work_inwards(course, load, *point).real / time
+        assert swept["mean_power"][k] == pytest.approx(expected, rel=1e-12)
+        value, gradient = objective(point)
+        assert value == pytest.approx(expected, rel=1e-12)
+        for place, slope in enumerate(gradient):
+            shifted = [x + 1e-30j * (place == j) for j, x in enumerate(point)]
+            wanted = work_inwards(course, load, *shifted).imag / 1e-30 / time
+            assert slope == pytest.approx(wanted, rel=1e-10, abs=1e-9)
+
+
+def test_designs_whose_limits_are_others_are_found_alone() -> None:
+    """A longer crank takes the ram past its innermost place before the driver turns round, so that it has more limits
+    than the machine itself."""
+    law, cycle, *_ = INWARDS["program"]
+    load = "direction: 0 deg, magnitude: 100 N, phase: {of: guide, from: max, to: min}"
+    text = (
+        RAM.replace("LAW", law.replace("2.6 rad", "2.93 rad")).replace("CYCLE", cycle).replace("LOAD", load)
+    )
+    machine = lw.loads(text)
+    columns = {"crank.length": np.array([0.05, 0.09])}
+    cycle = metric_cycle(machine, columns, ["mean_power", "rms_input_torque"])
+    assert cycle is not None
+    assert cycle.evaluate(columns).certain.tolist() == [True, False]
+    swept = lw.sweep(machine, columns, outputs=["rms_input_torque"])
+    for k in range(2):
+        alone = metrics(_alone(machine, columns, k), ["rms_input_torque"]).value("rms_input_torque")
+        assert swept["rms_input_torque"][k] == pytest.approx(alone, rel=1e-12)
 
 
 #: Machines with friction in all joints, some of which turn round at other times in every design, with what varies.

@@ -75,6 +75,16 @@ class Corner:
         """The cycle value that is its input, rad."""
         return f"corner:{self.of}:{self.number}"
 
+    @property
+    def met(self) -> str:
+        """The cycle value that is 1 where it is found, else 0."""
+        return f"met:{self.of}:{self.number}"
+
+    @property
+    def before(self) -> str:
+        """The cycle value that has the sign of the value before it."""
+        return f"at a:{self.of}:{self.number}"
+
 
 @dataclass(frozen=True)
 class Signed:
@@ -98,9 +108,20 @@ def signed_values(
         for name, force in programs.signed.items()
         if programs.friction is not None or trace.lift(absolute(force)) in needed
     }
-    for each in swinging:
-        found[f"rate {each}"] = Signed(rates(traced, each)[0], _fastest(traced.nominal, each))
+    found |= rates_of(traced, swinging)
     return found | {name: Signed(value, 0.0) for name, value in other_bends(traced).items()}
+
+
+def rate_name(each: Swinging) -> str:
+    """The name of the rate of what swings among signed values."""
+    return f"rate {each}"
+
+
+def rates_of(traced: Traced, swinging: Iterable[Swinging]) -> dict[str, Signed]:
+    """The rates of what swings, by their names."""
+    return {
+        rate_name(each): Signed(rates(traced, each)[0], _fastest(traced.nominal, each)) for each in swinging
+    }
 
 
 def _fastest(motion: Motion, each: Swinging) -> float:
@@ -109,12 +130,15 @@ def _fastest(motion: Motion, each: Swinging) -> float:
     return float(np.abs(rate).max())
 
 
-def corner_stages(along: Along, values: Mapping[str, Signed], corners: Iterable[Corner]) -> list[Stage]:
+def corner_stages(
+    along: Along, values: Mapping[str, Signed], corners: Iterable[Corner], counted: Iterable[str] = ()
+) -> list[Stage]:
     """The stages that find these places of some values by name; those that a design lacks are put evenly over its
-    cycle, where nothing bends."""
+    cycle, where nothing bends. Of the ``counted`` values changes are told even where they have no corners."""
     asked = tuple(corners)
-    found = [_values_there(along, values)] if asked else []
-    for name in dict.fromkeys(corner.of for corner in asked):
+    names = dict.fromkeys([*counted, *(corner.of for corner in asked)])
+    found = [_values_there(along, {name: values[name] for name in names})] if names else []
+    for name in names:
         own = [corner for corner in asked if corner.of == name]
         found.append(_crossings(along, name, len(own)))
         found += [_place(along, corner, values[name].value, len(own)) for corner in own]
@@ -137,10 +161,20 @@ def corners_of(
     cycle = CycleProgram((*before, _values_there(along, values), *counting))
     table = np.array([[known[name] for name in cycle.dimensions]])
     results = cycle.evaluate(table, positions, tables=tables, threads=1)
-    counts = {name: int(np.nan_to_num(results[f"changes:{name}"][0])) for name in values}
+    counts = {name: int(np.nan_to_num(results[changes_name(name)][0])) for name in values}
     if sum(counts.values()) > MOST:
         return ()
     return tuple(Corner(name, number) for name, count in counts.items() for number in range(count))
+
+
+def changes_name(name: str) -> str:
+    """The cycle value that tells how often a value changes its sign."""
+    return f"changes:{name}"
+
+
+def began_name(name: str) -> str:
+    """The cycle value that has the sign of a value where the cycle begins."""
+    return f"began:{name}"
 
 
 def _field(name: str) -> str:
@@ -176,7 +210,8 @@ def _crossings(along: Along, name: str, count: int) -> Stage:
     a, b = select(ordinary, at, place), select(ordinary, x, beginning + lap)
     at_a, at_b = select(ordinary, last, now), select(ordinary, value, began)
     outputs = {"a": a, "b": b, "at a": at_a, "at b": at_b, "x": a - at_a * (b - a) / (at_b - at_a)}
-    wanted = {f"changes:{name}": Reduction("changes", "last")}
+    outputs["began"] = began
+    wanted = {changes_name(name): Reduction("changes", "last"), began_name(name): Reduction("began", "last")}
     total = changes + changed + around
     for k in range(count):
         outputs[f"mark {k}"] = select(
@@ -204,13 +239,17 @@ def _place(along: Along, corner: Corner, value: Scalar, count: int) -> Stage:
     met = select(moved <= CONVERGED, t.parameter(begins["marked"]), 0.0) > 0.5
     program = Program.of(
         t,
-        {"place": select(met, x, parked), "gap": select(met, there, x - parked)},
+        {
+            "place": select(met, x, parked),
+            "met": select(met, 1.0, 0.0),
+            "gap": select(met, there, x - parked),
+        },
         {"x": select(still, x, following), "low": low1, "high": high1, "last": x, "at last": there},
     )
     starts = {"x": "x", "low": "a", "high": "b", "last": "a", "at last": "at a"}
     return Stage(
         program,
-        {corner.name: Reduction("place", "last")},
+        {corner.name: Reduction("place", "last"), corner.met: Reduction("met", "last")},
         steps=STEPS,
         starts={name: begins[each] for name, each in starts.items()},
         roots={"x": "gap"},

@@ -255,7 +255,7 @@ class GaussCycle:
         for load in self.traced.mechanism.loads.values():
             phase = getattr(load, "phase", None)
             if isinstance(phase, SwingPhase):
-                edges = [k for k, name in _edges(load.name, phase).items() if name in known]
+                edges = [k for k, name in part_edges(load.name, phase).items() if name in known]
                 for k in edges:
                     found += (
                         [part_edge(self.traced, load, phase, k)]
@@ -400,7 +400,7 @@ def _apart(shares: list[Scalar]) -> list[Scalar]:
     return found
 
 
-def _edges(load: str, phase: SwingPhase) -> dict[int, str]:
+def part_edges(load: str, phase: SwingPhase) -> dict[int, str]:
     """Cycle values where a part of a stroke begins (0) or ends (1) between its limit positions."""
     part = phase.part
     if part is None:
@@ -432,7 +432,7 @@ def _cuts(load: Load) -> Iterable[tuple[str, int]]:
     if isinstance(phase, SwingPhase | MovingPhase):
         yield from ((limit_name(phase.output, kind), 0) for kind in ("max", "min"))
     if isinstance(phase, SwingPhase):
-        yield from ((name, 0) for name in _edges(load.name, phase).values())
+        yield from ((name, 0) for name in part_edges(load.name, phase).values())
     if isinstance(magnitude, Expression) and magnitude.names & {"t", "input"}:
         yield FIRST, 0
     if isinstance(table, Table) and not isinstance(table.over, Output):

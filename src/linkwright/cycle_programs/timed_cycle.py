@@ -26,20 +26,33 @@ from linkwright.cycle_programs.corners import (
     Signed,
     corner_stages,
     corners_of,
+    rate_name,
     signed_values,
 )
-from linkwright.cycle_programs.gauss_cycle import SHARE, GaussCycle, certain, ordered_cuts, side_by_side
-from linkwright.cycle_programs.limit_stages import whole_turns
+from linkwright.cycle_programs.gauss_cycle import (
+    SHARE,
+    GaussCycle,
+    certain,
+    ordered_cuts,
+    part_edges,
+    side_by_side,
+)
+from linkwright.cycle_programs.limit_stages import to_edge, whole_turns
+from linkwright.cycle_programs.timed_limits import TimedLimit, rate_stages, timed_limits
 from linkwright.cycle_programs.traced import VALID, Traced
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.program import Program
 from linkwright.engine.stage import Stage
-from linkwright.engine.trace import Scalar, Trace, floor, maximum, minimum
+from linkwright.engine.trace import Scalar, Trace, floor, maximum, minimum, select
 from linkwright.errors import LinkwrightError
-from linkwright.kinematics.bends import law_bends
+from linkwright.fields.signals import MovingPhase, SwingPhase
+from linkwright.kinematics.bends import law_bends, one_formula
 from linkwright.kinematics.cycle import at_times, over_cycle
 from linkwright.kinetostatics.friction import Swinging
+from linkwright.kinetostatics.signals import MotionSignals
+from linkwright.kinetostatics.site import DRIFT, LAP, turns_steadily
 from linkwright.kinetostatics.traced_loads import AlongInput
+from linkwright.loads.magnitude import by_limits
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import Analysis
 
@@ -55,19 +68,56 @@ _NUDGE = 1e-3
 
 @dataclass(frozen=True)
 class TimedCycle:
-    """What ``GaussCycle`` is for whole turns, over the time; ``edges`` of the pieces that no design moves, s;
-    ``corners``: where ``signed`` values are zero, at other times in every design."""
+    """What ``GaussCycle`` is for whole turns, over the time; ``edges`` of the pieces that no design moves, s.
+
+    ``lap``: how long the cycle is, s, in which limits are found, and whether it ``closes``; ``limits`` that loads
+    take, those that are ``valued`` with the outputs there; ``corners``: where ``signed`` values are zero, at other
+    times in every design; ``constants``: numbers of the cycle that programs take.
+    """
 
     traced: Traced
     edges: tuple[float, ...]
+    lap: float
+    closes: bool
     halvings: int = 0
+    limits: tuple[TimedLimit, ...] = ()
+    valued: tuple[Output, ...] = ()
     corners: tuple[Corner, ...] = ()
     signed: Mapping[str, Signed] = field(default_factory=dict)
+    constants: Mapping[str, float] = field(default_factory=dict)
+
+    @classmethod
+    def of(cls, traced: Traced, loads: AlongInput, edges: Floats) -> TimedCycle | None:
+        """With the limits that loads take; None where these are not found over the time."""
+        whole, closed = MotionSignals(traced.nominal).whole, traced.positions.closed
+        length = float(edges[-1] - edges[0])
+        cycle = cls(traced, tuple(edges.tolist()), length, closed)
+        if not loads.outputs:
+            return cycle
+        closes = whole.period is not None
+        if closes and not closed and not one_formula(traced.mechanism):
+            return None
+        lap = length if whole.period is None else whole.period
+        steady = turns_steadily(traced.mechanism)
+        way = abs(whole.drift) if steady and closes else abs(cycle.speed) * lap if steady else lap
+        numbers = {LAP: way if closes else 2.0 * way, DRIFT: whole.drift}
+        cycle = replace(cycle, lap=lap, closes=closes, valued=loads.valued, constants=numbers)
+        known = {**traced.solver.nominal.parameters, **loads.constants, **numbers}
+        limits = timed_limits(cycle, loads.outputs, known, cycle.places, loads.tables)
+        if limits is None or not (closes or _in_order(traced, loads)):
+            return None
+        numbers |= {name: time for each in limits for name, time in each.constants.items()}
+        return replace(cycle, limits=limits, constants=numbers)._cut(loads)
+
+    @property
+    def moving(self) -> tuple[Corner, ...]:
+        """All cuts that move with the dimensions."""
+        return (*(corner for each in self.limits for corner in each.corners.values()), *self.corners)
 
     @property
     def pieces(self) -> int:
         """Number of pieces of the cycle."""
-        return len(self.edges) - 1 + len(self.corners)
+        return len(self.edges) - 1 + len(self.moving)
 
     @property
     def count(self) -> int:
@@ -99,21 +149,25 @@ class TimedCycle:
 
     @cached_property
     def positions(self) -> dict[str, Floats]:
-        """Inputs (n,) of the programs, and the shares of the time, the first nodes of all pieces first; with corners
+        """Inputs (n,) of the programs, and the shares of the time, the first nodes of all pieces first; with cuts
         those at the places between which they are sought, and what the shares follow from."""
-        if self.corners:
+        if self._searched:
             return {**self.places, **self._among_cuts}
         edges = np.array(self.edges)
         known = at_times(self.traced.mechanism, nodes(edges).T.ravel())
         width = 0.5 * WEIGHTS[:, None] * np.diff(edges) / self._duration
         return {**known.arrays, SHARE: width.ravel()}
 
+    @property
+    def _searched(self) -> bool:
+        return bool(self.limits or self.corners)
+
     @cached_property
     def places(self) -> dict[str, Floats]:
         """Inputs (n,) of the programs evenly between the breaks of the drivers' laws, and close to these."""
         breaks = self._breaks
         widths = np.diff(breaks)
-        counts = np.maximum(FEW, np.floor(self.count * widths / self._duration).astype(int))
+        counts = np.maximum(FEW, np.floor(self.count * widths / self.lap).astype(int))
         counts[np.argmax(counts)] += self.count - counts.sum()
         time, reach = [], []
         for low, width, count in zip(breaks, widths, counts, strict=False):
@@ -127,34 +181,30 @@ class TimedCycle:
 
     @cached_property
     def _breaks(self) -> Floats:
-        """Times, s, at which a driver's law goes over to another formula or turns round, and both ends of the
-        cycle."""
-        start, end = self.edges[0], self.edges[-1]
-        found, near = law_bends(self.traced.nominal), BESIDE * self._duration
+        """Times, s, at which a driver's law goes over to another formula or turns round, and both ends of the cycle
+        in which limits are found."""
+        start, end = self.edges[0], self.edges[0] + self.lap
+        found, near = law_bends(self.traced.nominal), BESIDE * self.lap
         inner = found[(found > start + near) & (found < end - near)]
         inner = inner[np.diff(inner, prepend=start) > near]
         return np.concatenate([[start], inner, [end]])
 
     @cached_property
     def _joined(self) -> bool:
-        """Whether the end of the cycle goes over into its beginning by the same formulas."""
-        apart = np.abs(law_bends(self.traced.nominal)[:, None] - np.array(self.edges)[[0, -1]])
-        return self.traced.positions.closed and bool((apart > BESIDE * self._duration).all())
+        """Whether the end of that cycle goes over into its beginning by the same formulas."""
+        ends = self.edges[0] + np.array([0.0, self.lap])
+        apart = np.abs(law_bends(self.traced.nominal)[:, None] - ends)
+        return self.closes and bool((apart > BESIDE * self.lap).all())
 
     @property
     def _among_cuts(self) -> dict[str, Floats]:
         """Shares (n,) of the time at which the pieces that can bound those of the Gauss points begin, place and width
         in their own pieces."""
-        cuts, edges = len(self.corners), (np.array(self.edges) - self.edges[0]) / self._duration
+        cuts, edges = len(self.moving), (np.array(self.edges) - self.edges[0]) / self._duration
         piece = np.tile(np.arange(self.pieces), POINTS)
         around = {f"edge {k}": edges[np.clip(piece - cuts + k, 0, len(edges) - 1)] for k in range(cuts + 2)}
         inside, width = (np.repeat(row, self.pieces) for row in (0.5 * (1.0 + NODES), 0.5 * WEIGHTS))
         return {**around, "inside": inside, "width": width}
-
-    @property
-    def constants(self) -> dict[str, float]:
-        """None: no number of a cycle of turns is taken."""
-        return {}
 
     # corners ----------------------------------------------------------------------------------------
     def cornered(
@@ -163,31 +213,75 @@ class TimedCycle:
         """The same with cuts where friction and the forces of teeth in ``signals`` bend and what is ``rubbing``
         turns round, in the machine as it is, instead of the pieces' ends that lie there; drivers turn round
         between pieces."""
-        signed = signed_values(self.traced, signals, rubbing)
-        known = {**self.traced.solver.nominal.parameters, **loads.constants}
-        corners = corners_of(self, signed, (), known, self.places, loads.tables)
-        cut, breaks = replace(self, corners=corners, signed=signed), self._breaks
-        stages = CycleProgram(tuple(cut.cut_stages()))
+        known = {rate_name(each.output) for each in self.limits}
+        signed = {**signed_values(self.traced, signals, rubbing), **self._part_edges(loads)}
+        signed = {name: value for name, value in signed.items() if name not in known}
+        numbers = self._numbers(loads)
+        corners = corners_of(self, signed, self._limit_stages, numbers, self.places, loads.tables)
+        return replace(self, corners=corners, signed=signed)._cut(loads)
+
+    def _part_edges(self, loads: AlongInput) -> dict[str, Signed]:
+        """What is zero where parts of strokes begin and end, by name."""
+        found: dict[str, Signed] = {}
+        for name in sorted(loads.names):
+            load = self.traced.mechanism.loads[name]
+            phase = getattr(load, "phase", None)
+            if isinstance(phase, SwingPhase):
+                stroke = float(np.ptp(self.traced.nominal.read(phase.output)))
+                for which, edge in part_edges(name, phase).items():
+                    gap = to_edge(self.traced, load, phase, which)["gap"]
+                    found[edge] = Signed(gap, stroke)
+        return found
+
+    def _numbers(self, loads: AlongInput) -> dict[str, float]:
+        """Those of the machine as it is."""
+        return {**self.traced.solver.nominal.parameters, **loads.constants, **self.constants}
+
+    def _cut(self, loads: AlongInput) -> TimedCycle:
+        """The same without edges where the machine as it is has cuts that move, and with such where drivers turn
+        round."""
+        known, moving = self._numbers(loads), len(self.moving)
+        stages = CycleProgram(tuple(self.cut_stages()))
         table = np.array([[known[name] for name in stages.dimensions]])
-        results = stages.evaluate(table, cut.places, tables=loads.tables, threads=1)
-        at = [self.edges[0] + self._duration * float(results[f"cut {k}"][0]) for k in range(len(corners))]
+        results = stages.evaluate(table, self.places, tables=loads.tables, threads=1)
+        at = [self.edges[0] + self._duration * float(results[f"cut {k}"][0]) for k in range(moving)]
         edges, near = np.array(self.edges), NEAR * self._duration
+        breaks = np.append(self._breaks[self._breaks < edges[-1] - near], edges[-1])
         edges = edges[(np.abs(edges[:, None] - np.append(breaks, at)) > near).all(axis=1)]
-        return replace(cut, edges=tuple(np.sort(np.append(edges, breaks)).tolist()))
+        return replace(self, edges=tuple(np.sort(np.append(edges, breaks)).tolist()))
+
+    @property
+    def _limit_stages(self) -> list[Stage]:
+        """The stages that find limits."""
+        outputs = [each.output for each in self.limits]
+        corners = [corner for each in self.limits for corner in each.corners.values()]
+        found = rate_stages(self, outputs, corners)
+        return [*found, *(each.stage(self, each.output in self.valued) for each in self.limits)]
 
     def cut_stages(self, beside: Traced | None = None) -> list[Stage]:
-        """The stages that find the times of corners, and bring them into order."""
-        if not self.corners:
-            return []
-        t, start = Trace(), self.edges[0]
-        shares: list[Scalar] = [(t.parameter(each.name) - start) / self._duration for each in self.corners]
-        if self._joined:
-            shares = [share - floor(share) for share in shares]
-        return [*corner_stages(self, self.signed, self.corners), ordered_cuts(t, shares)]
+        """The stages that find limits, and the times of all cuts, and bring these into order."""
+        found = [*self._limit_stages, *corner_stages(self, self.signed, self.corners)]
+        return [*found, self._ordering] if self.moving else found
+
+    @property
+    def _ordering(self) -> Stage:
+        """The stage that brings the cuts into order; what lies beyond the cycle is put where nothing bends."""
+        t, shares, moving = Trace(), list[Scalar](), self.moving
+        for number, each in enumerate(moving):
+            share = (self.inside(t.parameter(each.name)) - self.edges[0]) / self._duration
+            shares.append(select(share <= 1.0, share, (number + 0.5) / len(moving)))
+        return ordered_cuts(t, shares)
 
     def span(self, t: Trace) -> tuple[Scalar, Scalar]:
-        """The time, s, at which the cycle begins, and how long it is."""
-        return self.edges[0], self._duration
+        """The time, s, at which the cycle begins in which corners are sought, and how long it is."""
+        return self.edges[0], self.lap
+
+    def inside(self, time: Scalar) -> Scalar:
+        """A time within that cycle, s."""
+        if not self._joined:
+            return time
+        share = (time - self.edges[0]) / self.lap
+        return self.edges[0] + self.lap * (share - floor(share))
 
     def place(self, t: Trace) -> Scalar:
         """The times, s, between which corners are sought."""
@@ -199,11 +293,7 @@ class TimedCycle:
 
     def there(self, program: Program, t: Trace, x: Scalar) -> dict[str, Any]:
         """The outputs of a program of the motion at a time, s."""
-        start = self.edges[0]
-        if self._joined:
-            share = (x - start) / self._duration
-            x = start + self._duration * (share - floor(share))
-        return self.traced.at_time(program, t, x, (start, self.edges[-1]))
+        return self.traced.at_time(program, t, self.inside(x), (self.edges[0], self.edges[0] + self.lap))
 
     # signals ----------------------------------------------------------------------------------------
     def signals(
@@ -211,10 +301,10 @@ class TimedCycle:
     ) -> tuple[Trace, dict[str, Scalar]]:
         """A trace over the Gauss points with the outputs, whether they are valid, and the share of the time."""
         trace, found = self.traced.solver.motion.trace, {**outputs, VALID: certain(self.traced, one_way)}
-        if not self.corners:
+        if not self._searched:
             return trace, {**found, SHARE: trace.position(SHARE)}
         t = Trace()
-        cuts: list[Scalar] = [t.parameter(f"cut {k}") for k in range(len(self.corners))]
+        cuts: list[Scalar] = [t.parameter(f"cut {k}") for k in range(len(self.moving))]
         low, high = (self._end(t, cuts, following) for following in (0, 1))
         time = self.edges[0] + self._duration * (low + t.position("inside") * (high - low))
         return t, {**self.there(Program.of(trace, found), t, time), SHARE: t.position("width") * (high - low)}
@@ -224,6 +314,19 @@ class TimedCycle:
         one of this number."""
         edges: list[Scalar] = [t.position(f"edge {len(cuts) + following - k}") for k in range(len(cuts) + 1)]
         return reduce(minimum, map(maximum, edges[1:], cuts), edges[0])
+
+
+def _in_order(traced: Traced, loads: AlongInput) -> bool:
+    """Whether the limits between which loads act follow each other in a cycle that does not close."""
+    signals = MotionSignals(traced.nominal)
+    for name in loads.names:
+        load = traced.mechanism.loads[name]
+        if by_limits(load):
+            phase: MovingPhase | SwingPhase = load.phase  # type: ignore[attr-defined]
+            times = {each.kind: each.time for each in signals.limits(phase.output)}
+            if times[phase.end] < times[phase.start]:
+                return False
+    return True
 
 
 def follows_times(traced: Traced, varied: Iterable[str]) -> bool:
@@ -259,10 +362,8 @@ def can_go_together(traced: Traced, varied: Iterable[str]) -> bool:
 def gauss_points(
     traced: Traced, loads: AlongInput, analysis: Analysis, pieces: int
 ) -> GaussCycle | TimedCycle | None:
-    """The Gauss points of designs that can go together; None where loads go by limits, which move with the
-    dimensions, or the machine itself is smooth nowhere, and the cycle is no whole number of turns."""
+    """The Gauss points of designs that can go together; None where the cycle is no whole number of turns, and limits
+    by which loads go are not found over the time, or the machine itself is smooth nowhere."""
     if whole_turns(traced):
         return GaussCycle.of(traced, loads, pieces)
-    if loads.outputs or analysis.grid is None:
-        return None
-    return TimedCycle(traced, tuple(analysis.grid.edges.tolist()))
+    return None if analysis.grid is None else TimedCycle.of(traced, loads, analysis.grid.edges)
