@@ -1,11 +1,15 @@
 """Numbers of many designs where the cycle is no whole number of turns of one driver: those of each machine alone."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
+from tests.invariants.test_friction_of_designs import refuse_single, rubbing
 
 import linkwright as lw
 from linkwright.cycle_programs.metric_cycle import metric_cycle
 from linkwright.cycle_programs.terms import Term, term
+from linkwright.loads.phases import NEAR
 from linkwright.metrics import METRICS, Analysis, metrics
 
 #: Machines with what varies: an expression, a table and an expression of three cylinders, a part of a turn, two
@@ -105,3 +109,252 @@ def test_hulls_reach_the_ends_of_open_ways(model: str) -> None:
     motion = lw.solve_motion(machine, steps=20_000)
     dense = ConvexHull(np.concatenate([motion.point(key).position for key in points(machine)])).volume
     assert metrics(lw.solve_motion(machine)).value("swept_area") == pytest.approx(dense, rel=1e-8)
+
+
+#: An offset slider-crank without masses, whose ram turns back at another time in every design.
+RAM = """
+format: 1
+name: ram
+frame: {points: {O: [0 m, 0 m], Y: [0 m, -0.02 m]}}
+links:
+  crank: {points: [O, A], length: 0.05 m}
+  rod: {points: [A, B], length: 0.16 m}
+  ram: {points: [B]}
+joints: {guide: {kind: prismatic, guide: frame, through: Y, direction: 0 deg, block: ram, at: B}}
+assembly: {B: forward}
+driver: {turn: crank, about: O, LAW}
+cycle: {CYCLE}
+loads: {work: {kind: force, on: ram, at: B, LOAD}}
+"""
+#: Laws with their cycles, the time that these take, s, and the angles, rad, between which the crank goes one way.
+COURSES = {
+    "expression": (
+        'position: "3 rad*t/(1 s) + 0.3 rad*sin(t/(1 s))"',
+        "duration: 1.5 s",
+        1.5,
+        [0.0, 4.5 + 0.3 * np.sin(1.5)],
+    ),
+    "to and fro": (
+        'position: "2.5 rad + 1.2 rad*sin(3*t/(1 s))"',
+        "duration: 2 s",
+        2.0,
+        [2.5, 3.7, 1.3, 2.5 + 1.2 * np.sin(6.0)],
+    ),
+    "part of a turn": ("speed: 3 rad/s", "from: 0.3 rad, to: 4.5 rad", 1.4, [0.3, 4.5]),
+    "table": (
+        "table: {time: [0 s, 0.5 s, 1.2 s, 2 s], position: [0 rad, 1.1 rad, 3.1 rad, 5 rad], interpolation: cubic}",
+        "duration: 2 s",
+        2.0,
+        [0.0, 5.0],
+    ),
+    "program": (
+        "program: [{rise: 4 rad, over: 0.7 s, law: modified_sine}, {dwell: 0.2 s}, {fall: 4 rad, over: 1.1 s}]",
+        "duration: 2 s",
+        2.0,
+        [0.0, 4.0, 0.0],
+    ),
+}
+
+
+def ram(course: str, load: str) -> lw.Mechanism:
+    law, cycle, *_ = COURSES[course]
+    return lw.loads(RAM.replace("LAW", law).replace("CYCLE", cycle).replace("LOAD", load))
+
+
+def ram_place(angle: complex, crank: complex, rod: complex) -> complex:
+    """How far the ram is from the crank's pin along the guide, m."""
+    return complex(crank * np.cos(angle) + np.sqrt(rod**2 - (crank * np.sin(angle) + 0.02) ** 2))
+
+
+def gone(course: str, crank: complex, rod: complex) -> tuple[complex, complex]:
+    """How far the ram goes in all, and how far inwards, m: its innermost place is where the crank is in line with
+    the rod, sqrt((l - r)² - e²) from the pin."""
+
+    inner = np.sqrt((rod - crank) ** 2 - 0.02**2)
+    back = np.pi - np.arctan(0.02 / inner.real)
+    out, inwards, angles = 0.0 + 0.0j, 0.0 + 0.0j, COURSES[course][3]
+    for first, last in pairwise(angles):
+        places = [ram_place(angle, crank, rod) for angle in (first, last)]
+        places[1:1] = [inner] if (first - back) * (last - back) < 0.0 else []
+        for a, b in pairwise(places):
+            out, inwards = out + max(b - a, 0.0, key=np.real), inwards + max(a - b, 0.0, key=np.real)
+    return out + inwards, inwards
+
+
+@pytest.mark.parametrize("course", COURSES)
+@pytest.mark.parametrize(
+    ("load", "which"),
+    [
+        ("opposes: velocity, magnitude: 100 N", 0),
+        ("direction: 0 deg, magnitude: 100 N, phase: {moving: guide, direction: decreasing}", 1),
+    ],
+)
+def test_power_against_a_load_that_goes_by_a_velocity_is_that_of_the_way(
+    course: str, load: str, which: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Force times way over the time, and its derivatives by complex steps."""
+    refuse_single(monkeypatch)
+    machine, by = ram(course, load), ["crank.length", "rod.length"]
+    points = [(0.05, 0.16), (0.051, 0.158), (0.0485, 0.161)]
+    swept = lw.sweep(machine, dict(zip(by, np.array(points).T, strict=True)), outputs=["mean_power"])
+    objective = lw.objective(machine, "mean_power", vary=by)
+
+    def power(*lengths: complex) -> complex:
+        return 100.0 * gone(course, *lengths)[which] / COURSES[course][2]
+
+    for k, point in enumerate(points):
+        assert swept["mean_power"][k] == pytest.approx(power(*point).real, rel=1e-12)
+        value, gradient = objective(point)
+        assert value == pytest.approx(power(*point).real, rel=1e-12)
+        for place, slope in enumerate(gradient):
+            shifted = [x + 1e-30j * (place == j) for j, x in enumerate(point)]
+            assert slope == pytest.approx(power(*shifted).imag / 1e-30, rel=1e-10)
+
+
+#: Laws with their cycles, the time that these take, s, and the angles, rad, that the crank has gone through in order
+#: when it has gone inwards as far as it does.
+INWARDS = {
+    "expression": (
+        'position: "-0.5 rad + 3 rad*t/(1 s) + 0.3 rad*sin(t/(1 s))"',
+        "duration: 1.6 s",
+        1.6,
+        (-0.5, 4.3),
+    ),
+    "part of a turn": ("speed: 3 rad/s", "from: 0.3 rad, to: 4.5 rad", 1.4, (0.3, 4.5)),
+    "table": (
+        "table: {time: [0 s, 0.5 s, 1.2 s, 2 s], position: [-0.5 rad, 1.1 rad, 3.1 rad, 5.2 rad], "
+        "interpolation: cubic}",
+        "duration: 2 s",
+        2.0,
+        (-0.5, 5.2),
+    ),
+    "program": (
+        "program: [{rise: 2.6 rad, over: 0.7 s, law: modified_sine}, {dwell: 0.2 s}, {fall: 2.6 rad, over: 1.1 s}]",
+        "duration: 2 s",
+        2.0,
+        (0.0, 2.6),
+    ),
+}
+#: Loads between the outermost and the innermost place of the ram, with the forces, N, with which they begin and end.
+BETWEEN = {
+    "magnitude: 100 N, phase: {of: guide, from: max, to: min}": (100.0, 100.0),
+    "ramp: [10 N, 100 N], phase: {of: guide, from: max, to: min}": (10.0, 100.0),
+    "ramp: [100 N, 0 N], phase: {moving: guide, direction: decreasing}": (100.0, 0.0),
+    "magnitude: 100 N, phase: {of: guide, from: max, to: min, last: 20 mm}": None,
+}
+
+
+def work_inwards(course: str, load: str, crank: complex, rod: complex) -> complex:
+    """Work, J, against a force that changes with the angle of the crank from the outermost place of the ram, where
+    crank and rod are in line, to the innermost one, or does so between the ends of the crank's way; a part of the
+    stroke holds ``NEAR`` of that more."""
+    forces, (first, last) = BETWEEN[load], INWARDS[course][3]
+    outer, inner = (np.sqrt((rod + sign * crank) ** 2 - 0.02**2) for sign in (1.0, -1.0))
+    begin, end = -np.arctan(0.02 / outer), np.pi - np.arctan(0.02 / inner)
+    if course == "program":
+        begin, end = first + 0.0 * crank, last + 0.0 * crank
+        outer, inner = (ram_place(angle, crank, rod) for angle in (begin, end))
+    if forces is None:
+        return 100.0 * (0.02 + NEAR * (outer - inner))
+    start = begin if begin.real > first else first
+    nodes, weights = np.polynomial.legendre.leggauss(60)
+    angle = start + 0.5 * (end - start) * (1.0 + nodes)
+    height = crank * np.sin(angle) + 0.02
+    rate = -crank * np.sin(angle) - height * crank * np.cos(angle) / np.sqrt(rod**2 - height**2)
+    force = forces[0] + (forces[1] - forces[0]) * (angle - begin) / (end - begin)
+    return complex(-0.5 * (end - start) * np.sum(weights * force * rate))
+
+
+@pytest.mark.parametrize("course", INWARDS)
+@pytest.mark.parametrize("load", BETWEEN)
+def test_power_against_a_load_between_limits_is_that_of_its_work(
+    course: str, load: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The limits lie at other times in every design, beyond the part of a turn, or where the driver turns round."""
+    refuse_single(monkeypatch)
+    law, cycle, time, _ = INWARDS[course]
+    text = RAM.replace("LAW", law).replace("CYCLE", cycle).replace("LOAD", f"direction: 0 deg, {load}")
+    machine, by = lw.loads(text), ["crank.length", "rod.length"]
+    points = [(0.05, 0.16), (0.051, 0.158), (0.0485, 0.161)]
+    columns = dict(zip(by, np.array(points).T, strict=True))
+    cycle = metric_cycle(machine, by, ["mean_power"])
+    assert cycle is not None and cycle.evaluate(columns).certain.all()
+    swept = lw.sweep(machine, columns, outputs=["mean_power"])
+    objective = lw.objective(machine, "mean_power", vary=by)
+    for k, point in enumerate(points):
+        expected = work_inwards(course, load, *point).real / time
+        assert swept["mean_power"][k] == pytest.approx(expected, rel=1e-12)
+        value, gradient = objective(point)
+        assert value == pytest.approx(expected, rel=1e-12)
+        for place, slope in enumerate(gradient):
+            shifted = [x + 1e-30j * (place == j) for j, x in enumerate(point)]
+            wanted = work_inwards(course, load, *shifted).imag / 1e-30 / time
+            assert slope == pytest.approx(wanted, rel=1e-10, abs=1e-9)
+
+
+def test_designs_whose_limits_are_others_are_found_alone() -> None:
+    """A longer crank takes the ram past its innermost place before the driver turns round, so that it has more limits
+    than the machine itself."""
+    law, cycle, *_ = INWARDS["program"]
+    load = "direction: 0 deg, magnitude: 100 N, phase: {of: guide, from: max, to: min}"
+    text = (
+        RAM.replace("LAW", law.replace("2.6 rad", "2.93 rad")).replace("CYCLE", cycle).replace("LOAD", load)
+    )
+    machine = lw.loads(text)
+    columns = {"crank.length": np.array([0.05, 0.09])}
+    cycle = metric_cycle(machine, columns, ["mean_power", "rms_input_torque"])
+    assert cycle is not None
+    assert cycle.evaluate(columns).certain.tolist() == [True, False]
+    swept = lw.sweep(machine, columns, outputs=["rms_input_torque"])
+    for k in range(2):
+        alone = metrics(_alone(machine, columns, k), ["rms_input_torque"]).value("rms_input_torque")
+        assert swept["rms_input_torque"][k] == pytest.approx(alone, rel=1e-12)
+
+
+#: Machines with friction in all joints, some of which turn round at other times in every design, with what varies.
+RUBBING = {
+    "dyad_rrr": ["crank_1.length", "bar_2.length"],
+    "double_slider": ["bar.length"],
+    "to and fro": ["rod.length", "crank.length"],
+    "part of a turn": ["rod.length", "crank.length"],
+    "program": ["rod.length", "crank.length"],
+}
+
+
+def dry(name: str) -> lw.Mechanism:
+    plain = (
+        ram(name, "opposes: velocity, magnitude: 100 N") if name in COURSES else lw.load(f"gallery:{name}")
+    )
+    return rubbing(plain, 0.1, 0.01)
+
+
+@pytest.mark.parametrize("name", RUBBING)
+def test_friction_of_designs_side_by_side_is_that_of_designs_alone(name: str) -> None:
+    machine = dry(name)
+    by, asked = RUBBING[name], ["rms_input_torque", "mean_power", "peak_power", "peak_reaction"]
+    columns = {each: machine.dimension(each) * np.array([1.0, 0.995, 1.003]) for each in by}
+    analysis = Analysis.of(lw.solve_forces(machine))
+    names = [each for each in asked if isinstance(term(each, analysis), Term)]
+    cycle = metric_cycle(machine, by, names)
+    assert cycle is not None and len(cycle.terms) == len(names) >= 3
+    found = cycle.evaluate(columns)
+    assert found.certain.all()
+    for k in range(3):
+        alone = _alone(machine, columns, k)
+        for each in cycle.terms:
+            assert found.values[each.name][k] == pytest.approx(each.measured(alone), rel=1e-11), each.name
+
+
+@pytest.mark.parametrize("name", ["double_slider", "to and fro", "part of a turn"])
+def test_slopes_through_friction_that_turns_round_are_those_of_differences(name: str) -> None:
+    machine = dry(name)
+    address = RUBBING[name][0]
+    step = 3e-5 * machine.dimension(address)
+    columns = {address: machine.dimension(address) + step * np.array([-2.0, -1.0, 1.0, 2.0])}
+    for asked in ("mean_power", "peak_power"):
+        value, (slope,) = (objective := lw.objective(machine, asked, vary=[address]))(objective.start)
+        far = [metrics(_alone(machine, columns, k), [asked]).value(asked) for k in range(4)]
+        difference = (far[0] - 8 * far[1] + 8 * far[2] - far[3]) / (12 * step)
+        assert slope == pytest.approx(
+            difference, rel=3e-6, abs=1e-7 * abs(value) / machine.dimension(address)
+        )

@@ -112,6 +112,16 @@ class Expression:
         program = _derivatives.get(self, (name, order), lambda: self._traced(name, order))
         return list(program.run((), along, length=math.prod(shape)).reshape(order, *shape))
 
+    def along(self, values: Mapping[str, Any], name: str, order: int) -> list[trace.Scalar]:
+        """Value and derivatives, see ``derivatives``, over numbers and traced values of the free names, of which that
+        of ``name`` is traced; NaN where a number in the text is divided by zero."""
+        found: list[trace.Scalar] = [math.nan] * (order + 1)
+        with suppress(ZeroDivisionError):
+            found[0] = evaluate(self.tree, values, {**ON_VALUES, "abs": lambda x: x * trace.sign(x)})
+            for k in range(order):
+                found[k + 1] = trace.slope(found[k], {values[name]: 1.0})
+        return found
+
     def switches(self, values: Mapping[str, Any]) -> list[Any]:
         """What changes its sign where the expression goes over to another formula, over arrays of the free names:
         arguments of ``abs``, ``sign`` and ``step``, differences of those of ``min`` and ``max``."""
@@ -135,12 +145,8 @@ class Expression:
 
         lines = trace.Trace()
         names = {each: lines.position(each) for each in {*self.names, name}}
-        slopes: dict[str, Any] = dict.fromkeys(map(str, range(order)), math.nan)
-        with suppress(ZeroDivisionError):
-            value = evaluate(self.tree, names, {**ON_VALUES, "abs": lambda x: x * trace.sign(x)})
-            for each in slopes:
-                slopes[each] = value = trace.slope(value, {names[name]: 1.0})
-        return NumpyProgram(Program.of(lines, slopes))
+        _, *slopes = self.along(names, name, order)
+        return NumpyProgram(Program.of(lines, {str(k): each for k, each in enumerate(slopes)}))
 
     def dimension(self, kinds: Mapping[str, units.Dimension]) -> units.Dimension:
         """Dimension of the result, given those of the free names; raises QuantityError where they do not

@@ -11,6 +11,7 @@ import math
 from collections.abc import Iterable, Mapping
 from dataclasses import field, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -20,7 +21,16 @@ from linkwright.core.expressions import Expression
 from linkwright.core.inputs import turned
 from linkwright.core.outputs import Output, owners_of
 from linkwright.core.piecewise import NODES, POINTS, WEIGHTS
-from linkwright.cycle_programs.corners import Corner, Signed, corner_stages, corners_of, signed_values
+from linkwright.cycle_programs.corners import (
+    AROUND,
+    REACH,
+    REST,
+    Corner,
+    Signed,
+    corner_stages,
+    corners_of,
+    signed_values,
+)
 from linkwright.cycle_programs.joint_bends import FIRST, bend_names, bend_stage, turning
 from linkwright.cycle_programs.limit_stages import (
     constants,
@@ -121,7 +131,9 @@ class GaussCycle:
         known = {**self.traced.solver.nominal.parameters, **self.constants, **loads.constants}
         known |= constants(self.traced, self.count)
         before = [*limits, *self.cut_stages()]
-        corners = corners_of(self.traced, signed, before, known, self.positions, loads.tables)
+        corners = corners_of(self, signed, before, known, self.positions, loads.tables)
+        if not corners:
+            return self
         cuts = (*self.cuts, *((corner.name, 0) for corner in corners))
         return replace(self, cuts=cuts, corners=corners, signed=signed)
 
@@ -192,7 +204,9 @@ class GaussCycle:
         angle = first + np.sign(speed) * self.way * shares
         (driver,) = self.traced.mechanism.drivers
         found = turned(driver, angle, np.cos, np.sin)
-        return {**found, "input": angle, "time": time + shares * self.way / abs(speed), **self._along}
+        found |= {"input": angle, "time": time + shares * self.way / abs(speed), **self._along}
+        reach = np.full(self.count, REST * self.way / self.count)
+        return {**found, REACH: reach, AROUND: np.where(shares == shares[-1], reach, 0.0)}
 
     @property
     def constants(self) -> dict[str, float]:
@@ -241,14 +255,14 @@ class GaussCycle:
         for load in self.traced.mechanism.loads.values():
             phase = getattr(load, "phase", None)
             if isinstance(phase, SwingPhase):
-                edges = [k for k, name in _edges(load.name, phase).items() if name in known]
+                edges = [k for k, name in part_edges(load.name, phase).items() if name in known]
                 for k in edges:
                     found += (
                         [part_edge(self.traced, load, phase, k)]
                         if beside is None
                         else part_edge_beside(beside, load, phase, k)
                     )
-        found += corner_stages(self.traced, self.signed, self.corners)
+        found += corner_stages(self, self.signed, self.corners)
         return [*found, self._cutting()] if self.cuts else found
 
     def _cutting(self) -> Stage:
@@ -264,9 +278,7 @@ class GaussCycle:
             for lap in self._laps(every):
                 share = first + lap / self.turns
                 shares.append(share - floor(share) if lap or period > self.turns else share)
-        _sort(shares)
-        outputs = {f"cut {k}": share for k, share in enumerate(_apart(shares))}
-        return Stage(Program.of(t, outputs), {name: Reduction(name, "first") for name in outputs}, steps=1)
+        return ordered_cuts(t, shares)
 
     def signals(
         self, outputs: Mapping[str, Scalar], one_way: Iterable[Output] = ()
@@ -282,17 +294,41 @@ class GaussCycle:
         found = self.traced.at_input(source, t, point["input"], {**point, **carried})
         return t, {**found, SHARE: width}
 
+    def span(self, t: Trace) -> tuple[Scalar, Scalar]:
+        """The input, rad, where the cycle begins, and how far it goes."""
+        (driver,) = self.traced.mechanism.drivers
+        return t.parameter(FIRST), sign(t.parameter(f"{driver}.speed")) * self.way
+
+    def place(self, t: Trace) -> Scalar:
+        """The inputs of the uniform turn, rad."""
+        return t.position("input")
+
+    def over_places(self, program: Program) -> Program:
+        """A program of the motion over these."""
+        t = Trace()
+        more = {name: t.position(name) for name in ("input", "time")}
+        return Program.of(t, self.traced.at_input(program, t, more["input"], more))
+
+    def there(self, program: Program, t: Trace, x: Scalar) -> dict[str, Any]:
+        """The outputs of a program of the motion at an input, rad."""
+        (driver,) = self.traced.mechanism.drivers
+        first, whole = self.span(t)
+        share = (x - first) / whole
+        inside = first + (share - floor(share)) * whole
+        time = t.parameter("first time") + (inside - first) / t.parameter(f"{driver}.speed")
+        return self.traced.at_input(program, t, inside, {"input": inside, "time": time})
+
     def point(self, t: Trace) -> tuple[dict[str, Scalar], Scalar]:
         """Input, rad, and time, s, of the Gauss points, and their shares of the time."""
         (driver,) = self.traced.mechanism.drivers
-        whole = sign(t.parameter(f"{driver}.speed")) * self.way
+        first, whole = self.span(t)
         cuts: list[Scalar] = [t.parameter(f"cut {k}") for k in range(self._moving)]
         place, width = (
             self._between_cuts(t, cuts) if self.bends is None else self._between_bends(t, cuts, whole)
         )
         way = whole * (place - floor(place))
         time = t.parameter("first time") + way / t.parameter(f"{driver}.speed")
-        return {"input": t.parameter(FIRST) + way, "time": time}, width
+        return {"input": first + way, "time": time}, width
 
     def _between_cuts(self, t: Trace, cuts: list[Scalar]) -> tuple[Scalar, Scalar]:
         """Place and share of a Gauss point, as shares of the cycle."""
@@ -323,6 +359,13 @@ def certain(traced: Traced, one_way: Iterable[Output]) -> Mask:
         sense = float(np.sign(nominal.output(output)[1].mean()))
         found = logic("and", found, rates(traced, output)[0] * sense > 0.0)
     return found
+
+
+def ordered_cuts(t: Trace, shares: list[Scalar]) -> Stage:
+    """The stage that finds cuts, shares of the cycle, in order."""
+    _sort(shares)
+    outputs = {f"cut {k}": share for k, share in enumerate(_apart(shares))}
+    return Stage(Program.of(t, outputs), {name: Reduction(name, "first") for name in outputs}, steps=1)
 
 
 def _sort(shares: list[Scalar]) -> None:
@@ -357,7 +400,7 @@ def _apart(shares: list[Scalar]) -> list[Scalar]:
     return found
 
 
-def _edges(load: str, phase: SwingPhase) -> dict[int, str]:
+def part_edges(load: str, phase: SwingPhase) -> dict[int, str]:
     """Cycle values where a part of a stroke begins (0) or ends (1) between its limit positions."""
     part = phase.part
     if part is None:
@@ -389,7 +432,7 @@ def _cuts(load: Load) -> Iterable[tuple[str, int]]:
     if isinstance(phase, SwingPhase | MovingPhase):
         yield from ((limit_name(phase.output, kind), 0) for kind in ("max", "min"))
     if isinstance(phase, SwingPhase):
-        yield from ((name, 0) for name in _edges(load.name, phase).values())
+        yield from ((name, 0) for name in part_edges(load.name, phase).values())
     if isinstance(magnitude, Expression) and magnitude.names & {"t", "input"}:
         yield FIRST, 0
     if isinstance(table, Table) and not isinstance(table.over, Output):

@@ -253,7 +253,7 @@ def part_edge(traced: Traced, load: Load, phase: SwingPhase, which: int) -> Stag
     by Newton's steps, and halvings where these leave the bracket."""
     t = Trace()
     (driver,) = traced.mechanism.drivers
-    motion = Program.of(traced.solver.motion.trace, _to_edge(traced, load, phase, which))
+    motion = Program.of(traced.solver.motion.trace, to_edge(traced, load, phase, which))
     there, sense = traced.at_input(motion, t, t.state("x")), sign(t.parameter(f"{driver}.speed"))
     begins, ends = (t.parameter(limit_name(phase.output, kind)) for kind in (phase.start, phase.end))
     bracket = begins, begins + sense * turned(sense * (ends - begins), t.parameter(LAP))
@@ -265,20 +265,20 @@ def part_edge_beside(traced: Traced, load: Load, phase: SwingPhase, which: int) 
     """The same in groups without closed form, from the position next to it on the way; what is carried from position
     to position is given as fields."""
     source, name, t = traced.solver.motion, edge_name(load.name, which), Trace()
-    to_edge = _to_edge(traced, load, phase, which)
+    gap = to_edge(traced, load, phase, which)
     carried = {f"carried:{each}": value for each, value in source.next_states.items()}
-    away = select(to_edge["rate"] > 0.0, absolute(to_edge["gap"]), np.inf)
+    away = select(gap["rate"] > 0.0, absolute(gap["gap"]), np.inf)
     seen = {"away": away, "input": source.trace.position("input"), VALID: source.valid, **carried}
     wanted = {f"{each}:{name}": Reduction(each, "at_min", "away") for each in ("input", *carried)}
     nearest = Stage(states_as_fields(Program.of(source.trace, seen)), wanted, valid=VALID)
     near = f"input:{name}"
     states = {each.removeprefix("carried:"): t.parameter(f"{each}:{name}") for each in carried}
-    there = traced.at_input(Program.of(source.trace, to_edge), t, t.state("x"), states)
+    there = traced.at_input(Program.of(source.trace, gap), t, t.state("x"), states)
     found = there["gap"], there["rate"]
     return [nearest, _newton(traced, t, found, _beside(traced, t, near), near, {name: "x"}, {})]
 
 
-def _to_edge(traced: Traced, load: Load, phase: SwingPhase, which: int) -> dict[str, Scalar]:
+def to_edge(traced: Traced, load: Load, phase: SwingPhase, which: int) -> dict[str, Scalar]:
     """How far an output has gone beyond the edge of a part of its stroke, and its rate on this way."""
     site = TracedSite(traced.solver.motion, load, along_input=True)
     begin, end, stroke = part_ends(phase, site)

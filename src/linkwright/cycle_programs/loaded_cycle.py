@@ -20,9 +20,10 @@ from linkwright.errors import LinkwrightError
 from linkwright.kinetostatics.friction import STILL, FrictionTerm, Swinging, joint_rate, still_rates
 from linkwright.kinetostatics.friction_stage import can_be_traced
 from linkwright.kinetostatics.signals import MotionSignals
+from linkwright.kinetostatics.site import turns_steadily
 from linkwright.kinetostatics.traced_loads import AlongInput, numbers_of_loads
 from linkwright.loads.base import Load
-from linkwright.loads.magnitude import followed, within_turn
+from linkwright.loads.magnitude import by_limits, followed, through_end
 from linkwright.mechanism.mechanism import Mechanism
 
 #: The output that is the sum of magnitudes which may not exist, and that is 1 where friction is not certain.
@@ -72,10 +73,13 @@ def with_loads(plain: Traced, known: AlongInput) -> Traced:
     )
 
 
-def along_input(traced: Traced, varied: Collection[str], fields: Iterable[str]) -> AlongInput | None:
+def along_input(
+    traced: Traced, varied: Collection[str], fields: Iterable[str], *, over_time: bool = False
+) -> AlongInput | None:
     """The loads behind a program's inputs per position; None where some input is no load that can be traced.
 
-    Formulas of strokes hold over whole turns of one driver of constant speed.
+    Without limits that are found ``over_time`` those between limits only over whole turns of one driver of constant
+    speed.
     """
     mechanism, given = traced.mechanism, tuple(fields)
     rubbing = any(kind_of(name) == "friction" for name in given)
@@ -94,7 +98,8 @@ def along_input(traced: Traced, varied: Collection[str], fields: Iterable[str]) 
     if not all(followed(load, mechanism) for load in loads):
         return None
     if not whole_turns(traced, varied) and (
-        any(map(within_turn, loads)) or _moves_phases(loads, varied, mechanism)
+        any(_needs_turns(load, mechanism, over_time) for load in loads)
+        or _moves_phases(loads, varied, mechanism)
     ):
         return None
     known = numbers_of_loads(loads, mechanism)
@@ -104,6 +109,13 @@ def along_input(traced: Traced, varied: Collection[str], fields: Iterable[str]) 
         return None
     constants = {**known.constants, **middles, **known.rests(signals), **still}
     return replace(known, constants=constants, rubbing=rubbing, swinging=plain.swinging)
+
+
+def _needs_turns(load: Load, mechanism: Mechanism, over_time: bool) -> bool:
+    """Whether the formula of the phase of a load needs whole turns of one driver of constant speed."""
+    if over_time and turns_steadily(mechanism):
+        return False
+    return through_end(load) or (by_limits(load) and not over_time)
 
 
 def _moves_phases(loads: Iterable[Load], varied: Iterable[str], mechanism: Mechanism) -> bool:

@@ -100,25 +100,27 @@ def _metric_cycle(
     terms = [each for each in offered if each is not None and fitting(each, analysis)]
     outputs = tuple(outputs_of(map(one, all_parts(terms))))
     program = plain.program(plain.quantities(outputs))
-    loads = along_input(plain, addresses, program.fields)
+    loads = along_input(plain, addresses, program.fields, over_time=True)
     if loads is None:
         return None
     ways = (analysis.output(strokes.output_of(part)) for part in stroke_parts(all_parts(terms)).values())
     others = (*reversing(plain, program), *(each for each in ways if each is not None))
     rubbing = loads.swinging if turns and can_have_corners(plain) else ()
     swinging = others if rubbing else (*loads.swinging, *others)
-    loads = replace(loads, swinging=tuple(dict.fromkeys(swinging)))
+    if not turns:
+        rubbing, swinging = (*loads.swinging, *loads.moving, *reversing(plain, program)), ()
+    loads = replace(loads, swinging=tuple(dict.fromkeys(swinging)), moving=loads.moving if turns else ())
     traced = with_loads(plain, loads)
     gauss = gauss_points(traced, loads, analysis, PIECES[0])
     nominal = {address: np.array([mechanism.dimension(address)]) for address in addresses}
     if gauss is None:
         return None
     first = MetricCycle(traced, gauss, terms, analysis, loads)
-    if isinstance(gauss, GaussCycle):
-        signals = [each.value for each in traced.quantities(outputs).values()]
-        cut = gauss.cornered(loads, signals, rubbing)
-        if cut.corners and (rubbing or not first.met(nominal)[1].all()):
-            first = MetricCycle(traced, cut, terms, analysis, loads)
+    signals = [each.value for each in traced.quantities(outputs).values()]
+    cut = gauss.cornered(loads, signals, rubbing)
+    limited = rubbing if turns else (*rubbing, *loads.outputs)
+    if cut is not gauss and (limited or not first.met(nominal)[1].all()):
+        first = MetricCycle(traced, cut, terms, analysis, loads)
     return _met(first, nominal)
 
 
@@ -181,7 +183,7 @@ class MetricCycle:
         own = {
             text: output
             for text, output in own.items()
-            if output in self.outputs and len(analysis.limits(output)) == 2
+            if isinstance(gauss, GaussCycle) and output in self.outputs and len(analysis.limits(output)) == 2
         }
         self.shown = {output for text, output in own.items() if plain[text].kind not in PLACES}
         self.limited: dict[str, tuple[str, ...]] = {
@@ -352,8 +354,10 @@ class MetricCycle:
 
     @cached_property
     def _before(self) -> list[Stage]:
-        find = limit_stages if self.followed is None else limits_beside
-        limits = find(self.traced, self.outputs, valued=self.loads.valued, shown=self.shown)
+        limits: list[Stage] = []
+        if isinstance(self.gauss, GaussCycle):
+            find = limit_stages if self.followed is None else limits_beside
+            limits = find(self.traced, self.outputs, valued=self.loads.valued, shown=self.shown)
         cuts = self.gauss.cut_stages(None if self.followed is None else self.followed.traced)
         if names := self.constant.output_names:
             cuts.append(Stage(self.constant, {text: Reduction(text, "first") for text in names}, steps=1))
@@ -386,8 +390,8 @@ class MetricCycle:
         return {text for text, part in self.parts.items() if part.kind in true_speed.KINDS}
 
     def _table(self, cycle: CycleProgram, columns: Mapping[str, Floats]) -> Floats:
-        known = {**self.traced.solver.nominal.parameters, **self.gauss.constants, **self.loads.constants}
-        known |= constants(self.traced, self.gauss.count)
+        known = {**self.traced.solver.nominal.parameters, **constants(self.traced, self.gauss.count)}
+        known |= {**self.gauss.constants, **self.loads.constants}
         return design_table(cycle.dimensions, known, columns)
 
     # gradients --------------------------------------------------------------------------------------

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.core.inputs import mode_inputs, turned
+from linkwright.core.inputs import driven, mode_inputs, turned
 from linkwright.core.outputs import row_name
 from linkwright.engine.program import Program
 from linkwright.engine.replay import inlined
@@ -127,6 +127,18 @@ class Traced:
         (driver,) = self.mechanism.drivers
         lines = {name: first + turns * x for name, (first, turns) in self.lines.items()}
         return inlined(program, trace, {**turned(driver, x, cos, sin), **lines, **(more or {})})
+
+    # drivers that follow laws ---------------------------------------------------------------------------
+    def at_time(
+        self, program: Program, trace: Trace, time: Scalar, span: tuple[float, float]
+    ) -> dict[str, Any]:
+        """The outputs of a program of the motion at a time, s, within a ``span`` of the drivers' laws."""
+        found: dict[str, Scalar] = {"time": time}
+        for name, driver in self.mechanism.drivers.items():
+            course = driver.law.traced(time, *span)
+            found |= driven(name, self.positions.rotary[name], course, cos, sin)
+            found.setdefault("input", course[0])
+        return inlined(program, trace, found)
 
     @cached_property
     def lines(self) -> dict[str, tuple[float, float]]:

@@ -15,6 +15,7 @@ from linkwright.registry import Registry
 
 if TYPE_CHECKING:
     from linkwright.core.arrays import Floats
+    from linkwright.engine.trace import Scalar
     from linkwright.export.modelica.laws import LawText
     from linkwright.fields.base import Field
 
@@ -33,6 +34,12 @@ class Law(ABC):
     @abstractmethod
     def coordinate(self, t: Array) -> tuple[Array, Array, Array]:
         """Coordinate and its exact first and second derivative at the times ``t`` (n,) in s."""
+
+    def traced(self, t: Scalar, start: float, end: float) -> tuple[Scalar, Scalar, Scalar]:
+        """The same at a traced time from ``start`` to ``end``, s."""
+        from linkwright.drivers.law_pieces import law_pieces
+
+        return law_pieces(self, start, end).traced(t)
 
     def at(self, time: float) -> float:
         """Coordinate at one time, s."""

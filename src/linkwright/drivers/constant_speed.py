@@ -13,6 +13,7 @@ from linkwright.fields.base import Field, Quantity
 
 if TYPE_CHECKING:
     from linkwright.drivers.base import Array
+    from linkwright.engine.trace import Scalar
     from linkwright.export.modelica.laws import LawText
 
 
@@ -33,6 +34,9 @@ class ConstantSpeed(Law):
 
     def coordinate(self, t: Array) -> tuple[Array, Array, Array]:
         return self.start + self.speed * t, self.speed + 0.0 * t, 0.0 * t
+
+    def traced(self, t: Scalar, start: float, end: float) -> tuple[Scalar, Scalar, Scalar]:
+        return self.start + self.speed * t, self.speed, 0.0
 
     def at(self, time: float) -> float:
         return self.start + self.speed * time

@@ -14,6 +14,7 @@ from linkwright.fields.base import Field, Formula
 if TYPE_CHECKING:
     from linkwright.core.arrays import Flags
     from linkwright.drivers.base import Array
+    from linkwright.engine.trace import Scalar
     from linkwright.export.modelica.laws import LawText
 
 #: Places between which an expression goes over to another formula once at most.
@@ -38,6 +39,10 @@ class ExpressionLaw(Law):
         q: Array = self.expression.over(values) + 0.0 * t
         qd, qdd = self.expression.derivatives(values, "t", 2)
         return q, qd, qdd
+
+    def traced(self, t: Scalar, start: float, end: float) -> tuple[Scalar, Scalar, Scalar]:
+        q, rate, second = self.expression.along({**self.parameters, "t": t}, "t", 2)
+        return q, rate, second
 
     def breaks(self, start: float, end: float) -> Array:
         import numpy as np

@@ -45,6 +45,12 @@ def bend_times(motion: Motion) -> Floats:
     return np.empty(0) if one_formula(motion.mechanism) else _search(motion).bends
 
 
+def law_bends(motion: Motion) -> Floats:
+    """Times of a motion, s, in order, at which a driver's law goes over to another formula, or the driver turns
+    round: the same whatever the dimensions of the links are."""
+    return np.empty(0) if one_formula(motion.mechanism) else _search(motion).of_laws
+
+
 def stretches(motion: Motion) -> Stretches | None:
     """The stretches of a motion between those times and the ones at which a link turns round by which joints with
     several formulas are measured; None where there are no such times."""
@@ -137,6 +143,7 @@ class _Search:
         laws = [driver.law for driver in motion.mechanism.drivers.values()]
         self.bends = self._apart(*(law.breaks(self.low, self.high) for law in laws))
         self.turns = self._apart(np.empty(0), *(self._looks(law)[1] for law in laws))
+        self.of_laws = self._apart(self.bends, self.turns)
         self.way = self._way([law for law in laws if law.rotary and law.constant_speed is None])
         for joint in self._in_turn():
             turns, bends = self._of_joint(joint)

@@ -3,23 +3,43 @@
 from __future__ import annotations
 
 from linkwright.core.outputs import Output, row_name
-from linkwright.engine.trace import Mask, Scalar, angle, cos, sin
+from linkwright.engine.trace import Mask, Scalar, angle, cos, select, sign, sin
 from linkwright.engine.vector import Vec
 from linkwright.fields.signals import MovingPhase, SwingPhase
 from linkwright.kinematics.outputs import MotionOutputs
 from linkwright.kinematics.trace import MotionTrace
 from linkwright.loads.base import Load
 from linkwright.loads.formulas import output_named
-from linkwright.loads.magnitude import by_rate, is_constant, magnitude, moving_of_turn, stroke_of_turn
+from linkwright.loads.magnitude import (
+    by_rate,
+    is_constant,
+    magnitude,
+    moving_of_turn,
+    share_of,
+    stroke_of_turn,
+)
+from linkwright.mechanism.mechanism import Mechanism
+
+
+def turns_steadily(mechanism: Mechanism) -> bool:
+    """Whether the only driver turns at constant speed, so that limits are found over its input, else the time."""
+    drivers = list(mechanism.drivers.values())
+    return len(drivers) == 1 and drivers[0].law.rotary and bool(drivers[0].law.constant_speed)
 
 
 def limit_name(output: object, kind: str) -> str:
-    """Name of the parameter that holds the input of an output's limit."""
+    """Name of the parameter that holds the input, or the time, of an output's limit."""
     return f"limit:{output}:{kind}"
 
 
-#: The parameter that is how far the input turns in a closed cycle, rad.
-LAP = "lap of the input"
+def limit_input_name(output: object, kind: str) -> str:
+    """Name of the parameter that holds the first driver's coordinate where an output has a limit, found over time."""
+    return f"limit input:{output}:{kind}"
+
+
+#: The parameter that is how far the input turns in a closed cycle, rad; of limits found over the time how long the
+#: cycle is, s, twice as long where it does not close. What the first driver's coordinate gains in it, rad or m.
+LAP, DRIFT = "lap of the input", "drift of the input"
 #: Before the name of a load whose magnitude is traced, but for its phase, which is known per position.
 ACTS = "acts"
 
@@ -41,7 +61,7 @@ def middle_name(a: str, b: str) -> str:
 
 def of_cycle(name: str) -> bool:
     """Whether a parameter is found from the motion over the cycle."""
-    return name == LAP or name.startswith(("limit:", "value:", "middle:", "rest:"))
+    return name in (LAP, DRIFT) or name.startswith(("limit:", "limit input:", "value:", "middle:", "rest:"))
 
 
 def rest_name(output: Output) -> str:
@@ -161,11 +181,14 @@ class TracedSite:
         return stroke_of_turn(self, phase)
 
     def moving(self, phase: MovingPhase) -> tuple[Mask, Scalar]:
-        if by_rate(self.load) is None:
-            return moving_of_turn(self, phase)
+        limited = by_rate(self.load) is None
+        between, share = moving_of_turn(self, phase) if limited else (True, 0.0)
+        if limited and turns_steadily(self.motion.mechanism):
+            return between, share
         rate = MotionOutputs(self.motion).value(phase.output.rate.row)
         rate = rate if phase.direction == "increasing" else -rate
-        return rate > self.motion.trace.parameter(rest_name(phase.output)), 0.0
+        rest = 0.0 if limited else self.motion.trace.parameter(rest_name(phase.output))
+        return self.motion.trace.logic("and", between, rate > rest), share
 
     def constant(self, field: str) -> Scalar:
         return self.motion.trace.parameter(constant_name(self.load.name, field))
@@ -177,8 +200,27 @@ class TracedSite:
         return self.motion.trace.parameter(value_name(output, kind))
 
     @property
+    def along(self) -> Scalar:
+        steady = turns_steadily(self.motion.mechanism)
+        return self.input if steady else self.motion.trace.position("time")
+
+    @property
+    def sense(self) -> Scalar:
+        return sign(self.heading) if turns_steadily(self.motion.mechanism) else 1.0
+
+    @property
     def lap(self) -> Scalar:
         return self.motion.trace.parameter(LAP)
+
+    def share_of_input(self, phase: MovingPhase | SwingPhase, share: Scalar) -> Scalar:
+        if next(iter(self.motion.mechanism.drivers.values())).law.constant_speed:
+            return share
+        parameter, kinds = self.motion.trace.parameter, (phase.start, phase.end)
+        begin, end = (parameter(limit_input_name(phase.output, kind)) for kind in kinds)
+        since, until = (self.limit(phase.output, kind) for kind in kinds)
+        drift = parameter(DRIFT)
+        gained = self.input + select(self.along < since, drift, 0.0) - begin
+        return share_of(gained / (end + select(until < since, drift, 0.0) - begin))
 
     def limit(self, output: Output, kind: str) -> Scalar:
         return self.motion.trace.parameter(limit_name(output, kind))

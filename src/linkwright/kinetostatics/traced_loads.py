@@ -26,6 +26,7 @@ from linkwright.kinetostatics.site import (
     limit_name,
     middle_name,
     rest_name,
+    turns_steadily,
     value_name,
 )
 from linkwright.loads.base import Load
@@ -142,8 +143,7 @@ def traced_loads(mechanism: Mechanism, programs: MotionPrograms) -> AlongInput:
     The others are found from its motion: those of kinds that find theirs in a way of their own, and those that divide
     by what may go through zero between two positions.
     """
-    drivers = list(mechanism.drivers.values())
-    turns = len(drivers) == 1 and drivers[0].law.rotary and bool(drivers[0].law.constant_speed)
+    turns = turns_steadily(mechanism)
     return _traced.get(mechanism.loads, (programs, turns), lambda: _found(mechanism, turns))
 
 

@@ -127,27 +127,40 @@ class LiftCurve:
 
     def traced(self, x: Scalar) -> tuple[Scalar, Scalar, Scalar]:
         """The same for a traced angle from 0 to a turn."""
-        from linkwright.engine.trace import select
-
         low, high = self.edges[:-1], self.edges[1:]
         scale, shift = 2.0 / (high - low), (low + high) / (low - high)
         table = np.column_stack([scale, shift, self.coefficients])
 
-        def chosen(first: int, last: int) -> list[Scalar]:
-            """The row of the piece that holds x, by halving."""
-            if last - first == 1:
-                return [float(each) for each in table[first]]
-            middle = (first + last) // 2
-            left, right = chosen(first, middle), chosen(middle, last)
-            below = x < float(self.edges[middle])
-            return [a if a is b or a == b else select(below, a, b) for a, b in zip(left, right, strict=True)]
-
-        slope, start, *row = chosen(0, len(low))
+        slope, start, *row = row_at(x, self.edges, table)
         row += [0.0] * (3 - len(row))
         t = slope * x + start
         first: list[Scalar] = [float(k) * row[k] for k in range(1, len(row))]
         second: list[Scalar] = [float(k) * first[k] for k in range(1, len(first))]
-        return _horner(row, t), _horner(first, t) * slope, _horner(second, t) * (slope * slope)
+        return horner(row, t), horner(first, t) * slope, horner(second, t) * (slope * slope)
+
+
+def row_at(x: Scalar, edges: Floats, rows: Floats) -> list[Scalar]:
+    """The row of the piece between edges (m + 1,) that holds a traced place, of rows (m, k), by halving; beyond the
+    ends that of the first or the last piece."""
+    from linkwright.engine.trace import select
+
+    def chosen(first: int, last: int) -> list[Scalar]:
+        if last - first == 1:
+            return [float(each) for each in rows[first]]
+        middle = (first + last) // 2
+        left, right = chosen(first, middle), chosen(middle, last)
+        below = x < float(edges[middle])
+        return [a if a is b or a == b else select(below, a, b) for a, b in zip(left, right, strict=True)]
+
+    return chosen(0, len(rows))
+
+
+def horner(row: Sequence[Scalar], t: Scalar) -> Scalar:
+    """Σ row[k] t^k."""
+    value = row[-1]
+    for each in row[-2::-1]:
+        value = value * t + each
+    return value
 
 
 def _start_of_rest(lifts: Floats) -> int | None:
@@ -180,13 +193,6 @@ def _stretches(x: Floats, y: Floats, *, resting: bool) -> Iterator[tuple[float, 
         spline = make_interp_spline(x[here : end + 1], y[here : end + 1], k=5, bc_type=(at_rest, at_rest))
         yield float(x[end]), PPoly.from_spline(spline)
         here = end
-
-
-def _horner(row: Sequence[Scalar], t: Scalar) -> Scalar:
-    value = row[-1]
-    for each in row[-2::-1]:
-        value = value * t + each
-    return value
 
 
 def _powers(row: Floats, t: Floats, order: int) -> Floats:

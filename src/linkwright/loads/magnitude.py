@@ -82,15 +82,30 @@ class Course(Protocol):
 
 
 class Turning(Course, Protocol):
-    """The same of closed turns of constant speed, over which an output has one limit of each kind."""
+    """The same of a cycle over which an output has one limit of each kind: by the input, rad, of a driver that turns
+    at constant speed, else by the time, s."""
+
+    @property
+    def along(self) -> Scalar:
+        """The input, or the time."""
+        ...
+
+    @property
+    def sense(self) -> Scalar:
+        """1 where that grows, -1 where it falls."""
+        ...
 
     @property
     def lap(self) -> Scalar:
-        """How far the input turns in them, rad."""
+        """How far that goes in the cycle; twice as far where it does not close."""
         ...
 
     def limit(self, output: Output, kind: str) -> Scalar:
-        """The input, rad, at which it has it."""
+        """Where along it has it."""
+        ...
+
+    def share_of_input(self, phase: MovingPhase | SwingPhase, share: Scalar) -> Scalar:
+        """The share of the input's way between limits that is passed, from that along."""
         ...
 
 
@@ -132,14 +147,16 @@ def by_rate(load: Load) -> Output | None:
     return None
 
 
-def within_turn(load: Load) -> bool:
-    """Whether the formula of its phase is one of a closed turn of constant speed: by limits, or through its end."""
+def by_limits(load: Load) -> bool:
+    """Whether a load acts between limits of an output."""
     phase = getattr(load, "phase", None)
-    if by_rate(load) is not None:
-        return False
-    if isinstance(phase, InputPhase):
-        return phase.across == "angle" and phase.end < phase.start
-    return phase is not None
+    return isinstance(phase, MovingPhase | SwingPhase) and by_rate(load) is None
+
+
+def through_end(load: Load) -> bool:
+    """Whether the interval of the input in which a load acts goes through the end of a turn."""
+    interval = interval_of_turn(load)
+    return interval is not None and interval.end < interval.start
 
 
 def outputs_of(load: Load, mechanism: Mechanism) -> tuple[Output, ...]:
@@ -257,21 +274,22 @@ def phase_passed(load: Load, course: Course) -> tuple[Mask, Scalar, Mask]:
 
 def stroke_of_turn(course: Turning, phase: MovingPhase | SwingPhase) -> tuple[Mask, Scalar]:
     """``Course.stroke`` by the limits of a lap."""
-    return _within(*_way(course, phase), course.lap)
+    acts, share = _within(*_way(course, phase), course.lap)
+    return acts, course.share_of_input(phase, share)
 
 
 def moving_of_turn(course: Turning, phase: MovingPhase) -> tuple[Mask, Scalar]:
     """``Course.moving`` by the limits of a lap."""
     gone, length = _way(course, phase)
-    way = turned(gone, course.lap)
-    return (way > NEAR * TURN) & (way < length - NEAR * TURN), way / length
+    way, near = turned(gone, course.lap), NEAR * course.lap
+    return (way > near) & (way < length - near), course.share_of_input(phase, way / length)
 
 
 def _way(course: Turning, phase: MovingPhase | SwingPhase) -> tuple[Scalar, Scalar]:
-    """Way of the input since one limit of an output, and from there to the other one, rad."""
-    sense = sign(course.heading)
+    """Way since one limit of an output, and from there to the other one."""
+    sense = course.sense
     begin, until = (course.limit(phase.output, kind) for kind in (phase.start, phase.end))
-    return sense * (course.input - begin), turned(sense * (until - begin), course.lap)
+    return sense * (course.along - begin), turned(sense * (until - begin), course.lap)
 
 
 def part_ends(phase: SwingPhase, course: Course) -> tuple[Scalar, Scalar, Scalar]:
@@ -299,7 +317,7 @@ def _in_part(phase: SwingPhase, acts: Mask, course: Course) -> tuple[Mask, Scala
     gone = (course.output(phase.output) - course.limit_value(phase.output, phase.start)) * sign(stroke)
     fits = (begin >= -slack) & (end <= absolute(stroke) + slack) & (begin < end)
     inside = acts & (gone >= begin - slack) & (gone <= end + slack)
-    return inside, _share((gone - begin) / (end - begin)), fits
+    return inside, share_of((gone - begin) / (end - begin)), fits
 
 
 def _between(course: Course) -> tuple[Mask, Scalar, Mask]:
@@ -309,7 +327,7 @@ def _between(course: Course) -> tuple[Mask, Scalar, Mask]:
     gap = end - start
     if not course.rotary:
         inside = (course.input >= minimum(start, end) - NEAR) & (course.input <= maximum(start, end) + NEAR)
-        return inside, _share((course.input - start) / gap), True
+        return inside, share_of((course.input - start) / gap), True
     through = turned(gap)
     through = select(through <= 0.0, TURN, through)
     length = select(gap < 0.0, select(course.heading > 0.0, through, gap), gap)
@@ -319,12 +337,13 @@ def _between(course: Course) -> tuple[Mask, Scalar, Mask]:
 
 def _within(gone: Scalar, length: Scalar, lap: Scalar = TURN) -> tuple[Mask, Scalar]:
     """Whether what is gone of a lap lies within a length, and its share; the ends belong to it."""
-    way = turned(gone, lap)
-    passed = select(way > lap - NEAR * TURN, way - lap, way)
-    return passed <= length + NEAR * TURN, _share(passed / length)
+    way, near = turned(gone, lap), NEAR * lap
+    passed = select(way > lap - near, way - lap, way)
+    return passed <= length + near, share_of(passed / length)
 
 
-def _share(ratio: Scalar) -> Scalar:
+def share_of(ratio: Scalar) -> Scalar:
+    """A ratio, from 0 to 1."""
     return minimum(maximum(ratio, 0.0), 1.0)
 
 

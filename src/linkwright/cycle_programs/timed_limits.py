@@ -1,0 +1,162 @@
+"""Limit positions of outputs over the time, in all designs at once: where their rates change their signs, or where
+the drivers turn round or rest, at the same time in every design."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import field
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from linkwright.core.arrays import Floats
+from linkwright.core.dataclass import dataclass
+from linkwright.core.outputs import Output
+from linkwright.cycle_programs.corners import (
+    Corner,
+    began_name,
+    changes_name,
+    corner_stages,
+    corners_of,
+    rate_name,
+    rates_of,
+)
+from linkwright.engine.cycle import CycleProgram
+from linkwright.engine.program import Program
+from linkwright.engine.reductions import Reduction, Results
+from linkwright.engine.stage import Stage
+from linkwright.engine.table import Tables
+from linkwright.engine.trace import Scalar, Trace, absolute, select
+from linkwright.kinetostatics.signals import MotionSignals
+from linkwright.kinetostatics.site import (
+    limit_input_name,
+    limit_name,
+    output_value,
+    turns_steadily,
+    value_name,
+)
+
+if TYPE_CHECKING:
+    from linkwright.cycle_programs.timed_cycle import TimedCycle
+
+#: Share of the cycle within which a change of sign is a limit, and of a driver's largest rate below which it rests.
+SAME, AT_REST = 1e-6, 1e-9
+
+
+@dataclass(frozen=True)
+class TimedLimit:
+    """The limits of an output: ``corners`` by their kinds, which move with the dimensions, and ``fixed`` times, s, at
+    which all drivers turn round or rest; ``began``: the sign of its rate where the cycle begins."""
+
+    output: Output
+    began: float
+    corners: Mapping[str, Corner] = field(default_factory=dict)
+    fixed: Mapping[str, float] = field(default_factory=dict)
+
+    @property
+    def constants(self) -> dict[str, float]:
+        """The times that no design moves, by name."""
+        return {self._fixed(kind): time for kind, time in self.fixed.items()}
+
+    def _fixed(self, kind: str) -> str:
+        return f"fixed limit:{self.output}:{kind}"
+
+    def stage(self, along: TimedCycle, valued: bool) -> Stage:
+        """The stage that gives both limits, where ``valued`` the output there, and ``doubt:OUTPUT``, above zero where
+        these are not certain to be its only limits."""
+        t, motion = Trace(), along.traced.solver.motion
+        sought: dict[str, Scalar | bool] = {"input": motion.trace.position("input")}
+        if valued:
+            sought["value"] = output_value(motion, self.output)
+        program, found = Program.of(motion.trace, sought), {f"doubt:{self.output}": self._doubt(t)}
+        for kind, name in (
+            *((kind, corner.name) for kind, corner in self.corners.items()),
+            *((kind, self._fixed(kind)) for kind in self.fixed),
+        ):
+            time = along.inside(t.parameter(name))
+            there = along.there(program, t, time)
+            steady = turns_steadily(motion.mechanism)
+            found[limit_name(self.output, kind)] = there["input"] if steady else time
+            found[limit_input_name(self.output, kind)] = there["input"]
+            if valued:
+                found[value_name(self.output, kind)] = there["value"]
+        return Stage(Program.of(t, found), {name: Reduction(name, "first") for name in found}, steps=1)
+
+    def _doubt(self, t: Trace) -> Scalar:
+        """Above zero where the rate has other signs than in the machine as it is."""
+        rate = rate_name(self.output)
+        more = absolute(t.parameter(changes_name(rate)) - float(len(self.corners)))
+        doubt = select(more < 0.5, 0.0, 1.0) + select(
+            t.parameter(began_name(rate)) * self.began > 0.0, 0.0, 1.0
+        )
+        for kind, corner in self.corners.items():
+            sign = 1.0 if kind == "max" else -1.0
+            doubt = doubt + select(t.parameter(corner.before) * sign > 0.0, 0.0, 1.0)
+            doubt = doubt + select(t.parameter(corner.met) > 0.5, 0.0, 1.0)
+        return doubt
+
+
+def rate_stages(along: TimedCycle, outputs: Iterable[Output], corners: Iterable[Corner]) -> list[Stage]:
+    """The stages that find where the rates of outputs change their signs."""
+    rates = rates_of(along.traced, outputs)
+    return corner_stages(along, rates, corners, counted=rates)
+
+
+def timed_limits(
+    along: TimedCycle,
+    outputs: Iterable[Output],
+    known: Mapping[str, float],
+    positions: Mapping[str, Floats],
+    tables: Tables,
+) -> tuple[TimedLimit, ...] | None:
+    """The limits of outputs in the machine as it is, whose numbers are ``known``; None where one has not just one of
+    each kind, or rests while the drivers do not."""
+    asked, signals = tuple(outputs), MotionSignals(along.traced.nominal)
+    corners = corners_of(along, rates_of(along.traced, asked), (), known, positions, tables)
+    cycle = CycleProgram(tuple(rate_stages(along, asked, corners)))
+    table = np.array([[known[name] for name in cycle.dimensions]])
+    results = cycle.evaluate(table, positions, tables=tables, threads=1)
+    found = [_limit(along, signals, each, corners, results) for each in asked]
+    return None if None in found else tuple(each for each in found if each is not None)
+
+
+def _limit(
+    along: TimedCycle,
+    signals: MotionSignals,
+    output: Output,
+    corners: Iterable[Corner],
+    results: Results,
+) -> TimedLimit | None:
+    known: dict[str, float] = {each.kind: each.time for each in signals.limits(output)}
+    own = [corner for corner in corners if corner.of == rate_name(output)]
+    moving: dict[str, Corner] = {}
+    for corner in own:
+        kind = "max" if results[corner.before][0] > 0.0 else "min"
+        if (
+            results[corner.met][0] == 1.0
+            and kind in known
+            and _same(along, results[corner.name][0], known[kind])
+        ):
+            moving[kind] = corner
+    fixed: dict[str, float] = {kind: time for kind, time in known.items() if kind not in moving}
+    if len(signals.limits(output)) != 2 or len(known) != 2 or len(moving) != len(own):
+        return None
+    if not all(_drivers_rest(along, time) for time in fixed.values()):
+        return None
+    return TimedLimit(output, float(np.sign(results[began_name(rate_name(output))][0])), moving, fixed)
+
+
+def _same(along: TimedCycle, time: float, other: float) -> bool:
+    """Whether two times are one, in the cycle."""
+    apart = abs(time - other) % along.lap
+    return min(apart, along.lap - apart) <= SAME * along.lap
+
+
+def _drivers_rest(along: TimedCycle, time: float) -> bool:
+    """Whether all drivers turn round or rest at a time, s."""
+    paces = along.traced.positions.paces
+    rates = {
+        name: abs(float(driver.law.coordinate(np.array([time]))[1][0]))
+        for name, driver in along.traced.mechanism.drivers.items()
+    }
+    return all(rate <= AT_REST * paces[name] for name, rate in rates.items())
