@@ -9,13 +9,14 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.optimize import minimize_scalar
 
 from linkwright.engine.threads import cores
 from linkwright.synthesis.free_curve import search as searching
 from linkwright.synthesis.free_curve.atlas import LEVELS, atlas
 from linkwright.synthesis.free_curve.linkages import Placed
 from linkwright.synthesis.free_curve.nodes import node_paths, random_structure
-from linkwright.synthesis.free_curve.target import Target, curve_distance
+from linkwright.synthesis.free_curve.target import EVEN, Target, even_points, normal, symmetric_distance
 
 Curve = tuple[str, NDArray[np.complex128], bool]
 #: Strokes of letters drawn without lifting the pen, on a grid of 4 x 6; "o" after a place rounds that corner.
@@ -77,6 +78,30 @@ def curves(names: Sequence[str], outlines: str, linkages: int) -> Iterator[Curve
     for name in outlines:
         yield f"<{name}>", outline(name), True
     yield from linkage_curves(linkages, 5)
+
+
+def curve_distance(a: NDArray[np.complex128], b: NDArray[np.complex128], closed: bool) -> float:
+    """The measure: both curves even in arc length, laid on each other by centroid, rms radius and best turn.
+
+    Mean nearest distance from a to b plus that from b to a, in rms radii; mirror images are different curves. It is
+    that of EVEN points, as others take it: a curve of n radii that is drawn exactly, but from other points, is up to
+    n / EVEN from itself, n / (2 EVEN) in the mean; :meth:`Target.deviation` is that of the lines. A turn
+    by δ changes it by 2 δ at most (both mean radii are at most 1), so of the valleys among a turn's 360 degrees only
+    those within that of the least can hold it.
+    """
+    a, b = (normal(even_points(each, EVEN, closed)) for each in (a, b))
+
+    def at(turn: float, step: int = 1) -> float:
+        return symmetric_distance(a[::step] * np.exp(1j * turn), b[::step])
+
+    grid = np.arange(360) * (2 * np.pi / 360)
+    rough = np.array([at(turn, 5) for turn in grid])
+    valley = (rough <= np.roll(rough, 1)) & (rough <= np.roll(rough, -1))
+    found: list[float] = []
+    for turn in grid[valley & (rough < rough.min() + 2 * grid[1])]:
+        bounds: Sequence[float] = (turn - grid[1], turn + grid[1])
+        found.append(float(minimize_scalar(at, bounds=bounds, method="bounded", options={"xatol": 1e-7}).fun))
+    return min(found)
 
 
 class _Cores:

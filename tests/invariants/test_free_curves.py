@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from benchmarks.free_curves import curve_distance
 
 import linkwright as lw
 from linkwright.core.arrays import Whole
@@ -33,7 +34,6 @@ from linkwright.synthesis.free_curve.target import (
     FINE,
     MIDDLE,
     Target,
-    curve_distance,
     even_points,
     normal,
     symmetric_distance,

@@ -15,7 +15,7 @@ from linkwright.words.sentence import Sentence
 _OF_TWO = ("atan2", "min", "max")
 _OF_ONE = ("sin", "cos", "tan", "asin", "acos", "atan", "sqrt", "abs", "exp", "log", "sign", "step")
 ARITY: Mapping[str, int] = {**dict.fromkeys(_OF_ONE, 1), **dict.fromkeys(_OF_TWO, 2)}
-_FROM_ANGLE, _TO_ANGLE, _PURE = ("sin", "cos", "tan"), ("asin", "acos", "atan"), ("exp", "log")
+_FROM_ANGLE, _TO_ANGLE = ("sin", "cos", "tan"), ("asin", "acos", "atan")
 _ANGLE = units.DIMENSIONS["angle"]
 
 

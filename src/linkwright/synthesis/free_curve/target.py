@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -220,32 +219,6 @@ def symmetric_distance(a: Complexes, b: Complexes) -> float:
 
     there, back = (cKDTree(columns(to)).query(columns(of))[0].mean() for of, to in ((a, b), (b, a)))
     return float(there + back)
-
-
-def curve_distance(a: Complexes, b: Complexes, closed: bool) -> float:
-    """The measure: both curves even in arc length, laid on each other by centroid, rms radius and best turn.
-
-    Mean nearest distance from a to b plus that from b to a, in rms radii; mirror images are different curves. It is
-    that of EVEN points, as others take it: a curve of n radii that is drawn exactly, but from other points, is up to
-    n / EVEN from itself, n / (2 EVEN) in the mean; :meth:`Target.deviation` is that of the lines. A turn
-    by δ changes it by 2 δ at most (both mean radii are at most 1), so of the valleys among a turn's 360 degrees only
-    those within that of the least can hold it.
-    """
-    from scipy.optimize import minimize_scalar
-
-    a, b = (normal(even_points(each, EVEN, closed)) for each in (a, b))
-
-    def at(turn: float, step: int = 1) -> float:
-        return symmetric_distance(a[::step] * np.exp(1j * turn), b[::step])
-
-    grid = np.arange(360) * (2 * np.pi / 360)
-    rough = np.array([at(turn, 5) for turn in grid])
-    valley = (rough <= np.roll(rough, 1)) & (rough <= np.roll(rough, -1))
-    found: list[float] = []
-    for turn in grid[valley & (rough < rough.min() + 2 * grid[1])]:
-        bounds: Sequence[float] = (turn - grid[1], turn + grid[1])
-        found.append(float(minimize_scalar(at, bounds=bounds, method="bounded", options={"xatol": 1e-7}).fun))
-    return min(found)
 
 
 def columns(points: Complexes) -> Floats:
