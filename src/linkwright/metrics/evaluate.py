@@ -32,7 +32,8 @@ def metrics(result: Motion | Forces, names: Iterable[str] | str | None = None) -
 
     Raises:
         UnknownName: there is no such number (the nearest one is offered).
-        LinkwrightError: a number that was asked for by name does not apply, or the cycle is given more than 1000 turns.
+        LinkwrightError: a number that was asked for by name does not apply, or the cycle is given more than 1000
+            turns.
     """
     analysis = Analysis.of(result)
     _countable(analysis.motion)
