@@ -177,6 +177,9 @@ _SPACES = re.compile(r"[\s\u00a0\u2009\u202f\ufeff]+")
 NUMBER = re.compile(r"(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
 _QUANTITY = re.compile(r"^([+-]?)\s*((?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*)$")
 _PLAIN = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?) ?([^\s\d*(),.+-][^\s*(),]*)")
+#: The sense of a turn behind a quantity, and the dimensions that have one.
+SENSE = re.compile(r"\b(c?cw|(counter|anti)?-?clockwise)\b|[顺逆]时针", re.IGNORECASE)
+TURNING = ("angle", "angular_velocity", "angular_acceleration", "torque")
 _SUPERSCRIPTS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
 _FACTOR = re.compile(
     r"\s*((?:(?![⁰¹²³⁴⁵⁶⁷⁸⁹])[^\W\d_])+|[°%])\s*((?:\^|\*\*)\s*[-−]?\d+|⁻?[⁰¹²³⁴⁵⁶⁷⁸⁹]+)?\s*"
@@ -360,6 +363,8 @@ def _unit_of(text: str, column: int, dimension: str) -> tuple[float, Dimension]:
 
 def _fitting_remedy(text: str, dimension: str) -> Sentence:
     """What was probably meant by an unknown unit where a quantity of this dimension is needed."""
+    if dimension in TURNING and SENSE.search(text):
+        return Sentence("units.sense")
     wanted, product = DIMENSIONS[dimension], "·".join(text.split())
     fits = suggestion(product) == product and unit(product)[1] == wanted
     offer = product if fits else suggestion(text)

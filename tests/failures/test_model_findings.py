@@ -503,3 +503,18 @@ def test_a_mass_centre_that_is_not_the_middle_is_asked_for(points: str, warned: 
     )
     assert [each.key for each in found] == ["links.crank.mass_centre"] * warned
     assert not warned or "midway between the first two, O1 and M" in found[0].say()
+
+
+@pytest.mark.parametrize(
+    ("right", "given", "told"),
+    [
+        ("length: 1 m", "length 1 m", "write a colon and a space between them: length: 1 m"),
+        ("speed: 10 rpm", "speed: 10 rpm ccw", "negative (-120 rpm) clockwise"),
+        ("speed: 10 rpm", "speed: 10 rpm clockwise", "negative (-120 rpm) clockwise"),
+        ("speed: 10 rpm", "speed: 10 rpm, start: up", "up 90 deg"),
+    ],
+)
+def test_slips_of_students_are_one_finding_that_says_what_to_write(right: str, given: str, told: str) -> None:
+    """A colon left out was two findings; a sense was a misspelt unit; "up" was taken for "pi"."""
+    (found,) = findings(MODEL.replace(right, given))
+    assert told in found.remedy

@@ -508,3 +508,9 @@ loads:
     machine = lw.loads(text.replace("PHASE", phase))
     told = said(lambda: objective(machine, {"peak_input_torque": 1.0}, vary=["rod.length"]))
     assert told.startswith("loads.gas: its table over bore goes from 0.12 m to 0.15 m and does not cover")
+
+
+@pytest.mark.parametrize("values", ["0.06 m", ["60 mm", "70 mm"], [0.06, None], {"from": 0.05}])
+def test_values_of_a_sweep_that_are_no_numbers_are_told_to_be_si_values(values: Any) -> None:
+    assert "crank.length" in said(lambda: sweep(machine(), {"crank.length": values}, outputs=["B.x range"]))
+    assert "SI values" in said(lambda: sweep(machine(), {"crank.length": "0.06 m"}, outputs=["B.x range"]))

@@ -36,6 +36,10 @@ HEAD = "format: 1\nkind: tolerance\nmechanism: gallery:crank_rocker\n"
             "clearances: {B: {clearance: 1 mm, on: rocker, kind: pressed}}\ncurves: [rocker.angle]",
             "carries no force",
         ),
+        (
+            "clearances: {B: {clearance: 1 mm, on: rocker, kind: pressed}}\nof: [swing_angle]",
+            "is a design number; pressed pins shift summaries",
+        ),
     ],
 )
 def test_studies(text: str, words: str) -> None:

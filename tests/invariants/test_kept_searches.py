@@ -40,10 +40,10 @@ RING = [
 FREE = [math.nan] * 7
 #: Tasks of counted work, and the piece of work of which many are done.
 COUNTED = {
-    "path": ("path_generation.compiled.CompiledPaths._computed", {"points": RING[:7]}),
+    "path": ("path_generation.compiled_starts.CompiledPaths._computed", {"points": RING[:7]}),
     "exact_path": ("nine_points.tracker.spread_over", {"points": RING}),
     "motion": (
-        "motion_generation.counted.carried",
+        "motion_generation.finite_solutions.carried",
         {"poses": [(x, y, a) for (x, y), a in zip(RING[:7], [0, 0.3, 0.5, *FREE], strict=False)]},
     ),
 }

@@ -300,3 +300,19 @@ def test_positions_are_told_from_rates() -> None:
     one = study()
     assert is_position(one, "rocker.angle") and is_position(one, "B.x")
     assert not is_position(one, "rocker.angular_velocity") and not is_position(one, "B.velocity.x")
+
+
+def test_design_numbers_spread_as_the_closed_form_does() -> None:
+    """The swing's slopes by NumPy; the margin of Grashof, p + q - s - l, is linear in the lengths."""
+    numbers = ("swing_angle", "grashof")
+    found = study(of=numbers, limits={"swing_angle": Limit(0.0, 10.0)}, samples=1024).solve()
+    deviation = np.array([0.003, 0.006, 0.006, 0.008]) / 3
+    slopes = {"swing_angle": gradient(), "grashof": np.array([-1.0, 1.0, 1.0, -1.0])}
+    for name in numbers:
+        sigma = float(np.hypot.reduce(slopes[name] * deviation))
+        assert found.linear(name) == pytest.approx(sigma, rel=1e-6)
+        assert found.monte_carlo(name) == pytest.approx(sigma, rel=0.03)
+        assert found.worst_case(name) == pytest.approx(3 * np.abs(slopes[name] * deviation).sum(), rel=1e-6)
+    assert found.nominal("swing_angle") == pytest.approx(float(swing(*FOURBAR.values())), rel=1e-9)
+    assert found.passed("swing_angle")[0] == 1.0
+    assert (found.dimension("swing_angle"), found.dimension("grashof")) == ("angle", "length")

@@ -42,6 +42,10 @@ if TYPE_CHECKING:
 MAX_LENGTH, MAX_DEPTH = 1000, 40
 CONSTANTS: Mapping[str, float] = {"pi": math.pi}
 FUNCTIONS = tuple(ARITY)
+#: Words that are written where a direction is asked for, and are angles.
+DIRECTIONS = frozenset(
+    ("right", "up", "left", "down", "upwards", "downwards", "horizontal", "vertical", "上", "下", "左", "右")
+)
 _TOKEN = re.compile(
     r"\s*(?:(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)"
     r"|(?P<power>⁻?[⁰¹²³⁴⁵⁶⁷⁸⁹]+)"
@@ -293,6 +297,8 @@ class _Parser:
         if kind != "end":
             factor = kind in ("name", "number") or token == "("
             remedy = Sentence("model.write_factor_sign" if factor else "model.remove_it")
+            if units.SENSE.fullmatch(token):
+                remedy = Sentence("units.sense")
             raise self._fault("unexpected", column, remedy=remedy, token=token)
         return tree
 
@@ -416,6 +422,8 @@ class _Parser:
         remedy = Sentence("model.define_it", known=known) if known else Sentence("model.define_none")
         if offer:
             remedy = Sentence("names.did_you_mean", offer=offer)
+        if name.casefold() in DIRECTIONS:
+            remedy = Sentence("model.direction_word")
         raise self._fault("unknown_name", column, "unknown-name", remedy, name=name)
 
     def _call(self, name: str, column: int) -> Node:

@@ -246,7 +246,8 @@ class PlainReader:
         """A finding for each key that is not known, with the nearest that is.
 
         Gives the mapping with those nearest ones in their place, and the keys whose value a decimal comma has split
-        (``{length: 60,5 mm}`` has the key ``5 mm``), and those that are one word with their value (``length:60 mm``).
+        (``{length: 60,5 mm}`` has the key ``5 mm``), and those that are one key with their value (``length:60 mm``,
+        ``length 60 mm``).
         """
         present = {entry.key.text for entry in mapping.entries}
         split: set[str] = set()
@@ -267,8 +268,8 @@ class PlainReader:
         return as_meant(mapping, known), split
 
     def _joined(self, entry: Entry, place: Place, known: list[str]) -> str | None:
-        """The known key whose value stands behind it without a space after the colon, or behind another sign."""
-        found = re.fullmatch(r"(\w+)\s*[:=：]\s*(\S.*)", entry.key.text)
+        """The known key whose value stands behind it without a space after the colon, behind another sign or none."""
+        found = re.fullmatch(r"(\w+)(?:\s*[:=：]\s*|\s+(?=[+-]?\.?\d))(\S.*)", entry.key.text)
         nothing = isinstance(entry.value, Scalar) and entry.value.empty
         if found is None or found[1] not in known or not nothing:
             return None

@@ -92,6 +92,12 @@ class Positions:
         """The largest rate of every driver, rad/s or m/s."""
         return {name: float(np.abs(rate).max()) for name, (_, rate, _) in self.coordinates.items()}
 
+    @property
+    def turns(self) -> float:
+        """Turns, at its largest rate, of the driver that turns fastest, from the first position to the end."""
+        fastest = max((pace for name, pace in self.paces.items() if self.rotary[name]), default=0.0)
+        return float(self.around[-1] - self.around[0]) * fastest / (2 * np.pi)
+
     @cached_property
     def longest_turn(self) -> float:
         """The farthest, rad, that a driver at its largest rate turns from one position to the next."""

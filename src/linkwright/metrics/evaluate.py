@@ -8,7 +8,9 @@ from math import isfinite
 
 from linkwright.errors import RequestError
 from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.whole_turns import MOST
 from linkwright.kinetostatics.forces import ROUNDING, Forces
+from linkwright.loads.phases import NEAR
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Metric, MetricValue
@@ -30,9 +32,11 @@ def metrics(result: Motion | Forces, names: Iterable[str] | str | None = None) -
 
     Raises:
         UnknownName: there is no such number (the nearest one is offered).
-        LinkwrightError: a number that was asked for by name does not apply.
+        LinkwrightError: a number that was asked for by name does not apply, or the cycle is given more than 1000
+            turns.
     """
     analysis = Analysis.of(result)
+    _countable(analysis.motion)
     asked = None if names is None else [names] if isinstance(names, str) else list(names)
     rows: list[MetricValue] = []
     skipped: list[str] = []
@@ -52,6 +56,14 @@ def metrics(result: Motion | Forces, names: Iterable[str] | str | None = None) -
             raise RequestError(_refusal(name, analysis))
     shown = _without_rounding(rows, _roundings(analysis))
     return MetricsTable(analysis.motion.mechanism.name, shown, skipped, _notes(analysis))
+
+
+def _countable(motion: Motion) -> None:
+    """Refuses cycles that are given so many turns that their integrals and extremes would be made up, not found."""
+    given = motion.positions.cycle and motion.mechanism.cycle is not None
+    if given and motion.positions.turns > MOST * (1.0 + NEAR):
+        turns = f"{motion.positions.turns:.6g}"
+        raise RequestError("metrics.too_many_turns", name=motion.mechanism.name, turns=turns, most=MOST)
 
 
 def _notes(analysis: Analysis) -> tuple[Sentence, ...]:

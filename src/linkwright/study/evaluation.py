@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 
 #: Share of a cycle beside a change point at which the direction of an infinite reaction is told.
 BESIDE = 1e-3
+#: Share of its largest value up to which a reaction's least one is where it passes zero.
+PASSING = 1e-9
 #: Reasons given per alternative.
 REASONS = 3
 MARK = "*"
@@ -139,7 +141,7 @@ def _pivot(each: Alternative, say: Say) -> str:
         label=each.label,
         joint=joint,
         most=told(most.value, "force"),
-        least=told(least.value, "force"),
+        least=told(least.value if least.value > PASSING * most.value else 0.0, "force"),
         direction=told(float(np.arctan2(force[1], force[0])), "angle"),
         at=told(most.input, each.analysis.input_dimension),
     )

@@ -75,15 +75,13 @@ def design_values(mechanism: Mechanism, vary: Mapping[str, ArrayLike]) -> dict[s
     """Values (designs,) by address, SI; single numbers are repeated.
 
     Raises:
-        LinkwrightError: an unknown address, columns of different lengths, a value that is not finite, a length
-            that is not positive, a negative mass.
+        LinkwrightError: an unknown address, columns of different lengths, a value that is no number or not finite, a
+            length that is not positive, a negative mass.
     """
     checked_addresses(mechanism, vary)
     if not vary:
         raise RequestError("study.nothing_varied")
-    columns = {
-        address: np.atleast_1d(np.asarray(values, dtype=np.float64)) for address, values in vary.items()
-    }
+    columns = {address: _column(address, values) for address, values in vary.items()}
     lengths = {len(column) for column in columns.values() if len(column) != 1}
     for address, column in columns.items():
         if column.ndim != 1:
@@ -94,6 +92,13 @@ def design_values(mechanism: Mechanism, vary: Mapping[str, ArrayLike]) -> dict[s
         raise RequestError("study.uneven", told=told)
     count = lengths.pop() if lengths else 1
     return {address: np.broadcast_to(column, (count,)) for address, column in columns.items()}
+
+
+def _column(address: str, values: ArrayLike) -> Floats:
+    try:
+        return np.atleast_1d(np.asarray(values, dtype=np.float64))
+    except (ValueError, TypeError):
+        raise RequestError("study.no_numbers", address=address, given=repr(values)[:60]) from None
 
 
 def _check(mechanism: Mechanism, address: str, column: Floats) -> None:

@@ -111,8 +111,9 @@ LIMIT = {"lower": AnyQuantity(doc="lower limit"), "upper": AnyQuantity(doc="uppe
 class ToleranceStudy(OfMechanism):
     """Tolerances by address of a dimension (``crank.length``), clearances by pin, and the outputs ``of`` interest.
 
-    ``of``: summaries over the cycle as in sweeps (``rocker.angle range``, ``driver.effort peak``); ``curves``:
-    outputs over the cycle; ``limits`` by summary.
+    ``of``: summaries over the cycle as in sweeps (``rocker.angle range``, ``driver.effort peak``), or design numbers
+    (``stroke``, ``peak_reaction A``) where no clearance is pressed; ``curves``: outputs over the cycle;
+    ``limits`` by what is asked.
     """
 
     kind: ClassVar[str] = "tolerance"

@@ -61,6 +61,10 @@ class Spread(Result):
         for text in self.study.of:
             if len(wanted([text])) != 1:
                 raise ModelError([fault("tolerance.no_kind", f"of.{self.study.of.index(text)}", name=text)])
+            if self.study.holes("pressed") and not self.summaries[text].kind:
+                raise ModelError(
+                    [fault("tolerance.pressed_number", f"of.{self.study.of.index(text)}", name=text)]
+                )
         _ = self.derivatives
         if self.drawn:
             design_values(self.study.prepared, self.drawn)
@@ -72,7 +76,7 @@ class Spread(Result):
     @property
     def _over_positions(self) -> list[str]:
         """Outputs over the positions: the curves, and those that the summaries are of."""
-        return [*self.study.curves, *(s.output for s in self.summaries.values())]
+        return [*self.study.curves, *(s.output for s in self.summaries.values() if s.kind)]
 
     # linear ---------------------------------------------------------------------------------------
     @cached_property
@@ -90,7 +94,7 @@ class Spread(Result):
     def derivatives(self) -> Sensitivity:
         """Exact derivatives of summaries and curves."""
         curves = dict.fromkeys(self._over_positions if self.study.holes("pressed") else self.study.curves)
-        asked: list[str | tuple[str, str]] = [*((s.output, s.kind) for s in self.summaries.values()), *curves]
+        asked = [*(summary.name for summary in self.summaries.values()), *curves]
         return sensitivity(self.study.prepared, of=asked, by=self.addresses, steps=self.study.steps)
 
     @cached_property
@@ -109,12 +113,16 @@ class Spread(Result):
 
     def dimension(self, text: str) -> str:
         """Name of the dimension of a summary or a curve."""
-        output = self.summaries[text].output if text in self.summaries else text
+        summary = self.summaries.get(text)
+        if summary is not None and not summary.kind:
+            assert self.swept is not None
+            return self.swept.dimension(summary)
+        output = text if summary is None else summary.output
         return self.derivatives.quantities[output].dimension
 
     def shares(self, text: str) -> list[Share]:
         """What contributes to the linear spread of a summary, the largest first."""
-        gradient = self.derivatives.by_name(self.summaries[text].output, self.summaries[text].kind)
+        gradient = self.derivatives.by_name(self.summaries[text].name)
         parts = {
             self.study.written(address): (gradient[address], tolerance.deviation)
             for address, tolerance in self.study.deviating.items()
@@ -135,7 +143,7 @@ class Spread(Result):
 
     def worst_case(self, text: str) -> float:
         """Σ |∂y/∂p|·t: the largest deviation if all tolerances are used up at once."""
-        gradient = self.derivatives.by_name(self.summaries[text].output, self.summaries[text].kind)
+        gradient = self.derivatives.by_name(self.summaries[text].name)
         total = sum(abs(gradient[a]) * t.tolerance for a, t in self.study.deviating.items())
         for pin, pair in self.study.holes("free").items():
             total += math.hypot(*(gradient[a] for a in pair)) * self.study.clearances[pin].clearance
@@ -197,7 +205,7 @@ class Spread(Result):
         """The drawn machines through the engine; None where nothing spreads or no summary is asked."""
         if not self.drawn or not self.summaries:
             return None
-        asked = [(s.output, s.kind) for s in self.summaries.values()]
+        asked = [summary.name for summary in self.summaries.values()]
         return sweep(self.study.prepared, self.drawn, outputs=asked, steps=self.study.steps)
 
     @cached_property
@@ -216,7 +224,7 @@ class Spread(Result):
         if self.swept is None:
             return np.array([self.nominal(text) + self.shift(text)])
         summary, shift = self.summaries[text], self.shift(text)
-        kept = self.swept[summary.output, summary.kind][self.swept.ok]
+        kept = self.swept[summary.name][self.swept.ok]
         return np.asarray(kept + (0.0 if math.isnan(shift) else shift))
 
     def monte_carlo(self, text: str) -> float:
@@ -273,20 +281,20 @@ class Spread(Result):
     def bend(self, text: str) -> tuple[str, float]:
         """The largest contributor, and how much the summary bends over ±2σ of it: |y₊ + y₋ − 2y₀|/|y₊ − y₋|."""
         summary = self.summaries[text]
-        deviations = {a: (t.deviation, abs(self.derivatives.by_name(summary.output, summary.kind)[a]) * t.deviation)
+        deviations = {a: (t.deviation, abs(self.derivatives.by_name(summary.name)[a]) * t.deviation)
                       for a, t in self.study.deviating.items()}  # fmt: skip
         for pair in self.study.holes("free").values():
             for a in pair:
                 size = self.study.clearances[a.split(".")[-2]].clearance / math.sqrt(2)
-                deviations[a] = size, abs(self.derivatives.by_name(summary.output, summary.kind)[a]) * size
+                deviations[a] = size, abs(self.derivatives.by_name(summary.name)[a]) * size
         address = max(deviations, key=lambda a: deviations[a][1])
         at = self.study.prepared.dimension(address) + deviations[address][0] * np.array([-2.0, 0.0, 2.0])
         found = sweep(
             self.study.prepared,
             {address: at},
-            outputs=[(summary.output, summary.kind)],
+            outputs=[summary.name],
             steps=self.study.steps,
-        )[summary.output, summary.kind]
+        )[summary.name]
         low, middle, high = found.tolist()
         change = abs(high - low)
         return self.study.written(address), abs(high + low - 2 * middle) / change if change else math.inf

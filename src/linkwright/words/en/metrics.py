@@ -149,6 +149,8 @@ closeness to a singular position first.""",
     "dead_point.driver": "the driver cannot move the mechanism at {at}",
     "dead_point.output": "if {output} were to drive, it could not move the mechanism at {at}",
     "path_open": "the path of {point} is not closed: solve a whole cycle of {name!r}",
+    "too_many_turns": "the cycle of {name!r} has {turns} turns, and design numbers are found over at most {most}; "
+    "leave turns or duration out (the cycle then lasts until all is back), or give fewer: cycle: {{turns: {most}}}",
     "needs_forces": '"{name}" needs the joint forces of {title!r}; give it the result of solve_forces',
     "unloaded": "{names} cannot be found: the links of {title!r} have no mass and there are no loads; give masses "
     "(mass: 5 kg) or loads (loads: …)",

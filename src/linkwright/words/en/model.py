@@ -175,7 +175,7 @@ WORDS = {
     "defined_below_do": "move it above",
     "in_circle": '"{name}" depends on itself: {ring}',
     "in_circle_do": "give one of them a value that does not need the others",
-    "joined_key": 'the key "{key_}" and its value stand together as one word',
+    "joined_key": 'the key "{key_}" and its value stand together as one key',
     "joined_key_do": "write a colon and a space between them: {key_}: {rest}",
     "no_parameter": '"{text}" uses a parameter, which {what} cannot follow',
     "no_parameter_do": "write the number with its unit",
@@ -239,6 +239,8 @@ WORDS = {
     "cannot_be_subtracted": "{right} cannot be subtracted from {left}",
     "cannot_be_compared": "{right} cannot be compared with {left}",
     "cannot_be_opposed": "{right} cannot be set against {left}",
+    "direction_word": "a direction is an angle, counter-clockwise from x: right 0 deg, up 90 deg, left 180 deg, down "
+    "-90 deg",
     "define_none": "define it under parameters (none is defined)",
     "zero": "zero",
     "negative": "negative",

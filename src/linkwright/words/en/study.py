@@ -160,6 +160,7 @@ metrics of every design. Designs that cannot move are counted and explained.""",
     "bad_shape": "the values of {address} have the shape {shape}; give one per design",
     "uneven": "the dimensions have different numbers of values ({told}); give one per design each",
     "no_values": "{address} has no values",
+    "no_numbers": "{address}: {given} is no list of numbers; give SI values, such as [0.05, 0.06] for 50 and 60 mm",
     "bad_value": "value {place} of {address} is {value}; give finite numbers",
     "moves_cycle": "{address} changes after how many turns all wheels are back, so that the cycles differ from "
     "design to design; write one for all into the file, such as cycle: {{turns: 1}}",

@@ -136,6 +136,7 @@ WORDS = {
     "bad_shape": "{address} 的值的形状为 {shape}；请每个方案给出一个",
     "uneven": "各尺寸的值的个数不同（{told}）；请都按每个方案一个给出",
     "no_values": "{address} 没有值",
+    "no_numbers": "{address}：{given} 不是一列数；请用国际单位给出数值，如 [0.05, 0.06] 表示 50 mm 和 60 mm",
     "bad_value": "{address} 的第 {place} 个值为 {value}；请给出有限的数",
     "moves_cycle": "{address} 改变各轮回到起始位置所需的圈数，使各方案的循环不同；请在文件中写出共同的循环，例如 "
     "cycle: {{turns: 1}}",

@@ -61,6 +61,8 @@ WORDS = {
     "limit_of_remedy": "请在 of 中也写上它",
     "few_samples": "机器太少，不能得出分散",
     "few_samples_remedy": "请至少给 {least}",
+    "pressed_number": "“{name}”是设计参数；压紧的销只使输出的汇总值移动",
+    "pressed_number_remedy": "请写汇总值，如 rocker.angle range，或去掉压紧的间隙",
     "no_kind": "“{name}”是曲线，不是一台机器的一个数",
     "no_kind_remedy": "请加 min、max、mean、rms、range 或 peak，或写到 curves 中",
     "no_force": "转动副 {pin} 不受力，没有力压它；请给质量、重力或载荷",
