@@ -158,7 +158,7 @@ class TimedCycle:
         known = {rate_name(each.output) for each in self.limits.limits}
         signed = {**signed_values(self.traced, signals, rubbing), **self._part_edges(loads)}
         signed = {name: value for name, value in signed.items() if name not in known}
-        if not signed:
+        if not signed or not self._search.possible:
             return self
         search, numbers = self._search, self._numbers(loads)
         before = self.limits.stages(search)

@@ -134,7 +134,7 @@ def timed_limits(traced: Traced, loads: AlongInput, count: int) -> TimedLimits |
         return None
     lap = length if whole.period is None else whole.period
     along = TimedSearch(traced, float(positions.around.min()), lap, closes, count)
-    if not along.enough or not (closes or _in_order(traced.mechanism, loads, signals)):
+    if not along.possible or not (closes or _in_order(traced.mechanism, loads, signals)):
         return None
     numbers = {LAP: _way(traced, lap) * (1.0 if closes else 2.0), DRIFT: whole.drift}
     known = {**traced.solver.nominal.parameters, **loads.constants, **numbers}

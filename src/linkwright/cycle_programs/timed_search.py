@@ -19,6 +19,8 @@ from linkwright.kinematics.cycle import at_times
 
 #: Places at least between two breaks of laws, and how close to these the outermost lie, as share of what is between.
 FEW, BESIDE = 6, 1e-7
+#: The most stretches between breaks for which laws are traced: as many formulas are chosen from at every time.
+MOST = 120
 
 
 @dataclass(frozen=True)
@@ -42,9 +44,10 @@ class TimedSearch:
         return np.concatenate([[self.start], inner, [end]])
 
     @property
-    def enough(self) -> bool:
-        """Whether there are places for all that lies between breaks."""
-        return self.count >= 2 * FEW * (len(self.breaks) - 1)
+    def possible(self) -> bool:
+        """Whether there are places for all that lies between breaks, and laws do not break too often."""
+        stretches = len(self.breaks) - 1
+        return stretches <= MOST and self.count >= 2 * FEW * stretches
 
     @cached_property
     def joined(self) -> bool:
