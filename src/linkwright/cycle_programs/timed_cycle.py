@@ -2,7 +2,8 @@
 
 The pieces are those between which the machine itself is smooth, see ``metrics/cycle_grid.py``: where laws of drivers
 go over from one formula to the next and loads begin and end at given inputs, that is so in all its designs. The times
-at which friction turns round, and loads that go by a velocity, are put in among these times in every design.
+at which friction turns round, and loads begin and end that go by limits or a velocity, are put in among these times
+in every design.
 """
 
 from __future__ import annotations
