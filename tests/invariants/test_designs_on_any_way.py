@@ -358,3 +358,32 @@ def test_slopes_through_friction_that_turns_round_are_those_of_differences(name:
         assert slope == pytest.approx(
             difference, rel=3e-6, abs=1e-7 * abs(value) / machine.dimension(address)
         )
+
+
+@pytest.mark.parametrize(
+    ("course", "load"),
+    [
+        ("part of a turn", "ramp: [100 N, 0 N], phase: {moving: guide, direction: decreasing}"),
+        ("program", "magnitude: 100 N, phase: {of: guide, from: max, to: min, last: 20 mm}"),
+        ("table", "ramp: [10 N, 100 N], phase: {of: guide, from: max, to: min}"),
+    ],
+)
+def test_designs_far_from_each_other_are_those_alone_or_left_to_be_found_so(course: str, load: str) -> None:
+    """A fifth off in every length, with friction: limits and reversals come, go, and pass each other."""
+    law, cycle, *_ = INWARDS[course]
+    text = RAM.replace("LAW", law).replace("CYCLE", cycle).replace("LOAD", f"direction: 0 deg, {load}")
+    machine, rng = rubbing(lw.loads(text), 0.1, 0.01), np.random.default_rng(11)
+    columns = {
+        "crank.length": 0.05 * rng.uniform(0.8, 1.2, 8),
+        "rod.length": 0.16 * rng.uniform(0.8, 1.2, 8),
+        "frame.Y.y": rng.uniform(-0.03, 0.03, 8),
+    }
+    found_together = metric_cycle(machine, columns, ["mean_power", "rms_input_torque", "peak_power"])
+    assert found_together is not None
+    found = found_together.evaluate(columns)
+    assert found.certain.sum() >= 2
+    for k in np.flatnonzero(found.certain).tolist():
+        alone = _alone(machine, columns, k)
+        for each in found_together.terms:
+            own = found.values[each.name][k]
+            assert own == pytest.approx(each.measured(alone), rel=1e-11, abs=1e-11), each.name

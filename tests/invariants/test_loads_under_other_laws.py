@@ -23,6 +23,14 @@ LOADS = {
     "table over the time": "table: {over: time, x: [0 s, 1 s, 4 s], y: [1 N, 9 N, 1 N]}",
     "table over an output": "table: {over: cylinder, x: [1 m, 3 m, 4.5 m], y: [1 N, 9 N, 1 N]}",
 }
+#: The rod's angle goes once from its smallest value to its largest one; in several turns it does so in every turn.
+ONE_WAY = (UNEVEN, SEVERAL_TURNS)
+BETWEEN_LIMITS = {
+    "stroke": "magnitude: 7 N, phase: {of: rod, from: min, to: max}",
+    "ramp": "ramp: [3 N, 18 N], phase: {of: rod, from: min, to: max}",
+    "ramp of a velocity": "ramp: [3 N, 18 N], phase: {moving: rod, direction: increasing}",
+    "part of a stroke": "magnitude: 7 N, phase: {of: rod, from: min, to: max, first: 10 deg}",
+}
 TWO_DRIVERS = """
 format: 1
 name: five-bar with two cranks
@@ -65,6 +73,30 @@ def test_designs_under_laws_of_every_kind_go_at_once(
 ) -> None:
     monkeypatch.setattr(OneByOne, "rows", lambda *_, **__: pytest.fail("found one by one"))
     compare(machine(law, LOADS[load]), "rod.length", "driver")
+
+
+@pytest.mark.parametrize("law", ONE_WAY)
+@pytest.mark.parametrize("load", BETWEEN_LIMITS)
+def test_loads_between_limits_of_designs_under_laws_go_at_once_with_gradients(
+    load: str, law: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(OneByOne, "rows", lambda *_, **__: pytest.fail("found one by one"))
+    mechanism = machine(law, BETWEEN_LIMITS[load])
+    compare(mechanism, "rod.length", "driver")
+    objective = lw.objective(mechanism, "input_torque rms", vary=["rod.length"], steps=90)
+    value, (slope,) = objective(objective.start)
+    size = 1e-5 * mechanism.dimension("rod.length")
+    around = [
+        lw.solve_forces(
+            mechanism.with_dimensions({"rod.length": mechanism.dimension("rod.length") + shift}), steps=90
+        ).input_torque
+        for shift in (-size, 0.0, size)
+    ]
+    low, same, high = (float(np.sqrt(np.mean(torque**2))) for torque in around)
+    assert value == pytest.approx(same, rel=1e-12)
+    assert slope == pytest.approx((high - low) / (2.0 * size), rel=1e-6)
+    found = lw.sensitivity(mechanism, of=["input_torque rms"], by=["rod.length"], steps=90)
+    assert found.gradient("input_torque rms") == pytest.approx([slope], rel=1e-11)
 
 
 def test_designs_of_two_drivers_go_at_once(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -31,6 +31,7 @@ from linkwright.cycle_programs.corners import (
     corners_of,
     signed_values,
 )
+from linkwright.cycle_programs.iterated_groups import limits_beside
 from linkwright.cycle_programs.joint_bends import FIRST, bend_names, bend_stage, turning
 from linkwright.cycle_programs.limit_stages import (
     constants,
@@ -245,6 +246,13 @@ class GaussCycle:
         found["place after"] = np.where(last, inside, 0.0)
         found["width after"] = np.where(last, width, 0.0)
         return found
+
+    def limit_stages(
+        self, outputs: Iterable[Swinging], valued: Iterable[Output], shown: Iterable[Output]
+    ) -> list[Stage]:
+        """The stages that find limits of outputs, see ``limit_stages.limit_stages``."""
+        find = limits_beside if iterated(self.traced) else limit_stages
+        return find(self.traced, outputs, valued=valued, shown=shown)
 
     def cut_stages(self, beside: Traced | None = None) -> list[Stage]:
         """The stages that find the cuts, but for limit positions: where parts of strokes begin and end, where joints

@@ -8,7 +8,7 @@ on acting.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import field
+from dataclasses import field, replace
 
 import numpy as np
 
@@ -16,7 +16,8 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import kind_of, owners_of
 from linkwright.cycle_programs.iterated_groups import limits_beside
-from linkwright.cycle_programs.limit_stages import constants, limit_stages, whole_turns
+from linkwright.cycle_programs.limit_stages import constants, whole_turns
+from linkwright.cycle_programs.loaded_cycle import FoundLimits, found_limits
 from linkwright.cycle_programs.traced import Traced
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.cycle_gradient import cycle_gradient
@@ -30,7 +31,7 @@ from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.kinetostatics.site import ACTS, middle_name
 from linkwright.kinetostatics.traced_loads import AlongInput, numbers_of_loads
 from linkwright.loads.base import Load
-from linkwright.loads.magnitude import angles_of, by_rate, has_formula
+from linkwright.loads.magnitude import angles_of, by_rate, has_formula, through_end
 from linkwright.loads.over_cycle import activity
 from linkwright.mechanism.mechanism import Mechanism
 
@@ -93,16 +94,24 @@ def _moving(
     """Limit positions and values there, with their derivatives; None where others are not certain to be missing."""
     if all(getattr(load, "phase", None) is None or by_rate(load) is not None for load in loads):
         return {}, {}
-    if not whole_turns(plain) or plain.solver.motion.angles.carried or plain.solver.manner.flipping:
+    if plain.solver.motion.angles.carried or plain.solver.manner.flipping:
         return None
     states = {name: row[None, :] for name, row in plain.nominal.states.items()}
-    stages = (limits_beside if states else limit_stages)(plain, along.outputs, valued=along.valued)
-    cycle = CycleProgram(tuple(stages))
-    middles = _middle_numbers(plain, along)
-    numbers = constants(plain)
-    known = {**plain.solver.nominal.parameters, **numbers, **along.constants, **middles}
+    over_time = not whole_turns(plain)
+    if over_time and (states or not along.outputs or any(map(through_end, loads))):
+        return None
+    along = replace(along, constants={**along.constants, **_middle_numbers(plain, along)})
+    if states:
+        stages = limits_beside(plain, along.outputs, valued=along.valued)
+        limits: FoundLimits | None = FoundLimits(tuple(stages), constants(plain))
+    else:
+        limits = found_limits(plain, along)
+    if limits is None:
+        return None
+    cycle, numbers = CycleProgram(limits.stages), dict(limits.constants)
+    known = {**plain.solver.nominal.parameters, **numbers, **along.constants}
     table = np.array([[known[name] for name in cycle.dimensions]])
-    arrays = plain.positions.arrays
+    arrays = {**plain.positions.arrays, **limits.positions}
     found = (
         cycle.evaluate(table, arrays, states, tables=along.tables, backend="numpy") if along.outputs else {}
     )
@@ -111,7 +120,7 @@ def _moving(
     slopes = {}
     own = [name for name in by if name in cycle.dimensions]
     for name in found:
-        if name.startswith(("limit:", "value:")):
+        if name.startswith(("limit:", "limit input:", "value:")):
             numbers[name] = float(found[name][0])
             slopes[name] = np.zeros(len(by))
             if own:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping
-from dataclasses import replace
+from dataclasses import field, replace
 
 import numpy as np
 
@@ -11,6 +11,8 @@ from linkwright.core.arrays import Floats, Indices
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output, kind_of, owners_of
 from linkwright.cycle_programs.limit_stages import constants, limit_stages, whole_turns
+from linkwright.cycle_programs.timed_limits import timed_limits
+from linkwright.cycle_programs.timed_search import TimedSearch
 from linkwright.cycle_programs.traced import VALID, Traced, design_table
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.reductions import VALID_COUNT, Reduction, Results
@@ -32,11 +34,12 @@ SIZES, RUBBING = "sizes of loads", "doubt of friction"
 
 @dataclass(frozen=True)
 class LoadedCycle:
-    """The cycle program, and what its loads need."""
+    """The cycle program, and what its loads need: ``limits`` with their positions and numbers."""
 
     traced: Traced
     cycle: CycleProgram
     loads: AlongInput
+    limits: FoundLimits
 
     def evaluate(
         self, part: Mapping[str, Floats], threads: int | None, backend: Backend
@@ -45,7 +48,7 @@ class LoadedCycle:
         certain, or loads have no value somewhere."""
         results = self.cycle.evaluate(
             self.table(part),
-            self.traced.positions.arrays,
+            {**self.traced.positions.arrays, **self.limits.positions},
             tables=self.loads.tables,
             threads=threads,
             backend=backend,
@@ -54,8 +57,38 @@ class LoadedCycle:
 
     def table(self, part: Mapping[str, Floats]) -> Floats:
         """What the cycle program takes of the designs with the given columns, (designs, dimensions)."""
-        known = {**self.traced.solver.nominal.parameters, **constants(self.traced), **self.loads.constants}
+        known = {**self.traced.solver.nominal.parameters, **self.limits.constants, **self.loads.constants}
         return design_table(self.cycle.dimensions, known, part)
+
+
+@dataclass(frozen=True)
+class FoundLimits:
+    """The ``stages`` that find the limits that loads take; numbers of the cycle, and inputs per position (n,), that
+    these take beside those of the motion."""
+
+    stages: tuple[Stage, ...]
+    constants: Mapping[str, float]
+    positions: Mapping[str, Floats] = field(default_factory=dict)
+
+
+def found_limits(traced: Traced, loads: AlongInput, *, judged: bool = True) -> FoundLimits | None:
+    """What finds the limits between the positions; None where these are sought over the time and are not found;
+    ``judged``: see ``limit_stages``.
+
+    Raises:
+        LinkwrightError: angles that turn through.
+    """
+    numbers = constants(traced)
+    if not loads.outputs or whole_turns(traced):
+        return FoundLimits(
+            tuple(limit_stages(traced, loads.outputs, valued=loads.valued, judged=judged)), numbers
+        )
+    limits = timed_limits(traced, loads, traced.positions.count)
+    if limits is None:
+        return None
+    start, count = float(traced.positions.around.min()), traced.positions.count
+    search = TimedSearch(traced, start, limits.lap, limits.closes, count)
+    return FoundLimits(tuple(limits.stages(search)), {**numbers, **limits.constants}, search.positions)
 
 
 def with_loads(plain: Traced, known: AlongInput) -> Traced:
@@ -173,16 +206,19 @@ def loaded_cycle(
     traced: Traced, varied: Collection[str], names: Iterable[str], reductions: Iterable[Reduction]
 ) -> LoadedCycle | None:
     """The cycle program of all designs; None where the loads cannot be traced."""
-    known = along_input(traced, varied, traced.program(traced.quantities(names)).fields)
+    fields = traced.program(traced.quantities(names)).fields
+    known = along_input(traced, varied, fields, over_time=True)
     if known is None:
         return None
     over_input = with_loads(traced, known)
     try:
-        stages = limit_stages(over_input, known.outputs, valued=known.valued)
+        limits = found_limits(over_input, known)
     except LinkwrightError:
+        return None
+    if limits is None:
         return None
     made, more = {each.name: each for each in reductions}, doubts(over_input, known)
     program = over_input.program(over_input.quantities(names), more=more)
     made |= {name: Reduction(name, "sum") for name in more}
-    stages.append(Stage(program, made, valid=VALID, count=VALID_COUNT))
-    return LoadedCycle(over_input, CycleProgram(tuple(stages)), known)
+    stages = (*limits.stages, Stage(program, made, valid=VALID, count=VALID_COUNT))
+    return LoadedCycle(over_input, CycleProgram(stages), known, limits)

@@ -12,8 +12,7 @@ from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.dataclass import dataclass
 from linkwright.cycle_programs.followed_points import FollowedPoints, followed_points
 from linkwright.cycle_programs.gauss_cycle import PIECES, SHARE, GaussCycle, can_have_corners, reversing
-from linkwright.cycle_programs.iterated_groups import limits_beside
-from linkwright.cycle_programs.limit_stages import constants, limit_stages, rates, whole_turns
+from linkwright.cycle_programs.limit_stages import constants, rates, whole_turns
 from linkwright.cycle_programs.loaded_cycle import along_input, with_loads
 from linkwright.cycle_programs.piece_summaries import SIDES, PieceSummaries
 from linkwright.cycle_programs.seen import Seen
@@ -72,8 +71,8 @@ def metric_cycle(
     ``steps``: of the motion by which it is judged what applies; ``asked``: see ``terms.term``. None where the
     designs cannot go side by side: the way passes change points, loads do not follow the input, polynomials do not
     meet the machine itself, or the cycle is no whole number of turns of one driver of constant speed and the
-    dimensions move its times or inputs, loads or friction go by limits, a group has no closed form, or an angle that
-    is taken goes through more than a turn. What is found for a machine is kept.
+    dimensions move its times or inputs, an output by whose limits a load goes has more than two, a group has no
+    closed form, or an angle that is taken goes through more than a turn. What is found for a machine is kept.
     """
     given, addresses = tuple(names), tuple(varied)
     key = (addresses, given, steps, asked)
@@ -103,13 +102,15 @@ def _metric_cycle(
     loads = along_input(plain, addresses, program.fields, over_time=True)
     if loads is None:
         return None
-    ways = (analysis.output(strokes.output_of(part)) for part in stroke_parts(all_parts(terms)).values())
-    others = (*reversing(plain, program), *(each for each in ways if each is not None))
-    rubbing = loads.swinging if turns and can_have_corners(plain) else ()
-    swinging = others if rubbing else (*loads.swinging, *others)
-    if not turns:
-        rubbing, swinging = (*loads.swinging, *loads.moving, *reversing(plain, program)), ()
-    loads = replace(loads, swinging=tuple(dict.fromkeys(swinging)), moving=loads.moving if turns else ())
+    opposed, rubbing = reversing(plain, program), loads.swinging
+    if turns:
+        ways = (analysis.output(strokes.output_of(part)) for part in stroke_parts(all_parts(terms)).values())
+        others = (*opposed, *(each for each in ways if each is not None))
+        rubbing = rubbing if can_have_corners(plain) else ()
+        swinging = others if rubbing else (*loads.swinging, *others)
+        loads = replace(loads, swinging=tuple(dict.fromkeys(swinging)))
+    else:
+        rubbing, loads = (*rubbing, *loads.moving, *opposed), replace(loads, swinging=(), moving=())
     traced = with_loads(plain, loads)
     gauss = gauss_points(traced, loads, analysis, PIECES[0])
     nominal = {address: np.array([mechanism.dimension(address)]) for address in addresses}
@@ -354,10 +355,7 @@ class MetricCycle:
 
     @cached_property
     def _before(self) -> list[Stage]:
-        limits: list[Stage] = []
-        if isinstance(self.gauss, GaussCycle):
-            find = limit_stages if self.followed is None else limits_beside
-            limits = find(self.traced, self.outputs, valued=self.loads.valued, shown=self.shown)
+        limits = self.gauss.limit_stages(self.outputs, self.loads.valued, self.shown)
         cuts = self.gauss.cut_stages(None if self.followed is None else self.followed.traced)
         if names := self.constant.output_names:
             cuts.append(Stage(self.constant, {text: Reduction(text, "first") for text in names}, steps=1))

@@ -2,7 +2,8 @@
 
 The pieces are those between which the machine itself is smooth, see ``metrics/cycle_grid.py``: where laws of drivers
 go over from one formula to the next and loads begin and end at given inputs, that is so in all its designs. The times
-at which friction turns round, and loads that go by a velocity, are put in among these times in every design.
+at which friction turns round, and loads begin and end that go by limits or a velocity, are put in among these times
+in every design.
 """
 
 from __future__ import annotations
@@ -10,7 +11,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import field, replace
 from functools import cached_property, reduce
-from typing import Any
 
 import numpy as np
 
@@ -19,9 +19,6 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.core.piecewise import NODES, POINTS, WEIGHTS, nodes
 from linkwright.cycle_programs.corners import (
-    AROUND,
-    REACH,
-    REST,
     Corner,
     Signed,
     corner_stages,
@@ -38,28 +35,23 @@ from linkwright.cycle_programs.gauss_cycle import (
     side_by_side,
 )
 from linkwright.cycle_programs.limit_stages import to_edge, whole_turns
-from linkwright.cycle_programs.timed_limits import TimedLimit, rate_stages, timed_limits
+from linkwright.cycle_programs.timed_limits import TimedLimits, timed_limits
+from linkwright.cycle_programs.timed_search import TimedSearch
 from linkwright.cycle_programs.traced import VALID, Traced
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.program import Program
 from linkwright.engine.stage import Stage
-from linkwright.engine.trace import Scalar, Trace, floor, maximum, minimum, select
+from linkwright.engine.trace import Scalar, Trace, maximum, minimum, select
 from linkwright.errors import LinkwrightError
-from linkwright.fields.signals import MovingPhase, SwingPhase
-from linkwright.kinematics.bends import law_bends, one_formula
+from linkwright.fields.signals import SwingPhase
 from linkwright.kinematics.cycle import at_times, over_cycle
 from linkwright.kinetostatics.friction import Swinging
-from linkwright.kinetostatics.signals import MotionSignals
-from linkwright.kinetostatics.site import DRIFT, LAP, turns_steadily
 from linkwright.kinetostatics.traced_loads import AlongInput
-from linkwright.loads.magnitude import by_limits
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import Analysis
 
 #: Halvings of all pieces for designs that are less smooth than the machine itself.
 HALVINGS = 3
-#: Places at least between two breaks of laws, and how close to these the outermost lie, as share of what is between.
-FEW, BESIDE = 6, 1e-7
 #: How near to a corner, as share of the cycle, an end of pieces is that corner.
 NEAR = 1e-6
 #: Share by which a dimension is changed to see whether times and inputs follow from it.
@@ -68,51 +60,26 @@ _NUDGE = 1e-3
 
 @dataclass(frozen=True)
 class TimedCycle:
-    """What ``GaussCycle`` is for whole turns, over the time; ``edges`` of the pieces that no design moves, s.
-
-    ``lap``: how long the cycle is, s, in which limits are found, and whether it ``closes``; ``limits`` that loads
-    take, those that are ``valued`` with the outputs there; ``corners``: where ``signed`` values are zero, at other
-    times in every design; ``constants``: numbers of the cycle that programs take.
-    """
+    """What ``GaussCycle`` is for whole turns, over the time; ``edges`` of the pieces that no design moves, s;
+    ``limits`` that loads take; ``corners``: where ``signed`` values are zero, at other times in every design."""
 
     traced: Traced
     edges: tuple[float, ...]
-    lap: float
-    closes: bool
+    limits: TimedLimits
     halvings: int = 0
-    limits: tuple[TimedLimit, ...] = ()
-    valued: tuple[Output, ...] = ()
     corners: tuple[Corner, ...] = ()
     signed: Mapping[str, Signed] = field(default_factory=dict)
-    constants: Mapping[str, float] = field(default_factory=dict)
 
     @classmethod
     def of(cls, traced: Traced, loads: AlongInput, edges: Floats) -> TimedCycle | None:
-        """With the limits that loads take; None where these are not found over the time."""
-        whole, closed = MotionSignals(traced.nominal).whole, traced.positions.closed
-        length = float(edges[-1] - edges[0])
-        cycle = cls(traced, tuple(edges.tolist()), length, closed)
-        if not loads.outputs:
-            return cycle
-        closes = whole.period is not None
-        if closes and not closed and not one_formula(traced.mechanism):
-            return None
-        lap = length if whole.period is None else whole.period
-        steady = turns_steadily(traced.mechanism)
-        way = abs(whole.drift) if steady and closes else abs(cycle.speed) * lap if steady else lap
-        numbers = {LAP: way if closes else 2.0 * way, DRIFT: whole.drift}
-        cycle = replace(cycle, lap=lap, closes=closes, valued=loads.valued, constants=numbers)
-        known = {**traced.solver.nominal.parameters, **loads.constants, **numbers}
-        limits = timed_limits(cycle, loads.outputs, known, cycle.places, loads.tables)
-        if limits is None or not (closes or _in_order(traced, loads)):
-            return None
-        numbers |= {name: time for each in limits for name, time in each.constants.items()}
-        return replace(cycle, limits=limits, constants=numbers)._cut(loads)
+        """Of the machine's own pieces; None where limits that loads take are not found over the time."""
+        limits = timed_limits(traced, loads, (len(edges) - 1) * POINTS)
+        return None if limits is None else cls(traced, tuple(edges.tolist()), limits)._cut(loads)
 
     @property
     def moving(self) -> tuple[Corner, ...]:
         """All cuts that move with the dimensions."""
-        return (*(corner for each in self.limits for corner in each.corners.values()), *self.corners)
+        return (*self.limits.corners, *self.corners)
 
     @property
     def pieces(self) -> int:
@@ -152,7 +119,7 @@ class TimedCycle:
         """Inputs (n,) of the programs, and the shares of the time, the first nodes of all pieces first; with cuts
         those at the places between which they are sought, and what the shares follow from."""
         if self._searched:
-            return {**self.places, **self._among_cuts}
+            return {**self._search.positions, **self._among_cuts}
         edges = np.array(self.edges)
         known = at_times(self.traced.mechanism, nodes(edges).T.ravel())
         width = 0.5 * WEIGHTS[:, None] * np.diff(edges) / self._duration
@@ -160,41 +127,17 @@ class TimedCycle:
 
     @property
     def _searched(self) -> bool:
-        return bool(self.limits or self.corners)
+        return bool(self.limits.limits or self.corners)
 
     @cached_property
-    def places(self) -> dict[str, Floats]:
-        """Inputs (n,) of the programs evenly between the breaks of the drivers' laws, and close to these."""
-        breaks = self._breaks
-        widths = np.diff(breaks)
-        counts = np.maximum(FEW, np.floor(self.count * widths / self.lap).astype(int))
-        counts[np.argmax(counts)] += self.count - counts.sum()
-        time, reach = [], []
-        for low, width, count in zip(breaks, widths, counts, strict=False):
-            share = np.clip(np.linspace(0.0, 1.0, count), BESIDE, 1.0 - BESIDE)
-            time.append(low + width * share)
-            reach.append(width * np.minimum(REST / (count - 1), share))
-        around = np.zeros(self.count)
-        around[-1] = reach[-1].max() if self._joined else 0.0
-        known = at_times(self.traced.mechanism, np.concatenate(time))
-        return {**known.arrays, REACH: np.concatenate(reach), AROUND: around}
+    def _search(self) -> TimedSearch:
+        """Where corners and limits are sought, between as many places as there are Gauss points."""
+        return TimedSearch(self.traced, self.edges[0], self.limits.lap, self.limits.closes, self.count)
 
-    @cached_property
-    def _breaks(self) -> Floats:
-        """Times, s, at which a driver's law goes over to another formula or turns round, and both ends of the cycle
-        in which limits are found."""
-        start, end = self.edges[0], self.edges[0] + self.lap
-        found, near = law_bends(self.traced.nominal), BESIDE * self.lap
-        inner = found[(found > start + near) & (found < end - near)]
-        inner = inner[np.diff(inner, prepend=start) > near]
-        return np.concatenate([[start], inner, [end]])
-
-    @cached_property
-    def _joined(self) -> bool:
-        """Whether the end of that cycle goes over into its beginning by the same formulas."""
-        ends = self.edges[0] + np.array([0.0, self.lap])
-        apart = np.abs(law_bends(self.traced.nominal)[:, None] - ends)
-        return self.closes and bool((apart > BESIDE * self.lap).all())
+    @property
+    def constants(self) -> Mapping[str, float]:
+        """Numbers of the cycle that programs take."""
+        return self.limits.constants
 
     @property
     def _among_cuts(self) -> dict[str, Floats]:
@@ -213,11 +156,14 @@ class TimedCycle:
         """The same with cuts where friction and the forces of teeth in ``signals`` bend and what is ``rubbing``
         turns round, in the machine as it is, instead of the pieces' ends that lie there; drivers turn round
         between pieces."""
-        known = {rate_name(each.output) for each in self.limits}
+        known = {rate_name(each.output) for each in self.limits.limits}
         signed = {**signed_values(self.traced, signals, rubbing), **self._part_edges(loads)}
         signed = {name: value for name, value in signed.items() if name not in known}
-        numbers = self._numbers(loads)
-        corners = corners_of(self, signed, self._limit_stages, numbers, self.places, loads.tables)
+        if not signed or not self._search.possible:
+            return self
+        search, numbers = self._search, self._numbers(loads)
+        before = self.limits.stages(search)
+        corners = corners_of(search, signed, before, numbers, search.positions, loads.tables)
         return replace(self, corners=corners, signed=signed)._cut(loads)
 
     def _part_edges(self, loads: AlongInput) -> dict[str, Signed]:
@@ -241,26 +187,25 @@ class TimedCycle:
         """The same without edges where the machine as it is has cuts that move, and with such where drivers turn
         round."""
         known, moving = self._numbers(loads), len(self.moving)
-        stages = CycleProgram(tuple(self.cut_stages()))
+        stages = CycleProgram((*self.limits.stages(self._search), *self.cut_stages()))
         table = np.array([[known[name] for name in stages.dimensions]])
-        results = stages.evaluate(table, self.places, tables=loads.tables, threads=1)
+        results = stages.evaluate(table, self._search.positions, tables=loads.tables, threads=1)
         at = [self.edges[0] + self._duration * float(results[f"cut {k}"][0]) for k in range(moving)]
         edges, near = np.array(self.edges), NEAR * self._duration
-        breaks = np.append(self._breaks[self._breaks < edges[-1] - near], edges[-1])
+        breaks = self._search.breaks
+        breaks = np.append(breaks[breaks < edges[-1] - near], edges[-1])
         edges = edges[(np.abs(edges[:, None] - np.append(breaks, at)) > near).all(axis=1)]
         return replace(self, edges=tuple(np.sort(np.append(edges, breaks)).tolist()))
 
-    @property
-    def _limit_stages(self) -> list[Stage]:
-        """The stages that find limits."""
-        outputs = [each.output for each in self.limits]
-        corners = [corner for each in self.limits for corner in each.corners.values()]
-        found = rate_stages(self, outputs, corners)
-        return [*found, *(each.stage(self, each.output in self.valued) for each in self.limits)]
+    def limit_stages(
+        self, outputs: Iterable[Swinging], valued: Iterable[Output], shown: Iterable[Output]
+    ) -> list[Stage]:
+        """The stages that find the limits that loads take."""
+        return self.limits.stages(self._search)
 
     def cut_stages(self, beside: Traced | None = None) -> list[Stage]:
-        """The stages that find limits, and the times of all cuts, and bring these into order."""
-        found = [*self._limit_stages, *corner_stages(self, self.signed, self.corners)]
+        """The stages that find the times of corners, and bring all cuts into order."""
+        found = corner_stages(self._search, self.signed, self.corners)
         return [*found, self._ordering] if self.moving else found
 
     @property
@@ -268,32 +213,9 @@ class TimedCycle:
         """The stage that brings the cuts into order; what lies beyond the cycle is put where nothing bends."""
         t, shares, moving = Trace(), list[Scalar](), self.moving
         for number, each in enumerate(moving):
-            share = (self.inside(t.parameter(each.name)) - self.edges[0]) / self._duration
+            share = (self._search.inside(t.parameter(each.name)) - self.edges[0]) / self._duration
             shares.append(select(share <= 1.0, share, (number + 0.5) / len(moving)))
         return ordered_cuts(t, shares)
-
-    def span(self, t: Trace) -> tuple[Scalar, Scalar]:
-        """The time, s, at which the cycle begins in which corners are sought, and how long it is."""
-        return self.edges[0], self.lap
-
-    def inside(self, time: Scalar) -> Scalar:
-        """A time within that cycle, s."""
-        if not self._joined:
-            return time
-        share = (time - self.edges[0]) / self.lap
-        return self.edges[0] + self.lap * (share - floor(share))
-
-    def place(self, t: Trace) -> Scalar:
-        """The times, s, between which corners are sought."""
-        return t.position("time")
-
-    def over_places(self, program: Program) -> Program:
-        """A program of the motion over these."""
-        return program
-
-    def there(self, program: Program, t: Trace, x: Scalar) -> dict[str, Any]:
-        """The outputs of a program of the motion at a time, s."""
-        return self.traced.at_time(program, t, self.inside(x), (self.edges[0], self.edges[0] + self.lap))
 
     # signals ----------------------------------------------------------------------------------------
     def signals(
@@ -307,26 +229,16 @@ class TimedCycle:
         cuts: list[Scalar] = [t.parameter(f"cut {k}") for k in range(len(self.moving))]
         low, high = (self._end(t, cuts, following) for following in (0, 1))
         time = self.edges[0] + self._duration * (low + t.position("inside") * (high - low))
-        return t, {**self.there(Program.of(trace, found), t, time), SHARE: t.position("width") * (high - low)}
+        return t, {
+            **self._search.there(Program.of(trace, found), t, time),
+            SHARE: t.position("width") * (high - low),
+        }
 
     def _end(self, t: Trace, cuts: list[Scalar], following: int) -> Scalar:
         """Where a piece begins, or the ``following`` one: of the edges and the ``cuts``, each in order, together the
         one of this number."""
         edges: list[Scalar] = [t.position(f"edge {len(cuts) + following - k}") for k in range(len(cuts) + 1)]
         return reduce(minimum, map(maximum, edges[1:], cuts), edges[0])
-
-
-def _in_order(traced: Traced, loads: AlongInput) -> bool:
-    """Whether the limits between which loads act follow each other in a cycle that does not close."""
-    signals = MotionSignals(traced.nominal)
-    for name in loads.names:
-        load = traced.mechanism.loads[name]
-        if by_limits(load):
-            phase: MovingPhase | SwingPhase = load.phase  # type: ignore[attr-defined]
-            times = {each.kind: each.time for each in signals.limits(phase.output)}
-            if times[phase.end] < times[phase.start]:
-                return False
-    return True
 
 
 def follows_times(traced: Traced, varied: Iterable[str]) -> bool:

@@ -5,11 +5,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import field
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.cycle_programs.corners import (
@@ -21,23 +19,29 @@ from linkwright.cycle_programs.corners import (
     rate_name,
     rates_of,
 )
+from linkwright.cycle_programs.timed_search import TimedSearch
+from linkwright.cycle_programs.traced import Traced
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import Reduction, Results
 from linkwright.engine.stage import Stage
 from linkwright.engine.table import Tables
 from linkwright.engine.trace import Scalar, Trace, absolute, select
+from linkwright.fields.signals import MovingPhase, SwingPhase
+from linkwright.kinematics.bends import one_formula
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.kinetostatics.site import (
+    DRIFT,
+    LAP,
     limit_input_name,
     limit_name,
     output_value,
     turns_steadily,
     value_name,
 )
-
-if TYPE_CHECKING:
-    from linkwright.cycle_programs.timed_cycle import TimedCycle
+from linkwright.kinetostatics.traced_loads import AlongInput
+from linkwright.loads.magnitude import by_limits
+from linkwright.mechanism.mechanism import Mechanism
 
 #: Share of the cycle within which a change of sign is a limit, and of a driver's largest rate below which it rests.
 SAME, AT_REST = 1e-6, 1e-9
@@ -61,7 +65,7 @@ class TimedLimit:
     def _fixed(self, kind: str) -> str:
         return f"fixed limit:{self.output}:{kind}"
 
-    def stage(self, along: TimedCycle, valued: bool) -> Stage:
+    def stage(self, along: TimedSearch, valued: bool) -> Stage:
         """The stage that gives both limits, where ``valued`` the output there, and ``doubt:OUTPUT``, above zero where
         these are not certain to be its only limits."""
         t, motion = Trace(), along.traced.solver.motion
@@ -96,32 +100,95 @@ class TimedLimit:
         return doubt
 
 
-def rate_stages(along: TimedCycle, outputs: Iterable[Output], corners: Iterable[Corner]) -> list[Stage]:
+@dataclass(frozen=True)
+class TimedLimits:
+    """All limits that loads take, of those outputs that are ``valued`` with their values; in a cycle of the length
+    ``lap``, s, which ``closes`` or does not; ``constants``: numbers of the cycle that programs take."""
+
+    lap: float
+    closes: bool
+    limits: tuple[TimedLimit, ...] = ()
+    valued: tuple[Output, ...] = ()
+    constants: Mapping[str, float] = field(default_factory=dict)
+
+    @property
+    def corners(self) -> tuple[Corner, ...]:
+        """Those that move with the dimensions."""
+        return tuple(corner for each in self.limits for corner in each.corners.values())
+
+    def stages(self, along: TimedSearch) -> list[Stage]:
+        """The stages that find them."""
+        found = _rate_stages(along, [each.output for each in self.limits], self.corners)
+        return [*found, *(each.stage(along, each.output in self.valued) for each in self.limits)]
+
+
+def timed_limits(traced: Traced, loads: AlongInput, count: int) -> TimedLimits | None:
+    """The limits that loads take, sought between ``count`` places; None where they are not found over the time: an
+    output has not just one of each kind, or rests while the drivers do not."""
+    positions, signals = traced.positions, MotionSignals(traced.nominal)
+    length, whole = float(np.ptp(positions.around)), signals.whole
+    if not loads.outputs:
+        return TimedLimits(length, positions.closed)
+    closes = whole.period is not None
+    if not positions.cycle or (closes and not positions.closed and not one_formula(traced.mechanism)):
+        return None
+    lap = length if whole.period is None else whole.period
+    along = TimedSearch(traced, float(positions.around.min()), lap, closes, count)
+    if not along.possible or not (closes or _in_order(traced.mechanism, loads, signals)):
+        return None
+    numbers = {LAP: _way(traced, lap) * (1.0 if closes else 2.0), DRIFT: whole.drift}
+    known = {**traced.solver.nominal.parameters, **loads.constants, **numbers}
+    limits = _found(along, loads.outputs, signals, known, loads.tables)
+    if limits is None:
+        return None
+    numbers |= {name: time for each in limits for name, time in each.constants.items()}
+    return TimedLimits(lap, closes, limits, loads.valued, numbers)
+
+
+def _way(traced: Traced, lap: float) -> float:
+    """How far in a time, s, goes what limits are given over: the input, rad, of a driver that turns at constant
+    speed, else the time."""
+    if not turns_steadily(traced.mechanism):
+        return lap
+    return abs(float(next(iter(traced.positions.coordinates.values()))[1][0])) * lap
+
+
+def _in_order(mechanism: Mechanism, loads: AlongInput, signals: MotionSignals) -> bool:
+    """Whether the limits between which loads act follow each other in a cycle that does not close."""
+    for name in loads.names:
+        load = mechanism.loads[name]
+        if by_limits(load):
+            phase: MovingPhase | SwingPhase = load.phase  # type: ignore[attr-defined]
+            times = {each.kind: each.time for each in signals.limits(phase.output)}
+            if len(times) < 2 or times[phase.end] < times[phase.start]:
+                return False
+    return True
+
+
+def _rate_stages(along: TimedSearch, outputs: Iterable[Output], corners: Iterable[Corner]) -> list[Stage]:
     """The stages that find where the rates of outputs change their signs."""
     rates = rates_of(along.traced, outputs)
     return corner_stages(along, rates, corners, counted=rates)
 
 
-def timed_limits(
-    along: TimedCycle,
+def _found(
+    along: TimedSearch,
     outputs: Iterable[Output],
+    signals: MotionSignals,
     known: Mapping[str, float],
-    positions: Mapping[str, Floats],
     tables: Tables,
 ) -> tuple[TimedLimit, ...] | None:
-    """The limits of outputs in the machine as it is, whose numbers are ``known``; None where one has not just one of
-    each kind, or rests while the drivers do not."""
-    asked, signals = tuple(outputs), MotionSignals(along.traced.nominal)
-    corners = corners_of(along, rates_of(along.traced, asked), (), known, positions, tables)
-    cycle = CycleProgram(tuple(rate_stages(along, asked, corners)))
+    asked = tuple(outputs)
+    corners = corners_of(along, rates_of(along.traced, asked), (), known, along.positions, tables)
+    cycle = CycleProgram(tuple(_rate_stages(along, asked, corners)))
     table = np.array([[known[name] for name in cycle.dimensions]])
-    results = cycle.evaluate(table, positions, tables=tables, threads=1)
+    results = cycle.evaluate(table, along.positions, tables=tables, threads=1)
     found = [_limit(along, signals, each, corners, results) for each in asked]
     return None if None in found else tuple(each for each in found if each is not None)
 
 
 def _limit(
-    along: TimedCycle,
+    along: TimedSearch,
     signals: MotionSignals,
     output: Output,
     corners: Iterable[Corner],
@@ -146,13 +213,13 @@ def _limit(
     return TimedLimit(output, float(np.sign(results[began_name(rate_name(output))][0])), moving, fixed)
 
 
-def _same(along: TimedCycle, time: float, other: float) -> bool:
+def _same(along: TimedSearch, time: float, other: float) -> bool:
     """Whether two times are one, in the cycle."""
     apart = abs(time - other) % along.lap
     return min(apart, along.lap - apart) <= SAME * along.lap
 
 
-def _drivers_rest(along: TimedCycle, time: float) -> bool:
+def _drivers_rest(along: TimedSearch, time: float) -> bool:
     """Whether all drivers turn round or rest at a time, s."""
     paces = along.traced.positions.paces
     rates = {

@@ -37,7 +37,7 @@ class Law(ABC):
 
     def traced(self, t: Scalar, start: float, end: float) -> tuple[Scalar, Scalar, Scalar]:
         """The same at a traced time from ``start`` to ``end``, s."""
-        from linkwright.drivers.law_pieces import law_pieces
+        from linkwright.laws.law_pieces import law_pieces
 
         return law_pieces(self, start, end).traced(t)
 

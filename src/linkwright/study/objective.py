@@ -13,8 +13,14 @@ from numpy.typing import ArrayLike
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.cycle_programs.iterated_groups import Following, following, limits_beside
-from linkwright.cycle_programs.limit_stages import constants, limit_stages
-from linkwright.cycle_programs.loaded_cycle import along_input, friction_doubt, with_loads
+from linkwright.cycle_programs.limit_stages import constants
+from linkwright.cycle_programs.loaded_cycle import (
+    FoundLimits,
+    along_input,
+    found_limits,
+    friction_doubt,
+    with_loads,
+)
 from linkwright.cycle_programs.metric_cycle import metric_cycle
 from linkwright.cycle_programs.range_designs import range_designs, ranged
 from linkwright.cycle_programs.swept_designs import swept, swept_designs
@@ -337,13 +343,18 @@ class _Builder:
             self.following = following(plain, (), ())
         self.turns = None if self.following else counted_turns(plain)
         outputs = [summary.output for summary in self.summaries]
-        loads = along_input(plain, names, plain.program(plain.quantities(outputs)).fields)
+        fields = plain.program(plain.quantities(outputs)).fields
+        loads = along_input(plain, names, fields, over_time=self.following is None)
         if loads is None:
             raise RequestError("study.objective_loads", name=mechanism.name)
         self.loads = loads
         self.traced = with_loads(plain, loads)
         if self.following is not None:
             self._refuse_ways(plain)
+        limits = self._limits()
+        if limits is None:
+            raise RequestError("study.objective_loads", name=mechanism.name)
+        self.limits = limits
 
     def _refuse_ways(self, plain: Traced) -> None:
         """Refuses groups without closed form on other ways than the cycle, and loads by more limits than two."""
@@ -373,7 +384,7 @@ class _Builder:
         program = Program.of(self.traced.solver.motion.trace, {**outputs, VALID: self._valid()})
         made = {each.name: each for each in reductions(self.summaries, self.quantities)}
         made |= {f"path {k}": Reduction(f"path {k}", "mean") for k in range(len(self.paths))}
-        loaded = self._limits()
+        loaded = [*self.limits.stages]
         if self.following is not None:
             program = states_as_fields(program)
         if self.turns is not None:
@@ -387,17 +398,17 @@ class _Builder:
         )
         cycle = CycleProgram(stages)
         own = tuple(name for name in self.names if name in cycle.dimensions)
-        known = {**self.traced.solver.nominal.parameters, **constants(self.traced), **self.loads.constants}
-        arrays = {**self.traced.positions.arrays, **targets}
+        known = {**self.traced.solver.nominal.parameters, **self.limits.constants, **self.loads.constants}
+        arrays = {**self.traced.positions.arrays, **self.limits.positions, **targets}
         gradient = cycle_gradient(cycle, VALUE, own)
         return OverPositions(own, gradient, arrays, known, self.loads.tables, backend, self.following)
 
-    def _limits(self) -> list[Stage]:
-        """The limit positions that the loads need."""
-        outputs, valued = self.loads.outputs, self.loads.valued
+    def _limits(self) -> FoundLimits | None:
+        """What finds the limit positions that the loads need."""
         if self.following is None:
-            return limit_stages(self.traced, outputs, judged=False, valued=valued)
-        return limits_beside(self.traced, outputs, valued)
+            return found_limits(self.traced, self.loads, judged=False)
+        stages = limits_beside(self.traced, self.loads.outputs, self.loads.valued)
+        return FoundLimits(tuple(stages), constants(self.traced))
 
     def _valid(self) -> Mask:
         """Where a position is reached, all loads have values, and the friction is certain."""
@@ -435,7 +446,8 @@ class _Builder:
             total = total + weight * _summary(t, summary, self.quantities[summary.output])
         for k, (_, weight) in enumerate(self.paths):
             total = total + weight * t.parameter(f"path {k}")
-        for output in self.loads.outputs if self.following else ():
+        judged = self.following is not None or self.limits.positions
+        for output in self.loads.outputs if judged else ():
             total = select(t.parameter(f"doubt:{output}") <= 0.0, total, np.nan)
         return Program.of(t, {VALUE: total})
 

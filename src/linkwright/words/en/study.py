@@ -57,8 +57,9 @@ metrics of every design. Designs that cannot move are counted and explained.""",
     "not_asked": "{summary!r} was not asked for; there is {summaries}",
     "friction_slope": "friction has a derivative where it is far from self-locking and no group has it in more than "
     "{most} pairs; leave the friction out of the model, or vary the dimension in a study",
-    "ramp_slope": "loads.{name}: a ramp between limit positions has a derivative where these are the only two in one "
-    "turn at constant speed, and no turns of links are counted; change the dimension in study instead",
+    "ramp_slope": "loads.{name}: a ramp between limit positions has a derivative where these are the only two in "
+    "the cycle and no turns of links are counted, under other laws than constant speed also where all groups have a "
+    "closed form; change the dimension in study instead",
     "cycle_load_slope": "loads.{name}: a load of the kind {kind!r} is found from the whole cycle, for which no "
     "derivative is known; vary the dimension in a study instead",
     "not_followed": "it could not be followed from position to position together with the others; give more "
@@ -112,8 +113,8 @@ metrics of every design. Designs that cannot move are counted and explained.""",
     "objective_loads": "{name!r} has friction in more than 16 pairs of one group, or (for design numbers) beside "
     "cams or groups without closed form, on a guide that is pressed from both sides or teeth and chains that pull "
     "both ways, loads that divide by an output, follow a link that turns through or act against the "
-    "rotation of two moving links, or, over other cycles than whole turns at constant speed, phases by limits, "
-    "friction that reverses, groups without closed form, or dimensions that move the inputs, "
+    "rotation of two moving links, or, over other cycles than whole turns at constant speed, phases by outputs "
+    "with more limits than two, groups without closed form, or dimensions that move the inputs, "
     "so no gradient of many designs is found; for outputs use sensitivity, which takes one design at a time, for "
     "design numbers study",
     "objective_reverses": "{name!r}: the load {load!r} has the sign of the rate of {output}, which changes it "
