@@ -58,8 +58,19 @@ class One:
         return float(self.signals.rate)
 
     @property
+    def along(self) -> float:
+        return self.input
+
+    @property
+    def sense(self) -> float:
+        return float(np.sign(self.heading))
+
+    @property
     def lap(self) -> float:
         return TURN
+
+    def share_of_input(self, phase: MovingPhase | SwingPhase, share: Scalar) -> Scalar:
+        return share
 
     def stroke(self, phase: MovingPhase | SwingPhase) -> tuple[Mask, Scalar]:
         return stroke_of_turn(self, phase)
