@@ -5,8 +5,8 @@ from __future__ import annotations
 import threading
 from collections.abc import Mapping
 
+from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
-from linkwright.core.once import cached_property
 from linkwright.core.outputs import Output
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program

@@ -37,7 +37,7 @@ from linkwright.kinetostatics.site import limit_name
 from linkwright.kinetostatics.solver import ForceSolver
 from linkwright.kinetostatics.traced_loads import AlongInput, traced_magnitude
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.study.vary import checked_addresses
+from linkwright.study.varied_dimensions import checked_addresses
 
 #: The row of how near a group is to a change point or a gap; 0 where it cannot be assembled, where a load has no
 #: value, and where limit positions do not agree with the rates.
