@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
+from linkwright.engine.recent import Recent
 from linkwright.kinematics import programs
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinematics.shape import shape
@@ -21,8 +22,13 @@ def torque(mechanism):
     return lw.solve_forces(lw.solve_motion(mechanism, steps=24)).input_torque
 
 
+def forget():
+    """As if nothing had been solved before."""
+    programs._kept = Recent(32)
+
+
 def alone(mechanism):
-    programs._kept.clear()
+    forget()
     return torque(mechanism)
 
 
@@ -106,8 +112,7 @@ def test_a_guide_that_is_turned_gives_the_same_bits_whatever_was_solved_before(f
 
 
 def test_the_programs_used_last_are_the_ones_that_stay(monkeypatch):
-    programs._kept.clear()
-    monkeypatch.setattr(programs, "_KEPT", 2)
+    monkeypatch.setattr(programs, "_kept", Recent(2))
     first, second, third = (lw.load(f"gallery:{name}") for name in ("crank_rocker", "kite", "scotch_yoke"))
     for each in (first, second, first, third):
         torque(each)
@@ -141,7 +146,7 @@ def test_eight_threads_share_the_programs():
     mechanism = lw.load(SIXBAR)
     designs = [mechanism.with_dimensions({"crank.length": 0.1 + 1e-3 * k}) for k in range(16)]
     expected = [torque(design) for design in designs]
-    programs._kept.clear()
+    forget()
     with ThreadPoolExecutor(8) as pool:
         found = list(pool.map(torque, designs))
     for one, other in zip(found, expected, strict=True):
