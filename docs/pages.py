@@ -20,7 +20,7 @@ from typing import Any
 
 import linkwright as lw
 from linkwright import gallery
-from linkwright.core.plotted import Plotted
+from linkwright.core.plot_method import Plotted
 from linkwright.errors import LinkwrightError
 from linkwright.validation.validate import validate
 from linkwright.words.titles import title_said

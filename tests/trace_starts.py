@@ -28,8 +28,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.synthesis.motion_generation import counted
-from linkwright.synthesis.motion_generation.counted import KNOWN
+from linkwright.synthesis.motion_generation import finite_solutions as counted
+from linkwright.synthesis.motion_generation.finite_solutions import KNOWN
 from linkwright.synthesis.nine_points.start import start_set
 
 Floats = NDArray[np.float64]

@@ -83,8 +83,8 @@ if TYPE_CHECKING:
     from linkwright.study.compare import compare as compare
     from linkwright.study.designs import Sweep as Sweep
     from linkwright.study.designs import sweep as sweep
-    from linkwright.study.kept import Interrupted as Interrupted
-    from linkwright.study.kept import kept_in as kept_in
+    from linkwright.study.finished_parts import Interrupted as Interrupted
+    from linkwright.study.finished_parts import kept_in as kept_in
     from linkwright.study.objective import Objective as Objective
     from linkwright.study.objective import PathError as PathError
     from linkwright.study.objective import objective as objective

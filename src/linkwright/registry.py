@@ -7,7 +7,7 @@ import threading
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Generic, TypeVar, cast
 
-from linkwright.core.installed import loaded, modules_within, offered_by_packages
+from linkwright.core.entry_points import loaded, modules_within, offered_by_packages
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.words.sentence import Sentence
 from linkwright.words.synonyms import nearest_in_meaning

@@ -45,7 +45,7 @@ FRONT = STAGE["report"]
 NOTEBOOK = "linkwright.plot.drawing.draw"
 PLOT = "linkwright.plot.plot"
 LEADS_ON = {  # what methods import when they are called: structure(), plot(), and the drawing that notebooks show
-    "core/plotted.py": {PLOT},
+    "core/plot_method.py": {PLOT},
     "mechanism/mechanism.py": {"linkwright.structure", NOTEBOOK},
     "kinematics/motion.py": {NOTEBOOK},
     "kinetostatics/forces.py": {NOTEBOOK},

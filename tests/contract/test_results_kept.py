@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.core.frozen import FrozenDict
+from linkwright.core.read_only import FrozenDict
 
 CRUSHER = "gallery:jaw_crusher_sixbar"
 MECHANISM = lw.load(CRUSHER)

@@ -6,7 +6,7 @@ from types import ModuleType
 
 import pytest
 
-from linkwright.core.frozen import FrozenDict, frozen
+from linkwright.core.read_only import FrozenDict, frozen
 
 PROGRAM = """
 import sys, threading

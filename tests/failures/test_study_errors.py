@@ -17,7 +17,7 @@ from linkwright.study.compare import compare
 from linkwright.study.objective import objective
 from linkwright.study.ranges import parse_range
 from linkwright.study.study import study
-from linkwright.study.vary import varied_ranges
+from linkwright.study.varied_dimensions import varied_ranges
 
 SIX, FOUR = "gallery:jaw_crusher_sixbar", "gallery:jaw_crusher_fourbar"
 

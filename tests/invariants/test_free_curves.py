@@ -11,10 +11,10 @@ from linkwright.core.arrays import Whole
 from linkwright.engine import machine_code
 from linkwright.synthesis.free_curve.atlas import STEP, Atlas, M, Matches, _draws, parts, places
 from linkwright.synthesis.free_curve.curve_file import path_points, read_curve
+from linkwright.synthesis.free_curve.curve_similarity import TURNS
 from linkwright.synthesis.free_curve.descent import DAMPING
-from linkwright.synthesis.free_curve.drawn import drawing
+from linkwright.synthesis.free_curve.drawing_order import drawing
 from linkwright.synthesis.free_curve.kernels import BLOCK, GUIDE, PIVOT, POINT, SLIDER, kernels
-from linkwright.synthesis.free_curve.likeness import TURNS
 from linkwright.synthesis.free_curve.linkages import Placed, linkage_of
 from linkwright.synthesis.free_curve.moves import with_dyad, with_joint
 from linkwright.synthesis.free_curve.nodes import (

@@ -18,10 +18,10 @@ import linkwright as lw
 from linkwright.cli import main
 from linkwright.core.arrays import Floats
 from linkwright.engine.sweep import Results
-from linkwright.study import kept
+from linkwright.study import finished_parts
 from linkwright.study.criteria import Criterion
 from linkwright.study.designs import sweep_curves
-from linkwright.study.kept import _made, _plain
+from linkwright.study.finished_parts import _made, _plain
 from linkwright.study.study import PIECE, _Work
 from linkwright.study.sweep_run import SweepRun
 from linkwright.words.sentence import Sentence
@@ -81,7 +81,7 @@ def test_an_interrupted_tolerance_run_says_from_which_file_it_goes_on(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(kept, "WORTH", float("inf"))  # kept however fast it was found
+    monkeypatch.setattr(finished_parts, "WORTH", float("inf"))  # kept however fast it was found
     assert main(SPREAD) == 0
     whole = capsys.readouterr().out
     original, calls = SweepRun._computed, list[bytes]()
@@ -103,7 +103,7 @@ def test_an_interrupted_tolerance_run_says_from_which_file_it_goes_on(
 
 def test_what_a_cluster_finds_is_kept_piece_by_piece(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     distributed = pytest.importorskip("distributed")
-    monkeypatch.setattr(kept, "WORTH", float("inf"))  # kept however fast it was found
+    monkeypatch.setattr(finished_parts, "WORTH", float("inf"))  # kept however fast it was found
     crank, draw, given = lw.load(CRANK), np.random.default_rng(2), list[str]()
     columns = {"coupler.length": draw.uniform(3.2, 4, 4100), "rocker.length": draw.uniform(2, 2.8, 4100)}
     ranges = {"coupler.length": "3.2..4 m:100", "rocker.length": "2..2.8 m:42"}

@@ -18,7 +18,7 @@ import pytest
 import linkwright as lw
 from linkwright.cli import main
 from linkwright.engine import machine_code
-from linkwright.study import kept
+from linkwright.study import finished_parts
 from linkwright.synthesis.free_curve import search as free_curve
 from linkwright.synthesis.free_curve.nodes import FOUR_BAR, Design, flat
 from linkwright.synthesis.free_curve.search import Search, polished
@@ -74,7 +74,7 @@ def _found(home: str, name: str) -> Callable[..., object]:
 def test_a_counted_search_goes_on_with_the_same_bits(
     task: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(kept, "WORTH", float("inf"))  # kept however fast it was found
+    monkeypatch.setattr(finished_parts, "WORTH", float("inf"))  # kept however fast it was found
     name, demands = COUNTED[task]
     whole, stop = _data(task, demands), list[int]()
     calls = counted(monkeypatch, name, stop)

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.synthesis.function_generation.certain import extremes
 from linkwright.synthesis.function_generation.exact import chebyshev_spacing, five_pairs
 from linkwright.synthesis.function_generation.generators import KINDS, GearedFiveBar
+from linkwright.synthesis.function_generation.proven_extremes import extremes
 
 X = np.linspace(1, 2, 21)
 INPUTS, LOGARITHM = np.radians((X - 1) * 60), np.radians(np.log10(X) / np.log10(2) * 90)

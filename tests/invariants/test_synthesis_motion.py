@@ -8,7 +8,7 @@ import pytest
 import linkwright as lw
 from linkwright.synthesis.motion_generation.burmester import five_poses
 from linkwright.synthesis.motion_generation.families import cubic
-from linkwright.synthesis.motion_generation.mixed import counted_solutions
+from linkwright.synthesis.motion_generation.mixed_poses import counted_solutions
 
 
 def hidden_four_bars(

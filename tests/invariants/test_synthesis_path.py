@@ -11,7 +11,7 @@ import linkwright as lw
 from linkwright.engine.machine_code import available
 from linkwright.synthesis.crank_family import CrankFamily
 from linkwright.synthesis.path_generation import search
-from linkwright.synthesis.path_generation.compiled import CompiledPaths
+from linkwright.synthesis.path_generation.compiled_starts import CompiledPaths
 from linkwright.synthesis.path_generation.projection import Demand, ProjectedPaths
 from linkwright.synthesis.result import different
 

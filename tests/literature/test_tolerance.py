@@ -9,7 +9,7 @@ import linkwright as lw
 from linkwright import parts
 from linkwright.study.designs import sweep_curves
 from linkwright.tolerance import Clearance, Tolerance, ToleranceStudy
-from linkwright.tolerance.pressed import exact, is_position
+from linkwright.tolerance.pressed_pins import exact, is_position
 from linkwright.tolerance.problem import Limit
 
 FOURBAR = {"crank.length": 1.0, "coupler.length": 3.5, "rocker.length": 2.5, "frame.O2.x": 4.0}

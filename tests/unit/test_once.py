@@ -3,7 +3,7 @@
 from concurrent.futures import ThreadPoolExecutor
 from threading import Barrier
 
-from linkwright.core.once import cached_property
+from linkwright.core.cached_property import cached_property
 
 
 class Found:

@@ -21,7 +21,7 @@ from linkwright.metrics.summary import wanted
 from linkwright.study.cluster import connected, current, in_turn
 from linkwright.study.designs import sweep
 from linkwright.study.ranges import Range
-from linkwright.study.vary import varied_ranges
+from linkwright.study.varied_dimensions import varied_ranges
 from linkwright.whole_files import make_folder, write_whole
 
 Sampling = Literal["grid", "sobol"]

@@ -23,9 +23,9 @@ from linkwright.words import LANGUAGES
 from linkwright.words.sentence import Sentence, Worded
 
 if TYPE_CHECKING:
-    from linkwright.files import plain_reader, reader
+    from linkwright.files import node_reader, reader
 
-    Place: TypeAlias = plain_reader.Place
+    Place: TypeAlias = node_reader.Place
     Reader: TypeAlias = reader.Reader
 else:  # what reads files is imported when one is read
     Place = Reader = Any

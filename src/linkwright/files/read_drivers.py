@@ -11,7 +11,7 @@ from linkwright.fields.base import Field
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar
 from linkwright.fields.references import LinkName
-from linkwright.files.plain_reader import Place, as_meant
+from linkwright.files.node_reader import Place, as_meant
 from linkwright.files.reader import Reader
 from linkwright.joints.base import Joint, JointName
 from linkwright.mechanism.mechanism import Cycle

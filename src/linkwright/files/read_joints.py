@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar, Sequence
-from linkwright.files.plain_reader import Place, as_meant
+from linkwright.files.node_reader import Place, as_meant
 from linkwright.files.reader import Names, Reader
 from linkwright.joints.base import IMPLIED, JOINTS, Entry, Joint, implied_joint
 from linkwright.mechanism.mechanism import Link

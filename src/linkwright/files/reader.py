@@ -19,7 +19,7 @@ from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar, Sequence, noun
 from linkwright.fields.references import LinkPoint
 from linkwright.fields.signals import resolve_output
-from linkwright.files.plain_reader import NUMBER, Place, PlainReader
+from linkwright.files.node_reader import NUMBER, Place, PlainReader
 from linkwright.joints.base import JOINTS
 from linkwright.registry import listed, nearest
 from linkwright.words.sentence import Sentence

@@ -7,7 +7,7 @@ import re
 from collections.abc import Mapping
 from typing import Any
 
-from linkwright.core.plain import Plain
+from linkwright.core.json_data import Plain
 from linkwright.drivers.base import Driver
 from linkwright.fields.references import PLACE
 from linkwright.files.read_model import HEADER, KEPT

@@ -27,7 +27,7 @@ from linkwright.units import number
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
-    from linkwright.files.plain_reader import Place as Where
+    from linkwright.files.node_reader import Place as Where
     from linkwright.files.reader import Reader
     from linkwright.kinematics.constraint_system import ConstraintSystem, Place, Row
     from linkwright.kinematics.dimensions import Dimensions

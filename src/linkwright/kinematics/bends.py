@@ -9,8 +9,8 @@ from __future__ import annotations
 import numpy as np
 
 from linkwright.core.arrays import Flags, Floats, Indices
+from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
-from linkwright.core.once import cached_property
 from linkwright.core.outputs import row_name, row_names
 from linkwright.core.search import zeros
 from linkwright.drivers.base import Law

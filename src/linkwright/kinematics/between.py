@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 from linkwright.core.arrays import Flags, Floats, Indices
-from linkwright.core.once import cached_property
+from linkwright.core.cached_property import cached_property
 from linkwright.core.outputs import row_name
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.change_points import closes, passages, signs

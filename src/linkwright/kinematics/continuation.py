@@ -12,9 +12,9 @@ import numpy as np
 
 from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.dataclass import dataclass
-from linkwright.core.frozen import Frozen
 from linkwright.core.inputs import driven
 from linkwright.core.outputs import row_name, row_names
+from linkwright.core.read_only import Frozen
 from linkwright.engine.scalar_backend import ScalarProgram
 from linkwright.kinematics.angles import geared, turn_state
 from linkwright.kinematics.assembly import AssemblyError

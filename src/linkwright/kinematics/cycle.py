@@ -12,9 +12,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Floats, Indices
+from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
 from linkwright.core.inputs import driven
-from linkwright.core.once import cached_property
 from linkwright.drivers.base import Driver, Law
 from linkwright.engine.recent import Recent
 from linkwright.errors import LinkwrightError

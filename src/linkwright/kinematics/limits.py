@@ -15,8 +15,8 @@ from typing import Literal
 import numpy as np
 
 from linkwright.core.arrays import Floats, Indices
+from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
-from linkwright.core.once import cached_property
 from linkwright.core.outputs import Output, kind_of, row_name
 from linkwright.core.search import ends, zero, zeros
 from linkwright.engine.recent import Recent

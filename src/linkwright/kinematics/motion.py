@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 
 from linkwright.core.arrays import Floats, Indices
+from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
-from linkwright.core.frozen import FrozenDict, locked
-from linkwright.core.once import cached_property
 from linkwright.core.outputs import KINDS, SLIDE, Output, row_name
-from linkwright.core.plotted import Plotted
+from linkwright.core.plot_method import Plotted
+from linkwright.core.read_only import FrozenDict, locked
 from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import Positions
 from linkwright.kinematics.design import Design

@@ -6,8 +6,8 @@ import threading
 from collections import OrderedDict
 from collections.abc import Hashable, Mapping
 
+from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
-from linkwright.core.once import cached_property
 from linkwright.core.outputs import Output
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program

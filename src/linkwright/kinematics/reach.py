@@ -8,7 +8,7 @@ from itertools import pairwise
 import numpy as np
 
 from linkwright.core.arrays import Flags, Floats, Indices
-from linkwright.core.once import cached_property
+from linkwright.core.cached_property import cached_property
 from linkwright.core.search import ends
 from linkwright.kinematics.between import Between
 from linkwright.kinematics.fold import fold

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Floats
+from linkwright.core.cached_property import cached_property
 from linkwright.core.inputs import mode_groups
-from linkwright.core.once import cached_property
 from linkwright.kinematics.change_points import (
     cut_off,
     mark_singular,

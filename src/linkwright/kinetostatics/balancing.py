@@ -9,8 +9,8 @@ from dataclasses import replace
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
-from linkwright.core.frozen import Frozen
-from linkwright.core.plotted import Plotted
+from linkwright.core.plot_method import Plotted
+from linkwright.core.read_only import Frozen
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.joints.base import Joint
 from linkwright.kinetostatics.forces import Forces, solve_forces

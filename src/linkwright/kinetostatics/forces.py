@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from linkwright.core.arrays import Floats
+from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
-from linkwright.core.frozen import locked
-from linkwright.core.once import cached_property
 from linkwright.core.outputs import kind_of, row_name, row_names
-from linkwright.core.plotted import Plotted
+from linkwright.core.plot_method import Plotted
+from linkwright.core.read_only import locked
 from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinematics.motion import Motion, Rows

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from linkwright.core.once import cached_property
+from linkwright.core.cached_property import cached_property
 from linkwright.core.outputs import SLIDE, Output, row_name, row_names
 from linkwright.engine.in_turn import InTurn
 from linkwright.engine.numpy_backend import NumpyProgram

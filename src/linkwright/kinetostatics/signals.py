@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from linkwright.core.arrays import Flags, Floats
-from linkwright.core.once import cached_property
+from linkwright.core.cached_property import cached_property
 from linkwright.core.outputs import Output
 from linkwright.drivers.base import Law
 from linkwright.kinematics.cycle import CycleError, Positions, over_cycle

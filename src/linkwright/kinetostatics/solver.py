@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.core.once import cached_property
+from linkwright.core.cached_property import cached_property
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solver import MotionSolver

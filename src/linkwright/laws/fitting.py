@@ -6,8 +6,8 @@ from typing import Any
 
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
-from linkwright.laws.altered import Backwards, Portion, Shifted
 from linkwright.laws.base import END_KINDS, MOTION_LAWS, Ends, MotionLaw
+from linkwright.laws.derived_laws import Backwards, Portion, Shifted
 from linkwright.registry import UnknownName, no_such
 
 

@@ -93,8 +93,8 @@ class LawField(Field):
             return None
 
     def written(self, value: Any) -> Any:
-        from linkwright.laws.altered import Backwards, Portion, Shifted
         from linkwright.laws.base import MOTION_LAWS, Ends
+        from linkwright.laws.derived_laws import Backwards, Portion, Shifted
 
         if isinstance(value, str):
             return value

@@ -8,7 +8,7 @@ from dataclasses import field
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
-from linkwright.core.plotted import Plotted
+from linkwright.core.plot_method import Plotted
 from linkwright.errors import LinkwrightError
 from linkwright.kinetostatics.forces import Forces
 from linkwright.machine.energy import EnergyFluctuation

@@ -11,8 +11,8 @@ from typing import Any, Literal, TypeAlias, overload
 import numpy as np
 
 from linkwright.core.arrays import Floats
+from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
-from linkwright.core.once import cached_property
 from linkwright.core.outputs import Output
 from linkwright.core.piecewise import POINTS, Piecewise, largest, reach, sought
 from linkwright.core.search import lowest

@@ -13,7 +13,7 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.piecewise import increasing
 from linkwright.core.plane import cross, crossings
-from linkwright.core.plotted import Plotted
+from linkwright.core.plot_method import Plotted
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import Forces

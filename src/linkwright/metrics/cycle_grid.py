@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from linkwright.core.arrays import Flags, Floats
-from linkwright.core.once import cached_property
+from linkwright.core.cached_property import cached_property
 from linkwright.core.outputs import kind_of
 from linkwright.core.piecewise import (
     POINTS,

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from linkwright.core.arrays import Flags, Floats
-from linkwright.core.once import cached_property
+from linkwright.core.cached_property import cached_property
 from linkwright.core.outputs import Output
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.between import Between

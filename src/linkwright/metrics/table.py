@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 from linkwright.core.html import html_table
-from linkwright.core.plotted import Plotted
+from linkwright.core.plot_method import Plotted
 from linkwright.errors import RequestError
 from linkwright.metrics.base import CELLS, METRICS, MetricValue
 from linkwright.metrics.quantities import number, shown_unit

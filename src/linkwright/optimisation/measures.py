@@ -31,8 +31,8 @@ from linkwright.study.alternatives import Alternative
 from linkwright.study.cluster import current, in_turn
 from linkwright.study.criteria import criterion
 from linkwright.study.design_numbers import Numbers, side_by_side
-from linkwright.study.kept import identity, surrounding
-from linkwright.study.vary import refuse_moved_positions
+from linkwright.study.finished_parts import identity, surrounding
+from linkwright.study.varied_dimensions import refuse_moved_positions
 
 #: Designs that a worker of a cluster takes at a time where they go one by one.
 FEW = 4

@@ -37,7 +37,7 @@ from linkwright.optimisation.optimum import Choice, OptimizeError, Optimum, hype
 from linkwright.optimisation.polish import Polish
 from linkwright.optimisation.problem import problem
 from linkwright.optimisation.task import CHECKED, Judged, Task
-from linkwright.study.kept import kept_in, surrounding
+from linkwright.study.finished_parts import kept_in, surrounding
 from linkwright.words.sentence import Sentence
 from linkwright.words.titles import title_said
 

@@ -19,7 +19,7 @@ from linkwright.optimisation.paths import path_error
 from linkwright.registry import offered
 from linkwright.study.objective import PathError
 from linkwright.study.ranges import Range, parse_range
-from linkwright.study.vary import between, checked_addresses, gives_part_of_tooth
+from linkwright.study.varied_dimensions import between, checked_addresses, gives_part_of_tooth
 from linkwright.words.sentence import Sentence
 
 Robust = Literal["", "worst", "yield"]

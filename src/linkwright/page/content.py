@@ -15,8 +15,8 @@ from typing import Any
 import numpy as np
 
 from linkwright.core.inputs import mode_inputs
+from linkwright.core.json_data import Plain
 from linkwright.core.outputs import row_name
-from linkwright.core.plain import Plain
 from linkwright.cycle_programs.loaded_cycle import SIZES
 from linkwright.engine.javascript import javascript
 from linkwright.engine.portable import Kernels

@@ -16,8 +16,8 @@ from typing import Any
 
 import numpy as np
 
+from linkwright.core.json_data import Plain
 from linkwright.core.outputs import row_name
-from linkwright.core.plain import Plain
 from linkwright.joints.marks import CamContact, RackWay, Wheel, Wheels
 from linkwright.kinematics.names import canonical
 from linkwright.loads.base import Load

@@ -11,8 +11,8 @@ from collections.abc import Iterable
 import numpy as np
 
 from linkwright.core.arrays import Floats
+from linkwright.core.json_data import Plain
 from linkwright.core.outputs import Output
-from linkwright.core.plain import Plain
 from linkwright.fields.signals import InputPhase, MovingPhase, SwingPhase
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import program_names

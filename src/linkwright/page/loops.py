@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
-from linkwright.core.plain import Plain
+from linkwright.core.json_data import Plain
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.closed_loops import ClosedLoops, Key, LoopBuilder, Terms, upstream
 from linkwright.kinematics.motion import Motion

@@ -7,8 +7,8 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from linkwright.core.arrays import Floats
+from linkwright.core.json_data import Plain
 from linkwright.core.outputs import KINDS, Output, row_names
-from linkwright.core.plain import Plain
 from linkwright.kinematics.names import canonical
 from linkwright.metrics.outputs import mechanism_outputs
 from linkwright.page.programs import PagePrograms

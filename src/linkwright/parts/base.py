@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.core.plotted import Plotted
+from linkwright.core.plot_method import Plotted
 from linkwright.errors import Finding, ModelError
 from linkwright.fields.base import GivenByFile
 from linkwright.metrics.quantities import FURTHER, SHOWN

@@ -15,7 +15,7 @@ from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node
 from linkwright.fields.nodes import Sequence as SequenceNode
 from linkwright.files.model_file import declared_kind, read_root
-from linkwright.files.plain_reader import Place, as_meant
+from linkwright.files.node_reader import Place, as_meant
 from linkwright.files.read_model import FORMAT, TASK_KEYS, read_parameters
 from linkwright.files.reader import Reader
 from linkwright.files.schema import json_schema

@@ -7,7 +7,7 @@ import traceback
 from collections.abc import Callable
 from typing import Any
 
-from linkwright.core.plain import Plain
+from linkwright.core.json_data import Plain
 from linkwright.errors import LinkwrightError
 from linkwright.words.sentence import Sentence, in_language
 

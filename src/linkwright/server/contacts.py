@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from linkwright import units
-from linkwright.core.plain import Plain
+from linkwright.core.json_data import Plain
 from linkwright.errors import LinkwrightError, QuantityError
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Scalar

@@ -8,7 +8,7 @@ from functools import partial
 
 import numpy as np
 
-from linkwright.core.plain import Plain
+from linkwright.core.json_data import Plain
 from linkwright.errors import LinkwrightError
 from linkwright.files.write import dump
 from linkwright.server.background import Job

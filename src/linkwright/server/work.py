@@ -10,7 +10,7 @@ from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from linkwright.core.plain import Plain
+from linkwright.core.json_data import Plain
 from linkwright.errors import Finding, LinkwrightError, ModelError
 from linkwright.files.document import Document
 from linkwright.files.model_file import gallery_names, read_text

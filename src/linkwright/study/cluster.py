@@ -11,7 +11,7 @@ from typing import Any
 
 from linkwright.engine.threads import cores
 from linkwright.errors import LinkwrightError
-from linkwright.study.kept import identity, surrounding
+from linkwright.study.finished_parts import identity, surrounding
 
 #: Parts that wait on the cluster for every thread of a worker, so that memory stays the same however many there are.
 WAITING = 3

@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from linkwright.core.dataclass import dataclass
-from linkwright.core.frozen import Frozen
 from linkwright.core.html import html_table
-from linkwright.core.plotted import Plotted
+from linkwright.core.plot_method import Plotted
+from linkwright.core.read_only import Frozen
 from linkwright.errors import RequestError, with_remedy
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.quantities import si_unit
@@ -100,7 +100,7 @@ class Comparison(Plotted, Frozen):
     @property
     def notes(self) -> tuple[str, ...]:
         """What could not be found, and why."""
-        from linkwright.study.unlike import unlike
+        from linkwright.study.comparability import unlike
 
         own = (note for each in self.alternatives for note in each.notes)
         return (*unlike(self.alternatives), *dict.fromkeys(own))

@@ -11,9 +11,9 @@ from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Flags, Floats, Whole
 from linkwright.core.dataclass import dataclass
-from linkwright.core.frozen import Frozen
 from linkwright.core.html import columns_html
-from linkwright.core.plotted import Plotted
+from linkwright.core.plot_method import Plotted
+from linkwright.core.read_only import Frozen
 from linkwright.engine.machine_code import available
 from linkwright.engine.sweep import Backend, Progress
 from linkwright.engine.threads import chunks
@@ -26,7 +26,7 @@ from linkwright.study.cluster import current, in_order, in_turn
 from linkwright.study.design_numbers import numbers_of
 from linkwright.study.failures import Failure, explained
 from linkwright.study.sweep_run import Manner, SweepRun
-from linkwright.study.vary import design_values, refuse_moved_positions
+from linkwright.study.varied_dimensions import design_values, refuse_moved_positions
 
 if TYPE_CHECKING:
     import pandas

@@ -39,7 +39,7 @@ from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.summary import KINDS, Summary, is_metric, reductions, wanted
 from linkwright.study.design_numbers import Numbers
-from linkwright.study.vary import checked_addresses, refuse_moved_positions
+from linkwright.study.varied_dimensions import checked_addresses, refuse_moved_positions
 from linkwright.units import LARGEST
 from linkwright.words.sentence import Sentence
 

@@ -10,9 +10,9 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.core.frozen import Frozen, locked
 from linkwright.core.html import html_table
-from linkwright.core.plotted import Plotted
+from linkwright.core.plot_method import Plotted
+from linkwright.core.read_only import Frozen, locked
 from linkwright.cycle_programs.known_loads import known_loads
 from linkwright.cycle_programs.slopes import Slopes
 from linkwright.cycle_programs.traced import Traced
@@ -25,7 +25,7 @@ from linkwright.kinetostatics.named import Quantity
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.summary import Summary
 from linkwright.study.objective import of_metrics
-from linkwright.study.vary import checked_addresses, refuse_misfits
+from linkwright.study.varied_dimensions import checked_addresses, refuse_misfits
 
 if TYPE_CHECKING:
     import pandas

@@ -12,10 +12,10 @@ from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.dataclass import dataclass
-from linkwright.core.frozen import Frozen
 from linkwright.core.html import columns_html
 from linkwright.core.outputs import Output
-from linkwright.core.plotted import Plotted
+from linkwright.core.plot_method import Plotted
+from linkwright.core.read_only import Frozen
 from linkwright.cycle_programs.terms import Asked
 from linkwright.engine.machine_code import available
 from linkwright.engine.threads import chunks
@@ -34,10 +34,10 @@ from linkwright.study.criteria import Criterion, NoSuchSubject, criteria
 from linkwright.study.design_numbers import side_by_side
 from linkwright.study.designs import sweep
 from linkwright.study.failures import Failure
-from linkwright.study.kept import identity, once
+from linkwright.study.finished_parts import identity, once
 from linkwright.study.ranges import Range
 from linkwright.study.sampling import grid, sobol
-from linkwright.study.vary import varied_ranges
+from linkwright.study.varied_dimensions import varied_ranges
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:

@@ -29,7 +29,7 @@ from linkwright.kinematics.cycle import Positions
 from linkwright.kinetostatics.named import Quantity
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.summary import Summary, finished, reductions
-from linkwright.study.kept import identity, once, reporting
+from linkwright.study.finished_parts import identity, once, reporting
 
 #: The result that says whether a design passes its cycle.
 PASSED = "passed"

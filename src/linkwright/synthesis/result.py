@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from linkwright.core.arrays import Complexes, Flags, Floats, Whole
 from linkwright.core.dataclass import dataclass
-from linkwright.core.plotted import Plotted
+from linkwright.core.plot_method import Plotted
 from linkwright.errors import LinkwrightError
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.synthesis.linkage import Linkage

@@ -15,7 +15,7 @@ from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar, Sequence
 from linkwright.files.compose import compose
 from linkwright.files.model_file import read_nodes
-from linkwright.files.plain_reader import Place
+from linkwright.files.node_reader import Place
 from linkwright.files.read_model import TASK_KEYS
 from linkwright.files.reader import Reader
 from linkwright.files.source import read_source

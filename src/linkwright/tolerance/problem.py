@@ -21,7 +21,7 @@ from linkwright.parts.fields import AnyQuantity, ByAddress, Either, Listed, Name
 from linkwright.parts.mechanism_field import MECHANISM, OfMechanism
 from linkwright.registry import nearest
 from linkwright.study.ranges import dimension_of
-from linkwright.study.vary import misfits
+from linkwright.study.varied_dimensions import misfits
 
 if TYPE_CHECKING:
     from linkwright.tolerance.result import Spread

@@ -16,10 +16,10 @@ from linkwright.metrics.summary import Summary, wanted
 from linkwright.parts.base import Block, Result, Row, fault, number, put, shown, unit
 from linkwright.study.designs import Sweep, sweep
 from linkwright.study.sensitivity import Sensitivity, sensitivity
-from linkwright.study.vary import design_values
+from linkwright.study.varied_dimensions import design_values
 from linkwright.tolerance.curves import CurveSpread, curve_spreads
-from linkwright.tolerance.followed import FollowedPins, follow
-from linkwright.tolerance.pressed import is_position, require_forces, shifts
+from linkwright.tolerance.pins_in_motion import FollowedPins, follow
+from linkwright.tolerance.pressed_pins import is_position, require_forces, shifts
 from linkwright.tolerance.problem import Limit, ToleranceStudy
 from linkwright.words import Say
 from linkwright.worked.page import Step
@@ -50,7 +50,7 @@ class Spread(Result):
 
     Linear: σ² = Σ (∂y/∂p · σ_p)², exact derivatives at the nominal mechanism; a free clearance c counts its two
     components with c/√2 each. Monte Carlo: machines drawn by a scrambled Sobol sequence and solved whole. Pressed
-    clearances shift the numbers (see ``linkwright.tolerance.pressed``) and do not spread them.
+    clearances shift the numbers (see ``linkwright.tolerance.pressed_pins``) and do not spread them.
     """
 
     area: ClassVar[str] = "tolerance"

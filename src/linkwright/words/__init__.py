@@ -3,7 +3,7 @@
 A key begins with its area: ``solve.summary`` is in ``words/en/solve.py`` and ``words/zh/solve.py``, each
 with one mapping ``WORDS`` of keys without the area. A new area is one more file per language; both
 languages have the same keys and the same ``{names}`` in their texts. What is the same text in all of them stands in
-``words/alike.py``, by whole keys.
+``words/untranslated.py``, by whole keys.
 """
 
 from __future__ import annotations
@@ -12,8 +12,8 @@ import importlib
 from collections.abc import Callable, Mapping
 from functools import cache, partial
 
-from linkwright.core.installed import modules_within
-from linkwright.words.alike import WORDS as ALIKE
+from linkwright.core.entry_points import modules_within
+from linkwright.words.untranslated import WORDS as ALIKE
 
 LANGUAGES = ("en", "zh")
 Say = Callable[..., str]

@@ -13,7 +13,7 @@ from linkwright.core.outputs import Output
 from linkwright.kinematics.groups import in_one_step
 from linkwright.kinetostatics.forces import Forces
 from linkwright.structure.group import Connection, Group, TreeJoint
-from linkwright.worked.applied import Known, KnownForces
+from linkwright.worked.applied_forces import Known, KnownForces
 from linkwright.worked.chains import ChainClosure, attach
 from linkwright.worked.higher_pairs import closures
 from linkwright.worked.page import Step

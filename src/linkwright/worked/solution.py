@@ -13,7 +13,7 @@ from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.structure.group import Group
 from linkwright.words import speaker
-from linkwright.worked.applied import KnownForces
+from linkwright.worked.applied_forces import KnownForces
 from linkwright.worked.higher_pairs import closures
 from linkwright.worked.page import Equation, Step
 from linkwright.worked.places import Places

@@ -13,7 +13,7 @@ from typing import Protocol, cast
 
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
-from linkwright.core.installed import modules_within
+from linkwright.core.entry_points import modules_within
 
 #: Commands that solve the file of a machine part and do nothing else.
 PARTS = ("beam", "program", "statistics", "trajectory", "vibration")

@@ -94,7 +94,7 @@ def _pairs(texts: list[str] | None) -> dict[str, str] | None:
 
 def _stopped(stopped: KeyboardInterrupt, say: Say) -> str:
     """What an interruption before the first population leaves."""
-    from linkwright.study.kept import Interrupted
+    from linkwright.study.finished_parts import Interrupted
 
     if isinstance(stopped, Interrupted):
         return say("study.interrupted", path=stopped.state)

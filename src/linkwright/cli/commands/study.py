@@ -36,7 +36,7 @@ def arguments(option: Options) -> None:
 def run(options: argparse.Namespace, session: Session) -> int:
     """Studies the designs and prints or writes what came out."""
     from linkwright.cli.files import PICTURES, refuse_output
-    from linkwright.cli.kept import kept
+    from linkwright.cli.long_commands import kept
     from linkwright.cli.source import read_model
     from linkwright.files.write import dump
     from linkwright.study.cluster import on_cluster

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def arguments(option: Options) -> None:
-    from linkwright.synthesis.names import TASK_NAMES
+    from linkwright.synthesis.task_names import TASK_NAMES
 
     option("task", "FILE|TASK", help=option.say("synthesize.task_help", tasks=", ".join(TASK_NAMES)))
     option("demands", "KEY=VALUE", nargs="*")
@@ -47,7 +47,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
 
 
 def _solve(options: argparse.Namespace, session: Session) -> Synthesis:
-    from linkwright.cli.kept import kept
+    from linkwright.cli.long_commands import kept
     from linkwright.study.cluster import on_cluster
     from linkwright.synthesis.tasks import synthesize
 
@@ -59,7 +59,7 @@ def _solve(options: argparse.Namespace, session: Session) -> Synthesis:
 def _asked(options: argparse.Namespace, session: Session) -> tuple[str, dict[str, Any]]:
     """The task and its demands, from a file or the command line."""
     from linkwright.files.source import GALLERY, read_source
-    from linkwright.synthesis.names import TASK_NAMES
+    from linkwright.synthesis.task_names import TASK_NAMES
     from linkwright.synthesis.tasks import asked_in
 
     if options.task not in TASK_NAMES and not options.demands:

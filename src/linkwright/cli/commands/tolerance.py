@@ -22,7 +22,7 @@ def arguments(option: Options) -> None:
 
 def run(options: argparse.Namespace, session: Session) -> int:
     """Solves the file's problem; its drawn machines are computed by threads or a cluster."""
-    from linkwright.cli.kept import kept
+    from linkwright.cli.long_commands import kept
     from linkwright.parts.file import solve
     from linkwright.study.cluster import on_cluster
 

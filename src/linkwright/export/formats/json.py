@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from typing import Any
 
-from linkwright.core.plain import plain
+from linkwright.core.json_data import plain
 from linkwright.export.base import FORMATS, Format
 from linkwright.export.results import Results
 from linkwright.export.tables import tables

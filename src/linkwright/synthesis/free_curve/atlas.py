@@ -24,8 +24,8 @@ from linkwright.core.arrays import Complexes, Floats, Indices, Whole
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.cache import folder
 from linkwright.engine.threads import cores, spread_over
+from linkwright.synthesis.free_curve.curve_similarity import ANGLES, MARKS, POINTS, REACH, RINGS, TURNS
 from linkwright.synthesis.free_curve.kernels import kernels
-from linkwright.synthesis.free_curve.likeness import ANGLES, MARKS, POINTS, REACH, RINGS, TURNS
 from linkwright.synthesis.free_curve.nodes import Design, Draw, node_paths, random_structure, turned_paths
 from linkwright.synthesis.free_curve.target import Target, even_points, normal
 

@@ -11,9 +11,9 @@ from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Complexes
 from linkwright.engine.machine_code import available
-from linkwright.study.kept import reporting, surrounding
+from linkwright.study.finished_parts import reporting, surrounding
 from linkwright.synthesis.free_curve.curve_file import read_curve
-from linkwright.synthesis.free_curve.drawn import drawing
+from linkwright.synthesis.free_curve.drawing_order import drawing
 from linkwright.synthesis.free_curve.linkages import Placed, kind_of, linkage_of
 from linkwright.synthesis.free_curve.nodes import Design
 from linkwright.synthesis.free_curve.search import JOINTS, Search

@@ -362,9 +362,9 @@ def deviation(
 @cache
 def kernels() -> Kernels:
     """The compiled functions."""
+    from linkwright.synthesis.free_curve.curve_similarity import LIKENESS
     from linkwright.synthesis.free_curve.descent import DESCENT
-    from linkwright.synthesis.free_curve.likeness import LIKENESS
-    from linkwright.synthesis.free_curve.promise import PROMISES
+    from linkwright.synthesis.free_curve.dyad_gain import PROMISES
     from linkwright.synthesis.free_curve.sample import SAMPLING
 
     return Kernels(

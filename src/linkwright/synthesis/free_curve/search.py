@@ -27,7 +27,7 @@ from linkwright.core.arrays import Floats, Whole
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.threads import chunks, cores
 from linkwright.study.cluster import current, hands, in_turn
-from linkwright.study.kept import identity, once, surrounding
+from linkwright.study.finished_parts import identity, once, surrounding
 from linkwright.synthesis.free_curve.atlas import NEAREST, Laid, atlas
 from linkwright.synthesis.free_curve.kernels import FAR
 from linkwright.synthesis.free_curve.linkages import Placed

@@ -18,7 +18,7 @@ import numpy as np
 from linkwright.core.arrays import Complexes, Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.synthesis.crank_family import CrankFamily
-from linkwright.synthesis.function_generation.certain import least_sine
+from linkwright.synthesis.function_generation.proven_extremes import least_sine
 from linkwright.synthesis.linkage import Guide, Linkage
 
 Points = dict[str, Complexes]

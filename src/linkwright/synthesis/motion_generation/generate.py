@@ -30,7 +30,7 @@ from linkwright.synthesis.motion_generation.families import (
     on_lines,
     usual_window,
 )
-from linkwright.synthesis.motion_generation.mixed import counted_solutions, mixed_solutions
+from linkwright.synthesis.motion_generation.mixed_poses import counted_solutions, mixed_solutions
 from linkwright.synthesis.result import (
     Candidate,
     Synthesis,

@@ -27,7 +27,7 @@ from linkwright.core.arrays import Complexes, Flags, Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.machine_code import available
 from linkwright.engine.threads import cores, spread_over
-from linkwright.study.kept import once
+from linkwright.study.finished_parts import once
 
 #: Paths that are carried together: their matrices stay in the processor's cache.
 CHUNK = 181

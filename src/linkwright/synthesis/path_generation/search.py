@@ -14,8 +14,8 @@ from linkwright.core.arrays import Complexes, Flags, Floats, Whole
 from linkwright.engine.machine_code import available
 from linkwright.synthesis.crank_family import CrankFamily, couplers
 from linkwright.synthesis.least_squares import minimise
-from linkwright.synthesis.path_generation.bounded import BoundedPaths
-from linkwright.synthesis.path_generation.compiled import CompiledPaths
+from linkwright.synthesis.path_generation.bounded_dimensions import BoundedPaths
+from linkwright.synthesis.path_generation.compiled_starts import CompiledPaths
 from linkwright.synthesis.path_generation.projection import Demand, ProjectedPaths
 
 #: Starts tried, iterated, and carried to the end: timed and untimed; in arrays.

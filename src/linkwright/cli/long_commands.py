@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 @contextmanager
 def kept(state: str | None, name: str, asked: Iterable[object], session: Session) -> Iterator[Report | None]:
     """``kept_in`` of a command, with a bar; an interruption names the file that is left."""
-    from linkwright.study.kept import Interrupted, kept_in
+    from linkwright.study.finished_parts import Interrupted, kept_in
 
     try:
         with (

@@ -14,7 +14,7 @@ import numpy as np
 from linkwright.core.arrays import Complexes, Floats, Whole
 from linkwright.synthesis.least_squares import minimise, with_differences
 from linkwright.synthesis.motion_generation.burmester import Dyads
-from linkwright.synthesis.motion_generation.counted import KNOWN, all_four_bars, real_ones
+from linkwright.synthesis.motion_generation.finite_solutions import KNOWN, all_four_bars, real_ones
 from linkwright.synthesis.nine_points.classes import CLASSES, is_real, relatives
 from linkwright.synthesis.nine_points.query import nine_points
 from linkwright.synthesis.nine_points.tracker import Places

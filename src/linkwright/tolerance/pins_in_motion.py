@@ -25,7 +25,7 @@ from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.loads.base import Load
 from linkwright.mechanism.mechanism import Link, Mechanism
 from linkwright.study.designs import sweep_curves
-from linkwright.tolerance.turned import TurnedByReaction
+from linkwright.tolerance.pin_turning_law import TurnedByReaction
 
 if TYPE_CHECKING:
     from linkwright.tolerance.problem import Clearance, ToleranceStudy
