@@ -139,3 +139,12 @@ def test_the_ram_has_its_stroke_and_the_lever_its_ratio(k: float) -> None:
     assert max(share, 1 - share) / min(share, 1 - share) == pytest.approx(k, rel=5e-3)
     with pytest.raises(lw.SynthesisError, match="the rod is too short"):
         lw.synthesize("quick_return", quick_return_ratio=k, frame=0.4, stroke=0.5, rod=1e-3)
+
+
+def test_straight_lines_come_with_the_smallest_linkage_first() -> None:
+    """The coupler of Hoecken's reaches twice as far as its pins are apart, and was not counted."""
+    longest = [each.linkage.longest() for each in straight_line(0.1)]
+    assert longest == sorted(longest)
+    (hoecken,) = straight_line(0.1, kind="hoecken")
+    length = hoecken.linkage.lengths()
+    assert hoecken.linkage.longest() == pytest.approx(2 * length["coupler"], rel=1e-9)

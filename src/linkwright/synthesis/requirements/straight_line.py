@@ -84,7 +84,7 @@ def _straight(names: tuple[str, ...], length: float, allowed: float) -> tuple[Ca
         _peaucellier(length) if name == "peaucellier" else _four_bar(name, length, allowed) for name in names
     ]
     good = [each for each in found if each is not None]
-    return tuple(sorted(good, key=lambda each: each.values["largest [m]"]))
+    return tuple(sorted(good, key=lambda each: each.linkage.longest()))
 
 
 def _four_bar(name: str, length: float, allowed: float) -> Candidate | None:
@@ -102,8 +102,7 @@ def _four_bar(name: str, length: float, allowed: float) -> Candidate | None:
     o2 = complex(shape.frame * scale)
     facts = assess_four_bars(np.array([0j]), pins[None], joints[None], np.array([o2]))
     curve = path_of_four_bar(0, pins[0], joints[0], o2, path[first] * scale)
-    largest = abs(scale) * max(shape.frame, shape.crank, shape.coupler, shape.output)
-    values = {"largest [m]": float(largest), "input_range [rad]": float(theta[last] - theta[first])}
+    values = {"input_range [rad]": float(theta[last] - theta[first])}
     error = off * abs(scale)
     found = four_bar_candidate(
         0,
@@ -171,7 +170,7 @@ def _peaucellier(length: float) -> Candidate:
     pins = crank + crank * np.exp(1j * turn)
     curve = scale * power * pins / np.abs(pins) ** 2
     sine = math.sin(math.acos((side**2 + arm**2 - abs(pin) ** 2) / (2 * side * arm)))
-    values = {"largest [m]": arm * scale, "input_range [rad]": 2 * half}
+    values = {"input_range [rad]": 2 * half}
     return Candidate(
         linkage, 0.0, "peaucellier", (), False, math.asin(sine), arm / crank, curve=curve, values=values
     )

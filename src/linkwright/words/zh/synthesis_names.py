@@ -41,7 +41,6 @@ WORDS = {
     "arm": "臂长",
     "angle": "角度",
     "radius": "半径",
-    "largest": "最长杆",
     "input_range": "输入转角范围",
     "swing_angle": "摆角",
     "follower_angle": "从动曲柄角",
