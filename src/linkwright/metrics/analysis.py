@@ -134,8 +134,7 @@ class Analysis:
         """Limit positions of an output, by increasing time; none where the positions follow no law in time."""
         if output not in self._limits:
             found = limit_positions(self.motion, output) if self.resolver.possible else ()
-            limits = [Limit(each.input, each.time, each.value, each.kind) for each in found]
-            self._limits[output] = tuple(sorted(limits, key=lambda each: each.time))
+            self._limits[output] = tuple(sorted(found, key=lambda each: each.time))
         return self._limits[output]
 
     def outermost(self, output: Output) -> list[Limit]:
