@@ -15,7 +15,7 @@ from tests.course_sheets import FOUR_BAR, Pen
 
 import linkwright as lw
 from linkwright.cli import main
-from linkwright.course.chain import lines_of, run
+from linkwright.course.calculation_chain import lines_of, run
 from linkwright.course.mistakes import MISTAKES
 from linkwright.errors import LinkwrightError
 from linkwright.words import LANGUAGES, has, say

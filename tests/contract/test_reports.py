@@ -23,8 +23,8 @@ from linkwright.joints.cam import CamJoint
 from linkwright.joints.cam_shape import CamShape
 from linkwright.plot.force_names import reaction_pairs
 from linkwright.plot.svg.render import natural_size
-from linkwright.report.case import Case
 from linkwright.report.document import Figure, Formula, Heading, Paragraph, Table, plain
+from linkwright.report.machine_results import Case
 from linkwright.report.numbers import typeset, without_rounding
 from linkwright.report.report import report
 from linkwright.report.section import SECTIONS

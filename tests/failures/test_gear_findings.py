@@ -11,7 +11,7 @@ import linkwright as lw
 from linkwright.cli import main
 from linkwright.errors import LinkwrightError
 from linkwright.files.model_file import read_text
-from linkwright.kinematics.analysed import analysed
+from linkwright.kinematics.structure_with_rank import analysed
 from linkwright.machine import steady_running
 from linkwright.words.sentence import in_language
 

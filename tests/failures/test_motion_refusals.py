@@ -18,7 +18,7 @@ from linkwright.kinematics.assembly import AssemblyError
 from linkwright.kinematics.constraint_system import drawn_coordinates
 from linkwright.kinematics.input_range import input_range
 from linkwright.kinematics.outcome import PositionError
-from linkwright.kinematics.passing import plainly_passed
+from linkwright.kinematics.passing_proof import plainly_passed
 from linkwright.kinematics.rank import rank_sentence
 from linkwright.mechanism.geometry import mechanism_size
 from linkwright.mechanism.mechanism import Cycle, Mechanism

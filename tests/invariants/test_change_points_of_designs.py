@@ -7,9 +7,9 @@ import pytest
 
 import linkwright as lw
 from linkwright.cycle_programs.change_points import ChangePoints, near_enough
-from linkwright.cycle_programs.traced import Traced
+from linkwright.cycle_programs.traced_outputs import Traced
 from linkwright.kinematics.cycle import over_cycle
-from linkwright.kinematics.passing import NEAR
+from linkwright.kinematics.passing_proof import NEAR
 
 FOURBAR = """
 format: 1

@@ -15,14 +15,14 @@ from tests.reference.test_branches import fault
 import linkwright as lw
 from linkwright.cycle_programs import iterated_groups
 from linkwright.kinematics.assembly import AssemblyError
-from linkwright.kinematics.between import Between
+from linkwright.kinematics.between_positions import Between
 from linkwright.kinematics.branch import CORRECTION, MISFIT, Branch, Way, _Walk, follow, straight
 from linkwright.kinematics.certificate import End, certify, cubic
 from linkwright.kinematics.closed_loops import ClosedLoops
 from linkwright.kinematics.continuation import Followed, Follower, _Journey
 from linkwright.kinematics.design import Design
-from linkwright.kinematics.explain import branch_notes
 from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.reach_sentences import branch_notes
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.metrics import Analysis
 

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.engine.recent import Recent
+from linkwright.engine.recently_made import Recent
 from linkwright.kinematics import programs
 from linkwright.kinematics.cycle import over_cycle
-from linkwright.kinematics.shape import shape
+from linkwright.kinematics.program_shape import shape
 from linkwright.kinematics.solve import MotionRun
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinetostatics.run import forces_at_once, run_forces

@@ -7,7 +7,7 @@ import linkwright as lw
 from linkwright.core.outputs import Output
 from linkwright.cycle_programs.limit_stages import constants, limit_stages, near_limits
 from linkwright.cycle_programs.metric_cycle import metric_cycle
-from linkwright.cycle_programs.traced import Traced
+from linkwright.cycle_programs.traced_outputs import Traced
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.kinematics.cycle import over_cycle

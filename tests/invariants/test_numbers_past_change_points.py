@@ -14,7 +14,7 @@ import pytest
 import linkwright as lw
 from linkwright.core.piecewise import NODES
 from linkwright.metrics import metrics
-from linkwright.metrics.passed import between, limit, sides
+from linkwright.metrics.one_sided_limits import between, limit, sides
 
 MODEL = """
 format: 1

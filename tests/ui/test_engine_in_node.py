@@ -13,7 +13,7 @@ from tests.ui.node import in_node, needs_node, work
 
 import linkwright as lw
 from linkwright.cycle_programs.loaded_cycle import loaded_cycle
-from linkwright.cycle_programs.traced import Traced
+from linkwright.cycle_programs.traced_outputs import Traced
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program

@@ -26,8 +26,8 @@ from linkwright.kinematics.change_points import (
     way,
 )
 from linkwright.kinematics.cycle import Positions, over_cycle
-from linkwright.kinematics.explain import passage_notes
 from linkwright.kinematics.passage import Passage
+from linkwright.kinematics.reach_sentences import passage_notes
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.mechanism.geometry import mechanism_size
 from linkwright.mechanism.mechanism import Cycle

@@ -9,7 +9,7 @@ import pytest
 from tests.invariants.test_certificate import SLOTTED
 
 import linkwright as lw
-from linkwright.cycle_programs.traced import Traced
+from linkwright.cycle_programs.traced_outputs import Traced
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
 from linkwright.engine.vector import Vec

@@ -30,8 +30,8 @@ from linkwright.core.expression_tree import (
     scalar_functions,
 )
 from linkwright.engine import trace
-from linkwright.engine.late import numpy as np
-from linkwright.engine.recent import Recent
+from linkwright.engine.late_import import numpy as np
+from linkwright.engine.recently_made import Recent
 from linkwright.errors import QuantityError
 from linkwright.registry import nearest, offered
 from linkwright.words.sentence import Sentence

@@ -12,7 +12,7 @@ from dataclasses import replace
 from functools import partial
 
 from linkwright.core.dataclass import dataclass
-from linkwright.course.chain import Change, Line, Values, lines_of, run, with_terms
+from linkwright.course.calculation_chain import Change, Line, Values, lines_of, run, with_terms
 from linkwright.kinematics.cycle import at_inputs
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion

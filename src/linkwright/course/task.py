@@ -8,7 +8,7 @@ from typing import Any
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
-from linkwright.course.chain import Line
+from linkwright.course.calculation_chain import Line
 from linkwright.course.mistakes import Sheet
 from linkwright.errors import LinkwrightError, RequestError, about
 from linkwright.mechanism.mechanism import Mechanism

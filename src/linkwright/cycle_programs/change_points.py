@@ -14,14 +14,14 @@ import numpy as np
 from linkwright.core.arrays import Floats, Indices
 from linkwright.core.inputs import Input, turned
 from linkwright.core.search import lowest
-from linkwright.cycle_programs.traced import Traced
+from linkwright.cycle_programs.traced_outputs import Traced
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
 from linkwright.engine.stage import Backend, Run, code_for
 from linkwright.kinematics.assembly import modal_groups
 from linkwright.kinematics.change_points import MEETING, TOUCH
 from linkwright.kinematics.cycle import Positions
-from linkwright.kinematics.passing import NEAR
+from linkwright.kinematics.passing_proof import NEAR
 
 #: Designs whose positions are evaluated together.
 BLOCK = 4096

@@ -16,7 +16,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.cycle_programs.joint_bends import other_bends
 from linkwright.cycle_programs.limit_stages import CONVERGED, narrowed, rates
-from linkwright.cycle_programs.traced import Traced
+from linkwright.cycle_programs.traced_outputs import Traced
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import Reduction

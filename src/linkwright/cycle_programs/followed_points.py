@@ -15,7 +15,7 @@ import numpy as np
 from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.cycle_programs.gauss_cycle import GaussCycle, at_point, iterated
 from linkwright.cycle_programs.iterated_groups import Following, following
-from linkwright.cycle_programs.traced import VALID, Traced, design_table
+from linkwright.cycle_programs.traced_outputs import VALID, Traced, design_table
 from linkwright.engine.cycle import CycleProgram, Known
 from linkwright.engine.numpy_backend import numpy_program
 from linkwright.engine.program import Program

@@ -43,7 +43,7 @@ from linkwright.cycle_programs.limit_stages import (
     whole_turns,
 )
 from linkwright.cycle_programs.loaded_cycle import friction_doubt
-from linkwright.cycle_programs.traced import VALID, Traced
+from linkwright.cycle_programs.traced_outputs import VALID, Traced
 from linkwright.cycle_programs.uneven_bends import MOST, UnevenBends, uneven_bends
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import Reduction
@@ -51,8 +51,8 @@ from linkwright.engine.stage import Stage
 from linkwright.engine.trace import Mask, Scalar, Trace, floor, maximum, minimum, select, sign
 from linkwright.fields.signals import InputPhase, MovingPhase, SwingPhase, Table
 from linkwright.kinetostatics.friction import Swinging
+from linkwright.kinetostatics.load_site import limit_name
 from linkwright.kinetostatics.signals import MotionSignals
-from linkwright.kinetostatics.site import limit_name
 from linkwright.kinetostatics.traced_loads import AlongInput
 from linkwright.loads.base import Load
 from linkwright.loads.phases import TURN

@@ -11,11 +11,11 @@ from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.outputs import Output
 from linkwright.cycle_programs.limit_stages import Way, constants, limit_stages
 from linkwright.cycle_programs.loaded_cycle import along_input, doubtful, doubts, with_loads
-from linkwright.cycle_programs.traced import NEAREST, VALID, Traced, design_table
+from linkwright.cycle_programs.traced_outputs import NEAREST, VALID, Traced, design_table
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.numpy_backend import numpy_program
 from linkwright.engine.program import Program
-from linkwright.engine.recent import Recent
+from linkwright.engine.recently_made import Recent
 from linkwright.engine.reductions import VALID_COUNT, Reduction, Results
 from linkwright.engine.stage import Backend, Stage
 from linkwright.engine.trace import Scalar, select

@@ -10,7 +10,7 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.cycle_programs.limit_stages import whole_turns
-from linkwright.cycle_programs.traced import Traced
+from linkwright.cycle_programs.traced_outputs import Traced
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import Reduction
 from linkwright.engine.stage import Stage

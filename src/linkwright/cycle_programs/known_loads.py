@@ -18,7 +18,7 @@ from linkwright.core.outputs import kind_of, owners_of
 from linkwright.cycle_programs.iterated_groups import limits_beside
 from linkwright.cycle_programs.limit_stages import constants, whole_turns
 from linkwright.cycle_programs.loaded_cycle import FoundLimits, found_limits
-from linkwright.cycle_programs.traced import Traced
+from linkwright.cycle_programs.traced_outputs import Traced
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.cycle_gradient import cycle_gradient
 from linkwright.engine.table import Tables
@@ -26,9 +26,9 @@ from linkwright.errors import LinkwrightError
 from linkwright.fields.signals import InputPhase
 from linkwright.kinetostatics.friction import still_rates
 from linkwright.kinetostatics.friction_stage import MOST, can_be_traced
+from linkwright.kinetostatics.load_site import ACTS, middle_name
 from linkwright.kinetostatics.run import run_forces
 from linkwright.kinetostatics.signals import MotionSignals
-from linkwright.kinetostatics.site import ACTS, middle_name
 from linkwright.kinetostatics.traced_loads import AlongInput, numbers_of_loads
 from linkwright.loads.base import Load
 from linkwright.loads.magnitude import angles_of, by_rate, has_formula, through_end

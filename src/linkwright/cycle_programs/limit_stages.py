@@ -14,7 +14,7 @@ import numpy as np
 from linkwright.core.dataclass import dataclass
 from linkwright.core.inputs import Input
 from linkwright.core.outputs import Output
-from linkwright.cycle_programs.traced import VALID, Traced
+from linkwright.cycle_programs.traced_outputs import VALID, Traced
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import Reduction
 from linkwright.engine.stage import Stage
@@ -23,7 +23,7 @@ from linkwright.engine.trace import Mask, Scalar, Trace, absolute, cos, minimum,
 from linkwright.fields.signals import SwingPhase
 from linkwright.kinematics.names import program_names
 from linkwright.kinetostatics.friction import FrictionTerm, Swinging
-from linkwright.kinetostatics.site import LAP, TracedSite, limit_name, output_value, value_name
+from linkwright.kinetostatics.load_site import LAP, TracedSite, limit_name, output_value, value_name
 from linkwright.loads.base import Load
 from linkwright.loads.magnitude import part_ends, turned
 from linkwright.loads.phases import NEAR, TURN

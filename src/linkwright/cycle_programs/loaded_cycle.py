@@ -13,7 +13,7 @@ from linkwright.core.outputs import Output, kind_of, owners_of
 from linkwright.cycle_programs.limit_stages import constants, limit_stages, whole_turns
 from linkwright.cycle_programs.timed_limits import timed_limits
 from linkwright.cycle_programs.timed_search import TimedSearch
-from linkwright.cycle_programs.traced import VALID, Traced, design_table
+from linkwright.cycle_programs.traced_outputs import VALID, Traced, design_table
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.reductions import VALID_COUNT, Reduction, Results
 from linkwright.engine.stage import Backend, Stage
@@ -21,8 +21,8 @@ from linkwright.engine.trace import Scalar, select
 from linkwright.errors import LinkwrightError
 from linkwright.kinetostatics.friction import STILL, FrictionTerm, Swinging, joint_rate, still_rates
 from linkwright.kinetostatics.friction_stage import can_be_traced
+from linkwright.kinetostatics.load_site import turns_steadily
 from linkwright.kinetostatics.signals import MotionSignals
-from linkwright.kinetostatics.site import turns_steadily
 from linkwright.kinetostatics.traced_loads import AlongInput, numbers_of_loads
 from linkwright.loads.base import Load
 from linkwright.loads.magnitude import by_limits, followed, through_end

@@ -15,7 +15,7 @@ from linkwright.cycle_programs.gauss_cycle import PIECES, SHARE, GaussCycle, can
 from linkwright.cycle_programs.limit_stages import constants, rates, whole_turns
 from linkwright.cycle_programs.loaded_cycle import along_input, with_loads
 from linkwright.cycle_programs.piece_summaries import SIDES, PieceSummaries
-from linkwright.cycle_programs.seen import Seen
+from linkwright.cycle_programs.signal_summaries import Seen
 from linkwright.cycle_programs.steady_designs import REST, SIGNALS, SteadyDesigns
 from linkwright.cycle_programs.term_parts import (
     AT_LIMITS,
@@ -29,13 +29,13 @@ from linkwright.cycle_programs.term_parts import (
 )
 from linkwright.cycle_programs.terms import Asked, Term, all_parts, term
 from linkwright.cycle_programs.timed_cycle import TimedCycle, can_go_together, gauss_points
-from linkwright.cycle_programs.traced import VALID, Traced, TurnsThrough, design_table
+from linkwright.cycle_programs.traced_outputs import VALID, Traced, TurnsThrough, design_table
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.cycle_gradient import CycleGradient, cycle_gradient
 from linkwright.engine.machine_code import available
 from linkwright.engine.numpy_backend import numpy_program
 from linkwright.engine.program import Program
-from linkwright.engine.recent import Recent
+from linkwright.engine.recently_made import Recent
 from linkwright.engine.reductions import Reduction
 from linkwright.engine.replay import across_designs
 from linkwright.engine.stage import Backend, Stage

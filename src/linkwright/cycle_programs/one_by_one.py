@@ -8,12 +8,12 @@ import numpy as np
 
 from linkwright.core.arrays import Flags, Floats
 from linkwright.core.inputs import mode_inputs
-from linkwright.cycle_programs.traced import Traced
+from linkwright.cycle_programs.traced_outputs import Traced
 from linkwright.engine.trace import Mask
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.design import Design
-from linkwright.kinematics.explain import refusal
 from linkwright.kinematics.motion import Motion, Rows
+from linkwright.kinematics.reach_sentences import refusal
 from linkwright.kinematics.solve import MotionRun
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinetostatics.run import run_forces

@@ -10,11 +10,11 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.cycle_programs.limit_stages import constants
-from linkwright.cycle_programs.traced import VALID, Traced, design_table
+from linkwright.cycle_programs.traced_outputs import VALID, Traced, design_table
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.derivative import forward
 from linkwright.engine.program import Program
-from linkwright.engine.recent import Recent
+from linkwright.engine.recently_made import Recent
 from linkwright.engine.reductions import Reduction
 from linkwright.engine.replay import Replay
 from linkwright.engine.stage import Arrays, Backend, Stage

@@ -10,15 +10,15 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.cycle_programs.known_loads import KnownLoads
 from linkwright.cycle_programs.loaded_cycle import RUBBING, friction_doubt
-from linkwright.cycle_programs.traced import VALID, Traced
+from linkwright.cycle_programs.traced_outputs import VALID, Traced
 from linkwright.engine.derivative import forward, reverse
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
 from linkwright.engine.stage import Backend
 from linkwright.engine.states import inputs_as_fields
 from linkwright.errors import LinkwrightError
-from linkwright.kinetostatics.named import Quantity
-from linkwright.kinetostatics.site import middle_name
+from linkwright.kinetostatics.load_site import middle_name
+from linkwright.kinetostatics.named_outputs import Quantity
 
 
 class Slopes:

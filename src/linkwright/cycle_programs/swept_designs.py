@@ -15,7 +15,7 @@ from linkwright.cycle_programs.gauss_cycle import GaussCycle
 from linkwright.cycle_programs.metric_cycle import Found
 from linkwright.cycle_programs.terms import Term, chosen_subjects, metric_of
 from linkwright.cycle_programs.timed_cycle import TimedCycle, can_go_together, gauss_points
-from linkwright.cycle_programs.traced import VALID, Traced, design_table
+from linkwright.cycle_programs.traced_outputs import VALID, Traced, design_table
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.cycle_gradient import CycleGradient, cycle_gradient
 from linkwright.engine.program import Program

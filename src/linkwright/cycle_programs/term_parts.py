@@ -9,7 +9,7 @@ from linkwright.cycle_programs.limit_stages import extreme_name
 from linkwright.cycle_programs.piece_summaries import SIDES
 from linkwright.cycle_programs.terms import Term
 from linkwright.engine.trace import Scalar, absolute, maximum
-from linkwright.kinetostatics.site import limit_name
+from linkwright.kinetostatics.load_site import limit_name
 from linkwright.metrics import Analysis, strokes, true_speed
 from linkwright.metrics.summary import Summary, one
 

@@ -37,7 +37,7 @@ from linkwright.cycle_programs.gauss_cycle import (
 from linkwright.cycle_programs.limit_stages import to_edge, whole_turns
 from linkwright.cycle_programs.timed_limits import TimedLimits, timed_limits
 from linkwright.cycle_programs.timed_search import TimedSearch
-from linkwright.cycle_programs.traced import VALID, Traced
+from linkwright.cycle_programs.traced_outputs import VALID, Traced
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.program import Program
 from linkwright.engine.stage import Stage

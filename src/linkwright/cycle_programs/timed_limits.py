@@ -20,7 +20,7 @@ from linkwright.cycle_programs.corners import (
     rates_of,
 )
 from linkwright.cycle_programs.timed_search import TimedSearch
-from linkwright.cycle_programs.traced import Traced
+from linkwright.cycle_programs.traced_outputs import Traced
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import Reduction, Results
@@ -29,8 +29,7 @@ from linkwright.engine.table import Tables
 from linkwright.engine.trace import Scalar, Trace, absolute, select
 from linkwright.fields.signals import MovingPhase, SwingPhase
 from linkwright.kinematics.bends import one_formula
-from linkwright.kinetostatics.signals import MotionSignals
-from linkwright.kinetostatics.site import (
+from linkwright.kinetostatics.load_site import (
     DRIFT,
     LAP,
     limit_input_name,
@@ -39,6 +38,7 @@ from linkwright.kinetostatics.site import (
     turns_steadily,
     value_name,
 )
+from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.kinetostatics.traced_loads import AlongInput
 from linkwright.loads.magnitude import by_limits
 from linkwright.mechanism.mechanism import Mechanism

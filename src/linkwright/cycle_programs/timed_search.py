@@ -10,7 +10,7 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.cycle_programs.corners import AROUND, REACH, REST
-from linkwright.cycle_programs.traced import Traced
+from linkwright.cycle_programs.traced_outputs import Traced
 from linkwright.engine.program import Program
 from linkwright.engine.replay import inlined
 from linkwright.engine.trace import Scalar, Trace, floor

@@ -15,7 +15,7 @@ import numpy as np
 from linkwright.core.arrays import Floats, Indices
 from linkwright.core.dataclass import dataclass
 from linkwright.cycle_programs.joint_bends import turning
-from linkwright.cycle_programs.traced import Traced
+from linkwright.cycle_programs.traced_outputs import Traced
 from linkwright.engine.program import Program
 from linkwright.engine.trace import Mask, Scalar, Trace, absolute, atan, cos, select, sin, stop
 from linkwright.joints.base import Bends

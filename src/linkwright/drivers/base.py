@@ -9,7 +9,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, ClassVar
 
 from linkwright.core.dataclass import dataclass
-from linkwright.engine.late import numpy as np
+from linkwright.engine.late_import import numpy as np
 from linkwright.errors import LinkwrightError
 from linkwright.registry import Registry
 

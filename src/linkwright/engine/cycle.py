@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from linkwright.core.arrays import Floats, Whole
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.program import Program
-from linkwright.engine.recent import Recent
+from linkwright.engine.recently_made import Recent
 from linkwright.engine.reductions import VALID_COUNT, Reduction, Results
 from linkwright.engine.stage import BACKENDS, Arrays, Backend, Run, Stage, blank
 from linkwright.engine.table import Tables

@@ -5,7 +5,7 @@ from __future__ import annotations
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.functions import FUNCTIONS
 from linkwright.engine.ir_accumulators import AccumulatorWriter
-from linkwright.engine.ir_after import following_lines
+from linkwright.engine.ir_after_cycle import following_lines
 from linkwright.engine.ir_functions import vector_functions
 from linkwright.engine.ir_lines import LineWriter
 from linkwright.engine.ir_lookup import lookup_functions

@@ -25,7 +25,7 @@ from typing import Any
 from linkwright.engine import machine_code
 from linkwright.engine.cache import loaded_code
 from linkwright.engine.kernel_writer import KernelWriter, annotation
-from linkwright.engine.late import ir
+from linkwright.engine.late_import import ir
 
 
 class Vector:

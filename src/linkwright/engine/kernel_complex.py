@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from linkwright.engine.late import ir
+from linkwright.engine.late_import import ir
 
 if TYPE_CHECKING:
     from linkwright.engine.kernel import Reals, Vector

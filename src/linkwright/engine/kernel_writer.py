@@ -8,7 +8,7 @@ from functools import cache
 from typing import Any
 
 from linkwright.engine.kernel_complex import ComplexWriter
-from linkwright.engine.late import ir
+from linkwright.engine.late_import import ir
 
 LANES = 8
 _FLAGS = ("contract", "reassoc", "nsz", "arcp")

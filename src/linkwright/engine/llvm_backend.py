@@ -17,7 +17,7 @@ from linkwright.engine.ir_kernel import ENTRY, kernel
 from linkwright.engine.lines import Lines
 from linkwright.engine.machine_code import available
 from linkwright.engine.program import Program
-from linkwright.engine.recent import Recent
+from linkwright.engine.recently_made import Recent
 from linkwright.engine.reductions import Accumulation, Results
 from linkwright.engine.table import Tables, given_tables
 from linkwright.engine.threads import spread_over

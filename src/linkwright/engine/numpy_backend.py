@@ -13,7 +13,7 @@ from linkwright.core.arrays import Floats
 from linkwright.engine.bound import BoundPlan
 from linkwright.engine.lines import Lines
 from linkwright.engine.program import Program
-from linkwright.engine.recent import Recent
+from linkwright.engine.recently_made import Recent
 from linkwright.engine.registers import Registers
 from linkwright.engine.scalar_backend import LineRunner, start_values
 from linkwright.engine.table import Table, Tables, given_tables

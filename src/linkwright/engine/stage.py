@@ -14,7 +14,7 @@ from linkwright.core.arrays import Flags, Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.numpy_backend import numpy_program
 from linkwright.engine.program import Program
-from linkwright.engine.recent import Recent
+from linkwright.engine.recently_made import Recent
 from linkwright.engine.reductions import VALID_COUNT, Accumulation, Reduction, Results, accumulate
 from linkwright.engine.replay import across_designs
 from linkwright.engine.scalar_backend import ScalarProgram

@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Literal
 
 from linkwright.core.dataclass import dataclass
-from linkwright.engine.late import numpy as np
+from linkwright.engine.late_import import numpy as np
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike

@@ -16,7 +16,7 @@ from typing import Any, overload
 
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.functions import FUNCTIONS
-from linkwright.engine.late import numpy as np
+from linkwright.engine.late_import import numpy as np
 from linkwright.engine.node import COMMUTATIVE, Entry, Node, needed
 
 Number = float | int

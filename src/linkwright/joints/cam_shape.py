@@ -8,7 +8,7 @@ from math import pi
 from typing import TYPE_CHECKING
 
 from linkwright.core.dataclass import dataclass
-from linkwright.engine.late import numpy as np
+from linkwright.engine.late_import import numpy as np
 from linkwright.joints.cam_cuts import Geometry
 from linkwright.joints.marks import Mark, Vec
 

@@ -9,7 +9,7 @@ from functools import cached_property
 from linkwright.core.dataclass import dataclass
 from linkwright.core.inputs import Input, mode_inputs, turned
 from linkwright.engine.program import Program
-from linkwright.engine.recent import Recent
+from linkwright.engine.recently_made import Recent
 from linkwright.engine.scalar_backend import ScalarProgram
 from linkwright.engine.trace import Scalar
 from linkwright.errors import LinkwrightError

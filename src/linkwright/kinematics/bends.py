@@ -15,7 +15,7 @@ from linkwright.core.outputs import row_name, row_names
 from linkwright.core.search import zeros
 from linkwright.drivers.base import Law
 from linkwright.joints.base import Bends
-from linkwright.kinematics.between import Between
+from linkwright.kinematics.between_positions import Between
 from linkwright.kinematics.motion import TURN, Motion
 from linkwright.mechanism.mechanism import Mechanism
 

@@ -21,13 +21,13 @@ from linkwright.core.arrays import Flags, Floats
 from linkwright.core.inputs import mode_inputs
 from linkwright.core.outputs import row_name
 from linkwright.core.search import edge, ends, lowest
-from linkwright.engine.recent import Recent
+from linkwright.engine.recently_made import Recent
 from linkwright.engine.trace import Scalar, minimum
 from linkwright.kinematics.closed_loops import upstream
 from linkwright.kinematics.continuation import Followed
 from linkwright.kinematics.cycle import Positions, at_times, off_law
 from linkwright.kinematics.passage import Kind, Passage
-from linkwright.kinematics.passing import FINE, NEAR, measures, modal
+from linkwright.kinematics.passing_proof import FINE, NEAR, measures, modal
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinematics.trace import MotionTrace
 from linkwright.mechanism.geometry import mechanism_size

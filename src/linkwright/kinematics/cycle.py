@@ -16,7 +16,7 @@ from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
 from linkwright.core.inputs import driven
 from linkwright.drivers.base import Driver, Law
-from linkwright.engine.recent import Recent
+from linkwright.engine.recently_made import Recent
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.whole_turns import MOST, whole_turns
 from linkwright.mechanism.mechanism import Mechanism

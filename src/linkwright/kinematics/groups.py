@@ -8,7 +8,7 @@ from typing import Any
 
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.linear import Matrix, determinant, inverse, product
-from linkwright.engine.recent import Recent
+from linkwright.engine.recently_made import Recent
 from linkwright.engine.trace import Mask, Scalar, cos, sin, stop
 from linkwright.engine.vector import Vec
 from linkwright.groups.base import DYADS, Chain, Dyad, Solved, WholeGroup

@@ -18,15 +18,15 @@ from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output, kind_of, row_name
 from linkwright.core.search import ends, zero, zeros
-from linkwright.engine.recent import Recent
+from linkwright.engine.recently_made import Recent
 from linkwright.errors import RequestError
 from linkwright.fields.signals import resolve_output
 from linkwright.kinematics.bends import FAR, one_formula, stretches, with_leaps
-from linkwright.kinematics.between import Between
+from linkwright.kinematics.between_positions import Between
 from linkwright.kinematics.brackets import Bracket, Columns, part_of, places_of, which_dip, zero_between
 from linkwright.kinematics.motion import TURN, Motion
 from linkwright.kinematics.names import program_names
-from linkwright.kinematics.reach import Reach
+from linkwright.kinematics.reached_stretches import Reach
 from linkwright.loads.signals import Limit
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered

@@ -265,7 +265,7 @@ class Motion(Plotted):
     @cached_property
     def outcomes(self) -> list[Outcome]:
         """What became of every position."""
-        from linkwright.kinematics.explain import explain
+        from linkwright.kinematics.reach_sentences import explain
 
         return explain(self)
 

@@ -10,11 +10,11 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
-from linkwright.engine.recent import Recent
+from linkwright.engine.recently_made import Recent
 from linkwright.engine.scalar_backend import ScalarProgram
-from linkwright.kinematics.analysed import analysed
 from linkwright.kinematics.outputs import MotionOutputs
-from linkwright.kinematics.shape import Form, shape
+from linkwright.kinematics.program_shape import Form, shape
+from linkwright.kinematics.structure_with_rank import analysed
 from linkwright.kinematics.trace import MotionTrace, trace_motion
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.structure import Structure

@@ -19,10 +19,10 @@ from linkwright.kinematics.change_points import (
     signs_of_passages,
 )
 from linkwright.kinematics.cycle import Positions, at_inputs, at_times, over_cycle, time_span
-from linkwright.kinematics.explain import branch_notes, passage_notes, refusal, turn_notes
 from linkwright.kinematics.motion import Motion, Rows
 from linkwright.kinematics.passage import Passage
-from linkwright.kinematics.passing import clear_of_zero
+from linkwright.kinematics.passing_proof import clear_of_zero
+from linkwright.kinematics.reach_sentences import branch_notes, passage_notes, refusal, turn_notes
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.mechanism.mechanism import Mechanism
 

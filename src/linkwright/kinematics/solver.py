@@ -10,7 +10,7 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.cached_property import cached_property
 from linkwright.engine.numpy_backend import NumpyProgram
-from linkwright.engine.recent import Recent
+from linkwright.engine.recently_made import Recent
 from linkwright.kinematics.assembly import Assembly, assemble
 from linkwright.kinematics.continuation import Followed, Follower
 from linkwright.kinematics.cycle import Positions

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from linkwright.core.arrays import Floats, Indices
-from linkwright.kinematics.analysed import analysed
 from linkwright.kinematics.closed_loops import LoopBuilder
+from linkwright.kinematics.structure_with_rank import analysed
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.structure.group import Structure
 

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from linkwright.engine.linear import determinant
-from linkwright.engine.recent import Recent
+from linkwright.engine.recently_made import Recent
 from linkwright.engine.trace import Scalar, absolute, angle, sqrt
 from linkwright.engine.vector import Vec
 from linkwright.kinematics.outputs import MotionOutputs
-from linkwright.kinetostatics.site import guide_state
+from linkwright.kinetostatics.load_site import guide_state
 from linkwright.structure.group import Group, Structure, TreeJoint
 
 

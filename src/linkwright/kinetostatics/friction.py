@@ -14,7 +14,7 @@ from linkwright.engine.trace import Scalar
 from linkwright.engine.vector import Vec
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.trace import MotionTrace
-from linkwright.kinetostatics.site import guide_state
+from linkwright.kinetostatics.load_site import guide_state
 from linkwright.loads.site import Wrench
 from linkwright.mechanism.mechanism import Mechanism
 

@@ -17,7 +17,7 @@ from linkwright.engine.linear import product, solution
 from linkwright.engine.trace import Mask, Scalar, Value, absolute, maximum, select, slope, sqrt, stop
 from linkwright.engine.vector import ZERO, Vec
 from linkwright.kinetostatics.friction import FrictionTerm, FrictionTerms, still_name
-from linkwright.kinetostatics.site import guide_state
+from linkwright.kinetostatics.load_site import guide_state
 from linkwright.kinetostatics.trace import ForceTrace, Size
 from linkwright.loads.site import Wrench
 from linkwright.structure.group import Connection

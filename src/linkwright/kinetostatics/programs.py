@@ -6,16 +6,16 @@ from typing import TYPE_CHECKING
 
 from linkwright.core.cached_property import cached_property
 from linkwright.core.outputs import SLIDE, Output, row_name, row_names
-from linkwright.engine.in_turn import InTurn
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
-from linkwright.engine.recent import Recent
+from linkwright.engine.recently_made import Recent
+from linkwright.engine.repeated_program import InTurn
 from linkwright.engine.trace import Scalar
 from linkwright.kinematics.programs import MotionPrograms
 from linkwright.kinetostatics.friction import FrictionTerms
-from linkwright.kinetostatics.named import Named
+from linkwright.kinetostatics.load_site import of_cycle
+from linkwright.kinetostatics.named_outputs import Named
 from linkwright.kinetostatics.outputs import ForceOutputs
-from linkwright.kinetostatics.site import of_cycle
 from linkwright.kinetostatics.trace import ForceTrace, Size, trace_forces
 from linkwright.kinetostatics.traced_loads import traced_magnitude
 from linkwright.loads.magnitude import followed_by

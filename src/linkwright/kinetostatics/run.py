@@ -12,8 +12,8 @@ from linkwright.core.outputs import Output, kind_of, row_name
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.cycle import Positions
 from linkwright.kinematics.design import Design
-from linkwright.kinematics.explain import input_at
 from linkwright.kinematics.motion import Motion, Rows
+from linkwright.kinematics.reach_sentences import input_at
 from linkwright.kinematics.solve import MotionRun
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.friction import FrictionTerm, still_rates

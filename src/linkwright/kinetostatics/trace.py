@@ -21,7 +21,7 @@ from linkwright.joints.pose import Pose
 from linkwright.kinematics.closure import pair_of
 from linkwright.kinematics.groups import Placed
 from linkwright.kinematics.trace import MotionTrace
-from linkwright.kinetostatics.site import ACTS, TracedSite
+from linkwright.kinetostatics.load_site import ACTS, TracedSite
 from linkwright.loads.site import Wrench
 from linkwright.structure.group import Connection, TreeJoint
 

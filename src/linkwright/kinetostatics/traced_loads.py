@@ -11,15 +11,14 @@ import numpy as np
 from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import Expression
 from linkwright.core.outputs import Output, row_name
-from linkwright.engine.recent import Recent
+from linkwright.engine.recently_made import Recent
 from linkwright.engine.table import Table
 from linkwright.engine.trace import Scalar
 from linkwright.fields.signals import MovingPhase, SwingPhase
 from linkwright.kinematics.programs import MotionPrograms
 from linkwright.kinematics.trace import MotionTrace
 from linkwright.kinetostatics.friction import Swinging
-from linkwright.kinetostatics.signals import MotionSignals
-from linkwright.kinetostatics.site import (
+from linkwright.kinetostatics.load_site import (
     LAP,
     TracedSite,
     constant_name,
@@ -29,6 +28,7 @@ from linkwright.kinetostatics.site import (
     turns_steadily,
     value_name,
 )
+from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.loads.base import Load
 from linkwright.loads.magnitude import (
     angles_of,

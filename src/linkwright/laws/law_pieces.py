@@ -9,7 +9,7 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.piecewise import NODES, POINTS, TO_LEGENDRE
-from linkwright.engine.recent import Recent
+from linkwright.engine.recently_made import Recent
 from linkwright.laws.traced import horner, row_at
 
 if TYPE_CHECKING:

@@ -9,7 +9,7 @@ from linkwright.core.arrays import Flags, Floats
 from linkwright.core.expression_tree import Binary, Call, Negative, Node, Number, evaluate, scalar_functions
 from linkwright.core.expressions import ON_VALUES, Expression
 from linkwright.core.outputs import Output
-from linkwright.engine.late import numpy as np
+from linkwright.engine.late_import import numpy as np
 from linkwright.errors import LinkwrightError, QuantityError
 from linkwright.fields.signals import resolve_output
 from linkwright.loads.signals import Signals, column, input_dimension, shown, spot

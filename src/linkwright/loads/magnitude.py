@@ -1,7 +1,7 @@
 """How large a load is: a number, an expression, a ramp or a table, within its phase; every formula once.
 
-The same lines serve traced values (:class:`linkwright.kinetostatics.site.TracedSite`), where what is found of the
-cycle before enters as numbers, and arrays of positions (:class:`linkwright.loads.over_cycle.CycleCourse`).
+The same lines serve traced values (:class:`linkwright.kinetostatics.load_site.TracedSite`), where what is found of
+the cycle before enters as numbers, and arrays of positions (:class:`linkwright.loads.over_cycle.CycleCourse`).
 """
 
 from __future__ import annotations

@@ -8,7 +8,7 @@ from linkwright.core.arrays import Flags, Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import Expression
 from linkwright.core.outputs import Output
-from linkwright.engine.late import numpy as np
+from linkwright.engine.late_import import numpy as np
 from linkwright.errors import LinkwrightError, with_remedy
 from linkwright.fields.signals import InputPhase, MovingPhase, SwingPhase, Table
 from linkwright.loads.formulas import named_column, refuse_formula

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from linkwright.core.arrays import Flags, Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.engine.late import numpy as np
+from linkwright.engine.late_import import numpy as np
 from linkwright.errors import LinkwrightError
 from linkwright.fields.signals import InputPhase, MovingPhase, SwingPhase
 from linkwright.loads.signals import Limit, Signals, Whole, input_dimension, shown

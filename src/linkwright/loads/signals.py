@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal, Protocol
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
-from linkwright.engine.late import numpy as np
+from linkwright.engine.late_import import numpy as np
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:

@@ -16,7 +16,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.core.piecewise import POINTS, Piecewise, largest, reach, sought
 from linkwright.core.search import lowest
-from linkwright.engine.recent import Recent
+from linkwright.engine.recently_made import Recent
 from linkwright.kinematics.limits import limit_positions
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import output_meant
@@ -28,11 +28,11 @@ from linkwright.loads.signals import Limit
 from linkwright.metrics import strokes, true_speed
 from linkwright.metrics.cycle_grid import PASSED, CycleGrid, cycle_grid
 from linkwright.metrics.outputs import mechanism_outputs
-from linkwright.metrics.parts import extreme_of_part, mean_of_part
 from linkwright.metrics.range_ends import RangeEnds
-from linkwright.metrics.resolve import Resolver
+from linkwright.metrics.reached_extremes import extreme_of_part, mean_of_part
+from linkwright.metrics.reached_ways import Ways
+from linkwright.metrics.solved_again import Resolver
 from linkwright.metrics.summary import Summary, one
-from linkwright.metrics.ways import Ways
 
 Result: TypeAlias = "Motion | Forces | Analysis"
 Kind = Literal["max", "min"]

@@ -27,7 +27,7 @@ from linkwright.core.piecewise import (
     sought,
 )
 from linkwright.core.search import ends, zeros
-from linkwright.engine.recent import Recent
+from linkwright.engine.recently_made import Recent
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.bends import bend_times, stretches, with_leaps
 from linkwright.kinematics.motion import Motion
@@ -38,8 +38,8 @@ from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.loads.base import Load
 from linkwright.loads.over_cycle import activity
 from linkwright.loads.phases import NEAR, switch_times
-from linkwright.metrics.passed import between, limit, sides
-from linkwright.metrics.resolve import Resolver
+from linkwright.metrics.one_sided_limits import between, limit, sides
+from linkwright.metrics.solved_again import Resolver
 
 #: Pieces of one cycle before the places where something jumps or bends are cut out.
 PIECES = 24

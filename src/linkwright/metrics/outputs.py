@@ -7,7 +7,7 @@ from collections.abc import Collection
 import numpy as np
 
 from linkwright.core.outputs import Output, row_name
-from linkwright.kinematics.between import Between
+from linkwright.kinematics.between_positions import Between
 from linkwright.kinematics.motion import Motion
 from linkwright.mechanism.mechanism import Mechanism
 

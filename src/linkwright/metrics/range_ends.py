@@ -9,8 +9,8 @@ import numpy as np
 
 from linkwright.core.arrays import Flags, Floats
 from linkwright.kinematics.motion import Motion
-from linkwright.metrics.passed import SLOWED, STEEPEST, limit, towards
-from linkwright.metrics.resolve import Resolver
+from linkwright.metrics.one_sided_limits import SLOWED, STEEPEST, limit, towards
+from linkwright.metrics.solved_again import Resolver
 
 
 class RangeEnds:

@@ -12,7 +12,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.engine.reductions import Reduction
 from linkwright.errors import RequestError
 from linkwright.kinematics.names import PHRASES
-from linkwright.kinetostatics.named import Quantity
+from linkwright.kinetostatics.named_outputs import Quantity
 from linkwright.registry import offered
 
 #: Kinds of summaries, and the engine's reductions they need.

@@ -12,7 +12,7 @@ from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.outputs import row_names
 from linkwright.core.piecewise import POINTS, misses, nodes
 from linkwright.core.plane import area, convex_hull
-from linkwright.engine.recent import Recent
+from linkwright.engine.recently_made import Recent
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import canonical
 from linkwright.mechanism.mechanism import Mechanism
@@ -22,8 +22,8 @@ from linkwright.metrics.cycle_grid import PIECES, CycleGrid
 from linkwright.metrics.outputs import output_link
 from linkwright.metrics.quantities import shown
 from linkwright.metrics.range_of_motion import turns
+from linkwright.metrics.reached_ways import MET
 from linkwright.metrics.swept_hull import Curves, SweptHull
-from linkwright.metrics.ways import MET
 
 #: Ends of ways nearer to each other than this share of the way are the same.
 SAME = 1e-9

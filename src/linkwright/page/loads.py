@@ -16,8 +16,8 @@ from linkwright.core.outputs import Output
 from linkwright.fields.signals import InputPhase, MovingPhase, SwingPhase
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import program_names
+from linkwright.kinetostatics.load_site import ACTS, middle_name
 from linkwright.kinetostatics.signals import MotionSignals
-from linkwright.kinetostatics.site import ACTS, middle_name
 from linkwright.loads.base import Load
 from linkwright.loads.magnitude import angles_of, has_formula
 from linkwright.loads.over_cycle import activity
@@ -40,7 +40,7 @@ def _ramp(load: Load) -> bool:
 
 
 def traced_names(loads: Iterable[Load], motion: Motion) -> frozenset[str]:
-    """The loads as :class:`linkwright.cycle_programs.traced.Traced` takes them: wholly, or but for their phases."""
+    """The loads as ``cycle_programs/traced_outputs.py`` takes them: wholly, or but for their phases."""
     return frozenset(
         f"{ACTS}:{each.name}" if _phase_per_position(each, motion) else each.name for each in loads
     )

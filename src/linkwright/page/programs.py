@@ -14,7 +14,7 @@ from linkwright.core.outputs import SLIDE, owners_of, row_name, row_names
 from linkwright.cycle_programs.iterated_groups import ITERATIONS
 from linkwright.cycle_programs.limit_stages import constants, limit_stages
 from linkwright.cycle_programs.loaded_cycle import SIZES, along_input
-from linkwright.cycle_programs.traced import Traced
+from linkwright.cycle_programs.traced_outputs import Traced
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.program import Program
 from linkwright.engine.stage import Stage
@@ -27,8 +27,8 @@ from linkwright.kinematics.step_rule import StepRule
 from linkwright.kinematics.trace import MotionTrace
 from linkwright.kinetostatics.closure import dyads, transmission
 from linkwright.kinetostatics.forces import Forces, solve_forces
+from linkwright.kinetostatics.load_site import TracedSite, guide_state
 from linkwright.kinetostatics.signals import MotionSignals
-from linkwright.kinetostatics.site import TracedSite, guide_state
 from linkwright.kinetostatics.traced_loads import AlongInput, numbers_of_loads
 from linkwright.loads.base import Load
 from linkwright.loads.magnitude import magnitude

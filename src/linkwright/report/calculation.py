@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 from linkwright.errors import LinkwrightError
 from linkwright.parts.base import Problem, Result
-from linkwright.report.case import picture
 from linkwright.report.document import Block, Figure, Heading, Paragraph, Table, literal, symbols
+from linkwright.report.machine_results import picture
 from linkwright.words import Say
 from linkwright.worked.page import Equation, Note, Step
 

@@ -13,7 +13,7 @@ from linkwright.plot.drawing.positions import Shown
 from linkwright.plot.drawing.scene import Scene
 from linkwright.plot.svg.element import group
 from linkwright.plot.svg.render import natural_size
-from linkwright.report.case import Case
+from linkwright.report.machine_results import Case
 from linkwright.structure.group import Group
 
 

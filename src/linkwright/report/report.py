@@ -15,7 +15,6 @@ from linkwright.files.source import GALLERY
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.parts.base import Problem
 from linkwright.registry import listed
-from linkwright.report.case import Case
 from linkwright.report.document import (
     Block,
     Document,
@@ -27,6 +26,7 @@ from linkwright.report.document import (
     fitted,
     literal,
 )
+from linkwright.report.machine_results import Case
 from linkwright.report.markdown import own_text, printable
 from linkwright.report.numbers import typeset
 from linkwright.report.section import SECTIONS, Section

@@ -11,8 +11,8 @@ from typing import TypeVar
 
 from linkwright.core.dataclass import dataclass
 from linkwright.registry import Registry
-from linkwright.report.case import Case
 from linkwright.report.document import Block
+from linkwright.report.machine_results import Case
 
 
 @dataclass(frozen=True)

@@ -15,8 +15,8 @@ from linkwright.files.model_file import read_text
 from linkwright.files.write import flow
 from linkwright.joints.gear import GearPair
 from linkwright.joints.prismatic import PrismaticJoint
-from linkwright.server.contacts import add_cam, add_rack
 from linkwright.server.draft import Draft, fresh, picture, texts
+from linkwright.server.drawn_contacts import add_cam, add_rack
 from linkwright.units import number
 
 #: Drawn coordinates are whole multiples of this, m.

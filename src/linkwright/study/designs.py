@@ -20,7 +20,7 @@ from linkwright.engine.stage import Backend
 from linkwright.engine.threads import chunks
 from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import over_cycle
-from linkwright.kinetostatics.named import Quantity
+from linkwright.kinetostatics.named_outputs import Quantity
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.summary import Summary, wanted
 from linkwright.study.cluster import current, in_order, in_turn

@@ -10,7 +10,7 @@ from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.cycle_programs.one_by_one import changes_of, sentence_of
-from linkwright.cycle_programs.traced import Traced
+from linkwright.cycle_programs.traced_outputs import Traced
 from linkwright.engine.cycle import summaries
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import Reduction

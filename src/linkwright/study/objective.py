@@ -25,12 +25,12 @@ from linkwright.cycle_programs.metric_cycle import metric_cycle
 from linkwright.cycle_programs.range_designs import range_designs, ranged
 from linkwright.cycle_programs.swept_designs import swept, swept_designs
 from linkwright.cycle_programs.terms import refuse_obstacle
-from linkwright.cycle_programs.traced import CLEAR, VALID, Traced, design_table
+from linkwright.cycle_programs.traced_outputs import CLEAR, VALID, Traced, design_table
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.cycle_gradient import CycleGradient, cycle_gradient
 from linkwright.engine.machine_code import available
 from linkwright.engine.program import Program
-from linkwright.engine.recent import Recent
+from linkwright.engine.recently_made import Recent
 from linkwright.engine.reductions import Reduction
 from linkwright.engine.stage import Backend, Stage
 from linkwright.engine.states import states_as_fields
@@ -40,7 +40,7 @@ from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import Positions, at_inputs, over_cycle
 from linkwright.kinematics.names import point_key
 from linkwright.kinematics.solve import solve_motion
-from linkwright.kinetostatics.named import Quantity
+from linkwright.kinetostatics.named_outputs import Quantity
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.summary import KINDS, Summary, is_metric, reductions, wanted

@@ -15,7 +15,7 @@ from linkwright.core.arrays import Floats
 from linkwright.core.outputs import row_name
 from linkwright.cycle_programs.limit_stages import CONVERGED, agree, constants, limit_stages, near_limits
 from linkwright.cycle_programs.loaded_cycle import along_input, with_loads
-from linkwright.cycle_programs.traced import Traced
+from linkwright.cycle_programs.traced_outputs import Traced
 from linkwright.engine.call_block import address_of
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.llvm_backend import CompiledProgram, compile_program
@@ -29,11 +29,11 @@ from linkwright.kinematics.change_points import nearness, parts
 from linkwright.kinematics.cycle import Positions, over_cycle
 from linkwright.kinematics.design import Design
 from linkwright.kinematics.motion import Motion, Rows
-from linkwright.kinematics.passing import NEAR
+from linkwright.kinematics.passing_proof import NEAR
 from linkwright.kinematics.solve import MotionRun
 from linkwright.kinetostatics.forces import Forces
+from linkwright.kinetostatics.load_site import limit_name
 from linkwright.kinetostatics.run import forces_of_run
-from linkwright.kinetostatics.site import limit_name
 from linkwright.kinetostatics.solver import ForceSolver
 from linkwright.kinetostatics.traced_loads import AlongInput, traced_magnitude
 from linkwright.mechanism.mechanism import Mechanism

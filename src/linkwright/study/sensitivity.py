@@ -15,13 +15,13 @@ from linkwright.core.plot_method import Plotted
 from linkwright.core.read_only import Frozen, locked
 from linkwright.cycle_programs.known_loads import known_loads
 from linkwright.cycle_programs.slopes import Slopes
-from linkwright.cycle_programs.traced import Traced
+from linkwright.cycle_programs.traced_outputs import Traced
 from linkwright.engine.stage import Backend
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.cycle import over_cycle
-from linkwright.kinematics.explain import refusal
+from linkwright.kinematics.reach_sentences import refusal
 from linkwright.kinetostatics.friction_stage import MOST
-from linkwright.kinetostatics.named import Quantity
+from linkwright.kinetostatics.named_outputs import Quantity
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.summary import Summary
 from linkwright.study.objective import of_metrics

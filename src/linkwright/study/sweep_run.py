@@ -15,7 +15,7 @@ from linkwright.cycle_programs.change_points import ChangePoints, near_enough
 from linkwright.cycle_programs.iterated_groups import MARGIN, following
 from linkwright.cycle_programs.loaded_cycle import LoadedCycle, loaded_cycle
 from linkwright.cycle_programs.one_by_one import OneByOne
-from linkwright.cycle_programs.traced import NEAREST, VALID, Traced
+from linkwright.cycle_programs.traced_outputs import NEAREST, VALID, Traced
 from linkwright.engine.cycle import Progress, summaries
 from linkwright.engine.llvm_backend import compile_program
 from linkwright.engine.numpy_backend import NumpyProgram
@@ -26,7 +26,7 @@ from linkwright.engine.states import inputs_as_fields
 from linkwright.engine.threads import chunks, cores
 from linkwright.files.write import dump
 from linkwright.kinematics.cycle import Positions
-from linkwright.kinetostatics.named import Quantity
+from linkwright.kinetostatics.named_outputs import Quantity
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.summary import Summary, finished, reductions
 from linkwright.study.finished_parts import identity, once, reporting

@@ -50,9 +50,9 @@ def findings_of(name: str) -> tuple[list[Finding], dict[str, object]]:
     from linkwright.fields.nodes import located
     from linkwright.files.model_file import declared_kind, read_root, read_tree
     from linkwright.files.source import GALLERY, read_source
-    from linkwright.kinematics.analysed import analysed
     from linkwright.kinematics.assembly import AssemblyError
-    from linkwright.kinematics.passing import plainly_passed
+    from linkwright.kinematics.passing_proof import plainly_passed
+    from linkwright.kinematics.structure_with_rank import analysed
 
     try:
         if name.startswith(GALLERY) and name.removeprefix(GALLERY) in gallery.calculations():
@@ -150,7 +150,7 @@ def _task(text: str, name: str) -> tuple[list[Finding], str] | None:
 
 def _turned(name: str, mechanism: Mechanism) -> tuple[list[Finding], list[Finding]]:
     """What there is to say about a cycle: where it cannot be passed, and notes."""
-    from linkwright.kinematics.explain import refusal
+    from linkwright.kinematics.reach_sentences import refusal
     from linkwright.kinematics.solve import try_motion
 
     motion = try_motion(mechanism, TRIED)

@@ -23,8 +23,8 @@ def arguments(option: Options) -> None:
 
 def run(options: argparse.Namespace, session: Session) -> int:
     """Prints the structure analysis; with ``--program`` the straight-line program as well."""
-    from linkwright.kinematics.analysed import analysed
     from linkwright.kinematics.rank import rank_sentence
+    from linkwright.kinematics.structure_with_rank import analysed
 
     mechanism, _ = read_model(options.file, session)
     built = analysed(mechanism)

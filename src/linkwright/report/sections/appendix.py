@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.table import motion_results
 from linkwright.kinetostatics.table import force_results
-from linkwright.report.case import Case
 from linkwright.report.document import Block, Paragraph
+from linkwright.report.machine_results import Case
 from linkwright.report.numbers import without_rounding
 from linkwright.report.section import section
 from linkwright.report.sections.cycle_tables import varying

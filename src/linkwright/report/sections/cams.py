@@ -14,8 +14,8 @@ from linkwright.errors import with_remedy
 from linkwright.joints.cam import CamJoint
 from linkwright.laws.program import MotionProgram
 from linkwright.report.calculation import numbers_and_way
-from linkwright.report.case import Case, Missing
 from linkwright.report.document import Block, Heading, Paragraph, Table, literal
+from linkwright.report.machine_results import Case, Missing
 from linkwright.report.section import section
 from linkwright.words import has
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from linkwright.errors import LinkwrightError
-from linkwright.report.case import Case, Missing
 from linkwright.report.document import Block, Figure, Heading, Paragraph, Table, literal
+from linkwright.report.machine_results import Case, Missing
 from linkwright.report.section import section
 from linkwright.study.evaluation import evaluation, ranking, table_rows
 

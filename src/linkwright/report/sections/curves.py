@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 from linkwright.errors import LinkwrightError
 from linkwright.plot.diagrams.outputs import main_outputs
-from linkwright.report.case import Case, Missing
 from linkwright.report.document import Block, Figure, Paragraph, literal
+from linkwright.report.machine_results import Case, Missing
 from linkwright.report.section import section
 
 KINDS = ("sva", "angles", "paths")

@@ -11,8 +11,8 @@ from linkwright.core.outputs import KINDS, RESIDUALS, SLIDE, Output
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.table import motion_results
 from linkwright.kinetostatics.table import force_results
-from linkwright.report.case import Case
 from linkwright.report.document import Block, Paragraph, Table, literal
+from linkwright.report.machine_results import Case
 from linkwright.report.numbers import column, faded, residual, typeset, without_rounding
 from linkwright.report.section import section
 

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 from linkwright.errors import LinkwrightError
 from linkwright.plot.drawing.draw import draw
-from linkwright.report.case import Case
 from linkwright.report.document import Block, Figure, Paragraph
+from linkwright.report.machine_results import Case
 from linkwright.report.section import section
 
 #: Height of a drawing, mm: two of them share a page.

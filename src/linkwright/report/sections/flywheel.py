@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from linkwright.metrics.quantities import number, shown_unit
-from linkwright.report.case import Case
 from linkwright.report.document import Block, Formula, Paragraph, Table, literal
+from linkwright.report.machine_results import Case
 from linkwright.report.section import section
 from linkwright.report.sections.curves import pictures
 

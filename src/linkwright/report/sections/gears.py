@@ -9,8 +9,8 @@ from linkwright.errors import LinkwrightError
 from linkwright.gears.gear import Gear
 from linkwright.gears.pair import GearPair, gear_pair
 from linkwright.joints.marks import WheelSizes
-from linkwright.report.case import Case, Missing
 from linkwright.report.document import Block, Figure, Formula, Heading, Paragraph, Table, literal
+from linkwright.report.machine_results import Case, Missing
 from linkwright.report.section import section
 from linkwright.structure.trains import GearTrain, written
 from linkwright.worked.symbols import tex

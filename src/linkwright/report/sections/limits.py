@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from linkwright.metrics.base import MetricValue
 from linkwright.metrics.quantities import number
 from linkwright.metrics.table import told
-from linkwright.report.case import Case, Missing
 from linkwright.report.document import Block, Formula, Paragraph, Table, literal
+from linkwright.report.machine_results import Case, Missing
 from linkwright.report.section import section
 
 #: Numbers that other sections print.

@@ -6,9 +6,9 @@ from collections.abc import Iterator
 from itertools import chain
 
 from linkwright.errors import LinkwrightError
-from linkwright.report.case import Case
 from linkwright.report.document import Block, Formula, Heading, Paragraph, literal, strong, symbols
 from linkwright.report.formula import formula, width
+from linkwright.report.machine_results import Case
 from linkwright.report.section import section
 from linkwright.structure.group import Group
 from linkwright.worked.chains import Chain, chain_closures

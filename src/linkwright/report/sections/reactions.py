@@ -10,8 +10,8 @@ import numpy as np
 from linkwright.errors import LinkwrightError
 from linkwright.metrics.quantities import shown
 from linkwright.plot.force_names import reaction_pairs, rubbing_guides
-from linkwright.report.case import Case
 from linkwright.report.document import Block, Figure, Paragraph, Table, literal
+from linkwright.report.machine_results import Case
 from linkwright.report.numbers import ROUNDING, faded
 from linkwright.report.section import section
 from linkwright.report.sections.curves import SHARE

@@ -9,8 +9,8 @@ from inspect import getdoc
 from linkwright.errors import LinkwrightError
 from linkwright.groups.base import DYADS
 from linkwright.metrics.base import METRICS
-from linkwright.report.case import Case, Missing
 from linkwright.report.document import Block, Paragraph, Table, literal
+from linkwright.report.machine_results import Case, Missing
 from linkwright.report.section import section
 from linkwright.structure.group import Group
 

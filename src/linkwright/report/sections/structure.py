@@ -7,9 +7,9 @@ from collections.abc import Iterator
 from linkwright.errors import LinkwrightError
 from linkwright.joints.base import JOINTS
 from linkwright.kinematics.rank import rank_sentence
-from linkwright.report.case import Case
 from linkwright.report.document import Block, Figure, Formula, Paragraph, Table, literal, symbols
 from linkwright.report.group_pictures import group_picture, to_one_scale
+from linkwright.report.machine_results import Case
 from linkwright.report.section import section
 from linkwright.structure.mobility import lower_pairs
 from linkwright.structure.text import numeral

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from linkwright.files.write import to_data
-from linkwright.report.case import Case
 from linkwright.report.document import Block, Paragraph, Table, literal
+from linkwright.report.machine_results import Case
 from linkwright.report.section import section
 from linkwright.words import Say, has
 

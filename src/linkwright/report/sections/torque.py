@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from linkwright.report.case import Case, Missing
 from linkwright.report.document import Block, Formula, Paragraph, Table
+from linkwright.report.machine_results import Case, Missing
 from linkwright.report.numbers import column, small, typeset
 from linkwright.report.section import section
 from linkwright.report.sections.curves import pictures

@@ -8,8 +8,8 @@ from linkwright.errors import LinkwrightError
 from linkwright.kinetostatics.forces import Forces
 from linkwright.plot.diagrams.force_polygon import link_forces
 from linkwright.plot.svg.render import natural_size
-from linkwright.report.case import Case
 from linkwright.report.document import Block, Figure, Formula, Heading, Paragraph, literal, symbols
+from linkwright.report.machine_results import Case
 from linkwright.report.section import section
 from linkwright.report.sections.method import side_by_side
 from linkwright.worked.page import Equation, Note, Relation, Step

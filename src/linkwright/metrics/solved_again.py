@@ -11,9 +11,9 @@ from linkwright.core.arrays import Flags, Floats
 from linkwright.core.cached_property import cached_property
 from linkwright.core.outputs import Output
 from linkwright.errors import LinkwrightError
-from linkwright.kinematics.between import Between
+from linkwright.kinematics.between_positions import Between
 from linkwright.kinematics.motion import Motion, Rows
-from linkwright.kinematics.reach import Reach
+from linkwright.kinematics.reached_stretches import Reach
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.loads.base import Load

@@ -68,7 +68,7 @@ class Case:
     @cached_property
     def structure(self) -> Structure:
         """Mobility and groups."""
-        from linkwright.kinematics.analysed import analysed
+        from linkwright.kinematics.structure_with_rank import analysed
 
         return analysed(self.mechanism)
 

@@ -15,7 +15,7 @@ from linkwright.core.piecewise import NODES, POINTS, WEIGHTS, Piecewise, nodes, 
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.motion import Motion
 from linkwright.metrics.cycle_grid import PIECES
-from linkwright.metrics.resolve import Resolver
+from linkwright.metrics.solved_again import Resolver
 
 #: Share of its size to which polynomials meet an output: nothing is solved very near the ends.
 MET = 3e-7

@@ -9,7 +9,7 @@ from typing import Any
 
 from linkwright.core.expressions import Expression
 from linkwright.drivers.base import Driver
-from linkwright.engine.recent import Recent
+from linkwright.engine.recently_made import Recent
 from linkwright.mechanism.mechanism import Link, Mechanism
 
 _NUMBER = "#"

@@ -14,7 +14,7 @@ from linkwright.kinematics.change_points import closes, passages, signs
 from linkwright.kinematics.cycle import Positions, at_one_time, at_times, off_law
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.passage import Passage
-from linkwright.kinematics.passing import modal
+from linkwright.kinematics.passing_proof import modal
 from linkwright.kinematics.solve import reached_modes
 
 

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.engine import in_turn
-from linkwright.engine.in_turn import InTurn
+from linkwright.engine import repeated_program
 from linkwright.engine.machine_code import available
 from linkwright.engine.program import Program
+from linkwright.engine.repeated_program import InTurn
 from linkwright.engine.trace import Trace, floor, select, sin, sqrt
 
 needs_llvm = pytest.mark.skipif(not available(), reason="llvmlite is not there")
@@ -37,7 +37,7 @@ def evaluated(program, positions, times):
 def test_the_bits_are_those_of_numpy_however_often_it_is_evaluated(op, monkeypatch):
     positions = {"x": np.random.default_rng(3).normal(size=41)}
     expected = evaluated(machine(op), positions, 6)
-    monkeypatch.setattr(in_turn, "REPEATED", 3)
+    monkeypatch.setattr(repeated_program, "REPEATED", 3)
     program = machine(op)
     found = evaluated(program, positions, 6)
     for one, other in zip(found, expected, strict=True):
@@ -54,7 +54,7 @@ def test_the_bits_are_those_of_numpy_however_often_it_is_evaluated(op, monkeypat
 
 @needs_llvm
 def test_nothing_is_given_where_the_late_inputs_are_not_found(monkeypatch):
-    monkeypatch.setattr(in_turn, "REPEATED", 2)
+    monkeypatch.setattr(repeated_program, "REPEATED", 2)
     program, positions = machine(sqrt), {"x": np.arange(41.0)}
     assert [program.run({"a": 1.0}, positions, lambda _: None, 41, {}) for _ in range(3)] == [None] * 3
 
@@ -70,7 +70,7 @@ def test_an_edited_machine_has_the_same_bits_at_the_first_and_at_the_last_edit(n
         return lw.solve_forces(mechanism.with_dimensions({address: share * length}), steps=45)
 
     first = [edited(1.0 + 1e-3 * k) for k in range(4)]
-    monkeypatch.setattr(in_turn, "REPEATED", 3)
+    monkeypatch.setattr(repeated_program, "REPEATED", 3)
     for _ in range(2):
         last = [edited(1.0 + 1e-3 * k) for k in range(4)]
         for one, other in zip(first, last, strict=True):

@@ -14,7 +14,7 @@ from linkwright.engine.functions import FUNCTIONS
 from linkwright.engine.machine_code import available
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
-from linkwright.engine.recent import Recent
+from linkwright.engine.recently_made import Recent
 from linkwright.engine.table import Tables
 
 Arrays = Mapping[str, Floats]

@@ -23,7 +23,7 @@ from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.programs import Manner, motion_programs
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinematics.solver import MotionSolver
-from linkwright.kinetostatics.named import Named, Quantity
+from linkwright.kinetostatics.named_outputs import Named, Quantity
 from linkwright.kinetostatics.solver import ForceSolver
 from linkwright.kinetostatics.traced_loads import TURNING
 from linkwright.mechanism.mechanism import Mechanism

@@ -10,7 +10,7 @@ import numpy as np
 from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.cached_property import cached_property
 from linkwright.core.search import ends
-from linkwright.kinematics.between import Between
+from linkwright.kinematics.between_positions import Between
 from linkwright.kinematics.fold import fold
 from linkwright.kinematics.motion import Motion, Rows
 from linkwright.kinematics.passage import Passage
