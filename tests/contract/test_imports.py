@@ -70,6 +70,7 @@ KNOWN_TO_ENGINE = (
     "linkwright.errors",
     "linkwright.core.arrays",
     "linkwright.core.dataclass",
+    "linkwright.core.spline",
 )
 ENGINE = [module for module in MODULES if package_of(module) == "engine"]
 ANALYSIS = [module for module in MODULES if STAGE.get(package_of(module), FRONT) < FRONT]

@@ -206,6 +206,19 @@ def test_a_table_that_does_not_cover_the_cycle() -> None:
     assert "300° to 350° is missing" in message
 
 
+@pytest.mark.parametrize(
+    ("table", "said"),
+    [
+        ("over: input, x: [0 deg, 90 deg, 300 deg], y: [0 N, 5 N, 0 N]", "goes over whole turns of an angle"),
+        ("over: time, x: [0 s, 1 s], y: [5 N, 5 N]", "goes over whole turns of an angle"),
+        ("over: input, x: [0 deg, 90 deg, 360 deg], y: [0 N, 5 N, 1 N]", "must end where it begins"),
+    ],
+)
+def test_a_table_that_cannot_be_periodic(table: str, said: str) -> None:
+    message = refused(CRANK_ROCKER, f"{{{FORCE}, table: {{{table}, interpolation: periodic}}}}")
+    assert said in message and "interpolation: cubic" in message
+
+
 def test_a_table_over_an_output_that_goes_further() -> None:
     table = "table: {over: cylinder, x: [2 m, 3.5 m], y: [5 bar, 1 bar]}"
     message = refused(SLIDER, f"{{kind: pressure, joint: cylinder, area: 1 cm², {table}}}")

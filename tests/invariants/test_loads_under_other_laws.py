@@ -22,6 +22,10 @@ LOADS = {
     "table over the input": "table: {over: input, x: [0 deg, 90 deg, 360 deg], y: [1 N, 9 N, 1 N]}",
     "table over the time": "table: {over: time, x: [0 s, 1 s, 4 s], y: [1 N, 9 N, 1 N]}",
     "table over an output": "table: {over: cylinder, x: [1 m, 3 m, 4.5 m], y: [1 N, 9 N, 1 N]}",
+    "smooth table over an output": "table: {over: cylinder, x: [1 m, 2.4 m, 3 m, 4.5 m], y: [1 N, 2 N, 9 N, 1 N],"
+    " interpolation: cubic}",
+    "periodic table over the input": "table: {over: input, x: [0 deg, 90 deg, 200 deg, 360 deg],"
+    " y: [1 N, 9 N, 2 N, 1 N], interpolation: periodic}",
 }
 #: The rod's angle goes once from its smallest value to its largest one; in several turns it does so in every turn.
 ONE_WAY = (UNEVEN, SEVERAL_TURNS)

@@ -95,7 +95,7 @@ def test_functions_look_ups_and_states(tmp_path: Path) -> None:
         "below": 1.0 / select(low, -math.inf, 4.0), "none": select(high, math.nan, x),
     }  # fmt: skip
     program = Program.of(t, outputs, {"s": total})
-    table = Table.spline([0.0, 1.0, 2.5, 4.0], [1.0, 3.0, 2.0, 1.5], "periodic")
+    table = Table.spline([0.0, 1.0, 2.5, 4.0], [1.0, 3.0, 2.0, 1.5], periodic=True)
     n = 41
     positions = {"x": np.linspace(-7.0, 9.0, n)}
     (want,) = NumpyProgram(program).run_designs([[0.7]], positions, start=[0.25], tables={"table": table})

@@ -6,8 +6,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.interpolate import CubicSpline
 
 import linkwright as lw
+from linkwright.core.arrays import Floats
 from linkwright.core.outputs import Output
 from linkwright.fields.signals import SwingPhase
 from linkwright.files.model_file import loads
@@ -51,7 +53,14 @@ def crank_rocker(load: str) -> Mechanism:
 
 THETA = 2 * np.pi * np.arange(60) / 60
 STROKE = np.cos(THETA) + np.sqrt(9 - np.sin(THETA) ** 2)
-STROKE_RATE = -np.sin(THETA) - np.sin(THETA) * np.cos(THETA) / np.sqrt(9 - np.sin(THETA) ** 2)
+
+
+def stroke_rate(angle: Floats) -> Floats:
+    """dB.x/dθ."""
+    return np.asarray(-np.sin(angle) - np.sin(angle) * np.cos(angle) / np.sqrt(9 - np.sin(angle) ** 2))
+
+
+STROKE_RATE = stroke_rate(THETA)
 
 
 def torque(mechanism: Mechanism) -> np.ndarray:  # type: ignore[type-arg]
@@ -73,6 +82,33 @@ def test_an_indicator_table_over_the_displacement() -> None:
     got = torque(slider(f"kind: pressure, joint: cylinder, area: 1 m², {table}"))
     pressure = 1e5 * np.interp(STROKE, [2, 3, 4], [1, 2, 6])
     np.testing.assert_allclose(got, -pressure * STROKE_RATE, rtol=1e-9, atol=1e-7)
+
+
+def test_a_smooth_indicator_table_over_the_displacement() -> None:
+    x, y = [1.9, 2.6, 3.2, 4.1], [1.0, 2.0, 6.0, 3.0]
+    points = f"x: {[f'{at} m' for at in x]}, y: {[f'{p} bar' for p in y]}"
+    table = f"table: {{over: cylinder, {points}, interpolation: cubic}}"
+    got = torque(slider(f"kind: pressure, joint: cylinder, area: 1 m², {table}"))
+    pressure = 1e5 * CubicSpline(x, y)(STROKE)
+    np.testing.assert_allclose(got, -pressure * STROKE_RATE, rtol=1e-9, atol=1e-7)
+
+
+def test_a_periodic_table_goes_on_smoothly_from_turn_to_turn() -> None:
+    x, y = [0, 50, 140, 250, 360], [1, 5, 2, 7, 1]
+    points = f"x: {[f'{at} deg' for at in x]}, y: {[f'{f} N' for f in y]}"
+    table = f"table: {{over: input, {points}, interpolation: periodic}}"
+    mechanism = slider(f"kind: force, on: piston, at: B, direction: 0 deg, {table}")
+    curve = CubicSpline(np.radians(x), y, bc_type="periodic")
+    np.testing.assert_allclose(torque(mechanism), -curve(THETA) * STROKE_RATE, rtol=1e-9, atol=1e-9)
+    fine = np.linspace(0, 2 * np.pi, 200_001)
+    effort = curve(fine) * stroke_rate(fine)
+    numbers = ["peak_input_torque", "rms_input_torque"]
+    peak, rms = lw.metrics(lw.solve_forces(lw.solve_motion(mechanism)), numbers).rows
+    assert (peak.value, rms.value) == pytest.approx(
+        (np.abs(effort).max(), np.sqrt(np.mean(effort[1:] ** 2))), rel=1e-8
+    )
+    of_many = lw.study(mechanism, {"rod.length": [2.9, 3.0]}, metrics=numbers)
+    assert [of_many[name][1] for name in numbers] == pytest.approx([peak.value, rms.value], rel=1e-12)
 
 
 def test_a_table_over_time() -> None:

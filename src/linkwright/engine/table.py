@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cached_property
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.late_import import numpy as np
@@ -13,8 +13,6 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from linkwright.core.arrays import Floats
-
-Ends = Literal["not-a-knot", "natural", "periodic"]
 
 #: Numbers before the breaks in :attr:`Table.numbers`: pieces, start, span, whether periodic, drift.
 HEAD = 5
@@ -69,22 +67,23 @@ class Table:
         return cls(breaks, np.concatenate([level[0], coefficients, level[1]]))
 
     @classmethod
-    def spline(cls, x: ArrayLike, y: ArrayLike, ends: Ends = "not-a-knot") -> Table:
-        """The cubic through the points with continuous second derivative (de Boor, A Practical Guide to Splines).
+    def spline(cls, x: ArrayLike, y: ArrayLike, *, periodic: bool = False) -> Table:
+        """The cubic through the points with continuous second derivative (:mod:`linkwright.core.spline`).
 
-        ``ends``: the third derivative is continuous at the first and last inner points (two points: a
-        line, three: a parabola); or the second derivative is zero at the ends (``natural``); or slope and
-        curvature repeat (``periodic``), where y may rise from turn to turn: that is the table's drift.
+        The third derivative is continuous at the first and last inner points as well (two points: a line, three: a
+        parabola). ``periodic``: slope and curvature repeat instead, and y may rise from turn to turn, which is the
+        table's drift.
         """
+        from linkwright.core.spline import Spline
+
         xs, ys = _points(x, y)
-        h, slope = np.diff(xs), np.diff(ys) / np.diff(xs)
-        m = _curvatures(h, slope, ends)
-        coefficients = np.stack(
-            [ys[:-1], slope - h * (2.0 * m[:-1] + m[1:]) / 6.0, m[:-1] / 2.0, np.diff(m) / (6.0 * h)], axis=1
-        )
-        if ends == "periodic":
-            return cls(xs, coefficients, True, float(ys[-1] - ys[0]))
-        return cls(xs, coefficients)
+        if not periodic:
+            return cls(xs, Spline.not_a_knot(xs, ys).coefficients.T)
+        drift = float(ys[-1] - ys[0])
+        slope = drift / (xs[-1] - xs[0])
+        coefficients = Spline.periodic(xs, ys - slope * (xs - xs[0])).coefficients.T.copy()
+        coefficients[:, 0], coefficients[:, 1] = ys[:-1], coefficients[:, 1] + slope
+        return cls(xs, coefficients, True, drift)
 
     @cached_property
     def numbers(self) -> Floats:
@@ -137,28 +136,3 @@ def _points(x: ArrayLike, y: ArrayLike) -> tuple[Floats, Floats]:
     if xs.ndim != 1 or xs.shape != ys.shape or len(xs) < 2 or not (np.diff(xs) > 0.0).all():
         raise ValueError("a table needs two or more points, x increasing, one y for each")
     return xs, ys
-
-
-def _curvatures(h: Floats, slope: Floats, ends: Ends) -> Floats:
-    """Second derivatives at the points: h₋ m₋ + 2 (h₋ + h₊) m + h₊ m₊ = 6 (slope₊ − slope₋)."""
-    count = len(h) + 1
-    if ends == "periodic":
-        before, following = np.roll(h, 1), h
-        matrix = np.diag(2.0 * (before + following))
-        rows = np.arange(len(h))
-        np.add.at(matrix, (rows, (rows + 1) % len(h)), following)
-        np.add.at(matrix, (rows, (rows - 1) % len(h)), before)
-        inner = np.linalg.solve(matrix, 6.0 * (slope - np.roll(slope, 1)))
-        return np.append(inner, inner[0])
-    matrix, right = np.zeros((count, count)), np.zeros(count)
-    for i in range(1, count - 1):
-        matrix[i, i - 1 : i + 2] = h[i - 1], 2.0 * (h[i - 1] + h[i]), h[i]
-        right[i] = 6.0 * (slope[i] - slope[i - 1])
-    if ends == "natural" or count == 2:
-        matrix[0, 0] = matrix[-1, -1] = 1.0
-    elif count == 3:
-        matrix[0, :2], matrix[-1, -2:] = (1.0, -1.0), (-1.0, 1.0)
-    else:
-        matrix[0, :3] = h[1], -(h[0] + h[1]), h[0]
-        matrix[-1, -3:] = h[-1], -(h[-2] + h[-1]), h[-2]
-    return np.asarray(np.linalg.solve(matrix, right))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Collection, Mapping
 from typing import Any, Literal
 
@@ -69,17 +70,22 @@ class Magnitude(Field):
 
 @dataclass(frozen=True)
 class Table:
-    """Values ``y`` at increasing ``x`` of ``over``: the input, the time, or an output."""
+    """Values ``y`` at increasing ``x`` of ``over``: the input, the time, or an output.
+
+    ``linear``: straight lines between them; ``cubic``: a spline with continuous second derivative, its ends "not a
+    knot"; ``periodic``: one that goes on from its end as from its beginning, over whole turns of an angle.
+    """
 
     over: Literal["input", "time"] | Output
     x: tuple[float, ...]
     y: tuple[float, ...]
     across: str = "angle"  # dimension of x
+    interpolation: Literal["linear", "cubic", "periodic"] = "linear"
 
 
 @dataclass(frozen=True)
 class TableField(Field):
-    """A mapping ``{over: input | time | OUTPUT, x: […], y: […]}``."""
+    """A mapping ``{over: input | time | OUTPUT, x: […], y: […], interpolation: linear}``."""
 
     dimension: str
 
@@ -94,7 +100,12 @@ class TableField(Field):
             return None
         if not reader.increasing(node, place, "x", values["x"], values["y"], "y"):
             return None
-        return Table(over, values["x"], values["y"], across)
+        table = Table(over, values["x"], values["y"], across, values.get("interpolation") or "linear")
+        fault = _fault_of_period(table)
+        if fault is not None:
+            reader.finding(node, place, fault, "table", Sentence("model.periodic_or_cubic"))
+            return None
+        return table
 
     def _fields(self, across: str) -> dict[str, Field]:
         from linkwright.fields.base import Text
@@ -103,6 +114,7 @@ class TableField(Field):
             "over": Text(required=True, doc="input, time, or an output"),
             "x": Quantities(across, required=True, doc="increasing values of what the table goes over"),
             "y": Quantities(self.dimension, required=True, doc="the magnitude at each x"),
+            "interpolation": Word(("linear", "cubic", "periodic"), doc="default linear"),
         }
 
     def shape(self) -> Schema:
@@ -111,11 +123,28 @@ class TableField(Field):
         return shape
 
     def written(self, value: Any) -> Any:
-        return {
+        given = {
             "over": str(value.over),
             "x": [written_quantity(x, value.across) for x in value.x],
             "y": [written_quantity(y, self.dimension) for y in value.y],
         }
+        return given if value.interpolation == "linear" else {**given, "interpolation": value.interpolation}
+
+
+def _fault_of_period(table: Table) -> str | None:
+    """What keeps a table that is said to be periodic from being so."""
+    if table.interpolation != "periodic":
+        return None
+    turns = (table.x[-1] - table.x[0]) / math.tau
+    if (
+        table.over == "time"
+        or table.across != "angle"
+        or round(turns) < 1
+        or abs(turns - round(turns)) > 1e-6
+    ):
+        return "periodic_span"
+    close = abs(table.y[-1] - table.y[0]) <= 1e-9 * max(map(abs, table.y))
+    return None if close else "periodic_ends"
 
 
 @dataclass(frozen=True)

@@ -33,6 +33,7 @@ from linkwright.loads.base import Load
 from linkwright.loads.magnitude import (
     angles_of,
     by_rate,
+    curve_of,
     divides,
     followed,
     interval_of_turn,
@@ -132,7 +133,7 @@ def numbers_of_loads(loads: Iterable[Load], mechanism: Mechanism) -> AlongInput:
         tuple(dict.fromkeys(output for each in given if (output := by_rate(each)) is not None)),
         {pair: near for each in given for pair, near in angles_of(each, mechanism).items()},
         numbers,
-        {name: Table.linear(table.x, table.y) for name, table in over.items()},
+        {name: curve_of(table) for name, table in over.items()},
         tuple(fallible),
     )
 

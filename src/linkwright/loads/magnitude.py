@@ -6,11 +6,13 @@ the cycle before enters as numbers, and arrays of positions (:class:`linkwright.
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import TYPE_CHECKING, Protocol
 
 from linkwright.core.expression_tree import Number
 from linkwright.core.expressions import Expression
 from linkwright.core.outputs import Output
+from linkwright.engine.table import Table as Curve
 from linkwright.engine.trace import Mask, Scalar, absolute, floor, maximum, minimum, select, sign
 from linkwright.fields.signals import InputPhase, MovingPhase, SwingPhase, Table
 from linkwright.loads.base import Load
@@ -235,6 +237,14 @@ def within_phase(load: Load, course: Course, share: Scalar) -> Scalar:
         x, missing = place_in(table, course)
         return select(missing, float("nan"), course.lookup(x))
     return 1.0 if given is None else course.dimension("magnitude")
+
+
+@lru_cache(256)
+def curve_of(table: Table) -> Curve:
+    """The curve through a load's table."""
+    if table.interpolation == "linear":
+        return Curve.linear(table.x, table.y)
+    return Curve.spline(table.x, table.y, periodic=table.interpolation == "periodic")
 
 
 def place_in(table: Table, course: Course) -> tuple[Scalar, Mask]:

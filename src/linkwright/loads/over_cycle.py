@@ -12,7 +12,7 @@ from linkwright.engine.late_import import numpy as np
 from linkwright.errors import LinkwrightError, with_remedy
 from linkwright.fields.signals import InputPhase, MovingPhase, SwingPhase, Table
 from linkwright.loads.formulas import named_column, refuse_formula
-from linkwright.loads.magnitude import constants, part_ends, phase_passed, place_in, within_phase
+from linkwright.loads.magnitude import constants, curve_of, part_ends, phase_passed, place_in, within_phase
 from linkwright.loads.phases import NEAR, TURN, Stretch, place_on, strokes
 from linkwright.loads.signals import Signals, column, input_dimension, shown
 from linkwright.words.sentence import Sentence, together
@@ -72,8 +72,7 @@ class CycleCourse:
         return self.signals.angle_between(a, b, near=self.load.twist[1])
 
     def lookup(self, x: Any) -> Any:
-        table: Table = self.load.table  # type: ignore[attr-defined]
-        return np.interp(x, table.x, table.y)
+        return curve_of(self.load.table)(x)  # type: ignore[attr-defined]
 
     def limit_value(self, output: Output, kind: str) -> Any:
         return self._ends[kind]

@@ -244,6 +244,8 @@ WORDS = {
     "define_none": "define it under parameters (none is defined)",
     "zero": "zero",
     "negative": "negative",
+    "periodic_span": "a periodic table goes over whole turns of an angle, and this one does not",
+    "periodic_or_cubic": "close it (whole turns, the last value as the first), or write interpolation: cubic",
     "periodic_ends": "a periodic table must end where it begins",
     "periodic_turns": "a periodic table must end where it begins (or whole turns further)",
     "nothing": "nothing",

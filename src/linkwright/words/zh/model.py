@@ -239,6 +239,8 @@ WORDS = {
     "define_none": "请在 parameters 中定义（尚无参数）",
     "zero": "为零",
     "negative": "为负",
+    "periodic_span": "周期性表格须覆盖角度的整圈，而此表不是",
+    "periodic_or_cubic": "请使其闭合（整圈，末值与首值相同），或写 interpolation: cubic",
     "periodic_ends": "周期性表格的终点须与起点相同",
     "periodic_turns": "周期性表格的终点须与起点相同（或相差整圈）",
     "nothing": "空值",
