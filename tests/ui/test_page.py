@@ -376,6 +376,12 @@ PER_POSITION = (
         {"rod.length": 0.21},
     ),
     (
+        "slider_crank_inline",
+        "{kind: force, on: piston, at: B, direction: 180 deg, table: {over: input, interpolation: periodic,"
+        " x: [0 deg, 70 deg, 200 deg, 360 deg], y: [0 N, 900 N, 100 N, 0 N]}}",
+        {"rod.length": 0.21},
+    ),
+    (
         "triad",
         "{kind: torque, on: bar_2, table: {over: input, x: [0 deg, 90 deg, 360 deg], y: [0 N·m, 2 N·m, 0 N·m]}}",
         {"plate.Q.x": 0.0805},
