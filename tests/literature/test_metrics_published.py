@@ -11,6 +11,19 @@ import linkwright as lw
 from linkwright.files.build import Model
 from linkwright.metrics import MetricsTable, coupler_curve, four_bars, metrics
 
+RECIPROCATING = """
+format: 1
+name: slider-crank with a reciprocating mass
+frame: {points: {O: [0 mm, 0 mm], P: [0 mm, 25 mm]}}
+links:
+  crank: {points: [O, A], length: 40 mm}
+  rod: {points: [A, B], length: 160 mm}
+  piston: {points: [B], mass: 2 kg}
+joints: {cylinder: {kind: prismatic, guide: frame, through: O, direction: 0 deg, block: piston, at: B}}
+assembly: {B: forward}
+driver: {turn: crank, about: O, speed: 150 rad/s}
+"""
+
 
 def of(name: str, steps: int = 360) -> MetricsTable:
     return metrics(lw.solve_forces(lw.load(f"gallery:{name}"), steps=steps))
@@ -136,6 +149,42 @@ def test_scotch_yoke() -> None:
     assert table.value("peak_power") == pytest.approx(0.5 * m * r**2 * w**3, rel=1e-10)
     assert table.value("mean_power") == pytest.approx(0.0, abs=1e-9)
     assert table.value("peak_shaking_force") == pytest.approx(m * r * w**2, rel=1e-12)
+
+
+def test_primary_and_secondary_forces_of_a_slider_crank() -> None:
+    """Norton, Design of Machinery, ch. 13: m r ω² and m r ω² (λ + λ³/4 + 15 λ⁵/128 + 35 λ⁷/512 + …)."""
+    forces = lw.solve_forces(lw.solve_motion(lw.loads(RECIPROCATING)))
+    table = lw.metrics(forces, ["shaking_force_harmonic", "shaking_moment_harmonic"])
+    once, ratio = 2.0 * 0.04 * 150.0**2, 0.04 / 0.16
+    series = ratio + ratio**3 / 4 + 15 * ratio**5 / 128 + 35 * ratio**7 / 512
+    assert table.value("shaking_force_harmonic", "1×") == pytest.approx(once, rel=1e-12)
+    assert table.value("shaking_force_harmonic", "2×") == pytest.approx(once * series, rel=1e-6)
+    assert table.value("shaking_moment_harmonic", "1×") == pytest.approx(0.0, abs=1e-9)
+
+
+def test_shaking_of_each_order_is_that_of_fourier() -> None:
+    """Offset, with masses beside the links' lines; for one machine and for many."""
+    text = RECIPROCATING.replace("through: O", "through: P").replace(
+        "rod: {points: [A, B], length: 160 mm}",
+        "rod: {points: [A, B], length: 160 mm, mass: 0.7 kg, inertia: 0.002 kg·m², mass_centre: [60 mm, 9 mm]}",
+    )
+    machine, numbers = lw.loads(text), ["shaking_force_harmonic", "shaking_moment_harmonic"]
+    forces = lw.solve_forces(lw.solve_motion(machine, steps=720))
+    table = lw.metrics(forces, numbers)
+    many = lw.study(
+        machine, {"crank.length": [0.039, 0.04]}, metrics=[f"{n} {k}×" for n in numbers for k in (1, 2)]
+    )
+    phase = np.linspace(0.0, 2.0 * pi, 20001)
+    for order in (1, 2):
+        x, y, moment = (
+            np.mean(signal * np.exp(-1j * order * forces.motion.input))
+            for signal in (*forces.shaking_force.T, forces.shaking_moment)
+        )
+        way = [2.0 * (each * np.exp(1j * phase)).real for each in (x, y)]
+        want = {"shaking_force_harmonic": np.hypot(*way).max(), "shaking_moment_harmonic": 2.0 * abs(moment)}
+        for name, value in want.items():
+            assert table.value(name, f"{order}×") == pytest.approx(value, rel=1e-7)
+            assert many[f"{name} {order}×"][1] == pytest.approx(table.value(name, f"{order}×"), rel=1e-12)
 
 
 def test_ellipse_of_the_trammel() -> None:

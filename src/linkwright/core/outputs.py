@@ -83,6 +83,8 @@ KINDS = {
     "areal_velocity": Kind("point", "areal_velocity", form="phrase"),
     "velocity_ratio": Kind("link", "", form="phrase"),
     "equivalent_inertia": Kind("machine", "inertia", form="phrase"),
+    "cosine": Kind("machine", "", form="phrase"),
+    "sine": Kind("machine", "", form="phrase"),
 }  # fmt: skip
 _BY_ROW = {kind.row: name for name, kind in KINDS.items() if kind.row}
 _RATES = {
@@ -132,8 +134,8 @@ class Output:
 
     ``kind``: of ``KINDS``; ``owner``: the point, link, joint, driver, load or group; ``component``: ``x``, ``y``, or
     none for the whole or its size (of loads on a link also ``m``, their moment); ``on``: the link on which a joint's
-    force acts, the fact of a group, the second of two points; ``slides``: of a driver, whether it slides;
-    ``written``: how a file says it, where that is not :func:`str`'s own.
+    force acts, the fact of a group, the second of two points, the order of a harmonic; ``slides``: of a driver,
+    whether it slides; ``written``: how a file says it, where that is not :func:`str`'s own.
     """
 
     kind: str

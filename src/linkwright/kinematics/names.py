@@ -14,6 +14,8 @@ from linkwright.words.sentence import Sentence
 
 #: First words of outputs that are phrases, ``transmission_angle B``.
 PHRASES = frozenset({"input_torque", *(name for name, kind in KINDS.items() if kind.form == "phrase")})
+#: Products of an output with the cosine and sine of a multiple of the input, and the multiples.
+HARMONIC, ORDERS = ("cosine", "sine"), tuple(str(order) for order in range(1, 13))
 #: Kinds by what they belong to and the word behind it.
 _PARTS = {
     (kind.of, kind.word or name): name for name, kind in KINDS.items() if kind.form in ("part", "place")
@@ -121,6 +123,9 @@ def _phrase(mechanism: Mechanism, text: str, kind: str, rest: list[str]) -> Outp
         return Output("effort", first, slides=_slides(mechanism, first)) if not rest and first else None
     if kind == "distance":
         return Output(kind, rest[0], on=rest[1]) if len(rest) == 2 else None
+    if kind in HARMONIC:
+        ordered = len(rest) > 1 and rest[-1] in ORDERS
+        return Output(kind, " ".join(rest[:-1]), on=rest[-1]) if ordered else None
     match KINDS[kind].of:
         case "machine":
             return None if rest else Output(kind)

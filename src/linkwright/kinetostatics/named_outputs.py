@@ -16,7 +16,7 @@ from linkwright.engine.trace import Scalar, Value, absolute, atan, minimum, slop
 from linkwright.engine.vector import Vec
 from linkwright.errors import RequestError
 from linkwright.joints.pose import Rotor
-from linkwright.kinematics.names import canonical, find_point, no_output, output_meant
+from linkwright.kinematics.names import HARMONIC, canonical, find_point, no_output, output_meant
 from linkwright.kinematics.programs import MotionPrograms
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinetostatics.closure import closable, conditioning, half_transmission, transmission
@@ -106,6 +106,9 @@ class Named:
         output = output_meant(self.mechanism, name)
         if output.kind == "angle":
             return self._angle(name, output)
+        if output.kind in HARMONIC:
+            inner = self.quantity(output.owner)
+            return Quantity(name, output, inner.dimension, inner.value * self._wave(name, output))
         found = self._traced(name, output)
         value = _component(found, output.component) if isinstance(found, Vec) else found
         return Quantity(name, output, output.dimension or self._ratio(output), value)
@@ -160,6 +163,17 @@ class Named:
         c, s = float(np.cos(middle)), float(np.sin(middle))
         along, across = e.x * c + e.y * s, e.y * c - e.x * s
         return Quantity(name, output, "angle", across / (1.0 + along), middle)
+
+    def _wave(self, name: str, output: Output) -> Scalar:
+        """Cosine or sine of a multiple of the first driver's angle, by the addition theorem."""
+        first = next(iter(self.mechanism.drivers), None)
+        turn = None if first is None else self.motion.motion.drivers[first].turn
+        if turn is None:
+            return no_output(self.mechanism, name)
+        cosine, sine = turn.x, turn.y
+        for _ in range(int(output.on) - 1):
+            cosine, sine = cosine * turn.x - sine * turn.y, sine * turn.x + cosine * turn.y
+        return cosine if output.kind == "cosine" else sine
 
     def _ratio(self, output: Output) -> str:
         """Dimension of a rate over the first driver's."""

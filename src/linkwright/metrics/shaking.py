@@ -5,6 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import ClassVar
 
+from linkwright.engine.trace import Scalar, sqrt
+from linkwright.kinematics.names import HARMONIC
+from linkwright.kinetostatics.load_site import turns_steadily
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Better, Metric, Number
 
@@ -40,3 +43,45 @@ class PeakShakingMoment(Shaking):
 
     dimension = "torque"
     summary = "shaking_moment peak"
+
+
+class ShakingHarmonic(Shaking):
+    """What goes round once and twice in a turn of the input, as balancing takes it away."""
+
+    source = "Norton, Design of Machinery, ch. 13: primary and secondary forces; Dresig, Holzweißig, ch. 2"
+    on_request = True
+    orders: ClassVar[tuple[int, ...]] = (1, 2)
+
+    def suits(self, analysis: Analysis) -> bool:
+        return super().suits(analysis) and analysis.closed and turns_steadily(analysis.motion.mechanism)
+
+
+@METRICS.register("shaking_force_harmonic")
+class ShakingForceHarmonic(ShakingHarmonic):
+    """Largest force of one order of the shaking force, N: the longer half axis of the ellipse that it goes round."""
+
+    dimension = "force"
+
+    def numbers(self, analysis: Analysis) -> Iterator[Number]:
+        for order in self.orders:
+            waves = (f"{wave} shaking_force.{axis} {order} mean" for axis in "xy" for wave in HARMONIC)
+            yield Number(f"{order}×", tuple(waves), _longer_half_axis)
+
+
+@METRICS.register("shaking_moment_harmonic")
+class ShakingMomentHarmonic(ShakingHarmonic):
+    """Amplitude of one order of the shaking moment, N·m."""
+
+    dimension = "torque"
+
+    def numbers(self, analysis: Analysis) -> Iterator[Number]:
+        for order in self.orders:
+            waves = (f"{wave} shaking_moment {order} mean" for wave in HARMONIC)
+            yield Number(f"{order}×", tuple(waves), lambda a, b: 2.0 * sqrt(a * a + b * b))
+
+
+def _longer_half_axis(a: Scalar, b: Scalar, c: Scalar, d: Scalar) -> Scalar:
+    """Of x = 2 (a cos φ + b sin φ), y = 2 (c cos φ + d sin φ): the sum of what turns either way."""
+    with_it = sqrt((a + d) * (a + d) + (c - b) * (c - b))
+    against = sqrt((a - d) * (a - d) + (c + b) * (c + b))
+    return with_it + against

@@ -91,6 +91,10 @@ WORDS = {
     "peak_shaking_force.meaning": "运动构件惯性力对机架合力的最大值。",
     "peak_shaking_moment.label": "振动力矩峰值",
     "peak_shaking_moment.meaning": "惯性力对机架坐标原点之矩的最大值。",
+    "shaking_force_harmonic.label": "振动力谐波",
+    "shaking_force_harmonic.meaning": "机架所受一阶（1×）与二阶（2×）惯性力的最大值。",
+    "shaking_moment_harmonic.label": "振动力矩谐波",
+    "shaking_moment_harmonic.meaning": "一阶（1×）与二阶（2×）振动力矩的幅值。",
     "grashof.label": "格拉斯霍夫余量",
     "grashof.meaning": "四杆回路中两中间杆长之和减去最短杆与最长杆长度之和；为正时最短杆可整周转动。",
     "grashof.crank_rocker": "曲柄摇杆机构：s + l < p + q（{s} + {l} < {p} + {q}），最短杆 {shortest} "
