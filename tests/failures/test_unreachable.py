@@ -32,6 +32,13 @@ driver: {{turn: crank, about: O1, speed: 1 rad/s, start: {start} deg}}
 """)
 
 
+def test_a_group_without_closed_form_alone_is_named_as_what_stops() -> None:
+    """Its pins are drawn 1000 km apart, and nothing but the group itself can say where the range ends."""
+    text = lw.read_document("gallery:triad").text.replace("P: [210 mm, 90 mm]", "P: [210 mm, 1000000000 mm]")
+    with pytest.raises(lw.LinkwrightError, match="bar_1, bar_2, bar_3, plate"):
+        lw.solve_motion(lw.loads(text), steps=7)
+
+
 def test_missing_distance_is_said() -> None:
     """At 120° the pins are hypot(5.5, 2.598) = 6.0828 m apart, the links reach 4.5 m."""
     missing = hypot(4 + 1.5, 3 * 3**0.5 / 2) - 4.5

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from scipy.optimize import fsolve
 from tests.reference.test_branch_cases import STEPHENSON
 from tests.reference.test_branches import fault
+from tests.work import counted
 
 import linkwright as lw
 from linkwright.cycle_programs import iterated_groups
@@ -79,6 +80,22 @@ def test_a_law_that_is_no_straight_line_is_met_where_it_is(
         read = Followed._read
         monkeypatch.setattr(Followed, "_read", lambda *a: (read(*a)[0], np.zeros(len(a[1]), dtype=bool)))
     agree(followed(motion).between(places, q), there)
+
+
+def test_numbers_of_an_input_that_swings_often_take_no_more_work_at_few_positions() -> None:
+    """Ten swings in 36 steps: no reading between two positions is sure, and each was followed by itself."""
+    text = lw.read_document("gallery:stephenson_sixbar_triad").text
+    mechanism = lw.loads(text.replace("t/(2 s)", "t/(0.2 s)").replace("cycle:", "cycle: {duration: 2 s}\n#"))
+    found = []
+    for steps in (36, 720):
+        forces = lw.solve_forces(lw.solve_motion(mechanism, steps=steps))
+        table, calls = counted(lambda forces=forces: lw.metrics(forces))
+        found.append(({(row.metric, row.subject): row.value for row in table.rows}, calls))
+    (few, work_of_few), (many, work_of_many) = found
+    assert few.keys() == many.keys() and len(few) > 10
+    for key, value in many.items():
+        assert few[key] == pytest.approx(value, rel=1e-7, abs=1e-9), key
+    assert work_of_few < 3.0 * work_of_many
 
 
 @pytest.mark.parametrize("shift", [0.0, 0.05, 0.2])
@@ -232,7 +249,7 @@ def test_a_straight_row_of_inputs_is_one_way(triad: Motion) -> None:
     rows = dict.fromkeys(triad.positions.coordinates, (q, none, none))
     positions = replace(triad.positions, time=none, coordinates=rows, period=None, cycle=False)
     journey = _Journey(solver.follower(), positions, False)
-    assert journey._in_line() and not journey._lawful()
+    assert journey._in_line() and not journey.lawful
     assert journey._shares() == pytest.approx(q / 2.0)
     way = journey.followed()
     exact = lw.solve_motion(triad.mechanism, at=q)

@@ -21,7 +21,7 @@ from linkwright.kinematics.assembly import AssemblyError
 from linkwright.kinematics.branch import CORRECTION, Branch, Way, follow, lawful, straight
 from linkwright.kinematics.certificate import distance_to_others
 from linkwright.kinematics.closed_loops import ClosedLoops, counted
-from linkwright.kinematics.cycle import Positions, coordinate_text, off_law, rotary
+from linkwright.kinematics.cycle import Positions, at_times, coordinate_text, off_law, rotary
 from linkwright.kinematics.groups import iterated, state_name
 from linkwright.mechanism.drawing import Drawing
 
@@ -29,6 +29,8 @@ if TYPE_CHECKING:
     from linkwright.kinematics.design import Design
     from linkwright.kinematics.solver import MotionSolver
 
+#: Positions of a cycle that are near enough for most that is read between them.
+ENOUGH = 720
 #: What a drawing may leave open (share of the size) to count as exact.
 EXACT = 1e-13
 
@@ -50,7 +52,8 @@ class Followed(Frozen):
     is proved that the assembly is the one of the drawing; ``margin`` (n,): no other assembly lies nearer (rad, or
     share of the mechanism's size); ``stops`` and ``stop_of`` (n,): where the way to a position ends, -1 for none;
     ``breaks``: positions after which it ends before the next one; ``closed``: whether the first position follows the
-    last one; ``returns``: whether such a cycle comes back to its first assembly (None: it was not passed).
+    last one; ``returns``: whether such a cycle comes back to its first assembly (None: it was not passed);
+    ``positions``: where the drivers follow their laws from each to the next.
     """
 
     follower: Follower
@@ -64,6 +67,7 @@ class Followed(Frozen):
     breaks: frozenset[int]
     closed: bool
     returns: bool | None
+    positions: Positions | None = None
 
     def taken(self, order: Indices) -> Followed:
         """Some of the positions in another order, each for itself."""
@@ -75,7 +79,7 @@ class Followed(Frozen):
             certified=self.certified[order],
             margin=self.margin[order],
             stop_of=self.stop_of[order],
-            breaks=frozenset(), closed=False, returns=None,
+            breaks=frozenset(), closed=False, returns=None, positions=None,
         )  # fmt: skip
 
     def between(self, places: Floats, inputs: Floats) -> dict[str, Floats]:
@@ -83,11 +87,14 @@ class Followed(Frozen):
 
         NaN where one of the two neighbours is not reached.
         """
-        n, follower = len(self.inputs), self.follower
+        return self.follower.states(self._unknowns(places, inputs), inputs)
+
+    def _unknowns(self, places: Floats, inputs: Floats) -> Floats:
+        n = len(self.inputs)
         a = np.minimum(np.floor(places).astype(int), n - 1)
         around = self.closed and self.returns is not False
         b = (a + 1) % n if around else np.minimum(a + 1, n - 1)
-        found = np.full((len(places), follower.loops.n), math.nan)
+        found = np.full((len(places), self.follower.loops.n), math.nan)
         known = np.flatnonzero(
             np.isfinite(self.coordinates[a]).all(axis=1)
             & np.isfinite(self.coordinates[b]).all(axis=1)
@@ -96,14 +103,37 @@ class Followed(Frozen):
         )
         if len(known):
             found[known], sure = self._read(a[known], b[known], (places - a)[known], inputs[known])
-            for i in np.unique(a[known[~sure]]):
-                these = known[~sure & (a[known] == i)]
+            rest = known[~sure]
+            if len(rest) and self._finer is not None:
+                finer, times = self._finer
+                found[rest] = finer._unknowns(places[rest] * times, inputs[rest])
+                rest = rest[~np.isfinite(found[rest]).all(axis=1)]
+            for i in np.unique(a[rest]):
+                these = rest[a[rest] == i]
                 found[these] = self._walked(int(i), int(b[these[0]]), places[these] - i, inputs[these])
-        return follower.states(found, inputs)
+        return found
+
+    @cached_property
+    def _finer(self) -> tuple[Followed, int] | None:
+        """The same cycle at so many times more positions; None where they are enough, or not all of it is passed."""
+        positions = self.positions
+        if (
+            positions is None
+            or positions.count >= ENOUGH
+            or not np.isfinite(self.coordinates).all()
+            or self.breaks
+        ):
+            return None
+        times = -(-ENOUGH // positions.steps)
+        ends = positions.around[:-1] if positions.repeated else positions.around
+        count = (len(ends) - 1) * times + (0 if positions.closed else 1)
+        at = np.interp(np.arange(count) / times, np.arange(len(ends)), ends)
+        finer = replace(at_times(self.follower.mechanism, at, positions.period), cycle=True)
+        return self.follower.follow(finer), times
 
     def _read(self, a: Indices, b: Indices, share: Floats, q: Floats) -> tuple[Floats, Flags]:
-        """Unknowns (m, n) from the cubics between neighbours, corrected by Newton's method; whether the correction is
-        small against the way between the neighbours."""
+        """Unknowns (m, n) from the cubics between neighbours, and their tangents where drivers go no straight way,
+        corrected by Newton's method; whether the correction is small against these ways."""
         follower, loops = self.follower, self.follower.loops
         start, end = (np.concatenate([self.coordinates[i], self.inputs[i]], axis=1) for i in (a, b))
         end = start + follower.nearest_way(end - start)
@@ -112,10 +142,14 @@ class Followed(Frozen):
         t = share[:, None]
         near = start + (3.0 - 2.0 * t) * t * t * way
         near[:, : loops.n] += t * (1.0 - t) ** 2 * slopes[0] - t * t * (1.0 - t) * slopes[1]
-        near[:, loops.n :] += follower.nearest_drive(q - near[:, loops.n :])
+        near[:, loops.n :] = (start + t * way)[:, loops.n :]
+        aside = follower.nearest_drive(q - near[:, loops.n :])
+        beside = loops.tangents(near, aside)
+        near += np.concatenate([beside, aside], axis=1)
         exact, last = loops.polished(near, 4)
         moved = (np.abs(exact - near)[:, : loops.n] / loops.scale).max(axis=1)
-        room = CORRECTION * (np.abs(way[:, : loops.n]) / loops.scale).max(axis=1) + 1e-9
+        gone = np.maximum(np.abs(way[:, : loops.n]), np.abs(beside)) / loops.scale
+        room = CORRECTION * gone.max(axis=1) + 1e-9
         return exact[:, : loops.n], (moved <= room) & (last < 1e-9)
 
     def _walked(self, a: int, b: int, share: Floats, q: Floats) -> Floats:
@@ -350,19 +384,21 @@ class _Journey:
             frozenset(self.breaks),
             self.positions.closed,
             self.returns,
+            self.positions if self.positions.cycle and self.lawful else None,
         )
 
     def _all(self) -> None:
         follower = self.follower
         start = self._leg(follower.drawn_inputs, follower.drawn, np.array([0]), True)
-        if start is not None and self.positions.count > 1 and self._lawful():
+        if start is not None and self.positions.count > 1 and self.lawful:
             self._along_laws(start)
         elif start is not None and self._in_line():
             self._along_line(start)
         elif start is not None or self.apart:
             self._apart(start, 1)
 
-    def _lawful(self) -> bool:
+    @cached_property
+    def lawful(self) -> bool:
         """Whether the positions follow each other in time by the drivers' laws."""
         time = self.positions.time
         steps = np.diff(time)

@@ -382,8 +382,8 @@ class _Search:
         gone |= {name for name, row in zip(modal, quality, strict=True) if not row[1] > 0}
         least = {name: row[0] for name, row in zip(modal, quality, strict=True)}
         first = next((name for name in modal if name in gone), None)
-        stuck = stop.group or first or min(least, key=least.__getitem__, default=None)
-        assert stuck is not None
+        stuck = stop.group or first or min(least, key=least.__getitem__, default="")
+        stuck = stuck or solver.follower().loops.groups[-1]
         told = getattr(placed[stuck].dyad, "at_end", None)
         if told is None:
             return groups[stuck], Sentence("range.singular")
