@@ -20,7 +20,7 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.core.dataclass import dataclass
-from linkwright.core.outputs import Output
+from linkwright.core.outputs import Output, RelativeAngle
 from linkwright.fields.base import (
     REQUIRED,
     Field,
@@ -146,8 +146,8 @@ class Load:
         """The link with which the direction of the load's force turns."""
         return None
 
-    def reverses(self, mechanism: Mechanism) -> Output | None:
-        """The output at whose limits the load changes its sign, because it goes by the sign of a velocity."""
+    def reverses(self, mechanism: Mechanism) -> Output | RelativeAngle | None:
+        """What it is at whose limits the load changes its sign, because it goes by the sign of a velocity."""
         return None
 
     def mark(self, motion: Motion, index: int) -> Mark | None:
