@@ -118,8 +118,8 @@ metrics of every design. Designs that cannot move are counted and explained.""",
     "so no gradient of many designs is found; for outputs use sensitivity, which takes one design at a time, for "
     "design numbers study",
     "objective_reverses": "{name!r}: the load {load!r} has the sign of the rate of {output}, which changes it "
-    "{count} times in a turn, where gradients of design numbers take two changes; for outputs use sensitivity, for "
-    "design numbers study",
+    "{count} times in a turn, where gradients beside groups without closed form take two changes; for outputs "
+    "use sensitivity, for design numbers study",
     "objective_iterates": "{name!r} has a group without closed form, and passes change points, is given inputs other "
     "than its cycle, or has loads by an output with more than two limits, so no gradient of many designs is found; "
     "for outputs use sensitivity, for design numbers study",
