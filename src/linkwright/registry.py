@@ -15,8 +15,8 @@ from linkwright.words.synonyms import nearest_in_meaning
 T = TypeVar("T")
 #: Names of which a sentence lists all, and among which the nearest is looked for, at most.
 MOST_SHOWN, MOST_COMPARED = 60, 300
-#: Likeness of two names above which one is the other with a slip of the pen.
-SLIP = 0.8
+#: Likeness of two names above which one is the other with a slip of the pen, is probably meant, may be meant.
+SLIP, PROBABLE, POSSIBLE = 0.8, 0.7, 0.5
 
 
 class Registry(Mapping[str, T], Generic[T]):
@@ -146,8 +146,11 @@ class UnknownName(RequestError, KeyError):
     """A name that no registered element has."""
 
 
-def nearest(name: str, candidates: Mapping[str, object] | list[str] | tuple[str, ...]) -> str | None:
-    """The candidate that looks most like ``name`` (capitals do not count), or means the same; or None."""
+def nearest(
+    name: str, candidates: Mapping[str, object] | list[str] | tuple[str, ...], likeness: float = POSSIBLE
+) -> str | None:
+    """The candidate that looks most like ``name`` (capitals do not count), or means the same; None where none has
+    this ``likeness``."""
     known = list(candidates)
     if len(known) > MOST_COMPARED:
         known = [text for text in known if text[:1].casefold() == name[:1].casefold()][:MOST_COMPARED]
@@ -168,5 +171,5 @@ def nearest(name: str, candidates: Mapping[str, object] | list[str] | tuple[str,
     inside = [text for key, text in folded.items() if len(name) > 2 and key.startswith(name.casefold())]
     if inside:
         return min(inside, key=len)
-    found = get_close_matches(name.casefold(), list(folded), n=1, cutoff=0.5)
+    found = get_close_matches(name.casefold(), list(folded), n=1, cutoff=likeness)
     return folded[found[0]] if found else None

@@ -86,6 +86,7 @@ UNITS: Mapping[str, tuple[float, Dimension]] = {
     "kN": (1e3, _FORCE),
     "MN": (1e6, _FORCE),
     "lbf": (4.4482216152605, _FORCE),
+    "kgf": (9.80665, _FORCE),
     "J": (1.0, _ENERGY),
     "kJ": (1e3, _ENERGY),
     "W": (1.0, _POWER),
@@ -162,15 +163,44 @@ SPELLINGS: Mapping[str, str] = {
     "u/min": "rpm",
     "turn": "rev",
     "turns": "rev",
-    "psi": "Pa",
-    "kgf": "N",
+    "psi": "lbf/in²",
+    "slug": "lbf·s²/ft",
+    "slugs": "lbf·s²/ft",
+    "blob": "lbf·s²/in",
+    "blobs": "lbf·s²/in",
+    "kp": "kgf",
     "lbs": "lb",
     "Mpa": "MPa",
     "hz": "Hz",
     '"': "in",
     "毫米": "mm",
+    "厘米": "cm",
     "米": "m",
     "度": "deg",
+    "弧度": "rad",
+    "转": "rev",
+    "转/分": "rpm",
+    "转/分钟": "rpm",
+    "秒": "s",
+    "分": "min",
+    "分钟": "min",
+    "小时": "h",
+    "克": "g",
+    "千克": "kg",
+    "公斤": "kg",
+    "吨": "t",
+    "牛": "N",
+    "牛顿": "N",
+    "千牛": "kN",
+    "公斤力": "kgf",
+    "牛米": "N·m",
+    "帕": "Pa",
+    "兆帕": "MPa",
+    "瓦": "W",
+    "千瓦": "kW",
+    "焦": "J",
+    "焦耳": "J",
+    "赫兹": "Hz",
 }
 
 _SPACES = re.compile(r"[\s\u00a0\u2009\u202f\ufeff]+")
@@ -412,12 +442,21 @@ def require(kind: Dimension, dimension: str, text: str, *, bare: bool = False) -
             Sentence("units.needed", noun=noun, right=right),
             code="missing-unit",
         )
-    weight = dimension == "mass" and kind == UNITS["N"][1]
-    remedy = (
-        Sentence("units.weight", text=text) if weight else Sentence("units.as_in", example=example(dimension))
-    )
+    remedy = _of_weight(kind, dimension, text) or Sentence("units.as_in", example=example(dimension))
     said = Sentence("units.wrong_dimension", text=text, wrong=name_of(kind), noun=noun)
     raise QuantityError(said, remedy, code="wrong-dimension")
+
+
+def _of_weight(kind: Dimension, dimension: str, text: str) -> Sentence | None:
+    """What to write where a mass stands in the place of its weight, alone or in a product, or a weight for a mass."""
+    acceleration, wanted = DIMENSIONS["acceleration"], DIMENSIONS[dimension]
+    if dimension == "mass" and kind == UNITS["N"][1]:
+        return Sentence("units.weight", text=text)
+    if wanted != times(kind, acceleration):
+        return None
+    if re.search(r"\blb\b", text):
+        return Sentence("units.pound", right=re.sub(r"\blb\b", "lbf", text))
+    return Sentence("units.mass", text=text) if kind[1] else None
 
 
 def name_of(kind: Dimension) -> Sentence:

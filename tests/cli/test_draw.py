@@ -39,6 +39,16 @@ def texts(root: ET.Element) -> set[str]:
     return {"".join(e.itertext()) for e in root.iter(f"{SVG}text")}
 
 
+def test_positions_out_of_reach_are_told_in_the_language_asked_for(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    model = tmp_path / "stuck.yaml"
+    model.write_text(STUCK, encoding="utf-8")
+    assert main(["draw", str(model), "--output", str(tmp_path / "out.svg"), "--lang", "zh"]) == 0
+    told = capsys.readouterr().err
+    assert "RRR 杆组" in told and "无法装配" in told and "cannot" not in told
+
+
 def test_drawing_shows_what_is_asked_for(tmp_path: Path) -> None:
     root = drawn(
         tmp_path, "--at", "30 deg", "--overlay", "limits", "--paths", "C,jaw.D", "--velocities", "--centres"

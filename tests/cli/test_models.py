@@ -148,3 +148,37 @@ def test_gallery_copies_once(tmp_path: Path, capsys: pytest.CaptureFixture[str])
     assert "exists" in capsys.readouterr().err
     assert main([*asked, "--force"]) == 0
     assert main(["gallery", "copy", "kite", str(tmp_path / "nowhere")]) == 2
+
+
+HALF_DRAWN = """\
+format: 1
+name: Two dyads
+frame: {points: {O: [0 m, 0 m], P: [1 m, 0 m], Q: [2 m, 0 m]}}
+links:
+  crank: {points: [O, A], length: 0.3 m}
+  coupler: {points: [A, B], length: 0.9 m}
+  rocker: {points: [P, B], length: 0.7 m}
+  rod: {points: [B, C], length: 1.2 m}
+  lever: {points: [Q, C], length: 0.7 m}
+driver: {turn: crank, about: O, speed: 60 rpm}
+"""
+
+
+@pytest.mark.parametrize(
+    ("told", "open_groups"),
+    [
+        ("", ["B", "C"]),
+        ("drawing: {A: [0.3 m, 0 m]}", ["B", "C"]),
+        ("drawing: {B: [0.9 m, 0.7 m]}", ["C"]),
+        ("drawing: {C: [1.8 m, 0.7 m]}\nassembly: {B: left}", []),
+    ],
+)
+def test_dyads_of_which_nothing_tells_the_assembly_are_noted(
+    told: str, open_groups: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "model.yaml"
+    path.write_text(HALF_DRAWN + told + "\n", encoding="utf-8")
+    assert main(["check", str(path), "--json"]) == 0
+    (file,) = json.loads(capsys.readouterr().out)["files"]
+    noted = [each["message"] + each["remedy"] for each in file["findings"] if each["code"] == "assembly"]
+    assert [next(joint for joint in "BC" if f"{{{joint}: left}}" in text) for text in noted] == open_groups

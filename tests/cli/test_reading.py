@@ -97,3 +97,18 @@ def test_every_declared_option_can_be_read() -> None:
     for name in commands.names():
         parser = command_parser(name, speaker("en"))
         assert {type(action).__name__ for action in parser._actions} <= known, name
+
+
+@pytest.mark.parametrize(
+    ("command", "word", "remedy"),
+    [
+        ("metrics", "stroke", "write --names stroke"),
+        ("solve", "30deg", "write --at 30deg"),
+        ("draw", "out.svg", "write --output out.svg"),
+        ("tolerance", "strok", "of: [stroke]"),
+        ("sweep", "strok", "see linkwright sweep --help"),
+    ],
+)
+def test_a_word_without_its_option_is_told_what_to_write(command: str, word: str, remedy: str) -> None:
+    told = refusal(command, "gallery:crank_rocker", word)
+    assert f'the argument "{word}" is not expected here' in told and remedy in told

@@ -44,6 +44,12 @@ loads: {push: {kind: force, on: rocker, at: C, magnitude: 3 kN, direction: 180 d
         ("loads", "载荷"),
         ("kind", "类型"),
         ("magnitude", "大小"),
+        ("length", "l"),
+        ("speed", "n"),
+        ("speed", "omega"),
+        ("speed", "角速度"),
+        ("loads", "torques"),
+        ("driver", "motor"),
     ],
 )
 def test_a_key_that_is_nearly_known_is_one_finding(key: str, wrong: str) -> None:
@@ -52,6 +58,73 @@ def test_a_key_that_is_nearly_known_is_one_finding(key: str, wrong: str) -> None
     (finding,) = refused.value.findings
     assert finding.code == "unknown-key"
     assert f'"{wrong}"' in finding.message and f'did you mean "{key}"?' in finding.remedy
+
+
+SLIDE = """
+format: 1
+frame: {points: {O: [0 m, 0 m]}}
+links: {block: {points: [B], mass: 1 kg}}
+joints: {way: {kind: prismatic, guide: frame, through: O, direction: 0 deg, block: block, at: B, offset: 3 mm}}
+driver: {slide: way, speed: 1 m/s}
+loads: {gust: {kind: pressure, joint: way, area: 1 m², pushes: forward, magnitude: 3 Pa}}
+"""
+
+
+@pytest.mark.parametrize(
+    ("kind", "habit"),
+    [
+        ("prismatic", "slider"),
+        ("prismatic", "rail"),
+        ("prismatic", "滑块"),
+        ("prismatic", "移动副"),
+        ("prismatic", "cylinder"),
+        ("pressure", "gas"),
+        ("pressure", "液压"),
+    ],
+)
+def test_a_kind_by_habit_is_pointed_to_the_right_word_and_the_rest_is_checked(kind: str, habit: str) -> None:
+    text = (
+        SLIDE.replace(f"kind: {kind}", f"kind: {habit}")
+        .replace("1 m²", "1")
+        .replace("offset: 3 mm", "offset: 3")
+    )
+    with pytest.raises(lw.ModelError) as refused:
+        lw.loads(text)
+    first, *others = sorted(refused.value.findings, key=lambda each: each.code, reverse=True)
+    assert first.code == "unknown-word" and f'did you mean "{kind}"?' in first.remedy
+    assert [each.key for each in others] == ["joints.way.offset", "loads.gust.area"]
+
+
+@pytest.mark.parametrize(("habit", "kind"), [("hinge", "revolute"), ("铰", "revolute"), ("rigid", "weld")])
+def test_other_habits_of_joints_are_pointed_to_the_right_word(habit: str, kind: str) -> None:
+    with pytest.raises(lw.ModelError) as refused:
+        lw.loads(f"{MODEL}joints: {{C: {{kind: {habit}}}}}")
+    assert f'did you mean "{kind}"?' in refused.value.findings[0].remedy
+
+
+@pytest.mark.parametrize(
+    ("kind", "word"), [("gravity", "gravity: ["), ("weight", "gravity: ["), ("friction", "joints")]
+)
+def test_what_is_no_kind_of_load_is_told_where_it_stands(kind: str, word: str) -> None:
+    with pytest.raises(lw.ModelError) as refused:
+        lw.loads(MODEL.replace("kind: force", f"kind: {kind}"))
+    (finding,) = refused.value.findings
+    assert finding.key == "loads.push.kind" and word in finding.remedy
+
+
+@pytest.mark.parametrize("section", ["sliders", "hinges", "gears", "运动副"])
+def test_a_section_by_habit_is_pointed_to_the_right_one(section: str) -> None:
+    with pytest.raises(lw.ModelError) as refused:
+        lw.loads(SLIDE.replace("joints:", f"{section}:"))
+    (finding,) = refused.value.findings
+    assert 'did you mean "joints"?' in finding.remedy
+
+
+def test_a_key_that_only_looks_a_little_alike_is_offered_and_not_read() -> None:
+    with pytest.raises(lw.ModelError) as refused:
+        lw.loads(MODEL.replace("length: 0.3 m", "length: 0.3 m, image: steel"))
+    (finding,) = refused.value.findings
+    assert 'did you mean "angle"?' in finding.remedy
 
 
 @pytest.mark.parametrize(

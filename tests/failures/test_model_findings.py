@@ -468,6 +468,26 @@ def test_a_weight_is_told_how_it_is_written_as_a_mass(weight: str) -> None:
     assert model.links["crank"].mass == pytest.approx(200 / 9.81, rel=1e-12)
 
 
+@pytest.mark.parametrize(
+    ("weight", "newtons"), [("50 kg", 490.5), ("2 lb", 8.896443230521), ("3 kgf", 29.41995)]
+)
+def test_a_mass_is_told_how_it_is_written_as_a_weight(weight: str, newtons: float) -> None:
+    load = "loads: {{push: {{kind: force, on: crank, at: A, direction: 0 deg, magnitude: {}}}}}\n".format
+    right = weight
+    if not weight.endswith("kgf"):
+        (found,) = findings(MODEL + load(weight))
+        assert found.key == "loads.push.magnitude" and found.code == "wrong-dimension"
+        right = found.remedy.split('"')[1]
+    (force,) = loads(MODEL + load(right)).loads.values()
+    assert force.magnitude == pytest.approx(newtons, rel=1e-12)  # type: ignore[attr-defined]
+
+
+def test_coordinates_for_the_name_of_a_point_are_one_finding() -> None:
+    load = "loads: {push: {kind: force, on: crank, at: [1 m, 0 m], direction: 0 deg, magnitude: 3 N}}\n"
+    (found,) = findings(MODEL + load)
+    assert found.key == "loads.push.at" and 'among the points of "crank"' in found.remedy
+
+
 def test_a_frame_among_the_links_is_one_finding() -> None:
     frame = "frame: {points: {O1: [0 m, 0 m], O2: [4 m, 0 m]}}\n"
     (found,) = findings(MODEL.replace(frame, "").replace("links:\n", f"links:\n  {frame}"))

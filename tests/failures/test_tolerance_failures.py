@@ -19,7 +19,12 @@ HEAD = "format: 1\nkind: tolerance\nmechanism: gallery:crank_rocker\n"
         ("clearances: {C: {clearance: 1 mm, on: rocker}}\nof: [rocker.angle range]", 'no pin "C"'),
         ("clearances: {B: {clearance: 1 mm, on: crank}}\nof: [rocker.angle range]", "does not touch crank"),
         ("dimensions: {crank.length: 1 mm}\nof: [rocker.angle]", "is a curve, not one number"),
-        ("dimensions: {crank.length: 1 mm}\nof: [rokcer.angle range]", "the study cannot be made"),
+        ("dimensions: {crank.length: 1 mm}\nof: [rokcer.angle range]", 'did you mean "rocker.angle"'),
+        (
+            "dimensions: {crank.length: 1 mm}\nof: [strok]",
+            'no output or design number "strok"; did you mean "stroke"?',
+        ),
+        ("dimensions: {crank.length: 1 mm}\ncurves: [rocker.angel]", 'did you mean "rocker.angle"'),
         (
             "dimensions: {crank.length: 1 mm}\nof: [rocker.angle range]\nsamples: 3",
             "whole number of 64 or more",

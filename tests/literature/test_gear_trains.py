@@ -353,3 +353,39 @@ def test_a_train_with_a_fixed_wheel_says_the_speeds_of_all(
 def test_a_train_with_two_inputs_says_no_speeds() -> None:
     (train,) = lw.structure(lw.load("gallery:planetary_two_inputs")).trains
     assert train.speeds == {}
+
+
+RAVIGNEAUX = """
+format: 1
+frame: {points: {O: [0 mm, 0 mm]}}
+links:
+  small: {points: [O]}
+  large: {points: [O]}
+  ring: {points: [O]}
+  carrier: {points: {O: [0 mm, 0 mm], P: [38 mm, 0 mm], Q: [45 mm, 30 mm]}}
+  long: {points: [P]}
+  short: {points: [Q]}
+joints:
+  m1: {kind: gear, links: [large, long], teeth: [38, 20]}
+  m2: {kind: gear, links: [long, ring], teeth: [20, 78], mesh: internal}
+  m3: {kind: gear, links: [small, short], teeth: [30, 20]}
+  m4: {kind: gear, links: [short, long], teeth: [20, 20]}
+drivers:
+  shaft: {turn: small, about: O, speed: 100 rpm}
+  brake: {turn: large, about: O, speed: 0 rpm}
+"""
+
+
+def test_a_braked_wheel_is_one_that_stands() -> None:
+    """(n_s - n_c) / (n_l - n_c) = -38/30 and (n_r - n_c) / (n_l - n_c) = -38/78 with n_l = 0; all wheels are whole
+    turns ahead after lcm(34, 221, 68) turns, from the planets' 87/68 and -27/68."""
+    train = lw.loads(RAVIGNEAUX)
+    motion = lw.solve_motion(train, steps=8)
+    carrier = Fraction(1) / (1 + Fraction(38, 30))
+    ring = carrier * (1 + Fraction(38, 78))
+    assert (carrier, ring) == (Fraction(15, 34), Fraction(145, 221))
+    assert motion.link("carrier").angular_velocity == pytest.approx(float(carrier) * 100 * RPM, rel=1e-12)
+    assert motion.link("ring").angular_velocity == pytest.approx(float(ring) * 100 * RPM, rel=1e-12)
+    assert motion.positions.period == pytest.approx(884 * 0.6, rel=1e-12)
+    assert "the cycle is 884 turns of 'shaft'" in motion.notes[0]
+    assert not [each for each in lw.metrics(lw.solve_forces(motion)) if each.metric == "swing_angle"]

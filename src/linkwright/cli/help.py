@@ -49,7 +49,9 @@ def command_parser(name: str, say: Say) -> CommandParser:
         ]
     )
     parser = CommandParser(f"linkwright {name}", say, description=say(f"{name}.description"), epilog=epilog)
-    commands.command(name).arguments(Options(parser, say, name))
+    command = commands.command(name)
+    command.arguments(Options(parser, say, name))
+    parser.surplus = getattr(command, "surplus", parser.surplus)
     add_common(parser, say)
     return parser
 

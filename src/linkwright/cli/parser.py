@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 from linkwright.cli.reading import read
@@ -14,7 +14,10 @@ from linkwright.words.sentence import Sentence
 
 
 class CommandParser(argparse.ArgumentParser):
-    """The declared options of a command and its help; ``reading`` takes the words apart."""
+    """The declared options of a command and its help; ``reading`` takes the words apart.
+
+    ``surplus`` says what to write for a word that the command does not take; it may have nothing to say.
+    """
 
     _columns = 80
 
@@ -28,6 +31,7 @@ class CommandParser(argparse.ArgumentParser):
             formatter_class=self._formatter,
         )
         self.say = say
+        self.surplus: Callable[[str], str] = lambda word: ""
         self._positionals.title = say("cli.arguments")
         self._optionals.title = say("cli.options")
 

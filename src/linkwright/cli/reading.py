@@ -11,6 +11,7 @@ import os
 import re
 from collections.abc import Sequence
 from dataclasses import field
+from typing import TYPE_CHECKING
 
 from linkwright.cli.errors import UsageError
 from linkwright.core.dataclass import dataclass
@@ -18,7 +19,11 @@ from linkwright.errors import with_remedy
 from linkwright.registry import nearest
 from linkwright.words.sentence import Sentence
 
+if TYPE_CHECKING:
+    from linkwright.cli.parser import CommandParser
+
 _NUMBER_WITH_MINUS = re.compile(r"-[\d.]")
+_AMOUNT = re.compile(r"[+-]?\.?\d")
 _MODELS = (".yaml", ".yml", ".json")
 _LISTS = ("+", "*")
 
@@ -32,7 +37,7 @@ class _Given:
     words: list[str] = field(default_factory=list)
 
 
-def read(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> argparse.Namespace:
+def read(parser: CommandParser, arguments: Sequence[str]) -> argparse.Namespace:
     """The values of all declared options and arguments; raises UsageError with what is wrong."""
     given, free = _taken_apart(parser, list(arguments))
     positionals = [action for action in parser._actions if not action.option_strings]
@@ -142,7 +147,7 @@ def _place(
     options: argparse.Namespace,
     positionals: list[argparse.Action],
     free: list[str],
-    parser: argparse.ArgumentParser,
+    parser: CommandParser,
 ) -> None:
     """Gives the free words to the command's arguments in their order."""
     for action in positionals:
@@ -156,7 +161,22 @@ def _place(
         del free[:count]
         setattr(options, action.dest, values if action.nargs in _LISTS else values[0])
     if free:
-        raise _slip(parser, Sentence("cli.unknown_argument", name=free[0]))
+        said = Sentence("cli.unknown_argument", name=free[0])
+        remedy = parser.surplus(free[0]) or _with_option(free[0], parser)
+        raise UsageError(with_remedy(said, remedy)) if remedy else _slip(parser, said)
+
+
+def _with_option(word: str, parser: argparse.ArgumentParser) -> Sentence | None:
+    """What to write for a word that lacks its option: a file to be written, a position, a number's name."""
+    looks = {
+        "--output": bool(os.path.splitext(word)[1]) and not _is_model(word),
+        "--at": _AMOUNT.match(word) is not None,
+        "--names": word.replace("_", "").isalpha(),
+    }
+    for name, fits in looks.items():
+        if fits and name in parser._option_string_actions:
+            return Sentence("cli.write_option", name=name, word=word)
+    return None
 
 
 def _refuse_together(given: list[_Given], parser: argparse.ArgumentParser) -> None:

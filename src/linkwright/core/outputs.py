@@ -129,6 +129,17 @@ def owners_of(kind: str, names: Iterable[str]) -> list[str]:
 
 
 @dataclass(frozen=True)
+class RelativeAngle:
+    """The angle of link ``b`` against link ``a``, both of which move."""
+
+    a: str
+    b: str
+
+    def __str__(self) -> str:
+        return f"{self.b}|{self.a}"
+
+
+@dataclass(frozen=True)
 class Output:
     """One output of a machine.
 

@@ -421,15 +421,17 @@ def part_edges(load: str, phase: SwingPhase) -> dict[int, str]:
     return {which: edge_name(load, which) for which, amount in enumerate(ends) if amount.value}
 
 
-def reversing(traced: Traced, program: Program) -> tuple[Output, ...]:
-    """Outputs that go to and fro, at whose limits loads on which a program depends change their signs."""
+def reversing(traced: Traced, program: Program) -> tuple[tuple[Output, ...], tuple[Swinging, ...]]:
+    """What goes to and fro, at whose limits loads on which a program depends change their signs: outputs with two
+    limits, and angles between links and outputs with more."""
     taken = {name.split(".")[1] for name in program.parameters if name.startswith("loads.")}
     taken |= set(owners_of("magnitude", program.fields))
-    found = (traced.mechanism.loads[name].reverses(traced.mechanism) for name in sorted(taken))
-    asked = dict.fromkeys(each for each in found if each is not None)
+    found = dict.fromkeys(traced.mechanism.loads[name].reverses(traced.mechanism) for name in sorted(taken))
     signals = MotionSignals(traced.nominal)
-    speeds = {each: signals.output(each)[1] for each in asked}
-    return tuple(each for each, speed in speeds.items() if speed.min() < 0.0 < speed.max())
+    speeds = {each: signals.rate(each) for each in found if each is not None}
+    both = [each for each, speed in speeds.items() if speed.min() < 0.0 < speed.max()]
+    twice = tuple(each for each in both if isinstance(each, Output) and len(signals.limits(each)) == 2)
+    return twice, tuple(each for each in both if each not in twice)
 
 
 def _cuts(load: Load) -> Iterable[tuple[str, int]]:

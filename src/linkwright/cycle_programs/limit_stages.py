@@ -22,7 +22,7 @@ from linkwright.engine.states import states_as_fields
 from linkwright.engine.trace import Mask, Scalar, Trace, absolute, cos, minimum, select, sign, sin, sqrt
 from linkwright.fields.signals import SwingPhase
 from linkwright.kinematics.names import program_names
-from linkwright.kinetostatics.friction import FrictionTerm, Swinging
+from linkwright.kinetostatics.friction import Swinging
 from linkwright.kinetostatics.load_site import LAP, TracedSite, limit_name, output_value, value_name
 from linkwright.loads.base import Load
 from linkwright.loads.magnitude import part_ends, turned
@@ -81,7 +81,7 @@ def limit_stages(
 
 def rates(traced: Traced, output: Swinging) -> tuple[Scalar, Scalar]:
     """Rate and second derivative of an output as traced values."""
-    if isinstance(output, FrictionTerm):
+    if not isinstance(output, Output):
         a, b = (traced.solver.motion.states[link] for link in (output.a, output.b))
         return b.omega - a.omega, b.alpha - a.alpha
     rate, second = (traced.solver.outputs.value(name) for name in program_names(traced.mechanism, output)[1])

@@ -102,15 +102,16 @@ def _metric_cycle(
     loads = along_input(plain, addresses, program.fields, over_time=True)
     if loads is None:
         return None
-    opposed, rubbing = reversing(plain, program), loads.swinging
+    opposed, apart = reversing(plain, program)
+    turning = (*loads.swinging, *apart)
     if turns:
         ways = (analysis.output(strokes.output_of(part)) for part in stroke_parts(all_parts(terms)).values())
         others = (*opposed, *(each for each in ways if each is not None))
-        rubbing = rubbing if can_have_corners(plain) else ()
-        swinging = others if rubbing else (*loads.swinging, *others)
+        rubbing = turning if can_have_corners(plain) else turning[:0]
+        swinging = others if rubbing else (*turning, *others)
         loads = replace(loads, swinging=tuple(dict.fromkeys(swinging)))
     else:
-        rubbing, loads = (*rubbing, *loads.moving, *opposed), replace(loads, swinging=(), moving=())
+        rubbing, loads = (*turning, *loads.moving, *opposed), replace(loads, swinging=(), moving=())
     traced = with_loads(plain, loads)
     gauss = gauss_points(traced, loads, analysis, PIECES[0])
     nominal = {address: np.array([mechanism.dimension(address)]) for address in addresses}

@@ -60,7 +60,11 @@ class PointName(Field):
     of: str
 
     def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> str | None:
-        name, link = reader.text(node, place), given.get(self.of)
+        link = given.get(self.of)
+        if isinstance(node, Sequence) and link is not None:
+            reader.finding(node, place, "place_for_name", "type", link=link)
+            return None
+        name = reader.text(node, place)
         if name is None:
             return None
         return name if link is None or reader.point_of(node, place, name, link) else None

@@ -14,7 +14,7 @@ from linkwright.fields.form import missing_remedy
 from linkwright.fields.nodes import Entry, Node, Scalar, Sequence, noun
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.files.syntax import wide_remedy
-from linkwright.registry import listed, nearest
+from linkwright.registry import PROBABLE, listed, nearest
 from linkwright.units import decimal_comma
 from linkwright.words.sentence import Sentence
 
@@ -25,6 +25,9 @@ K = TypeVar("K", bound="Kind")
 NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
 _WHOLE = re.compile(r"[+-]?\d{1,18}")
 NAME = re.compile(r"[^\W\d][\w'-]*")
+
+#: Words of assembly modes.
+MODES = ("left", "right", "forward", "backward")
 
 #: Findings about one file, at most.
 MOST_FINDINGS = 300
@@ -50,11 +53,28 @@ def as_meant(mapping: MappingNode, known: Collection[str]) -> MappingNode:
         return mapping
     entries = list(mapping.entries)
     for index, entry in enumerate(entries):
-        near = None if entry.key.text in known else nearest(entry.key.text[:100], list(known))
+        near = None if entry.key.text in known else nearest(entry.key.text[:100], list(known), PROBABLE)
         if near is not None and near not in present:
             present.add(near)
             entries[index] = Entry(replace(entry.key, text=near), entry.value)
     return replace(mapping, entries=entries)
+
+
+def _split_by_commas(texts: list[str]) -> bool:
+    """Whether a number among these was written with a decimal comma: ``60,5 mm``, ``0,5 mm``."""
+    whole = [bool(re.fullmatch(r"[+-]?\d+", text)) for text in texts]
+    rest = [re.match(r"\d+\s*[^\s\d.]", text) is not None for text in texts]
+    zeros = [text.lstrip("+-") == "0" for text in texts]
+    return any(
+        first and (not zero or second)
+        for first, zero, second in zip(whole, zeros, [*rest[1:], False], strict=True)
+    )
+
+
+def meant_kind(said: Node | None, kinds: Mapping[str, object]) -> str | None:
+    """The kind that a text names, or probably means."""
+    text = said.text if isinstance(said, Scalar) else ""
+    return text if text in kinds else nearest(text[:100], list(kinds), PROBABLE) if text else None
 
 
 @dataclass(frozen=True)
@@ -152,7 +172,7 @@ class PlainReader:
         if count is None or len(node.items) == count:
             return node.items
         texts = [item.text if isinstance(item, Scalar) else "" for item in node.items]
-        comma = len(texts) > count and any(re.fullmatch(r"[+-]?\d+", text) and text != "0" for text in texts)
+        comma = len(texts) > count and _split_by_commas(texts)
         wide = any(isinstance(item, Scalar) and item.plain and "，" in item.text for item in node.items)
         way = "wide_comma" if wide else "decimal_points" if comma else "write_as"
         remedy = Sentence(f"model.{way}", form=form)
@@ -189,8 +209,8 @@ class PlainReader:
     def of_kind(
         self, node: Node, place: Place, kinds: Mapping[str, type[K]], missing: str, remedy: str
     ) -> tuple[MappingNode, type[K], dict[str, Any]] | None:
-        """A table, what its key ``kind`` names, and its values by the fields of that kind, as far as they are given;
-        ``missing``, ``remedy``: the sentences where there is no kind."""
+        """A table, what its key ``kind`` names or probably means, and its values by the fields of that kind, as far
+        as they are given; ``missing``, ``remedy``: the sentences where there is no kind."""
         table = self.mapping(node, place)
         if table is None:
             return None
@@ -200,12 +220,13 @@ class PlainReader:
             told = Sentence(remedy, kinds=tuple(kinds))
             self.error(table, place.child("kind"), Sentence(missing), told, "missing-key")
             return None
-        word = self.word(said, place.child("kind"), kinds)
-        if word is None:
+        self.word(said, place.child("kind"), kinds)
+        kind = meant_kind(said, kinds)
+        if kind is None:
             return None
-        table, found = self._fields(table, place, {"kind": Text(), **kinds[word].fields()})
+        table, found = self._fields(table, place, {"kind": Text(), **kinds[kind].fields()})
         given = {key: value for key, value in found.items() if key != "kind" and value is not None}
-        return table, kinds[word], given
+        return table, kinds[kind], given
 
     def _with_kind(self, table: MappingNode, place: Place) -> MappingNode:
         """The table; without a ``kind``, with a key that is nearly it in its place, which is a finding."""
@@ -262,7 +283,9 @@ class PlainReader:
             if before is not None and self._comma(before, entry, place):
                 split.add(before.key.text)
                 continue
-            offer = nearest(key[:100], [each for each in known if each not in present] or known)
+            absent = [each for each in known if each not in present]
+            likely = nearest(key[:100], absent, PROBABLE) or nearest(key[:100], known, PROBABLE)
+            offer = likely or nearest(key[:100], absent)
             remedy = Sentence(f"names.{'near' if offer else 'all'}_known", offer=offer, names=tuple(known))
             self.finding(entry.key, place.child(key), "unknown_key", "unknown-key", remedy, key_=key[:100])
         return as_meant(mapping, known), split

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar, Sequence
-from linkwright.files.node_reader import Place, as_meant
+from linkwright.files.node_reader import Place, as_meant, meant_kind
 from linkwright.files.reader import Names, Reader
 from linkwright.joints.base import IMPLIED, JOINTS, Entry, Joint, implied_joint
 from linkwright.mechanism.mechanism import Link
@@ -22,8 +22,8 @@ def scan_joints(reader: Reader, node: Node | None) -> None:
     reader.names.pins = _implied_pins(reader.names, [value for _, value in declared])
     reader.names.joints = dict.fromkeys(reader.names.pins, IMPLIED)
     for key, value in declared:
-        kind = _word(value, "kind")
-        if kind in JOINTS and kind != IMPLIED:
+        kind = meant_kind(value.get("kind"), JOINTS)
+        if kind is not None and kind != IMPLIED:
             reader.names.joints[key] = kind
             reader.names.blocks.setdefault(_word(value, "block"), key)
 
@@ -50,8 +50,8 @@ def _implied_pins(names: Names, joints: list[MappingNode]) -> dict[str, tuple[st
         for point in points:
             holders.setdefault(point, []).append(link)
     for joint in joints:
-        kind = _word(joint, "kind")
-        point, shared = (JOINTS[kind].unpinned(_words(joint)) if kind in JOINTS else None) or ("", ())
+        kind = meant_kind(joint.get("kind"), JOINTS)
+        point, shared = (JOINTS[kind].unpinned(_words(joint)) if kind else None) or ("", ())
         if shared and set(shared) <= set(holders.get(point, ())):
             holders[point].remove(shared[-1])
             names.welded |= {shared[-1]: shared[0]} if len(shared) > 1 else {}

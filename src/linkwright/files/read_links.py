@@ -20,10 +20,11 @@ MOST_LINKS = 1000
 
 
 def legible(node: Node | None) -> bool:
-    """Whether all points that a link's node may have can be read from it."""
+    """Whether all points that a link's node may have can be read from it, each once."""
     points = as_meant(node, LINK_FIELDS).get("points") if isinstance(node, MappingNode) else None
     if isinstance(points, Sequence):
-        return all(isinstance(item, Scalar) and NAME.fullmatch(item.text) for item in points.items)
+        names = [item.text for item in points.items if isinstance(item, Scalar) and NAME.fullmatch(item.text)]
+        return len(points.items) == len(names) == len(set(names))
     return isinstance(points, MappingNode)
 
 

@@ -15,7 +15,8 @@ from linkwright.fields.base import Count, Field, Free, WordedText
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar, below
 from linkwright.files.check_mechanism import check_whole
-from linkwright.files.node_reader import Place, TooManyFindings
+from linkwright.files.misplaced import in_place
+from linkwright.files.node_reader import MODES, Place, TooManyFindings
 from linkwright.files.read_drivers import read_cycle, read_drivers, scan_input
 from linkwright.files.read_joints import read_joints, scan_joints
 from linkwright.files.read_links import legible, read_drawing, read_frame, read_links, scan_points
@@ -28,7 +29,6 @@ from linkwright.words.sentence import Sentence
 FORMAT = 1
 #: Keys of a file that holds a task of synthesis and no model.
 TASK_KEYS = ("format", "name", "purpose", "source", "expected", "synthesis", "report")
-WORDS = ("left", "right", "forward", "backward")
 HEADER: Mapping[str, Field] = {
     "format": Count(FORMAT, required=True, doc="1, in the first line"),
     "name": WordedText(doc="name of the mechanism"),
@@ -72,7 +72,7 @@ def read_model(root: Node, source: str, *, si: bool = False) -> tuple[Mechanism 
 
 def _sections(reader: Reader, root: MappingNode, source: str) -> Mechanism:
     top = Place("", "")
-    root, _ = reader.unknown_keys(root, top, list(SECTIONS))
+    root, _ = reader.unknown_keys(in_place(reader, root, SECTIONS), top, list(SECTIONS))
     _scan(reader, root)
     parameters = read_parameters(reader, root.get("parameters"))
     header = reader.table(_only(root, HEADER), top, HEADER) or {}
@@ -133,10 +133,11 @@ def _scan(reader: Reader, root: MappingNode) -> None:
     """Gather all names first, so that references can be checked wherever they stand."""
     reader.names.links = {"frame": scan_points(_frame(root))}
     links = root.get("links")
+    reader.names.listed = isinstance(links, MappingNode)
     if isinstance(links, MappingNode):
-        reader.names.incomplete = not all(legible(value) for _, value in links)
+        reader.names.illegible |= {name for name, value in links if not legible(value)}
         reader.names.links |= {key: scan_points(value) for key, value in links if key != "frame"}
-    reader.names.incomplete |= not (isinstance(links, MappingNode) and legible(_frame(root)))
+    reader.names.illegible |= set() if legible(_frame(root)) else {"frame"}
     reader.names.settle()
     scan_joints(reader, root.get("joints"))
     scan_input(reader, root)
@@ -221,7 +222,7 @@ def _assembly(reader: Reader, node: Node | None) -> dict[str, str]:
     for entry in mapping.entries if mapping else []:
         name, place = entry.key.text, f"assembly.{entry.key.text}"
         known = reader.known(entry.key, place, "joint", name, list(reader.names.joints))
-        word = reader.word(entry.value, place, WORDS)
+        word = reader.word(entry.value, place, MODES)
         if known and word is not None:
             found[name] = word
     return found

@@ -35,7 +35,7 @@ class Names:
     ``links`` maps every link, the frame among them, to its points; ``joints`` every joint, the implied pins
     among them, to its kind; ``pins`` every implied pin to its links, ``blocks`` every block to its guide,
     ``welded`` a link to the one to which a weld ties it on a pin that it would share.
-    ``incomplete`` where the points of a link cannot be read, so that pins may be missing.
+    ``illegible`` are the links whose points cannot be read; ``listed`` where the links themselves can be.
     """
 
     links: dict[str, tuple[str, ...]] = field(default_factory=lambda: {"frame": ()})
@@ -43,7 +43,13 @@ class Names:
     pins: dict[str, tuple[str, ...]] = field(default_factory=dict)
     blocks: dict[str, str] = field(default_factory=dict)
     welded: dict[str, str] = field(default_factory=dict)
-    incomplete: bool = False
+    illegible: set[str] = field(default_factory=set)
+    listed: bool = True
+
+    @property
+    def incomplete(self) -> bool:
+        """Whether pins may be missing, since points cannot be read."""
+        return not self.listed or bool(self.illegible)
 
     @property
     def sliding(self) -> list[str]:
@@ -241,6 +247,9 @@ class Reader(PlainReader):
         """Whether a name exists; a finding with the nearest if not."""
         if name in candidates:
             return True
+        if what in ("link", "joint", "pin", "point") and not self.names.listed:
+            self.unread += 1
+            return False
         owners = self.names.owners(name) if what in ("joint", "pin") else []
         if owners:
             if not self.names.incomplete:
@@ -257,6 +266,9 @@ class Reader(PlainReader):
         points = list(self.names.links.get(link, ()))
         if name in points:
             return True
+        if link in self.names.illegible:
+            self.unread += 1
+            return False
         others = self.names.owners(name)
         if others:
             self.finding(
@@ -301,6 +313,9 @@ class Reader(PlainReader):
         found = resolve_output(text, self.names.links, self.names.sliding)
         if found is not None:
             return found
+        if not self.names.listed or (self.names.illegible and text.endswith((".x", ".y"))):
+            self.unread += 1
+            return None
         names = [*self.names.links, *self.names.sliding]
         points = dict.fromkeys(f"{point}.x" for points in self.names.links.values() for point in points)
         offer = nearest(text, [*(name for name in names if name != "frame"), *points])

@@ -8,8 +8,9 @@ from dataclasses import replace
 from linkwright.drivers.base import LAWS
 from linkwright.fields.base import Field, Schema, Word, table_schema
 from linkwright.fields.references import Coordinates
+from linkwright.files.node_reader import MODES
 from linkwright.files.read_drivers import CYCLE_FORMS, SLIDE_FIELDS, TURN_FIELDS
-from linkwright.files.read_model import FORMAT, HEADER, WORDS
+from linkwright.files.read_model import FORMAT, HEADER
 from linkwright.joints.base import JOINTS
 from linkwright.loads.base import LOADS
 from linkwright.mechanism.mechanism import FRAME_FIELDS, LINK_FIELDS, Cycle
@@ -26,7 +27,7 @@ def json_schema() -> Schema:
         "frame": (table_schema(FRAME_FIELDS), "the fixed link"),
         "links": (_named(table_schema(LINK_FIELDS)), "the moving links; shared point names are pins"),
         "joints": (_named({"oneOf": _joints()}), "guides, welds, and attributes of pins"),
-        "assembly": (_named({"enum": list(WORDS)}), "assembly mode by inner joint"),
+        "assembly": (_named({"enum": list(MODES)}), "assembly mode by inner joint"),
         "drawing": (Coordinates().shape(), "coordinates of the assembled drawing, in frame axes"),
         "driver": (drivers, "the one driver"),
         "drivers": (_named(drivers), "several drivers by name"),

@@ -273,8 +273,9 @@ def not_back(mechanism: Mechanism) -> bool:
 
 def together(mechanism: Mechanism) -> float:
     """After how many of the longest natural duration all drivers are back; ∞: not within 1000; NaN: never, as one of
-    them has no such duration, ends, or does not come back."""
-    laws, known = [driver.law for driver in mechanism.drivers.values()], _naturals(mechanism)
+    them that does not stand has no such duration, ends, or does not come back."""
+    laws = [each.law for each in mechanism.drivers.values() if each.law.constant_speed != 0.0]
+    known = _naturals(mechanism)
     if not known or len(known) < len(laws):
         return math.nan
     longest, count = max(known), 1

@@ -9,7 +9,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.core.outputs import Output, row_name
+from linkwright.core.outputs import Output, RelativeAngle, row_name
 from linkwright.engine.trace import Scalar
 from linkwright.engine.vector import Vec
 from linkwright.kinematics.motion import Motion
@@ -45,8 +45,8 @@ class FrictionTerm:
         return self.field
 
 
-#: What comes and goes: an output, or the angle between the links of a pin with friction.
-Swinging = Output | FrictionTerm
+#: What comes and goes: an output, or the angle between two links, as of a pin with friction.
+Swinging = Output | RelativeAngle | FrictionTerm
 
 
 class FrictionTerms:
@@ -121,8 +121,8 @@ def still_rates(motion: Motion, terms: Iterable[FrictionTerm]) -> dict[str, floa
     }
 
 
-def joint_rate(motion: Motion, term: FrictionTerm) -> Floats:
+def joint_rate(motion: Motion, term: FrictionTerm | RelativeAngle) -> Floats:
     """Rate of link b against link a, (n,) rad/s, or of the block along the guide, m/s."""
-    if term.slides:
+    if isinstance(term, FrictionTerm) and term.slides:
         return motion.joint(term.joint).velocity
     return np.asarray(motion.link(term.b).angular_velocity - motion.link(term.a).angular_velocity)

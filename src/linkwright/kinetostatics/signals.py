@@ -9,12 +9,13 @@ import numpy as np
 
 from linkwright.core.arrays import Flags, Floats
 from linkwright.core.cached_property import cached_property
-from linkwright.core.outputs import Output
+from linkwright.core.outputs import Output, RelativeAngle
 from linkwright.drivers.base import Law
 from linkwright.kinematics.cycle import CycleError, Positions, over_cycle
 from linkwright.kinematics.limits import limit_inputs, limit_positions
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import MotionRun
+from linkwright.kinetostatics.friction import joint_rate
 from linkwright.loads.signals import Limit, Whole
 from linkwright.mechanism.mechanism import Mechanism
 
@@ -99,6 +100,13 @@ class MotionSignals:
         if output.kind == "angle" and self.cycle is not self.motion:
             value = self._anchored(value, self.cycle.read(output))
         return value, np.where(np.abs(rate) <= self.at_rest(output), 0.0, rate)
+
+    def rate(self, output: Output | RelativeAngle) -> Floats:
+        """Rate of an output, (n,), zero where it is but for rounding."""
+        if isinstance(output, Output):
+            return self.output(output)[1]
+        rate = joint_rate(self.motion, output)
+        return np.where(np.abs(rate) <= STILL * float(np.nanmax(np.abs(rate), initial=0.0)), 0.0, rate)
 
     def at_rest(self, output: Output) -> float:
         """Rate of an output, rad/s or m/s, up to which it is zero but for rounding."""

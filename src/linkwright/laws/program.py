@@ -189,8 +189,8 @@ class MotionProgram(Program):
                         "velocity_jump",
                         f".{k}",
                         place=self.said(junction.place),
-                        before=junction.before[1],
-                        after=junction.after[1],
+                        before=junction.before[1] + 0.0,
+                        after=junction.after[1] + 0.0,
                     )
                 )
         return found

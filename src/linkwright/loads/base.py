@@ -20,7 +20,7 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.core.dataclass import dataclass
-from linkwright.core.outputs import Output
+from linkwright.core.outputs import Output, RelativeAngle
 from linkwright.fields.base import (
     REQUIRED,
     Field,
@@ -34,7 +34,9 @@ from linkwright.fields.base import (
     given_by_file,
     table_schema,
 )
+from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node
+from linkwright.fields.nodes import Scalar as ScalarNode
 from linkwright.fields.references import (
     LinkName,
     LinkNames,
@@ -48,6 +50,7 @@ from linkwright.fields.signals import Magnitude, OutputName, Phase, PhaseField, 
 from linkwright.joints.base import JointName
 from linkwright.registry import Registry
 from linkwright.words.sentence import Sentence, together
+from linkwright.words.synonyms import meaning
 
 if TYPE_CHECKING:
     from linkwright.core.arrays import Floats
@@ -143,8 +146,8 @@ class Load:
         """The link with which the direction of the load's force turns."""
         return None
 
-    def reverses(self, mechanism: Mechanism) -> Output | None:
-        """The output at whose limits the load changes its sign, because it goes by the sign of a velocity."""
+    def reverses(self, mechanism: Mechanism) -> Output | RelativeAngle | None:
+        """What it is at whose limits the load changes its sign, because it goes by the sign of a velocity."""
         return None
 
     def mark(self, motion: Motion, index: int) -> Mark | None:
@@ -201,9 +204,23 @@ LOADS: Registry[type[Load]] = Registry(
 )
 
 
+#: What some take for a kind of load, by its meaning, and the sentence that says where it stands.
+ELSEWHERE = {
+    "gravity": "loads.gravity_is_key",
+    "mass": "loads.gravity_is_key",
+    "friction": "loads.friction_is_key",
+}
+
+
 def read_load(reader: Reader, node: Node, place: Place, name: str) -> Load | None:
     """The load at a node of a file, or None after findings."""
     before = reader.error_count
+    said = node.get("kind") if isinstance(node, MappingNode) else None
+    text = said.text if isinstance(said, ScalarNode) and said.text not in LOADS else ""
+    for concept in meaning(text) & ELSEWHERE.keys():
+        problem = Sentence("model.unknown_word", text=text)
+        reader.error(said, place.child("kind"), problem, Sentence(ELSEWHERE[concept]), "unknown-word")
+        return None
     read = reader.of_kind(node, place, LOADS, "loads.no_kind", "loads.write_kind")
     if read is None:
         return None

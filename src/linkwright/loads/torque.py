@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import Expression
+from linkwright.core.outputs import RelativeAngle
 from linkwright.engine.trace import select
 from linkwright.loads import base
 from linkwright.loads.base import AT_REST, LOADS, Load, Output, Phase, Table
@@ -64,11 +65,11 @@ class Torque(Load):
             moment = moment * select(omega > AT_REST, -1.0, select(omega < -AT_REST, 1.0, 0.0))
         return [Wrench(self.on, torque=moment), Wrench(self.against, torque=-moment)]
 
-    def reverses(self, mechanism: Mechanism) -> Output | None:
-        """With the rotation that it opposes, where that is one against the frame."""
-        if self.opposes is None or self.against != "frame":
+    def reverses(self, mechanism: Mechanism) -> Output | RelativeAngle | None:
+        """With the rotation that it opposes."""
+        if self.opposes is None:
             return None
-        return Output("angle", self.on)
+        return Output("angle", self.on) if self.against == "frame" else RelativeAngle(self.against, self.on)
 
     def mark(self, motion: Motion, index: int) -> Turn:
         sense = sign_of(self)

@@ -11,7 +11,7 @@ import numpy as np
 
 from linkwright.core.arrays import Flags, Floats
 from linkwright.core.cached_property import cached_property
-from linkwright.core.outputs import kind_of
+from linkwright.core.outputs import Output, RelativeAngle, kind_of
 from linkwright.core.piecewise import (
     POINTS,
     SMOOTH,
@@ -300,7 +300,7 @@ class CycleGrid:
         found = [bend_times(self._motion)]
         if self._forces is None:
             return self._wrapped(found)
-        signals = MotionSignals(self._motion)
+        signals, turning = MotionSignals(self._motion), list[FrictionTerm | RelativeAngle]()
         for load in self._motion.mechanism.loads.values():
             phase = getattr(load, "phase", None)
             known, complete = switch_times(load, signals)
@@ -310,14 +310,16 @@ class CycleGrid:
                 apart = np.abs(switched[:, None] - known).min(axis=1, initial=np.inf)
                 found.append(switched[apart > 2.0 * NEAR * (self.end - self.start)])
             reversing = load.reverses(self._motion.mechanism)
-            if reversing is not None:
+            if isinstance(reversing, Output):
                 found.append(np.array([each.time for each in signals.limits(reversing)]))
-        if terms := self._forces.solver.friction.terms:
-            found.append(self._reversals(terms))
+            elif reversing is not None:
+                turning.append(reversing)
+        if turning := [*self._forces.solver.friction.terms, *turning]:
+            found.append(self._reversals(turning))
         return self._wrapped(found)
 
-    def _reversals(self, terms: Iterable[FrictionTerm]) -> Floats:
-        """Times at which the parts of joints with friction turn round."""
+    def _reversals(self, terms: Iterable[FrictionTerm | RelativeAngle]) -> Floats:
+        """Times at which the parts of joints with friction, and links, turn round against each other."""
 
         def rates(solved: Motion) -> Floats:
             return np.stack([joint_rate(solved, term) for term in terms])

@@ -91,9 +91,11 @@ def _limits(found: Optimum, choice: Choice, text: str, factor: float, tell: Say)
 
 
 def shown_unit(kind: units.Dimension) -> tuple[str, float]:
-    """Symbol and factor of a shown value; angles in degrees."""
-    if kind == units.DIMENSIONS["angle"]:
-        return "deg", math.pi / 180
+    """Symbol and factor of a shown value: angles in degrees, lengths in mm, as ``metrics`` shows them."""
+    for dimension in ("angle", "length"):
+        if kind == units.DIMENSIONS[dimension]:
+            symbol = units.USUAL_UNITS[dimension]
+            return symbol, units.unit(symbol)[0]
     return (units.si_symbol(kind) if kind != units.NONE else ""), 1.0
 
 

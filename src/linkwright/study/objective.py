@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.core.outputs import Output
 from linkwright.cycle_programs.iterated_groups import Following, following, limits_beside
 from linkwright.cycle_programs.limit_stages import constants
 from linkwright.cycle_programs.loaded_cycle import (
@@ -274,7 +275,7 @@ def _refusal(mechanism: Mechanism, steps: int) -> Sentence:
     signals = MotionSignals(solve_motion(mechanism, steps=steps))
     for name, load in mechanism.loads.items():
         output = load.reverses(mechanism)
-        count = 0 if output is None else len(signals.limits(output))
+        count = len(signals.limits(output)) if isinstance(output, Output) else 0
         if count > 2:
             values = {"load": name, "output": output, "count": count}
             return Sentence("study.objective_reverses", name=mechanism.name, **values)

@@ -179,7 +179,7 @@ def sensitivity(
         raise refusal(traced.nominal)
     if traced.nominal.modes:
         traced = Traced(mechanism, dimensions, positions, turning=True, flipping=True)
-    return _Derivation(traced, dimensions, asked, way, backend).result()
+    return _Derivation(traced, dimensions, asked, steps, way, backend).result()
 
 
 def split(each: str | tuple[str, str]) -> str | Summary:
@@ -205,9 +205,15 @@ class _Derivation:
     """The work of one call."""
 
     def __init__(
-        self, traced: Traced, by: tuple[str, ...], asked: list[str | Summary], way: Way, backend: Backend
+        self,
+        traced: Traced,
+        by: tuple[str, ...],
+        asked: list[str | Summary],
+        steps: int,
+        way: Way,
+        backend: Backend,
     ) -> None:
-        self.traced, self.by, self.asked = traced, by, asked
+        self.traced, self.by, self.asked, self.steps = traced, by, asked, steps
         names = [each.output if isinstance(each, Summary) else each for each in asked if not _is_number(each)]
         loads = known_loads(traced, traced.program(traced.quantities(names)).fields, by)
         if loads.names or loads.rubbing:
@@ -254,7 +260,7 @@ class _Derivation:
     def _number(self, name: str) -> tuple[float, Floats]:
         """A design number with its gradient."""
         mechanism, found = self.traced.mechanism, np.zeros(len(self.by))
-        objective = of_metrics(mechanism, self.by, {name: 1.0}, 360, "numpy")
+        objective = of_metrics(mechanism, self.by, {name: 1.0}, self.steps, "numpy")
         columns = {by: np.array([mechanism.dimension(by)]) for by in self.by}
         value, slopes = objective.many(columns, 1)
         found[[self.by.index(by) for by in objective.names]] = slopes[0]

@@ -13,13 +13,16 @@ import numpy as np
 from linkwright import units
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.errors import Finding, LinkwrightError, ModelError
+from linkwright.errors import Finding, LinkwrightError, ModelError, RequestError
 from linkwright.fields.base import Quantity, Text, Word, given
+from linkwright.kinematics.names import output_meant
 from linkwright.mechanism.mechanism import Link, Mechanism
+from linkwright.metrics.base import METRICS
+from linkwright.metrics.summary import is_metric, wanted
 from linkwright.parts.base import fault
 from linkwright.parts.fields import AnyQuantity, ByAddress, Either, Listed, Named, Table, Whole
 from linkwright.parts.mechanism_field import MECHANISM, OfMechanism
-from linkwright.registry import nearest
+from linkwright.registry import PROBABLE, nearest
 from linkwright.study.ranges import dimension_of
 from linkwright.study.varied_dimensions import misfits
 
@@ -145,6 +148,7 @@ class ToleranceStudy(OfMechanism):
             found += self._dimension_findings(address, tolerance)
         for pin, clearance in self.clearances.items():
             found += self._clearance_findings(pin, clearance)
+        found += self._name_findings()
         found += [
             fault("tolerance.limit_of", f"limits.{name}", name=name)
             for name in self.limits
@@ -157,6 +161,26 @@ class ToleranceStudy(OfMechanism):
         ]
         if self.samples < LEAST:
             found.append(fault("tolerance.few_samples", "samples", least=LEAST))
+        return found
+
+    def _name_findings(self) -> list[Finding]:
+        """What is asked that the machine does not have."""
+        asked = [(f"of.{k}", text) for k, text in enumerate(self.of)]
+        asked += [(f"curves.{k}", text) for k, text in enumerate(self.curves)]
+        found = []
+        for key, text in asked:
+            number = key.startswith("of")
+            if number and is_metric(text):
+                continue
+            try:
+                output_meant(self.mechanism, wanted([text])[0].output if number else text)
+            except RequestError as error:
+                offer = nearest(text[:100], list(METRICS), PROBABLE) if number else None
+                found.append(
+                    fault("tolerance.no_number", key, name=text, offer=offer)
+                    if offer
+                    else Finding("error", "", key, error.sentence, "", "unknown-name")
+                )
         return found
 
     def _dimension_findings(self, address: str, tolerance: Tolerance) -> list[Finding]:

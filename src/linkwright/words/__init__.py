@@ -20,10 +20,12 @@ Say = Callable[..., str]
 
 
 def say(key: str, language: str = "en", **values: object) -> str:
-    """The text of a key in a language, its ``{names}`` replaced by ``values``; raises KeyError."""
+    """The text of a key in a language, its ``{names}`` replaced by ``values``, each said in that language; raises
+    KeyError."""
     area, _, name = key.partition(".")
     text = catalogue(area, language)[name]
-    return text.format(**values) if values else text
+    told = {key: each.say(language) if hasattr(each, "say") else each for key, each in values.items()}
+    return text.format(**told) if told else text
 
 
 def has(key: str) -> bool:

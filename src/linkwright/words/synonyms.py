@@ -13,22 +13,22 @@ crank crankshaft handle eccentric 曲柄
 rocker lever arm beam oscillator 摇杆 摆杆
 coupler rod conrod connecting pitman 连杆
 frame ground base bed chassis fixed support 机架 机座
-guide guideway slideway rail slot track prismatic sliding slide 导路 导轨 移动副
-pin hinge pivot revolute bearing turning 转动副 铰链
+guide guideway slideway rail slot track prismatic sliding slide cylinder 导路 导轨 滑道 滑槽 移动副 液压缸
+pin hinge pivot revolute bearing turning 转动副 回转副 铰链 铰接 铰 销 销轴
 output driven follower 输出 从动件
 input driver driving drive motor actuator 输入 驱动 原动件
 link member bar body element 构件 杆件
 joint pair 运动副
-length size span long 长度 杆长
+length size span long l 长度 杆长
 angle orientation direction rotation 角度 转角
 offset eccentricity 偏距
 torque moment couple 力矩 转矩 扭矩
 force load thrust 力 载荷
 reaction support_force constraint_force 反力
-mass weight 质量 重量
+mass weight m 质量 重量
 gravity 重力
-inertia gyration 转动惯量 惯量
-speed velocity rate rpm 速度 转速
+inertia gyration j i 转动惯量 惯量
+speed velocity rate rpm n omega ω 速度 转速 角速度
 acceleration 加速度
 displacement position place location 位移 位置
 stroke travel lift 行程
@@ -48,21 +48,30 @@ transmission 传动
 path curve trajectory locus 轨迹 曲线
 point 点
 centre center centroid 质心 中心
-cam 凸轮
-constant_acceleration parabolic 等加速等减速 等加等减 抛物线
-simple_harmonic cosine 余弦加速度 简谐
-cycloidal sine 正弦加速度 摆线
-constant_velocity 等速
+cam 凸轮 凸轮副
+knife knife_edge pointed edge 尖顶 尖底
+roller 滚子
+flat flat_faced 平底
+rolling friction_wheel 摩擦轮 滚动副
+belt pulley 带 皮带 带传动
+chain sprocket 链 链条 链传动
+rack 齿条 齿条副
+weld welded rigid 焊接 刚接 固定副
+pressure gas hydraulic pneumatic 压力 气压 液压
+constant_acceleration parabolic parabola 等加速等减速 等加等减 抛物线
+simple_harmonic harmonic cosine cosinus shm 余弦加速度 简谐
+cycloidal cycloid sine sinus sinusoidal 正弦加速度 摆线
+constant_velocity uniform 等速
 modified_trapezoidal 修正梯形 改进梯形
 modified_sine 修正正弦 改进正弦
 polynomial_345 五次多项式
-gear wheel pinion 齿轮
+gear wheel pinion spur 齿轮 齿轮副
 mesh internal external engagement 啮合 内啮合
 jaw plate 颚板 动颚
 kind type sort 类型 种类
 name title 名称 题目
 magnitude amount 大小
-parameters constants 参数
+parameters constants variables 参数 变量
 teeth 齿数
 module 模数
 assembly 装配 装配模式
@@ -70,6 +79,25 @@ drawing 装配图
 cycle 循环 工作循环
 toggle knee 肘板 肘杆
 """
+
+#: What a thing goes with, where nothing means just that thing: a slider runs in a guide, which is a joint.
+BESIDE = {
+    "ram": "guide",
+    "frame": "weld",
+    "guide": "joint",
+    "pin": "joint",
+    "gear": "joint",
+    "cam": "joint",
+    "belt": "joint",
+    "weld": "joint",
+    "spring": "force",
+    "damper": "force",
+    "torque": "force",
+    "pressure": "force",
+    "crank": "link",
+    "rocker": "link",
+    "coupler": "link",
+}
 
 
 @cache
@@ -89,12 +117,13 @@ def meaning(name: str) -> frozenset[str]:
 
 
 def nearest_in_meaning(name: str, candidates: Iterable[str]) -> tuple[str, float]:
-    """The candidate that shares most words with a name, by their meaning, and the share of all words that it is."""
-    said = meaning(name)
-    best, share = "", 0.0
-    for each in candidates:
-        other = meaning(each)
-        common = len(said & other) / (len(said | other) or 1)
-        if common > share:
-            best, share = each, common
-    return best, share
+    """The candidate that shares most words with a name, by their meaning, and the share of all words that it is;
+    where none shares any, one for what the name goes with."""
+    said, named = meaning(name), {each: meaning(each) for each in candidates}
+    while said:
+        shares = {each: len(said & other) / len(said | other) for each, other in named.items() if other}
+        best = max(shares, key=shares.__getitem__, default="")
+        if best and shares[best]:
+            return best, shares[best]
+        said = frozenset(BESIDE[word] for word in said if word in BESIDE)
+    return "", 0.0

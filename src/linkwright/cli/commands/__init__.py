@@ -1,8 +1,9 @@
 """The commands, one module each, imported only when the command is called.
 
 A module ``NAME`` has ``arguments(option)``, which declares its options, and ``run(options, session)``, which
-returns the exit code. Its words are the area ``NAME`` of the catalogue, at least ``summary`` (one line for the
-list of commands), ``description`` and ``examples``. The commands ``PARTS`` have words alone.
+returns the exit code; it may have ``surplus(word)``, what to write for a word that it does not take. Its words are
+the area ``NAME`` of the catalogue, at least ``summary`` (one line for the list of commands), ``description`` and
+``examples``. The commands ``PARTS`` have words alone.
 """
 
 from __future__ import annotations

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from linkwright.fields.signals import MovingPhase, SwingPhase
     from linkwright.loads.base import Load
     from linkwright.mechanism.mechanism import Mechanism
-    from linkwright.structure.group import Structure
+    from linkwright.structure.group import Group, Structure
 
 #: Positions of the cycle that are tried.
 TRIED = 72
@@ -108,13 +108,23 @@ def _assumed(name: str, mechanism: Mechanism, structure: Structure) -> list[Find
     from linkwright.kinematics.assembly import modal_groups
 
     found = []
-    for group, words in () if mechanism.drawing else modal_groups(structure).values():
+    for group, words in modal_groups(structure).values():
         inner = [each.joint for each in group.inner_joints]
-        if not any(joint in mechanism.assembly for joint in inner):
+        if not any(joint in mechanism.assembly for joint in inner) and not _drawn(mechanism, group):
             told = {"signature": group.signature, "links": tuple(group.links), "joint": inner[0]}
             message = Sentence("check.assumed", **told, first=words[0], second=words[1])
             found.append(Finding("note", name, "", message, code="assembly"))
     return found
+
+
+def _drawn(mechanism: Mechanism, group: Group) -> bool:
+    """Whether the drawing has a point of a group beside those by which it hangs."""
+    outer = {each.joint for each in group.outer_joints}
+    return any(
+        point not in outer and not mechanism.drawing.keys().isdisjoint((point, f"{link}.{point}"))
+        for link in group.links
+        for point in mechanism.links[link].points
+    )
 
 
 def _of_cams(name: str, mechanism: Mechanism) -> list[Finding]:

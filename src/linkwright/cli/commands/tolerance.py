@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, cast
 from linkwright.cli.parser import Options
 from linkwright.cli.part import part_arguments, read, refuse_outputs, show
 from linkwright.cli.session import Session
+from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.tolerance.problem import ToleranceStudy
@@ -31,6 +32,14 @@ def run(options: argparse.Namespace, session: Session) -> int:
     with kept(options.state, problem.name, asked(problem), session), on_cluster(options.cluster):
         show(solve(problem, options.file), options, session)
     return 0
+
+
+def surplus(word: str) -> str:
+    """Where the numbers are named of which somebody asks for one."""
+    from linkwright.metrics.base import METRICS
+    from linkwright.registry import nearest
+
+    return Sentence("tolerance.named_in_file", name=nearest(word[:100], list(METRICS)) or word)
 
 
 def asked(problem: ToleranceStudy) -> tuple[object, ...]:

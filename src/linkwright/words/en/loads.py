@@ -10,6 +10,9 @@ WORDS = {
     "to {end:g} s; shorten the cycle or extend the table",
     "no_kind": "the load has no kind",
     "write_kind": "write kind: one of {kinds}",
+    "gravity_is_key": "gravity is a key of the model, beside loads: gravity: [0, -9.81 m/s²]",
+    "friction_is_key": "friction is a key of pins and guides under joints: friction: 0.1, of a pin with "
+    "pin_radius: 5 mm",
     "both_given": "{given} are both given",
     "keep_one_of": "keep one of {words}",
     "none_given": "none of {words} is given",

@@ -112,14 +112,14 @@ metrics of every design. Designs that cannot move are counted and explained.""",
     "gradient, as where it almost stands still; find its numbers without one, by sweep or study",
     "objective_loads": "{name!r} has friction in more than 16 pairs of one group, or (for design numbers) beside "
     "cams or groups without closed form, on a guide that is pressed from both sides or teeth and chains that pull "
-    "both ways, loads that divide by an output, follow a link that turns through or act against the "
-    "rotation of two moving links, or, over other cycles than whole turns at constant speed, phases by outputs "
+    "both ways, loads that divide by an output or follow a link that turns through, or, over "
+    "other cycles than whole turns at constant speed, phases by outputs "
     "with more limits than two, groups without closed form, or dimensions that move the inputs, "
     "so no gradient of many designs is found; for outputs use sensitivity, which takes one design at a time, for "
     "design numbers study",
     "objective_reverses": "{name!r}: the load {load!r} has the sign of the rate of {output}, which changes it "
-    "{count} times in a turn, where gradients of design numbers take two changes; for outputs use sensitivity, for "
-    "design numbers study",
+    "{count} times in a turn, where gradients beside groups without closed form take two changes; for outputs "
+    "use sensitivity, for design numbers study",
     "objective_iterates": "{name!r} has a group without closed form, and passes change points, is given inputs other "
     "than its cycle, or has loads by an output with more than two limits, so no gradient of many designs is found; "
     "for outputs use sensitivity, for design numbers study",

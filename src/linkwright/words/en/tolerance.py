@@ -7,6 +7,8 @@ Finds the spread of design numbers and curves of a mechanism from tolerances of 
 dimensions and clearances of its pins: linear with exact derivatives, and by Monte
 Carlo; what contributes most; the share of machines within limits. A clearance is
 free, or its pin follows the joint's own reaction.""",
+    "named_in_file": "what is asked stands in the file (kind: tolerance): of: [{name}], a design number as metrics "
+    'names it, or "OUTPUT KIND" such as "rocker.angle range" (min, max, mean, rms, range, peak)',
     "nominal": "nominal value",
     "shift": "shift by pressed pins",
     "no_shift": "not followed (the pins cannot follow at {count} positions)",
@@ -67,6 +69,8 @@ free, or its pin follows the joint's own reaction.""",
     "few_samples_remedy": "give at least {least}",
     "pressed_number": '"{name}" is a design number; pressed pins shift summaries of outputs alone',
     "pressed_number_remedy": "name a summary such as rocker.angle range, or leave the pressed clearances out",
+    "no_number": 'there is no output or design number "{name}"',
+    "no_number_remedy": 'did you mean "{offer}"?',
     "no_kind": '"{name}" is a curve, not one number of a machine',
     "no_kind_remedy": "add min, max, mean, rms, range or peak, or name it under curves",
     "no_force": "the pin {pin} carries no force, so nothing presses it; give masses, gravity or loads",

@@ -21,6 +21,8 @@ WORDS = {
     "needed": '{noun} is needed, such as "{right}"',
     "wrong_dimension": '"{text}" is {wrong}, where {noun} is needed',
     "weight": 'a weight over 9.81 m/s² is a mass: write "({text})/(9.81 m/s^2)"',
+    "pound": 'lb is a unit of mass, lbf of force: write "{right}"',
+    "mass": 'a mass times 9.81 m/s² is a weight: write "({text})*(9.81 m/s^2)"',
     "sense": "the sign says the sense: positive is counter-clockwise, negative (-120 rpm) clockwise",
     "as_in": 'write it as in "{example}"',
     "write_unit": "write a unit such as mm, deg, kg, N, N·m, rpm, kg·m²",

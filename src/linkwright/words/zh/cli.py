@@ -41,6 +41,7 @@ Linkwright 读取描述平面机构的简短文本文件，回答设计者的问
     "about": "{name}：{cause}",
     "unknown_command": "没有命令“{name}”",
     "unknown_option": "没有选项“{name}”",
+    "write_option": "请写 {name} {word}",
     "unknown_argument": "此处不应有参数“{name}”",
     "missing": "缺少 {names}",
     "needs_value": "{name} 需要一个值",

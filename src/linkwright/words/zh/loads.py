@@ -9,6 +9,8 @@ WORDS = {
     "请缩短循环或补全表格",
     "no_kind": "载荷没有写类型 kind",
     "write_kind": "请写 kind：{kinds} 之一",
+    "gravity_is_key": "重力是模型的一个键，与 loads 并列：gravity: [0, -9.81 m/s²]",
+    "friction_is_key": "摩擦写在 joints 中的转动副和移动副上：friction: 0.1，转动副还要 pin_radius: 5 mm",
     "both_given": "同时给出了 {given}",
     "keep_one_of": "请只保留 {words} 之一",
     "none_given": "没有给出 {words} 中的任何一个",

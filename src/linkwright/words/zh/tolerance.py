@@ -5,6 +5,8 @@ WORDS = {
     "description": """\
 由尺寸公差和转动副间隙求机构指标与曲线的分散：用精确导数的线性法，以及蒙特卡洛法；
 各项贡献的大小；在界限内的合格率。间隙可以是自由的，也可以跟随运动副自身的反力。""",
+    "named_in_file": "所求的数写在文件（kind: tolerance）中：of: [{name}]，可为 metrics 列出的设计指标，"
+    '或“输出 种类”，如 "rocker.angle range"（min、max、mean、rms、range、peak）',
     "nominal": "名义值",
     "shift": "受压销引起的偏移",
     "no_shift": "未计算（在 {count} 个位置销跟不上反力）",
@@ -63,6 +65,8 @@ WORDS = {
     "few_samples_remedy": "请至少给 {least}",
     "pressed_number": "“{name}”是设计参数；压紧的销只使输出的汇总值移动",
     "pressed_number_remedy": "请写汇总值，如 rocker.angle range，或去掉压紧的间隙",
+    "no_number": "没有输出或设计指标“{name}”",
+    "no_number_remedy": "是不是“{offer}”？",
     "no_kind": "“{name}”是曲线，不是一台机器的一个数",
     "no_kind_remedy": "请加 min、max、mean、rms、range 或 peak，或写到 curves 中",
     "no_force": "转动副 {pin} 不受力，没有力压它；请给质量、重力或载荷",

@@ -21,6 +21,8 @@ WORDS = {
     "needed": "需要{noun}，如“{right}”",
     "wrong_dimension": "“{text}”是{wrong}，此处需要{noun}",
     "weight": "重量除以 9.81 m/s² 才是质量：请写“({text})/(9.81 m/s^2)”",
+    "pound": "lb 是质量单位，lbf 才是力的单位：请写“{right}”",
+    "mass": "质量乘以 9.81 m/s² 才是重量：请写“({text})*(9.81 m/s^2)”",
     "sense": "转向由正负号表示：正为逆时针，负（如 -120 rpm）为顺时针",
     "as_in": "请写成如“{example}”",
     "write_unit": "请写单位，如 mm、deg、kg、N、N·m、rpm、kg·m²",

@@ -1,0 +1,167 @@
+"""Parts of a model that stand at another level than their own: each is told once, and read where it belongs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+
+from linkwright.fields.nodes import Entry, Node, Scalar, Sequence
+from linkwright.fields.nodes import Mapping as MappingNode
+from linkwright.files.node_reader import MODES, PlainReader, meant_kind
+from linkwright.joints.base import JOINTS
+from linkwright.loads.base import LOADS
+from linkwright.registry import PROBABLE, nearest
+
+#: Keys under which a list of elements gives their names.
+NAMED = ("name", "id")
+#: Keys of elements, by which one is told from a section of that name.
+OWN = ("points", "kind", "also")
+
+
+def _elements(node: Node) -> bool:
+    return isinstance(node, MappingNode) and all(
+        key not in OWN and isinstance(value, MappingNode) for key, value in node
+    )
+
+
+def _modes(node: Node) -> bool:
+    return isinstance(node, MappingNode) and all(
+        isinstance(value, Scalar) and value.text in MODES for _, value in node
+    )
+
+
+def _driver(node: Node) -> bool:
+    return isinstance(node, MappingNode) and bool({"turn", "slide"} & {key for key, _ in node})
+
+
+def _places(node: Node) -> bool:
+    return isinstance(node, MappingNode) and all(
+        key not in OWN and isinstance(value, Sequence) for key, value in node
+    )
+
+
+#: Sections that may be indented too far, and how they look.
+SECTIONS: Mapping[str, Callable[[Node], bool]] = {
+    "links": _elements,
+    "joints": _elements,
+    "loads": _elements,
+    "drivers": _elements,
+    "assembly": _modes,
+    "drawing": _places,
+    "driver": _driver,
+    "gravity": lambda node: isinstance(node, Sequence),
+}
+OUTER = ("frame", "links", "joints", "loads", "assembly", "drawing")
+ELEMENTS = ("links", "joints", "loads", "drivers")
+
+
+def in_place(reader: PlainReader, root: MappingNode, known: tuple[str, ...]) -> MappingNode:
+    """The root of a model with sections and elements where they belong; ``known`` are the sections."""
+    root = _named(reader, _raised(reader, root))
+    return _lowered(reader, root, known)
+
+
+def _raised(reader: PlainReader, root: MappingNode) -> MappingNode:
+    """With the sections that stand within other sections."""
+    entries, raised = list[Entry](), list[Entry]()
+    present = {key for key, _ in root}
+    for entry in root.entries:
+        inner = entry.value
+        if entry.key.text not in OUTER or not isinstance(inner, MappingNode):
+            entries.append(entry)
+            continue
+        deep = [
+            each
+            for each in inner.entries
+            if each.key.text not in present and SECTIONS.get(each.key.text, _never)(each.value)
+        ]
+        for each in deep:
+            key = f"{entry.key.text}.{each.key.text}"
+            where = entry.key.text
+            reader.finding(each.key, key, "section_within", "misplaced", section=each.key.text, within=where)
+        kept = [each for each in inner.entries if each not in deep]
+        entries.append(Entry(entry.key, replace(inner, entries=kept)) if deep else entry)
+        raised += deep
+    return replace(root, entries=[*entries, *raised]) if raised else root
+
+
+def _never(node: Node) -> bool:
+    return False
+
+
+def _named(reader: PlainReader, root: MappingNode) -> MappingNode:
+    """With lists of elements that say their names themselves as tables by name."""
+    entries = list[Entry]()
+    for entry in root.entries:
+        value = entry.value
+        if entry.key.text in ELEMENTS and isinstance(value, Sequence):
+            named = [_by_name(item) for item in value.items]
+            whole = [each for each in named if each is not None]
+            if whole and len(whole) == len(named):
+                section, first = entry.key.text, whole[0].key.text
+                reader.finding(value, section, "list_of_elements", "type", section=section, first=first)
+                table = MappingNode(value.line, value.column, value.start, value.end, whole)
+                entry = Entry(entry.key, table)
+        entries.append(entry)
+    return replace(root, entries=entries)
+
+
+def _by_name(item: Node) -> Entry | None:
+    """An element of a list under its name: ``{name: crank, …}`` or ``crank: {…}``."""
+    if not isinstance(item, MappingNode):
+        return None
+    if len(item.entries) == 1 and isinstance(item.entries[0].value, MappingNode):
+        return item.entries[0]
+    for each in item.entries:
+        if each.key.text in NAMED and isinstance(each.value, Scalar):
+            return Entry(
+                each.value, replace(item, entries=[other for other in item.entries if other is not each])
+            )
+    return None
+
+
+def _lowered(reader: PlainReader, root: MappingNode, known: tuple[str, ...]) -> MappingNode:
+    """With the elements that stand beside their section."""
+    lowered: dict[str, list[Entry]] = {}
+    entries = list[Entry]()
+    for entry in root.entries:
+        section = _section_of(entry, known)
+        if section is None:
+            entries.append(entry)
+            continue
+        name = entry.key.text
+        reader.finding(entry.key, name, "beside_section", "misplaced", name=name, section=section)
+        lowered.setdefault(section, []).append(entry)
+    for section, more in lowered.items():
+        entries = _within(entries, section, more)
+    return replace(root, entries=entries) if lowered else root
+
+
+def _section_of(entry: Entry, known: tuple[str, ...]) -> str | None:
+    """The section of an element that is no section itself."""
+    name, value = entry.key.text, entry.value
+    if name in known or not isinstance(value, MappingNode) or nearest(name[:100], known, PROBABLE) == "frame":
+        return None
+    if value.get("points") is not None:
+        return "links"
+    kind = value.get("kind")
+    for section, kinds in (("joints", JOINTS), ("loads", LOADS)):
+        if meant_kind(kind, kinds) is not None:
+            return section
+    return None
+
+
+def _within(entries: list[Entry], section: str, more: list[Entry]) -> list[Entry]:
+    """The entries of the root with further ones of a section, which may be empty or not be there."""
+    for index, entry in enumerate(entries):
+        if entry.key.text != section:
+            continue
+        value = entry.value
+        own = value.entries if isinstance(value, MappingNode) else []
+        if isinstance(value, MappingNode) or (isinstance(value, Scalar) and value.empty):
+            table = MappingNode(value.line, value.column, value.start, value.end, [*own, *more])
+            return [*entries[:index], Entry(entry.key, table), *entries[index + 1 :]]
+        return entries
+    first = more[0].key
+    table = MappingNode(first.line, first.column, first.start, first.end, more)
+    return [*entries, Entry(replace(first, text=section), table)]
