@@ -15,6 +15,7 @@ from linkwright.plot.svg.element import Element
 from linkwright.plot.svg.text import name_width, text_element, width
 from linkwright.plot.symbols.base import SYMBOLS, points
 from linkwright.words import say
+from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.mechanism.mechanism import Mechanism
@@ -22,8 +23,9 @@ if TYPE_CHECKING:
 SIZE, ROW = 12.0, 19.0
 #: A line of text is at least as wide as this.
 LEAST = 300.0
-#: Where a line may break: after blanks and Chinese characters.
-_WORDS = re.compile(r"[\u2e80-\uffef]\s*|[^\s\u2e80-\uffef]+\s*")
+#: Where a line may break: after blanks and Chinese characters, but neither between a number and what it counts or
+#: names nor before a Chinese mark.
+_WORDS = re.compile(r"(?:\d[\d.]* )?(?:[\u2e80-\uffef]|[^\s\u2e80-\uffef]+)[，。；：、）]*\s*")
 
 
 class Legend:
@@ -72,7 +74,7 @@ class Legend:
         named = {**link_numbers(mechanism)}
         links = [f"{named.pop('frame')} {say('drawing.frame', language)}"]
         links += [f"{number} {name}" for name, number in named.items()]
-        self.text(say("drawing.reaction", language, links=", ".join(links)))
+        self.text(Sentence("drawing.reaction", links=tuple(links)).say(language))
         if any(len(joint.joined) > 2 for joint in mechanism.joints.values()):
             self.text(say("drawing.pin", language))
 
