@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
@@ -15,6 +14,7 @@ from linkwright.plot.svg.element import Element
 from linkwright.plot.svg.text import name_width, text_element, width
 from linkwright.plot.symbols.base import SYMBOLS, points
 from linkwright.words import say
+from linkwright.words.characters import pieces
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
@@ -23,9 +23,6 @@ if TYPE_CHECKING:
 SIZE, ROW = 12.0, 19.0
 #: A line of text is at least as wide as this.
 LEAST = 300.0
-#: Where a line may break: after blanks and Chinese characters, but neither between a number and what it counts or
-#: names nor before a Chinese mark.
-_WORDS = re.compile(r"(?:\d[\d.]* )?(?:[\u2e80-\uffef]|[^\s\u2e80-\uffef]+)[，。；：、）]*\s*")
 
 
 class Legend:
@@ -81,11 +78,11 @@ class Legend:
     def text(self, text: str) -> None:
         """A sentence in as many lines as it takes."""
         line = ""
-        for word in _WORDS.findall(text):
-            if line and width(line + word.rstrip(), SIZE) > self._wide:
+        for word in pieces(text):
+            if line and width(line + word, SIZE) > self._wide:
                 self._line(line)
                 line = ""
-            line += word
+            line += word if line else word.lstrip()
         self._line(line)
 
     def _line(self, text: str) -> None:
