@@ -6,7 +6,7 @@ import { element, put, tenth } from "./strokes";
 const SIZE = 14, LETTER = 0.56, LOW = 0.42;
 // Where a name may stand: directions in degrees, clockwise, and gaps to its point, the ones liked best first.
 const WAYS = [-45, 45, -135, 135, -90, 90, 0, 180, -20, 20, -160, 160].map((each): Vec => [Math.cos((each * Math.PI) / 180), Math.sin((each * Math.PI) / 180)]);
-const GAPS = [9, 17, 27];
+const GAPS = [11, 18, 28];
 // What a unit of ink under a name costs beside a unit of gap and a place less liked; what a name gains by staying.
 const INK = 1.6, FAR = 0.45, LIKED = 0.5, STAY = 12;
 // A short name with a number behind it has that as an index.
