@@ -62,3 +62,17 @@ def test_supports_stand_above_pins_from_which_links_hang() -> None:
         if hasattr(line.get_marker(), "vertices")
     ]
     assert [below for _, below in sorted(drawn)] == [True, True, False]
+
+
+def test_linkages_of_a_synthesis_stand_on_supports_and_have_one_entry_each() -> None:
+    """Lengths in mm; the frame of every candidate has its two pivots."""
+    found = lw.synthesize("crank_rocker", swing_angle=np.radians(40), quick_return_ratio=1.2, frame=0.3)
+    figure = plot(found, "synthesis").figure
+    (axes,) = figure.axes
+    supports = [line for line in axes.lines if hasattr(line.get_marker(), "vertices")]
+    assert len(supports) == 2 * min(len(found), 4)
+    assert {round(float(np.ravel(line.get_xdata())[0]), 6) for line in supports} == {0.0, 300.0}
+    assert axes.get_xlabel() == "x (mm)"
+    (legend,) = figure.legends
+    labels = [each.get_text() for each in legend.get_texts()]
+    assert len(set(labels)) == len(labels) == min(len(found), 4)

@@ -155,8 +155,6 @@ def _wheels(axes: Axes, motion: Motion, index: int, factor: float) -> list[Float
 
 def _supports(axes: Axes, motion: Motion, index: int, factor: float) -> list[tuple[Floats, float]]:
     """Supports of the frame's pins: below, above where their links hang down from them."""
-    from matplotlib.path import Path
-
     mechanism = motion.mechanism
     found: list[tuple[Floats, float]] = []
     for point in mechanism.frame.points:
@@ -170,12 +168,19 @@ def _supports(axes: Axes, motion: Motion, index: int, factor: float) -> list[tup
         x, y = np.sum(beside, axis=0) if beside else (0.0, 0.0)
         side = 1.0 if y < -abs(x) else -1.0
         found.append((at * factor, side))
-        strokes = [np.array(stroke) * (1.0, -side) for stroke in SUPPORT]
-        shape = Path.make_compound_path(*(Path(list(stroke)) for stroke in strokes))
-        size = 2.0 * float(np.abs(np.concatenate(strokes)).max())
-        axes.plot(*(at[:, None] * factor), marker=shape, markersize=size, markerfacecolor="none",
-                  markeredgecolor=INK, markeredgewidth=0.8, linestyle="", zorder=2.4)  # fmt: skip
+        draw_support(axes, at * factor, side)
     return found
+
+
+def draw_support(axes: Axes, at: Floats, side: float = -1.0, colour: str = INK) -> None:
+    """The support of a pin of the frame, below (-1) or above it (1)."""
+    from matplotlib.path import Path
+
+    strokes = [np.array(stroke) * (1.0, -side) for stroke in SUPPORT]
+    shape = Path.make_compound_path(*(Path(list(stroke)) for stroke in strokes))
+    size = 2.0 * float(np.abs(np.concatenate(strokes)).max())
+    axes.plot(*at[:, None], marker=shape, markersize=size, markerfacecolor="none", markeredgecolor=colour,
+              markeredgewidth=0.8, linestyle="", zorder=2.4)  # fmt: skip
 
 
 def _pins(axes: Axes, motion: Motion, index: int, factor: float) -> list[tuple[str, Floats]]:
