@@ -41,7 +41,7 @@ def test_moving_svg(tmp_path: Path) -> None:
     assert {e.get("dur") for e in root.iter() if e.get("dur")} == {"3s"}
     found = [word for e in root.iter() for word in e.get("class", "").split()]
     assert found.count("lw-dot") == 2 and "lw-force-line" in found
-    assert any("jaw.angle" in "".join(e.itertext()) for e in root.iter())
+    assert any("angle of jaw (°)" in "".join(e.itertext()) for e in root.iter())
 
 
 def test_gif_has_the_frames_and_the_time(tmp_path: Path) -> None:

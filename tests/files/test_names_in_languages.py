@@ -34,6 +34,16 @@ def test_each_language_has_its_texts() -> None:
     assert (chinese.name, chinese.purpose, chinese.source) == ("薄板压力机", "冲压薄板", "Own sketch")
 
 
+def test_words_of_a_report_in_one_language_are_those_of_the_machine() -> None:
+    """Where the model itself gives none in that language."""
+    text = TEXT.replace(
+        "source: Own sketch", "source: Own sketch\nreport: {zh: {purpose: 冲压, source: 自绘草图}}"
+    )
+    chinese = lw.loads(text).said_in("zh")
+    assert (chinese.purpose, chinese.source) == ("冲压薄板", "自绘草图")
+    assert lw.loads(text).said_in("en").source == "Own sketch"
+
+
 @pytest.mark.parametrize(
     "kept",
     [copy.deepcopy, lambda press: pickle.loads(pickle.dumps(press)), lambda press: lw.loads(lw.dump(press))],

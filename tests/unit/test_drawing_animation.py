@@ -75,7 +75,7 @@ def test_traces_vectors_and_cursor(crusher: lw.Motion) -> None:
     assert durations == {"3s"}
     assert any(e.get("class") == "lw-dot" for e in root.iter())
     assert any(e.get("attributeName") == "points" for e in root.iter(f"{SVG}animate"))
-    assert any("jaw.angle [rad]" in "".join(e.itertext()) for e in root.iter(f"{SVG}text"))
+    assert any("angle of jaw (°): −95.79 … −93.53" in "".join(e.itertext()) for e in root.iter(f"{SVG}text"))
     assert ET.fromstring(animation.frame(30)).get("viewBox") == root.get("viewBox")
 
 
@@ -110,3 +110,23 @@ def test_files(crusher: lw.Motion, tmp_path: Path) -> None:
     assert {file.name for file in tmp_path.iterdir()} == {"a.gif", "a.mp4"}
     with pytest.raises(lw.LinkwrightError, match="no kind of animation"):
         animation.save(tmp_path / "a.avi")
+
+
+def test_names_of_arrows_stay_in_the_picture_over_the_whole_motion() -> None:
+    """The tip of the bucket moves along the edge of the picture, with the name of its velocity."""
+    animation = animate(lw.solve_motion(lw.load("gallery:excavator"), steps=40), velocities=True, frames=20)
+    names: set[str] = set()
+    for index in animation.run:
+        root = ET.fromstring(animation.frame(index))
+        left, top, width, height = map(float, root.get("viewBox", "").split())
+        for group in root.iter(f"{SVG}g"):
+            shift = re.fullmatch(r"translate\((\S+) (\S+)\)", group.get("transform", ""))
+            for text in group.findall(f"{SVG}text") if shift else ():
+                assert shift is not None
+                x, y = (
+                    float(text.get(k, "nan")) + float(s) for k, s in zip("xy", shift.groups(), strict=True)
+                )
+                assert left <= x <= left + width
+                assert top <= y <= top + height
+                names.add("".join(text.itertext()))
+    assert "vT" in names

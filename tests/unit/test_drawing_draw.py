@@ -414,16 +414,3 @@ driver: {turn: crank, about: O1, speed: 1 rad/s}
     mechanism = lw.loads(text)
     assert mechanism._repr_svg_() is None
     assert lw.solve_motion(mechanism, steps=8, failures="mark")._repr_svg_() is None
-
-
-def test_labels_of_dimensions_keep_clear_of_their_lines() -> None:
-    drawing = draw(lw.load("gallery:fourbar_lecture"), dimensions=("rocker",))
-    root = ET.fromstring(drawing.svg)
-    (text,) = [e for e in root.iter(f"{SVG}text") if e.get("class") == "lw-value"]
-    assert "".join(text.itertext()) == "177.8 mm"
-    middle, half = float(text.get("x", "nan")), 0.5 * 5.1 * float(text.get("font-size", "nan"))
-    y = float(text.get("y", "nan")) - 4.0
-    for line in (e.get("d", "") for e in root.iter() if e.get("class") == "lw-dimension"):
-        x0, y0, x1, y1 = map(float, re.findall(r"-?[\d.]+", line))
-        if min(y0, y1) < y < max(y0, y1):
-            assert abs(x0 + (y - y0) / (y1 - y0) * (x1 - x0) - middle) > half

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from linkwright.plot.drawing.labels import Label, Obstacles, place
+from linkwright.plot.drawing.legend import Legend
 from linkwright.plot.svg.text import name_width, split_index, width
 
 
@@ -67,3 +68,31 @@ def test_estimated_widths_are_not_below_those_of_a_font() -> None:
     for text in ("coupler", "boom_cylinder", "WAVE", "lift", "20 kN", "minimum"):
         assert width(text, 100) >= 0.97 * font.getlength(text)
     assert name_width("O1", 10) < width("O1", 10)
+
+
+@pytest.mark.parametrize(
+    ("text", "kept"),
+    [
+        (
+            "the links have no mass and there are no loads (mass: 5 kg, loads: …) and that is all there is",
+            "5 kg,",
+        ),
+        (
+            "force of link 1 on link 2; 0 frame, 1 boom_cylinder, 2 bucket_cylinder, 3 boom, 4 bucket",
+            "4 bucket",
+        ),
+        (
+            "构件对构件的作用力；零机架，曲柄，连杆，摇杆，滑块，导杆，从动件，凸轮，推杆，齿轮，齿条",
+            "轮，",
+        ),
+    ],
+)
+def test_lines_of_a_legend_keep_together_what_belongs_together(text: str, kept: str) -> None:
+    """Whatever the width: a number and its unit or name, and a Chinese mark with what it follows."""
+    for wide in range(300, 520, 7):
+        legend = Legend((0.0, 0.0, float(wide), 10.0))
+        legend.text(text)
+        rows = ["".join(map(str, each.content)).strip() for each in legend.elements]
+        assert "".join(rows).replace(" ", "") == text.replace(" ", "")
+        assert any(kept in row for row in rows)
+        assert not any(row[0] in "，。；" for row in rows)

@@ -112,7 +112,7 @@ function Slider({ page, session, dimension }: { page: Page; session: Session; di
           session.touched();
         }}
       >{locked ? "●" : "○"}</button>
-      <span class="name">{address}</span>
+      <span class="name">{address.split(/(?<=[._])/).map((part) => <>{part}<wbr /></>)}</span>
       <input
         type="range" min={shown(dimension.positive ? value * 0.3 : value - reach)} max={shown(dimension.positive ? value * 2 : value + reach)}
         step="any" value={now / factor} disabled={locked} aria-label={address} aria-valuetext={`${shown(now)} ${unit}`}
@@ -247,18 +247,19 @@ function Tolerance({ page, session }: { page: Page; session: Session }) {
 // the whole ------------------------------------------------------------------------------
 
 function Tools({ page, session }: { page: Page; session: Session }) {
-  const history = (session.number ? null : page.history) ?? session.history;
+  // Where texts are changed as well, the page has steps back and forth of its own.
+  const shared = page.history && !session.number, { history } = session;
   useShown(session, () => [history.undoable, history.redoable, session.model.differs].join());
   const button = (word: string, act: () => void, able = true) => <button disabled={!able} onClick={act}>{page.say(word)}</button>;
   const download = () => {
     const { text, missing } = session.text();
-    save(new Blob([text], { type: "text/yaml" }), `${session.data.name.replace(/[\\/:*?"<>|\s]+/g, "_")}.yaml`);
+    save(new Blob([text], { type: "text/yaml" }), `${session.data.name[page.language.value].replace(/[\\/:*?"<>|\s]+/g, "_")}.yaml`);
     page.note.value = missing.length ? page.say("not_written", { names: missing.join(", ") }) : "";
   };
   return (
     <div class="tools">
-      {button("undo", () => history.undo(), history.undoable)}
-      {button("redo", () => history.redo(), history.redoable)}
+      {!shared && button("undo", () => history.undo(), history.undoable)}
+      {!shared && button("redo", () => history.redo(), history.redoable)}
       {button("reset", () => session.take({ ...session.model.values, ...session.model.original.values }), session.model.differs)}
       {button("keep", () => session.keep())}
       {session.variants.value.map((each) => {
@@ -303,10 +304,11 @@ function Sampled({ page, session }: { page: Page; session: Session }) {
 }
 
 export function Card({ page, session }: { page: Page; session: Session }) {
+  const { name, purpose, source } = session.data, language = page.language.value;
   return (
     <article class="card">
-      <h1>{session.data.name}</h1>
-      {session.data.purpose && <p class="purpose">{session.data.purpose}</p>}
+      <h1>{name[language]}</h1>
+      {purpose[language] && <p class="purpose">{purpose[language]}</p>}
       <div class="bench">
         <Machine page={page} session={session} />
         <div class="panels">
@@ -322,7 +324,7 @@ export function Card({ page, session }: { page: Page; session: Session }) {
           <div class="scroll" role="region" tabIndex={0} aria-label={page.region(session, "numbers")}><Numbers page={page} session={session} /><Sampled page={page} session={session} /></div>
         )}
       </div>
-      {session.data.source && <p class="source">{session.data.source}</p>}
+      {source[language] && <p class="source">{source[language]}</p>}
     </article>
   );
 }
@@ -331,7 +333,7 @@ export function App({ page }: { page: Page }) {
   const language = page.language.value;
   useEffect(() => {
     document.documentElement.lang = language === "zh" ? "zh-CN" : "en";
-    document.title = page.say("title", { name: page.sessions.map((each) => each.data.name).join(", ") });
+    document.title = page.say("title", { name: page.sessions.map((each) => each.data.name[language]).join(", ") });
   }, [language]);
   const share = async () => {
     const hash = page.link();

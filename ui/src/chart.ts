@@ -4,18 +4,18 @@ import { element, thinned } from "./strokes";
 import { digits } from "./words";
 
 // The picture in its own units, about pixels.
-const W = 360, H = 132, LEFT = 50, RIGHT = 8, TOP = 8, BOTTOM = 20;
-// How far a curve may leave its places, in these units; units between two fitting numbers, and their size.
-const FLAT = 0.08;
-const FONT = "10px system-ui, sans-serif";
+const W = 360, H = 132, LEFT = 60, RIGHT = 8, TOP = 8, BOTTOM = 24;
+// How far a curve may leave its places, in these units; the least size of letters, in pixels and in these units, and the
+// largest for which there is room.
+const FLAT = 0.08, LEAST = 10.5, SMALL = 10, LARGE = 15;
 // Where the numbers at the axes stand, low, high, left and right, by which side, and what they may cover: x, y, width,
 // height. The curves and the dot keep off it.
 const FREE = 4.5, MIDDLE = (LEFT + W) / 2;
 const TEXTS: { x: number; y: number; side: CanvasTextAlign; box: [number, number, number, number] }[] = [
-  { x: LEFT - 5, y: H - BOTTOM + 3, side: "right", box: [0, H - BOTTOM - 8, LEFT - FREE, 14] },
-  { x: LEFT - 5, y: TOP + 9, side: "right", box: [0, TOP - 2, LEFT - FREE, 14] },
-  { x: LEFT, y: H - 5, side: "left", box: [LEFT, H - 14, MIDDLE - LEFT, 14] },
-  { x: W - RIGHT, y: H - 5, side: "right", box: [MIDDLE, H - 14, W - MIDDLE, 14] },
+  { x: LEFT - 5, y: H - BOTTOM + 3, side: "right", box: [0, H - BOTTOM - 9, LEFT - FREE, 16] },
+  { x: LEFT - 5, y: TOP + 9, side: "right", box: [0, 0, LEFT - FREE, TOP + 13] },
+  { x: LEFT, y: H - 4, side: "left", box: [LEFT, H - 17, MIDDLE - LEFT, 17] },
+  { x: W - RIGHT, y: H - 4, side: "right", box: [MIDDLE, H - 17, W - MIDDLE, 17] },
 ];
 
 export interface Curve {
@@ -94,7 +94,8 @@ export class Chart {
 
   /** A canvas forgets all with its size. */
   private afresh(): void {
-    [this.pen.font, this.pen.direction, this.shown] = [FONT, "ltr", []];
+    const size = Math.min(LARGE, Math.max(SMALL, (LEAST * W * (devicePixelRatio || 1)) / this.canvas.width));
+    [this.pen.font, this.pen.direction, this.shown] = [`${size}px system-ui, sans-serif`, "ltr", []];
     this.paint();
   }
 
@@ -108,7 +109,7 @@ export class Chart {
       pen.stroke(path);
     };
     pen.setTransform(scale, 0, 0, scale, 0, 0);
-    pen.clearRect(LEFT - FREE, 0, W, H - 14);
+    pen.clearRect(LEFT - FREE, 0, W, H - 17);
     pen.lineJoin = "round";
     const zero = this.low < 0 && this.high > 0 ? `M${LEFT} ${this.v(0)}H${W - RIGHT}` : "";
     stroke(new Path2D(`M${LEFT} ${TOP}V${H - BOTTOM}H${W - RIGHT}${zero}`), colour.line, 1);

@@ -30,7 +30,7 @@ export function Comparison({ page, sessions }: { page: Page; sessions: Session[]
       <h2>{page.say("compare")}</h2>
       <div class="scroll" role="region" tabIndex={0} aria-label={page.say("compare")}>
         <table class="numbers">
-          <thead><tr><th scope="col">{page.say("numbers")}</th>{sessions.map((each) => <th scope="col" key={each.number}>{each.data.name}</th>)}</tr></thead>
+          <thead><tr><th scope="col">{page.say("numbers")}</th>{sessions.map((each) => <th scope="col" key={each.number}>{each.data.name[page.language.value]}</th>)}</tr></thead>
           <tbody>
             {rows(sessions).map((row) => {
               const names = [...new Set(row.flatMap((each) => (each ? [each.name[language]] : [])))];
@@ -38,7 +38,7 @@ export function Comparison({ page, sessions }: { page: Page; sessions: Session[]
                 <tr key={names.join()}>
                   <th scope="row">{names.join(" / ")}</th>
                   {row.map((each, k) => (
-                    <td key={k} title={each ? "" : page.say("unlike", { name: sessions[k].data.name })}>{each ? quantity(numbers[k][each.id], each.quantity) : "–"}</td>
+                    <td key={k} title={each ? "" : page.say("unlike", { name: sessions[k].data.name[page.language.value] })}>{each ? quantity(numbers[k][each.id], each.quantity) : "–"}</td>
                   ))}
                 </tr>
               );

@@ -150,9 +150,9 @@ export interface Steady {
 }
 
 export interface ModelData {
-  name: string;
-  purpose: string;
-  source: string;
+  name: Record<Language, string>;
+  purpose: Record<Language, string>;
+  source: Record<Language, string>;
   text: string;
   /** The module in base64, its length while a page is unpacked, or its bytes. */
   module: string | number | Uint8Array<ArrayBuffer> | null;

@@ -34,7 +34,7 @@ export class Page {
 
   /** A word for a region of a machine, with the machine's name where there are several. */
   region(session: Session, key: string): string {
-    return this.sessions.length > 1 ? `${this.say(key)}: ${session.data.name} (${session.number + 1})` : this.say(key);
+    return this.sessions.length > 1 ? `${this.say(key)}: ${session.data.name[this.language.value]} (${session.number + 1})` : this.say(key);
   }
 
   index(session: Session): number {

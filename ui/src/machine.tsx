@@ -58,7 +58,7 @@ export function Machine({ page, session }: { page: Page; session: Session }) {
 /** Names of the drawing and its joints for those who do not see them. */
 function label(page: Page, session: Session, view: View): void {
   const { main } = session.model, i = page.index(session);
-  view.svg.setAttribute("aria-label", page.say("drawing", { name: session.data.name }));
+  view.svg.setAttribute("aria-label", page.say("drawing", { name: session.data.name[page.language.value] }));
   for (const handle of view.svg.querySelectorAll<SVGElement>(".handle")) {
     const key = handle.dataset.key!;
     const [x, y] = ["x", "y"].map((axis) => quantity(main.row(`p:${key}.${axis}`)[i], "length"));

@@ -1,4 +1,5 @@
 // Drawing paper: what of a text can be drawn before it is a machine, and the tools that draw on it.
+import { Names } from "./names";
 import { element } from "./strokes";
 
 export interface Picture {
@@ -388,9 +389,11 @@ export class Paper {
       const [cx, cy] = this.screen(place);
       element("circle", { class: "lw-pin chosen", cx, cy, r: 4 }, this.front);
     }
-    const { points, links, fixed, driver, guided } = this.picture;
+    const { points, links, fixed, driver, guided } = this.picture, ink: number[] = [], named: string[] = [];
+    const inked = (corners: Vec[]) => corners.forEach((corner, k) => k && ink.push(...corners[k - 1], ...corner));
     for (const name in links) {
       const corners = links[name].filter((point) => point in points).map((point) => this.screen(points[point]));
+      inked(corners.length > 2 ? [...corners, corners[0]] : corners);
       const text = corners.map(([x, y], k) => `${k ? "L" : "M"}${x.toFixed(1)} ${y.toFixed(1)}`).join("");
       element("path", { class: `${corners.length > 2 ? "lw-plate" : "lw-bar"}${name === driver ? " driven" : ""}${name === this.picked ? " chosen" : ""}`, d: corners.length > 2 ? `${text}Z` : text }, this.front);
     }
@@ -398,11 +401,21 @@ export class Paper {
     for (const name in points) {
       const [x, y] = this.screen(points[name]);
       if (fixed.includes(name) && blocks.some(([a, b]) => Math.hypot(a - x, b - y) < 1)) continue;
-      if (fixed.includes(name)) element("path", { class: "lw-support", d: `M${x} ${y}l-9 16h18Z` }, this.front);
-      if (guided.includes(name)) element("rect", { class: "lw-block", x: x - 14, y: y - 9, width: 28, height: 18 }, this.front);
+      if (fixed.includes(name)) {
+        element("path", { class: "lw-support", d: `M${x} ${y}l-9 16h18Z` }, this.front);
+        element("path", { class: "lw-ground", d: `M${x - 15} ${y + 16}h30` }, this.front);
+        element("path", { class: "lw-hatch", d: [-9, -3, 3, 9, 15].map((dx) => `M${x + dx} ${y + 16}l-5 6`).join("") }, this.front);
+        inked([[x - 15, y + 16], [x + 15, y + 16], [x, y + 6], [x - 15, y + 22], [x + 15, y + 22]]);
+      }
+      if (guided.includes(name)) {
+        element("rect", { class: "lw-block", x: x - 14, y: y - 9, width: 28, height: 18 }, this.front);
+        inked([[x - 14, y - 9], [x + 14, y + 9], [x - 14, y + 9], [x + 14, y - 9], [x - 14, y - 9], [x - 14, y + 9]]);
+      }
       element("circle", { class: `lw-pin${this.chosen.includes(name) ? " chosen" : ""}`, cx: x, cy: y, r: 5, "data-point": name }, this.front);
-      element("text", { class: "lw-name", x: x + 9, y: y - 8 }, this.front).textContent = name;
+      inked([[x - 5, y - 5], [x + 5, y + 5], [x - 5, y + 5], [x + 5, y - 5]]);
+      named.push(name);
     }
+    new Names(named, element("g", {}, this.front)).write((name) => this.screen(points[name]), ink, 1, w, h);
     if (this.chosen.length > 1) {
       const way = this.chosen.filter((name) => name in points).map((name) => this.screen(points[name]));
       element("path", { class: "curve now", d: way.map(([x, y], k) => `${k ? "L" : "M"}${x} ${y}`).join("") }, this.front);

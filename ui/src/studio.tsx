@@ -196,7 +196,19 @@ function Bar({ desk }: { desk: Desk }) {
   );
 }
 
+/** Tells the style sheet how high the header is, which stays in sight. */
+function useHeight() {
+  const header = useRef<HTMLElement>(null);
+  useLayoutEffect(() => {
+    const observer = new ResizeObserver(() => document.documentElement.style.setProperty("--head", `${header.current!.offsetHeight}px`));
+    observer.observe(header.current!);
+    return () => observer.disconnect();
+  }, []);
+  return header;
+}
+
 function Room({ desk }: { desk: Desk }) {
+  const header = useHeight();
   const { page } = desk, beside = desk.beside.value, session = desk.solved.value.model && desk.session.value, language = page.language.value;
   void desk.text.value;
   useEffect(() => {
@@ -206,7 +218,7 @@ function Room({ desk }: { desk: Desk }) {
   }, [language, desk.name.value]);
   return (
     <>
-      <header>
+      <header ref={header}>
         <Bar desk={desk} />
         {session && !desk.drawing.value && <Transport page={page} />}
       </header>

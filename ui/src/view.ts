@@ -2,18 +2,19 @@
 import type { Glyph } from "./data";
 import type { Model } from "./model";
 import type { Values } from "./solver";
+import { Names } from "./names";
 import { colours, painted } from "./palette";
 import { amount, Shapes, type Vec } from "./shapes";
 import {
-  arrow, away, DEEP, dashpot, element, far, FINEST, hull, line, NS, PITCH, place, put, round, strand, TALL, tenth, thinned, TOOTH, toothed, unit, write, zigzag,
+  arrow, away, DEEP, dashpot, element, far, FINEST, hull, line, NS, PITCH, place, put, round, strand, TALL, thinned, TOOTH, toothed, unit, zigzag,
 } from "./strokes";
 
 const LAYERS = ["ground", "paths", "bodies", "blocks", "pins", "tops", "marks", "vectors", "names", "handles"];
 const BLOCK = 15, STUB = 8, HALF_HEIGHT = 9;
 const PUSH = 52, GAP = 8;
 // Paper narrower than this has smaller symbols, at least this share of their size; more points than these count as
-// narrower paper. Symbols smaller than the last share have names without their links.
-const WIDE = 560, SMALLEST = 0.42, POINTS = 10, SHORT = 0.75;
+// narrower paper.
+const WIDE = 560, SMALLEST = 0.42, POINTS = 10;
 const COLOURS = 4;
 // Fewer ghosts than these are drawn as strongly as paths.
 const FEW = 12;
@@ -47,7 +48,9 @@ export class View {
   private ghostly: Ghost[] = [];
   private seen: { values: Values | null; scale: number; paths: string } = { values: null, scale: 0, paths: "" };
   private readonly handles = new Map<string, SVGElement>();
-  private readonly labels = new Map<string, SVGElement>();
+  private readonly names: Names;
+  /** Ends of the strokes that are drawn, which names keep clear of. */
+  private ink: number[] = [];
   private readonly vectors = new Map<string, { line: SVGElement; head: SVGElement }>();
   private paths: SVGElement[] = [];
   private scale = 1;
@@ -65,10 +68,8 @@ export class View {
     this.svg = element("svg", { class: "machine", role: "group" }, host);
     for (const name of LAYERS) this.layers[name] = element("g", { class: `lw-${name}` }, this.svg);
     model.data.glyphs.forEach((glyph, number) => this.drawn.push(this.glyph(glyph, number)));
+    this.names = new Names(model.data.points.map(({ key }) => key), this.layers.names);
     for (const { key, fixed, moved } of model.data.points) {
-      const label = element("text", { class: "lw-name" }, this.layers.names);
-      label.textContent = key.replace(/^frame\./, "");
-      this.labels.set(key, label);
       if (!moved.length) continue;
       const handle = element("circle", { class: fixed ? "handle fixed" : "handle", r: 13, tabindex: 0, role: "button", "aria-label": key }, this.layers.handles);
       handle.dataset.key = key;
@@ -80,13 +81,11 @@ export class View {
   /** On narrow paper symbols are drawn smaller: `zoom` pixels are one unit of the picture. */
   resize(width: number, height: number): void {
     if (width < 1 || height < 1) return;
-    const crowded = Math.min(1, Math.sqrt(POINTS / this.labels.size));
+    const crowded = Math.min(1, Math.sqrt(POINTS / this.names.count));
     this.zoom = Math.min(1, Math.max(SMALLEST, (crowded * width) / WIDE));
-    for (const [key, label] of this.labels) write(label, this.zoom < SHORT ? key.replace(/.*\./, "") : key);
     [this.width, this.height] = [width / this.zoom, height / this.zoom];
     this.svg.setAttribute("viewBox", `0 0 ${this.width} ${this.height}`);
     for (const handle of this.handles.values()) handle.setAttribute("r", String(13 / this.zoom));
-    this.layers.names.setAttribute("font-size", String(Math.round(14 / Math.sqrt(this.zoom))));
     this.fit();
     this.draw(this.index);
     this.drawGhosts();
@@ -158,29 +157,23 @@ export class View {
     }
     if (!settled || paths !== this.seen.paths) this.drawPaths();
     this.seen = { values, scale: this.scale, paths };
+    this.ink = [];
     for (const each of this.drawn) each(i);
     for (const [key, handle] of this.handles) place(handle, "cx", "cy", this.at(key, i));
-    this.writeNames(i);
     this.drawVectors(i);
+    this.writeNames(i);
     this.layers.marks.classList.toggle("without-centres", !this.shown.centres);
   }
 
-  /** Names beside their points, above where that is free; one that finds no place is left out. */
   private writeNames(i: number): void {
     this.layers.names.classList.toggle("hidden", !this.shown.names);
-    if (!this.shown.names) return;
-    const used: [number, number, number][] = [], size = 14 / Math.sqrt(this.zoom);
-    for (const [key, label] of this.labels) {
-      const [x, y] = this.at(key, i), wide = 0.52 * size * label.textContent!.length + 3;
-      const free = [[9, -9], [9, size + 4], [-9 - wide, -9], [-9 - wide, size + 4], [9, -9 - size], [9, 2 * size + 4]].find(([dx, dy]) =>
-        x + dx > 0 && x + dx + wide < this.width && used.every(([left, top, right]) => x + dx > right || x + dx + wide < left || Math.abs(y + dy - top) > 0.85 * size),
-      );
-      put(label, "visibility", free ? "visible" : "hidden");
-      if (!free) continue;
-      const [u, v] = [x + free[0], y + free[1]];
-      used.push([u, v, u + wide]);
-      put(label, "transform", `translate(${tenth(u)} ${tenth(v)})`);
-    }
+    if (this.shown.names) this.names.write((key) => this.at(key, i), this.ink, this.zoom, this.width, this.height);
+  }
+
+  /** The path of a stroke, which names keep clear of. */
+  private stroke(points: Vec[], closed = false): string {
+    for (let k = closed ? 0 : 1; k < points.length; k++) this.ink.push(...points.at(k - 1)!, ...points[k]);
+    return line(points, closed);
   }
 
   // glyphs -------------------------------------------------------------------------------
@@ -192,11 +185,11 @@ export class View {
       case "stamp": return this.stamp(glyph, layer);
       case "bar": {
         const bar = path("lw-bar");
-        return (i) => put(bar, "d", line(glyph.points!.map((key) => this.at(key, i))));
+        return (i) => put(bar, "d", this.stroke(glyph.points!.map((key) => this.at(key, i))));
       }
       case "plate": {
         const plate = path("lw-plate");
-        return (i) => put(plate, "d", line(hull(glyph.points!.map((key) => this.at(key, i))), true));
+        return (i) => put(plate, "d", this.stroke(hull(glyph.points!.map((key) => this.at(key, i))), true));
       }
       case "spring": {
         const spring = path("lw-spring");
@@ -210,14 +203,14 @@ export class View {
         const bar = path("lw-bar");
         return (i) => {
           const [a, b] = glyph.points!.map((key) => this.at(key, i)), at = this.at(glyph.at!, i), u = unit(a, b);
-          put(bar, "d", line([away(at, u, -glyph.length!), away(at, u, glyph.length!)]));
+          put(bar, "d", this.stroke([away(at, u, -glyph.length!), away(at, u, glyph.length!)]));
         };
       }
       case "stub": {
         const bar = path("lw-bar");
         return (i) => {
           const at = this.at(glyph.at!, i);
-          put(bar, "d", line([at, away(at, this.way(`d:${glyph.joint}`, i), glyph.shift!)]));
+          put(bar, "d", this.stroke([at, away(at, this.way(`d:${glyph.joint}`, i), glyph.shift!)]));
         };
       }
       case "rail": return this.rail(glyph, path("lw-ground"), path("lw-hatch"));
@@ -241,8 +234,11 @@ export class View {
     const made = element("g", { class: `stamp ${glyph.role ?? ""}` }, layer);
     const parsed = new DOMParser().parseFromString(`<svg xmlns="${NS}">${glyph.svg}</svg>`, "image/svg+xml");
     made.append(...[...parsed.documentElement.childNodes].map((node) => document.importNode(node, true)));
+    const { x: left, y: top, width, height } = (made as SVGGraphicsElement).getBBox();
+    const corners: Vec[] = [[left, top], [left + width, top + height], [left, top + height], [left + width, top]];
     return (i) => {
-      const along = this.way(glyph.along!, i), [x, y] = away(this.at(glyph.at!, i), along, glyph.shift ?? 0);
+      const along = this.way(glyph.along!, i), at = away(this.at(glyph.at!, i), along, glyph.shift ?? 0), [x, y] = at;
+      this.stroke(corners.map(([u, v]) => away(at, along, u, v)), true);
       const turn = (Math.atan2(along[1], along[0]) * 180) / Math.PI;
       put(made, "transform", `translate(${x.toFixed(2)} ${y.toFixed(2)}) rotate(${turn.toFixed(3)})`);
     };
@@ -268,7 +264,7 @@ export class View {
       const { base, u, low, high } = track(i), side = glyph.side!;
       const first = low + glyph.shift! - BLOCK - STUB, last = high + glyph.shift! + BLOCK + STUB;
       const y = side * (HALF_HEIGHT + 1.3), count = Math.max(2, Math.round((last - first) / 6));
-      put(rail, "d", line([away(base, u, first, y), away(base, u, last, y)]));
+      put(rail, "d", this.stroke([away(base, u, first, y), away(base, u, last, y)]));
       let strokes = "";
       for (let k = 0; k < count; k++) {
         const x = first + ((k + 0.75) * (last - first)) / count;
@@ -288,7 +284,7 @@ export class View {
       });
       const first = Math.min(low - BLOCK - STUB, ...along), last = Math.max(high + BLOCK + STUB, ...along);
       const tie = this.at(glyph.tie!, i);
-      put(rod, "d", line([away(base, u, first), away(base, u, last)]) + (far(tie, base) > 1 ? line([tie, base]) : ""));
+      put(rod, "d", this.stroke([away(base, u, first), away(base, u, last)]) + (far(tie, base) > 1 ? this.stroke([tie, base]) : ""));
     };
   }
 
@@ -298,7 +294,7 @@ export class View {
       const back = away(at, u, -glyph.piston! * this.scale), length = glyph.barrel! * this.scale;
       put(rod, "d", line([back, at]) + line([away(back, u, 0, -5), away(back, u, 0, 5)]) + line([from, away(from, u, 8)]));
       const box: Vec[] = [[8, -7.5], [length, -7.5], [length, 7.5], [8, 7.5]];
-      put(barrel, "d", line(box.map(([x, y]) => away(from, u, x, y)), true));
+      put(barrel, "d", this.stroke(box.map(([x, y]) => away(from, u, x, y)), true));
     };
   }
 
@@ -370,6 +366,7 @@ export class View {
       if (!seen) return;
       const u: Vec = [fx / size, -fy / size], tip = away(this.paper(px, py), u, -GAP);
       arrow(shaft, head, away(tip, u, -PUSH), tip);
+      this.stroke([away(tip, u, -PUSH), tip]);
     };
   }
 
@@ -433,6 +430,7 @@ export class View {
         this.vectors.set(name, vector);
         seen.add(name);
         arrow(vector.line, vector.head, from, end);
+        this.stroke([from, end]);
       }
     };
     const moving = data.points.filter(({ fixed }) => !fixed).map(({ key }) => key);

@@ -2,20 +2,27 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from importlib.util import find_spec
 
 from linkwright.cli import commands
 from linkwright.cli.parser import CommandParser, Options, add_common
 from linkwright.cli.session import Session
 from linkwright.words import Say
+from linkwright.words.characters import aligned_within
+
+INDENT = "  "
 
 
 def overview(session: Session) -> None:
     """All commands in one line each."""
     say = session.say
-    names = commands.names()
-    wide = max(map(len, names)) + 2
-    rows = [f"{name:<{wide}}{say(f'{name}.summary')}" for name in names]
+    room = session.room and session.room - len(INDENT)
+
+    def rows(pairs: Sequence[tuple[str, str]]) -> str:
+        return "\n".join(line for lines in aligned_within(pairs, "<<", room) for line in lines)
+
+    names = [(name, say(f"{name}.summary")) for name in commands.names()]
     options = [
         ("-h, --help", "help_help"),
         ("--version", "version_help"),
@@ -23,16 +30,13 @@ def overview(session: Session) -> None:
         ("--json", "json_help"),
         ("--debug", "debug_help"),
     ]
-    wide = max(len(option) for option, _ in options) + 2
     session.show(
         "\n".join(
             [
                 f"{say('cli.usage')}{say('cli.usage_line')}\n",
                 f"{say('cli.tagline')}\n",
-                _section(say("cli.commands"), "\n".join(rows)),
-                _section(
-                    say("cli.options"), "\n".join(f"{o:<{wide}}{say(f'cli.{key}')}" for o, key in options)
-                ),
+                _section(say("cli.commands"), rows(names)),
+                _section(say("cli.options"), rows([(option, say(f"cli.{key}")) for option, key in options])),
                 _section(say("cli.exit_title"), say("cli.exit_codes")),
                 say("cli.more"),
             ]
@@ -82,5 +86,5 @@ def version(session: Session) -> None:
 
 
 def _section(title: str, body: str) -> str:
-    lines = "\n".join(f"  {line}" if line else "" for line in body.split("\n"))
+    lines = "\n".join(f"{INDENT}{line}" if line else "" for line in body.split("\n"))
     return f"{title}:\n{lines}\n"

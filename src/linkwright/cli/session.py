@@ -11,7 +11,7 @@ from linkwright.cli.errors import OutputError
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding
 from linkwright.words import Say
-from linkwright.words.characters import terminal_text
+from linkwright.words.characters import folded_lines, terminal_text
 from linkwright.words.sentence import reason_of
 
 #: Width of tables where there is no terminal, as in a pipe or a file.
@@ -31,7 +31,14 @@ class Session:
     debug: bool = False
 
     def show(self, text: str = "") -> None:
-        """Prints to the standard output; raises OutputError where that is full or closed."""
+        """Prints sentences and tables to the standard output, folded where that is a terminal.
+
+        Raises OutputError where it is full or closed.
+        """
+        self.show_as_is(folded_lines(text, self.width) if sys.stdout.isatty() else text)
+
+    def show_as_is(self, text: str) -> None:
+        """Prints a file or data to the standard output; raises OutputError where that is full or closed."""
         with _writing():
             print(terminal_text(text), file=sys.stdout)
 
@@ -39,7 +46,7 @@ class Session:
         """Prints plain data and arrays as JSON."""
         from linkwright.cli.data import json_text
 
-        self.show(json_text(value))
+        self.show_as_is(json_text(value))
 
     def show_written(self, *paths: object, apart: bool = False) -> None:
         """Says which files were written, but for those that are None; ``apart``: each behind an empty line."""
@@ -55,11 +62,17 @@ class Session:
     def tell(self, text: str) -> None:
         """Prints to the standard error: what is not part of the result."""
         with suppress(OSError):
-            print(terminal_text(text), file=sys.stderr)
+            folds = folded_lines(text, self.width) if sys.stderr.isatty() else text
+            print(terminal_text(folds), file=sys.stderr)
 
     def tell_error(self, sentence: str) -> None:
         """Prints an error to the standard error."""
         self.tell(self.say("cli.headed", head=self.alarm(self.say("cli.error")), sentence=sentence))
+
+    @property
+    def room(self) -> int | None:
+        """Columns that a table must not leave; None where there is no terminal."""
+        return self.width if sys.stdout.isatty() else None
 
     @property
     def width(self) -> int:

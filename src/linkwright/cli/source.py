@@ -9,7 +9,7 @@ from linkwright.errors import Finding, ModelError
 from linkwright.files.model_file import read_text
 from linkwright.files.source import GALLERY, read_source
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.words.titles import title_said
+from linkwright.words.titles import worded_title
 
 
 def read_model(source: str, session: Session) -> tuple[Mechanism, list[Finding]]:
@@ -24,5 +24,5 @@ def read_model(source: str, session: Session) -> tuple[Mechanism, list[Finding]]
     if session.json:
         return mechanism, findings
     if source.startswith(GALLERY):
-        mechanism = replace(mechanism, name=title_said(mechanism.name, session.language))
+        mechanism = replace(mechanism, name=worded_title(mechanism.name))
     return mechanism.said_in(session.language), findings

@@ -88,7 +88,7 @@ def _command(name: str, arguments: list[str], session: Session) -> int:
         raise _unknown("cli.unknown_command", name, known)
     parser = command_parser(name, session.say)
     if "--help" in arguments or "-h" in arguments:
-        session.show(parser.format_help().rstrip())
+        session.show_as_is(parser.format_help().rstrip())
         return FINE
     return commands.command(name).run(parser.read(arguments), session)
 

@@ -26,6 +26,7 @@ from linkwright.mechanism.geometry import (
 )
 from linkwright.registry import nearest, no_such
 from linkwright.units import LARGEST_OF_ALL, SI_UNITS, Dimension
+from linkwright.words import LANGUAGES
 from linkwright.words.sentence import Sentence, Worded, in_language
 
 if TYPE_CHECKING:
@@ -332,9 +333,24 @@ class Mechanism(Frozen):
         return joint.joined if joint is not None and joint.coordinate == "turn" else ()
 
     def said_in(self, language: str) -> Mechanism:
-        """The same with name, purpose and source in a language, where the file gives them in several."""
-        told = {key: in_language(getattr(self, key), language) for key in ("name", "purpose", "source")}
-        return self._changed({}, **told) if any(isinstance(text, Worded) for text in told.values()) else self
+        """The same with name, purpose and source in a language, where the file gives them in several, or under that
+        language of its report."""
+        told = {key: self._worded(key) for key in ("name", "purpose", "source")}
+        said = {key: in_language(text, language) for key, text in told.items()}
+        return self._changed({}, **said) if any(isinstance(text, Worded) for text in told.values()) else self
+
+    def _worded(self, key: str) -> str:
+        """A text of the file in all languages in which the file gives it."""
+        text: str = getattr(self, key)
+        report = {each: self.report.get(each) for each in LANGUAGES}
+        own = {
+            each: str(words[key])
+            for each, words in report.items()
+            if isinstance(words, Mapping) and key in words
+        }
+        if isinstance(text, Worded):
+            return Worded({**own, **text.texts})
+        return Worded({**dict.fromkeys(LANGUAGES, text), **own}) if own else text
 
     def structure(self) -> Any:
         """Mobility and Assur groups of the mechanism (see ``linkwright.structure``)."""

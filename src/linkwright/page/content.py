@@ -60,7 +60,7 @@ def page(models: Sequence[tuple[Motion, str | None]], language: str = "en") -> s
 
 def page_data(models: Sequence[tuple[Motion, str | None]], language: str) -> tuple[Plain, str]:
     """What a page is made of as plain data, and the kernels' JavaScript text where there is no module."""
-    found = [_model(motion, text, number, language) for number, (motion, text) in enumerate(models)]
+    found = [_model(motion, text, number) for number, (motion, text) in enumerate(models)]
     words = {
         each: {f"page.{key}": text for key, text in catalogue("page", each).items() if key not in _NAMES}
         | {f"outcome.{key}": catalogue("outcome", each)[key] for key in _OUTCOMES}
@@ -70,7 +70,7 @@ def page_data(models: Sequence[tuple[Motion, str | None]], language: str) -> tup
     return data, "\n".join(text for _, text in found)
 
 
-def _model(motion: Motion, text: str | None, number: int, language: str) -> tuple[Plain, str]:
+def _model(motion: Motion, text: str | None, number: int) -> tuple[Plain, str]:
     text = dump(motion.mechanism) if text is None else text
     programs = PagePrograms(motion)
     kernels = Kernels()
@@ -87,7 +87,7 @@ def _model(motion: Motion, text: str | None, number: int, language: str) -> tupl
     machine = _machine(motion)
     changeable = dimensions(Document(text, "model", read_text), set(values))
     data = {
-        **_said(motion.mechanism, text, language),
+        **_said(motion.mechanism, text),
         "module": None if module is None else base64.b64encode(module).decode(),
         "programs": kernels.described(),
         "main": main,
@@ -116,8 +116,12 @@ def _model(motion: Motion, text: str | None, number: int, language: str) -> tupl
     return data, script
 
 
-def _said(mechanism: Mechanism, text: str, language: str) -> Plain:
-    told = {key: in_language(getattr(mechanism, key), language) for key in ("name", "purpose", "source")}
+def _said(mechanism: Mechanism, text: str) -> Plain:
+    """Name, purpose and source in every language; the text of the file."""
+    said = {language: mechanism.said_in(language) for language in LANGUAGES}
+    told = {
+        key: {each: getattr(said[each], key) for each in LANGUAGES} for key in ("name", "purpose", "source")
+    }
     return {**told, "text": text}
 
 

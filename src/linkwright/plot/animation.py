@@ -107,10 +107,12 @@ def animate(
 
 @dataclass(frozen=True)
 class Moving:
-    """A name that goes with the places ``track`` (n, 2) on the paper; ``elements`` stand at the first frame."""
+    """A name that goes with the places ``track`` (n, 2) on the paper; ``elements`` stand at the first frame, in a
+    ``box``."""
 
     track: Floats
     elements: tuple[Element, ...]
+    box: Box
 
 
 @dataclass(frozen=True)
@@ -263,13 +265,15 @@ class Animation:
             frames.append((Obstacles.of(ink), shifts))
         chosen = place_moving(labels, frames)
         placed = zip(labels, tracks, chosen, strict=True)
-        return [Moving(track, tuple(written(label, each))) for label, track, each in placed]
+        return [Moving(track, tuple(written(label, each)), each.box) for label, track, each in placed]
 
     @cached_property
     def _drawn_box(self) -> Box:
-        left, top, right, bottom = bounds(self._ink)
-        room = 18.0 if self.labelled else 0.0
-        return left - room, top - room, right + room, bottom + room
+        names = [
+            np.reshape(each.box, (2, 1, 2)) + (each.track[list(self.run)] - each.track[self.run[0]])
+            for each in self._labels
+        ]
+        return bounds([*self._ink, *(each.reshape(-1, 2) for each in names)])
 
     @cached_property
     def _panel(self) -> Panel | None:
@@ -277,7 +281,8 @@ class Animation:
             return None
         motion, forces = self.scene.machine.motion, self.forces
         results = motion_results(motion) if forces is None else force_results(forces)
-        return panel(results, self.curves, self._drawn_box)
+        alone = len(motion.mechanism.drivers) == 1
+        return panel(results, self.curves, self._drawn_box, self.language, alone=alone)
 
     @cached_property
     def _legend(self) -> Legend:

@@ -13,14 +13,15 @@ from linkwright.core.arrays import Floats
 from linkwright.errors import require_language
 from linkwright.plot.drawing.picture import Drawing, bounds, captioned
 from linkwright.plot.svg.element import Element, circle, path
-from linkwright.plot.symbols.base import points
+from linkwright.plot.symbols.base import SYMBOLS, Shape, joined, vec, way
 from linkwright.words import say
 
 if TYPE_CHECKING:
     from linkwright.cams.result import CamDesign
 
 DIAGONAL = 620.0
-_ARM = 6.0
+#: Half the length of the walls between which a stem slides, and their distance.
+_GUIDE, _ROOM = 22.0, 5.0
 
 
 def draw_cam(design: CamDesign, angle: float = 0.0, language: str = "en") -> Drawing:
@@ -50,11 +51,16 @@ def draw_cam(design: CamDesign, angle: float = 0.0, language: str = "en") -> Dra
     if len(pitch):
         content.append(path(paper(pitch), "lw-pitch", closed=not barrel))
     if not barrel:
-        content += _centre(scale * (cam.base_radius or 0.0))
+        content.append(circle((0.0, 0.0), scale * (cam.base_radius or 0.0), "lw-hatch"))
+    frame = _frame(follower, paper, turns=not barrel)
+    content += frame.elements
     content += _drawn(follower, paper, scale * cam.follower.roller_radius, cam.follower.kind)
     if cam.conjugate is not None:
         content += _second(design, angle, paper, scale)
-    box = bounds([paper(cloud)])
+    pins = [(0.0, 0.0)] if not barrel else []
+    pins += [vec(paper(place)) for place in follower.get("pivot", ())]
+    content += [element for at in pins for element in SYMBOLS["pin"](at=at).elements]
+    box = bounds([paper(cloud), *frame.ink])
     title = say("cams.drawing", language, name=design.title)
     return Drawing(captioned(content, box, [_line(design, angle, language)], title))
 
@@ -64,12 +70,17 @@ def _turned(places: Floats, angle: float) -> Floats:
     return np.asarray(places @ np.array([[c, s], [-s, c]]))
 
 
-def _centre(base: float) -> list[Element]:
-    return [
-        circle((0.0, 0.0), base, "lw-hatch"),
-        path(points([(-_ARM, 0.0), (_ARM, 0.0)]), "lw-hatch"),
-        path(points([(0.0, -_ARM), (0.0, _ARM)]), "lw-hatch"),
-    ]
+def _frame(follower: dict[str, Floats], paper: Callable[[Floats], Floats], *, turns: bool) -> Shape:
+    """Supports of the cam and of an oscillating follower, and the guide of a translating one."""
+    shapes = [SYMBOLS["fixed_pivot"]()] if turns else []
+    for place in follower.get("pivot", ()):
+        shapes.append(SYMBOLS["fixed_pivot"](at=vec(paper(place))))
+    if "pivot" not in follower and "stem" in follower:
+        first, last = paper(follower["stem"])
+        guide = {"at": vec(0.35 * first + 0.65 * last), "along": way(first, last)[1]}
+        ends = {"start": -_GUIDE, "end": _GUIDE, "height": _ROOM}
+        shapes += [SYMBOLS["ground_guide"](**guide, **ends, side=side) for side in (-1, 1)]
+    return joined(shapes)
 
 
 def _follower(design: CamDesign, angle: float) -> dict[str, Floats]:
@@ -114,7 +125,7 @@ def _round(at: Floats, radius: float) -> Floats:
 def _drawn(
     parts: dict[str, Floats], paper: Callable[[Floats], Floats], roller: float, kind: str
 ) -> list[Element]:
-    """Stem, face, roller and pivot."""
+    """Stem, face and roller."""
     found: list[Element] = []
     if "stem" in parts:
         found.append(path(paper(parts["stem"]), "lw-bar"))
@@ -123,9 +134,6 @@ def _drawn(
     if "roller" in parts and kind == "roller":
         x, y = paper(parts["roller"][1]).tolist()
         found += [circle((x, y), roller, "lw-pin"), circle((x, y), 2.0, "lw-point")]
-    if "pivot" in parts:
-        x, y = paper(parts["pivot"][0]).tolist()
-        found.append(circle((x, y), 5.0, "lw-pin"))
     return found
 
 

@@ -14,14 +14,25 @@ ROUNDING = 1e-12
 COLUMNS = ("number", "type", "error", "worst", "defects", "input", "transmission", "ratio", "longest")
 
 
+def title_said(found: Synthesis, tell: Say) -> str:
+    """The task and how many candidates there are."""
+    key = "synthesize.title_one" if len(found) == 1 else "synthesize.title"
+    return tell(key, task=name_said(found.task, tell), count=len(found))
+
+
 def report(found: Synthesis, language: str) -> list[str]:
     """Title, table of candidates, dimensions of each, counts and notes."""
     tell = speaker(language)
     rows = [[tell(f"synthesize.column.{name}") for name in COLUMNS]]
     rows += [_row(number, each, found.extent, tell) for number, each in enumerate(found.candidates, 1)]
-    title = tell("synthesize.title", task=name_said(found.task, tell), count=len(found))
     between = tell("finding.comma")
-    lines = [title, tell(f"synthesize.error.{found.error_name}"), "", *aligned(rows, "><>><<>>>"), ""]
+    lines = [
+        title_said(found, tell),
+        tell(f"synthesize.error.{found.error_name}"),
+        "",
+        *aligned(rows, "><>><<>>>"),
+        "",
+    ]
     for number, each in enumerate(found.candidates, 1):
         lengths = between.join(
             f"{name_said(name, tell)} {_length(value)}" for name, value in each.linkage.lengths().items()

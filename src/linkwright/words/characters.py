@@ -9,6 +9,14 @@ from collections.abc import Sequence
 UNFIT = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\ud800-\udfff\ufdd0-\ufdef\ufffe\uffff]")
 _UNPRINTABLE = re.compile(rf"(?!\x1b\[[0-9;]*m|\r\x1b\[K){UNFIT.pattern}")
 _FORMULA = re.compile(r"[=+\-@\t\r]")
+_COLOUR = re.compile("\x1b\\[[0-9;]*m")
+#: What stays together where lines break: a word with a number before it, up to a plus or dash; a Chinese character;
+#: and the Chinese marks behind.
+_PIECE = re.compile(
+    r"\s*(?:\d[\d.]* )?(?:[\u2e80-\uffef]|[^\s+–\u2e80-\uffef]*[+–]|[^\s+–\u2e80-\uffef]+)[，。；：、）]*"
+)
+#: Columns of tables stand apart.
+_COLUMNS = re.compile(r"\S {2,}\S")
 
 
 def terminal_text(text: str) -> str:
@@ -39,6 +47,7 @@ GAP = "  "
 
 def cells(text: str) -> int:
     """Cells that a text takes: two for a wide (Chinese) character, none for a combining one."""
+    text = _COLOUR.sub("", text) if "\x1b" in text else text
     if text.isascii():
         return len(text)
     from unicodedata import combining, east_asian_width
@@ -58,5 +67,70 @@ def padded(text: str, width: int, align: str = "<") -> str:
 
 def aligned(rows: Sequence[Sequence[str]], align: str, gap: str = GAP) -> list[str]:
     """Lines of a table; ``align`` has one of ``<``, ``>``, ``^`` per column."""
+    return [line for (line,) in aligned_within(rows, align, None, gap)]
+
+
+def aligned_within(
+    rows: Sequence[Sequence[str]], align: str, width: int | None, gap: str = GAP
+) -> list[list[str]]:
+    """Lines of every row of a table that takes at most a width: texts of its widest columns are folded."""
     widths = [max((cells(row[i]) for row in rows), default=0) for i in range(len(align))]
-    return [gap.join(padded(*cell) for cell in zip(row, widths, align, strict=True)).rstrip() for row in rows]
+    if width is not None:
+        widths = _narrowed(rows, align, widths, width - len(gap) * (len(align) - 1))
+    found = []
+    for row in rows:
+        folds = [folded(text, wide) for text, wide in zip(row, widths, strict=True)]
+        lines = [[fold[k] if k < len(fold) else "" for fold in folds] for k in range(max(map(len, folds)))]
+        found.append(
+            [
+                gap.join(padded(*cell) for cell in zip(each, widths, align, strict=True)).rstrip()
+                for each in lines
+            ]
+        )
+    return found
+
+
+def _narrowed(rows: Sequence[Sequence[str]], align: str, widths: Sequence[int], room: int) -> list[int]:
+    """Widths of columns in a room: the widest texts are made narrower, no column narrower than its widest word."""
+    found = list(widths)
+    least = [
+        max((cells(each.strip()) for row in rows for each in pieces(row[i])), default=0)
+        for i in range(len(align))
+    ]
+    while sum(found) > room:
+        foldable = [i for i, each in enumerate(align) if each == "<" and found[i] > least[i]]
+        if not foldable:
+            break
+        found[max(foldable, key=lambda i: found[i])] -= 1
+    return found
+
+
+def pieces(text: str) -> list[str]:
+    """What a text consists of where lines may break, each with the blanks before it."""
+    return _PIECE.findall(text)
+
+
+def folded(text: str, width: int) -> list[str]:
+    """A text in lines of at most so many cells; a word that is wider stays whole."""
+    if cells(text) <= width:
+        return [text]
+    lines = [""]
+    for piece in pieces(text):
+        if lines[-1] and cells(lines[-1] + piece) > width:
+            lines.append("")
+        lines[-1] += piece if lines[-1] else piece.lstrip()
+    return lines
+
+
+def folded_lines(text: str, width: int) -> str:
+    """A text whose sentences are folded, what follows indented; lines of tables stay as they are."""
+    found = []
+    for line in text.split("\n"):
+        words = line.lstrip(" ")
+        indent = len(line) - len(words)
+        if cells(line) <= width or _COLUMNS.search(words):
+            found.append(line)
+            continue
+        first, *rest = folded(words, width - indent - len(GAP))
+        found += [" " * indent + first, *(" " * indent + GAP + each for each in rest)]
+    return "\n".join(found)

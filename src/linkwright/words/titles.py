@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from linkwright.words.sentence import in_language
+from linkwright.words.sentence import Worded, in_language
 
 #: Chinese titles by the English ones, which stand in the files.
 CHINESE = {
@@ -119,5 +119,11 @@ CHINESE = {
 def title_said(title: str, language: str) -> str:
     """A title in a language: an English one of the gallery or of a published case, one that is given in several
     languages; others as they are."""
-    said = in_language(title, language)
-    return CHINESE.get(title, said) if language == "zh" else said
+    return in_language(worded_title(title), language)
+
+
+def worded_title(title: str) -> str:
+    """A title of the gallery or of a published case in all languages; others as they are."""
+    if title not in CHINESE or isinstance(title, Worded):
+        return title
+    return Worded({"en": title, "zh": CHINESE[title]})

@@ -15,5 +15,5 @@ def arguments(option: Options) -> None:
 
 def run(options: argparse.Namespace, session: Session) -> int:
     """Prints the script."""
-    session.show(script(options.shell, session.say).rstrip())
+    session.show_as_is(script(options.shell, session.say).rstrip())
     return 0

@@ -65,7 +65,7 @@ def _show(options: argparse.Namespace, session: Session) -> int:
     if session.json:
         session.show_data({**_heading(name), "text": text})
     else:
-        session.show(text.rstrip("\n"))
+        session.show_as_is(text.rstrip("\n"))
     return 0
 
 

@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     from linkwright.metrics.table import MetricsTable
 
 ENDINGS = (".csv", ".json")
+#: Behind numbers about which a warning stands beneath the table.
+MARK = "  !"
 COLUMNS = ("metric", "subject", "value", "unit", "at", "at_unit", "limit", "exact", "warning", "remark")
 
 
@@ -109,7 +111,7 @@ def _lines(table: MetricsTable, session: Session) -> list[str]:
     """Lines of the table; where it is too wide, each remark on a line of its own beneath its number."""
     from linkwright.metrics.base import CELLS
     from linkwright.metrics.table import told
-    from linkwright.words.characters import aligned, cells
+    from linkwright.words.characters import aligned, aligned_within, cells
 
     keys = (*CELLS, "remark")
     rows = [[session.say(f"metrics.column.{key}") for key in keys]]
@@ -117,12 +119,16 @@ def _lines(table: MetricsTable, session: Session) -> list[str]:
     kept = [i for i in range(len(keys)) if i < 5 or any(row[i] for row in rows[1:])]
     align = "".join("<<><>><"[i] for i in kept)
     lines = aligned([[row[i] for i in kept] for row in rows], align)
-    if kept[-1] < 6 or max(map(cells, lines)) <= session.width:
+    if max(map(cells, lines)) <= session.width or (kept[-1] < 6 and session.room is None):
         return lines
-    lines = aligned([[row[i] for i in kept[:-1]] for row in rows], align[:-1])
-    found = [lines[0]]
-    for line, row in zip(lines[1:], rows[1:], strict=True):
-        found += [line, f"    {row[-1]}"] if row[-1] else [line]
+    if kept[-1] == 6:
+        kept, align = kept[:-1], align[:-1]
+    room = session.room and session.room - len(MARK)
+    head, *body = aligned_within([[row[i] for i in kept] for row in rows], align, room)
+    found = list(head)
+    for (first, *rest), row in zip(body, rows[1:], strict=True):
+        remark = row[-1].removeprefix(MARK.strip()).strip()
+        found += [first + MARK * (row[-1] != remark), *rest, *([f"    {remark}"] if remark else [])]
     return found
 
 
@@ -131,7 +137,8 @@ def _remarks(row: MetricValue | None, language: str) -> str:
     if row is None:
         return ""
     said = [remark.text(language) for remark in row.remarks if not remark.warning]
-    return " ".join(["!", *said] if row.warnings else said)
+    mark = MARK.strip() if row.warnings else ""
+    return f"{mark} {say('finding.semicolon', language).join(said)}".strip()
 
 
 def _data(table: MetricsTable, trouble: LinkwrightError | None, language: str) -> dict[str, Any]:

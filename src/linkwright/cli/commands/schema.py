@@ -23,7 +23,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
 
     text = json_text(file_schema())
     if options.output is None:
-        session.show(text)
+        session.show_as_is(text)
         return 0
     write_whole(Path(options.output), text + "\n", force=options.force)
     session.show_written(options.output)

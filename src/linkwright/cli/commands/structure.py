@@ -45,7 +45,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
         session.show()
         session.show(_counts(program, session.say))
         session.show()
-        session.show(program.text())
+        session.show_as_is(program.text())
     return 0
 
 

@@ -9,17 +9,9 @@ import numpy as np
 from linkwright.core.arrays import Flags, Floats
 from linkwright.plot.diagrams.axes import round_up, significant
 from linkwright.plot.diagrams.marks import acting
-from linkwright.plot.diagrams.picture import INK, Axes
+from linkwright.plot.diagrams.names import Name, Names
+from linkwright.plot.diagrams.picture import Axes
 from linkwright.plot.diagrams.source import InputAxis, Source
-
-#: Two labels nearer than these shares of the picture's size, across and up, are not both written.
-NEAR = np.array([0.09, 0.05])
-_HALO: dict[str, Any] = {
-    "boxstyle": "round,pad=0.08",
-    "facecolor": "white",
-    "edgecolor": "none",
-    "alpha": 0.75,
-}
 
 
 def jumps(source: Source) -> Floats:
@@ -42,26 +34,15 @@ def draw_curve(axes: Axes, curve: Floats, breaks: Floats, colour: str, dash: str
     return line
 
 
-def mark_inputs(axes: Axes, curve: Floats, axis: InputAxis, colour: str) -> None:
-    """Dots at round values of the input, with the values beside them where there is room, and an arrow."""
+def mark_inputs(names: Names, curve: Floats, axis: InputAxis, colour: str) -> None:
+    """Dots at round values of the input, which are named where there is room, and an arrow."""
     good = np.asarray(np.isfinite(curve).all(axis=1))
     if good.sum() < 3:
         return
-    middle = 0.5 * (curve[good].min(axis=0) + curve[good].max(axis=0))
-    extent = float(max(np.ptp(curve[good], axis=0).max(), 1e-300))
-    written: list[Floats] = []
     for index, text in _round_places(axis, good):
-        at = curve[index]
-        axes.plot([at[0]], [at[1]], "o", color=colour, markersize=2.8, zorder=4)
-        if any((np.abs(at - other) < NEAR * extent).all() for other in written):
-            continue
-        written.append(at)
-        out = _outward(curve, index, middle)
-        side = "left" if out[0] > 0.35 else "right" if out[0] < -0.35 else "center"
-        level = "bottom" if out[1] > 0.35 else "top" if out[1] < -0.35 else "center"
-        axes.annotate(text, (at[0], at[1]), (4.5 * out[0], 4.5 * out[1]), textcoords="offset points", ha=side,
-                      va=level, fontsize=7, color=INK, bbox=_HALO, zorder=5)  # fmt: skip
-    _arrow(axes, curve, good, colour)
+        names.axes.plot(*curve[index], "o", color=colour, markersize=2.8, zorder=4)
+        names.names.append(Name(text, curve[index], spare=True))
+    _arrow(names.axes, curve, good, colour)
 
 
 def _round_places(axis: InputAxis, good: Flags) -> list[tuple[int, str]]:
@@ -82,18 +63,6 @@ def _round_places(axis: InputAxis, good: Flags) -> list[tuple[int, str]]:
             suffix = "°" if axis.dimension == "angle" else f" {axis.unit.name}"
             found.append((index, f"{significant(float(value), 6)}{suffix}"))
     return found
-
-
-def _outward(curve: Floats, index: int, middle: Floats) -> Floats:
-    """Unit normal of the curve that points away from the middle."""
-    before, after = curve[max(index - 2, 0)], curve[min(index + 2, len(curve) - 1)]
-    along = after - before
-    normal = np.array([along[1], -along[0]])
-    if not np.isfinite(normal).all() or np.hypot(*normal) == 0.0:
-        normal = curve[index] - middle
-    length = float(np.hypot(*normal)) or 1.0
-    sign = 1.0 if normal @ (curve[index] - middle) >= 0 else -1.0
-    return np.asarray(sign * normal / length)
 
 
 def _arrow(axes: Axes, curve: Floats, good: Flags, colour: str) -> None:

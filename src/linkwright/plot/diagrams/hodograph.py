@@ -10,6 +10,7 @@ from linkwright.core.arrays import Floats
 from linkwright.plot.diagrams.axes import Legend, Unit, equal, framed, unit_of
 from linkwright.plot.diagrams.base import DIAGRAMS, Kind, Request
 from linkwright.plot.diagrams.curve_marks import draw_curve, jumps, mark_inputs
+from linkwright.plot.diagrams.names import Names, write_names
 from linkwright.plot.diagrams.outputs import joint_and_link, known_link
 from linkwright.plot.diagrams.picture import COLOURS, FAINT, INK, Axes, Figure, new_figure
 from linkwright.plot.diagrams.reactions import require_forces
@@ -35,12 +36,15 @@ class Hodograph(Kind):
             known_link(sources[0].mechanism, view)
         figure = new_figure(request.size or (4.6 * len(views) + 0.8 * (len(views) == 1), 4.9))
         legend = Legend()
-        for place, view in zip(figure.subplots(1, len(views), squeeze=False)[0], views, strict=True):
+        names = [
             draw_hodograph(place, sources, (joint, link, view), request, legend)
+            for place, view in zip(figure.subplots(1, len(views), squeeze=False)[0], views, strict=True)
+        ]
         subject = request.say("hodograph_of", joint=joint, link=link)
         framed(
             figure, request.titled(sources[0].label if len(sources) == 1 else "", subject), request, legend
         )
+        write_names(figure, names)
         return figure
 
 
@@ -52,20 +56,21 @@ def draw_hodograph(
     legend: Legend,
     *,
     largest: bool = True,
-) -> None:
-    """One hodograph: ``what`` is the joint, the link on which it acts, and the link in whose axes it is drawn;
-    ``largest``: whether the largest force is an arrow that the legend names."""
-    view = what[2]
+) -> Names:
+    """One hodograph, and what is to be named in it: ``what`` is the joint, the link on which it acts, and the link in
+    whose axes it is drawn; ``largest``: whether the largest force is an arrow that the legend names."""
+    view, noted = what[2], Names(axes)
     say = request.say
     curves = [_curve(source, what) for source in sources]
     unit = unit_of("force", curves)
     for number, (source, curve) in enumerate(zip(sources, curves, strict=True)):
         colour = COLOURS[number % len(COLOURS)]
         line = draw_curve(axes, curve * unit.factor, jumps(source), colour)
+        noted.line(curve * unit.factor)
         if len(sources) > 1:
             legend.add(source.label, line)
         elif request.marks and curve.any():
-            mark_inputs(axes, curve * unit.factor, source.axis, colour)
+            mark_inputs(noted, curve * unit.factor, source.axis, colour)
             if largest:
                 _largest(axes, curve, unit, legend, request)
     names = ("x", "y") if view == "frame" else ("ξ", "η")
@@ -77,6 +82,7 @@ def draw_hodograph(
     axes.margins(0.13)
     if not any(curve.any() for curve in curves):
         axes.update_datalim([(-1.0, -1.0), (1.0, 1.0)])
+    return noted
 
 
 def _curve(source: Source, what: tuple[str, str, str]) -> Floats:
@@ -114,11 +120,14 @@ class Hodographs(Kind):
         figure = new_figure(request.size or (WIDE * columns, HIGH * rows))
         places = list(figure.subplots(rows, columns, squeeze=False).flat)
         legend = Legend()
+        names = []
         for place, (joint, link) in zip(places, pairs, strict=False):
-            draw_hodograph(place, sources, (joint, link, "frame"), request, legend, largest=False)
+            view = (joint, link, "frame")
+            names.append(draw_hodograph(place, sources, view, request, legend, largest=False))
             place.set_title(request.say("force_on", joint=joint, link=link), color=INK)
         for place in places[len(pairs) :]:
             place.set_axis_off()
         title = request.say("kind.hodographs")
         framed(figure, request.titled(sources[0].label if len(sources) == 1 else "", title), request, legend)
+        write_names(figure, names)
         return figure

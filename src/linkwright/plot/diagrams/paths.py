@@ -12,10 +12,11 @@ from linkwright.errors import RequestError
 from linkwright.plot.diagrams.axes import Legend, framed
 from linkwright.plot.diagrams.base import DIAGRAMS, Kind, Request
 from linkwright.plot.diagrams.curve_marks import draw_curve, mark_inputs
+from linkwright.plot.diagrams.names import Name, Names, write_names
 from linkwright.plot.diagrams.outputs import output_named, traced_points
 from linkwright.plot.diagrams.panels import DASHES
-from linkwright.plot.diagrams.picture import COLOURS, INK, Axes, Figure, new_figure
-from linkwright.plot.diagrams.position import LINK, draw_position, reach
+from linkwright.plot.diagrams.picture import COLOURS, Figure, new_figure
+from linkwright.plot.diagrams.position import LINK, SUPPORT, draw_position, reach
 from linkwright.plot.diagrams.source import Source
 
 
@@ -32,10 +33,11 @@ class Paths(Kind):
         figure = new_figure(request.size or ((9.6, 5.2) if tiny else _room(sources, curves)))
         axes = list(figure.subplots(1, 2 if tiny else 1, squeeze=False)[0])
         legend = Legend()
+        names = [Names(one) for one in axes]
         if single:
-            _draw_machine(axes[0], sources[0])
+            _draw_machine(names[0], sources[0])
         for number, (source, found) in enumerate(zip(sources, curves, strict=True)):
-            for one in axes:
+            for one in names:
                 _draw(one, source, found, request, legend, None if single else number)
         for one in axes:
             one.set_aspect("equal", adjustable="datalim")
@@ -44,6 +46,7 @@ class Paths(Kind):
             one.set_ylabel("y (mm)")
         title = request.say("kind.paths")
         framed(figure, request.titled(sources[0].label if single else "", title), request, legend)
+        write_names(figure, names)
         return figure
 
 
@@ -69,24 +72,28 @@ def _curves(source: Source, request: Request) -> dict[str, Floats]:
     return {key: source.closed(source.motion.point(key).position) * 1e3 for key in keys}
 
 
-def _draw_machine(axes: Axes, source: Source) -> None:
+def _draw_machine(names: Names, source: Source) -> None:
     first = int(np.flatnonzero(source.motion.ok)[0])
-    for text, place in draw_position(axes, source.motion, first, factor=1e3).names:
-        axes.annotate(text, tuple(place), (4, 4), textcoords="offset points", fontsize=7.5, color=INK)
+    ink = draw_position(names.axes, source.motion, first, factor=1e3)
+    names.lines += ink.lines
+    names.names += [Name(text, place) for text, place in ink.names]
+    names.around += [(at, np.array(each) * (1.0, -side)) for at, side in ink.supports for each in SUPPORT]
 
 
 def _draw(
-    axes: Axes,
+    names: Names,
     source: Source,
     curves: dict[str, Floats],
     request: Request,
     legend: Legend,
     number: int | None,
 ) -> None:
+    axes = names.axes
     for which, (key, curve) in enumerate(curves.items()):
         colour = COLOURS[(which if number is None else number) % len(COLOURS)]
         dash = "-" if number is None else DASHES[which % len(DASHES)]
         line = draw_curve(axes, curve, np.zeros(0), colour, dash)
+        names.line(curve)
         legend.add(key if number is None else f"{source.label}: {key}", line)
         alone = not any(artist.get_color() == LINK for artist in axes.lines)
         if (
@@ -95,7 +102,7 @@ def _draw(
             and source.mechanism.drivers
             and (alone or _worth_marks(source, curve))
         ):
-            mark_inputs(axes, curve, source.axis, colour)
+            mark_inputs(names, curve, source.axis, colour)
 
 
 def _worth_marks(source: Source, curve: Floats) -> bool:

@@ -15,7 +15,7 @@ from linkwright.plot.drawing.guides import direction, line_start
 from linkwright.plot.drawing.labels import Label, Obstacles
 from linkwright.plot.drawing.machine import Machine
 from linkwright.plot.drawing.view import moved
-from linkwright.plot.symbols.base import SYMBOLS, Shape, Vec, placed, points, vec
+from linkwright.plot.symbols.base import SYMBOLS, Shape, Vec, placed, points, vec, way
 
 Dimension = str | tuple[str, str]
 _OFFSETS = (24.0, -24.0, 40.0, -40.0, 58.0, -58.0)
@@ -119,8 +119,7 @@ def _of_frame(machine: Machine, at: dict[str, Vec]) -> Iterator[Distance | Angle
                 yield Distance(at[named[0]], at[point], along)
     for joint in machine.guides.values():
         if joint.guide == "frame":
-            way = direction(machine, joint)
-            turned = math.atan2(way[1], way[0])
+            turned = math.atan2(*direction(machine, joint)[::-1])
             if min(abs(turned % (math.pi / 2)), abs(-turned % (math.pi / 2))) > 1e-9:
                 value = abs(turned) if abs(turned) <= math.pi / 2 else math.pi - abs(turned)
                 level = 0.0 if abs(turned) <= math.pi / 2 else math.copysign(math.pi, turned)
@@ -152,8 +151,10 @@ def _line(machine: Machine, measure: Distance, taken: Obstacles) -> Dimensioned:
         for offset, place in base
     ]
     shape, _, place = min(shapes, key=lambda each: _crossing(each[0], taken) + 0.3 * abs(each[1]))
-    value = float(np.hypot(b[0] - a[0], b[1] - a[1])) / machine.view.scale
-    return Dimensioned(shape, Label(length_text(value), _middle(a, b, place), "lw-value", 12.0, 5.0))
+    length, direct = way(a, b)
+    first, last = (vec(row) for row in placed([(0.0, place), (length, place)], a, direct))
+    text, anchors = length_text(length / machine.view.scale), _middle(a, b, place)
+    return Dimensioned(shape, Label(text, anchors, "lw-value", 12.0, 5.0, along=(first, last)))
 
 
 def _arc(measure: Angle, taken: Obstacles) -> Dimensioned:
@@ -181,8 +182,7 @@ def _crossing(shape: Shape, taken: Obstacles) -> float:
 
 
 def _middle(a: Vec, b: Vec, offset: float) -> tuple[Vec, ...]:
-    length = float(np.hypot(b[0] - a[0], b[1] - a[1])) or 1.0
-    along = ((b[0] - a[0]) / length, (b[1] - a[1]) / length)
+    length, along = way(a, b)
     shares: Sequence[float] = (0.5, 0.4, 0.6, 0.3, 0.7)
     return tuple(vec(row) for row in placed([(share * length, offset) for share in shares], a, along))
 

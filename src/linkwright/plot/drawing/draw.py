@@ -31,7 +31,7 @@ from linkwright.plot.drawing.view import DIAGONAL
 from linkwright.plot.svg.element import Element, group
 from linkwright.plot.symbols.base import points
 from linkwright.words import say
-from linkwright.words.sentence import in_language
+from linkwright.words.sentence import Sentence, in_language
 
 if TYPE_CHECKING:
     from linkwright.kinetostatics.forces import Forces
@@ -183,7 +183,7 @@ class Sheet:
         if any(each.kind == "force" and not each.empty([self.shown]) for each in arrows):
             below.numbers(mechanism, language)
         if missing := unmarked(self.scene.machine, self.index):
-            self.notes.append(say("drawing.unmarked", language, loads=", ".join(missing)))
+            self.notes.append(Sentence("drawing.unmarked", loads=tuple(missing)).say(language))
             below.text(self.notes[-1])
         for each in arrows:
             if each.empty([self.shown]):

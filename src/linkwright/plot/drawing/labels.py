@@ -12,25 +12,30 @@ from dataclasses import field
 
 import numpy as np
 
-from linkwright.core.arrays import Floats
+from linkwright.core.arrays import Floats, Whole
 from linkwright.core.dataclass import dataclass
 from linkwright.plot.drawing.machine import Machine, flat
 from linkwright.plot.drawing.scene import Scene
 from linkwright.plot.drawing.view import moved
-from linkwright.plot.svg.element import Element, element
+from linkwright.plot.svg.element import Element, element, number
 from linkwright.plot.svg.text import name_width, split_index, text_element
-from linkwright.plot.symbols.base import Vec, points, vec
+from linkwright.plot.symbols.arrows import BEHIND, NARROW
+from linkwright.plot.symbols.base import Vec, points, vec, way
 
 _STEPS = (0.0, 5.0, 11.0, 19.0, 30.0, 44.0)
 _WAYS = tuple((math.cos(a), math.sin(a)) for a in np.radians(np.arange(-45, 315, 22.5)))
 LEADER = 16.0
+#: Where over its line a text may stand, its gap to the line, and what it costs to stand elsewhere.
+_SHARES = (0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8)
+_CLOSE, _APART = 2.5, 60.0
 
 
 @dataclass(frozen=True)
 class Label:
     """A text for one of the places ``anchors``, the first liked best; ``clearance`` keeps it off the symbol there.
 
-    ``point``: the point that is named, as ``link.point``; ``index``: a small text behind and below.
+    ``point``: the point that is named, as ``link.point``; ``index``: a small text behind and below; ``along``: a
+    line, from its start to its end, over which the text is written in its direction.
     """
 
     text: str
@@ -41,6 +46,7 @@ class Label:
     leader: bool = True
     point: str = ""
     index: str = ""
+    along: tuple[Vec, Vec] | None = None
 
     @property
     def extent(self) -> Vec:
@@ -53,14 +59,23 @@ class Label:
         return 0.18 if self.index or split_index(self.text)[1] else 0.0
 
 
+Box = tuple[float, float, float, float]
+
+
 @dataclass(frozen=True)
 class Candidate:
-    """A box (left, top, right, bottom) for a label, its own cost, and the anchor it belongs to."""
+    """A box (left, top, right, bottom) for a label, its own cost, and the anchor it belongs to.
 
-    box: tuple[float, float, float, float]
+    ``turned``: the text's direction on the paper, degrees clockwise; a text across its box is in the smaller boxes
+    ``parts``.
+    """
+
+    box: Box
     dislike: float
     anchor: Vec
     gap: float
+    turned: float = 0.0
+    parts: tuple[Box, ...] = ()
 
 
 @dataclass
@@ -94,23 +109,58 @@ class Obstacles:
 
 
 def candidates(label: Label) -> list[Candidate]:
-    """Places for a label round each of its anchors, the nearest first."""
+    """Places for a label: over its line, or round each of its anchors, the nearest first."""
     width, height = label.extent
-    found = []
+    found = list(_over(label))
     for order, (x, y) in enumerate(label.anchors):
         for step in _STEPS:
             for dx, dy in _WAYS:
                 gap = label.clearance + step
                 centre = (x + dx * (gap + width / 2 * abs(dx)), y + dy * (gap + height / 2 * abs(dy)))
-                box = (
-                    centre[0] - width / 2,
-                    centre[1] - height / 2,
-                    centre[0] + width / 2,
-                    centre[1] + height / 2,
+                liking = 0.6 * (dx < 0.2) + 0.6 * (dy > 0.2) + (_APART if label.along else 0.0)
+                found.append(
+                    Candidate(_box(centre, width, height), 0.45 * step + liking + 1.5 * order, (x, y), step)
                 )
-                liking = 0.6 * (dx < 0.2) + 0.6 * (dy > 0.2)
-                found.append(Candidate(box, 0.45 * step + liking + 1.5 * order, (x, y), step))
     return found
+
+
+def _over(label: Label) -> Iterator[Candidate]:
+    """Places over a label's line or under it, in its direction, to be read from below or from the right; behind its
+    ends where it is too short for heads between them."""
+    if label.along is None:
+        return
+    (width, height), (start, end) = label.extent, np.array(label.along)
+    length, direct = way(start, end)
+    along = np.array(direct)
+    forwards = along[1] < 0 if abs(along[0]) < 1e-6 else along[0] > 0
+    up = np.array([along[1], -along[0]]) * (1.0 if forwards else -1.0)
+    for share in _SHARES:
+        beyond = max(0.0, width / 2 - length * min(share, 1.0 - share))
+        if beyond and share != 0.5:
+            continue
+        for side in (1.0, -1.0):
+            middle = start + share * length * along + side * (height / 2 + _CLOSE) * up
+            yield _turned(label, middle, up, 20.0 * abs(share - 0.5) + 0.1 * beyond + 2.0 * (side < 0))
+    if length <= NARROW:
+        for place in (-BEHIND - _CLOSE - width / 2, length + BEHIND + _CLOSE + width / 2):
+            yield _turned(label, start + place * along, up, 3.0)
+
+
+def _turned(label: Label, middle: Floats, up: Floats, dislike: float) -> Candidate:
+    """A place for a text whose letters stand ``up`` on the paper."""
+    (width, height), along = label.extent, np.array([-up[1], up[0]])
+    square = height / float(np.abs(along).sum())
+    count = math.ceil(width / square)
+    places = middle + np.linspace(-0.5, 0.5, count)[:, None] * max(width - square, 0.0) * along
+    parts = tuple(_box(vec(place), square, square) for place in places)
+    corners = np.array(parts)
+    box = vec(corners[:, :2].min(axis=0)) + vec(corners[:, 2:].max(axis=0))
+    return Candidate(box, dislike, vec(middle), 0.0, math.degrees(math.atan2(along[1], along[0])), parts)
+
+
+def _box(centre: Vec, width: float, height: float) -> Box:
+    x, y = centre
+    return (x - width / 2, y - height / 2, x + width / 2, y + height / 2)
 
 
 def place(labels: Sequence[Label], obstacles: Obstacles) -> list[Candidate]:
@@ -124,24 +174,47 @@ def place_moving(labels: Sequence[Label], frames: Sequence[tuple[Obstacles, Floa
     ``frames``: the obstacles of each frame, and how far every label (k, 2) has moved since the first.
     """
     options = [candidates(label) for label in labels]
-    boxes = [np.array([each.box for each in some]) for some in options]
+    covered = [Covered.of(some) for some in options]
     margin = np.array([-2.0, -1.0, 2.0, 1.0])
     own: list[Floats] = []
-    for k, (box, some) in enumerate(zip(boxes, options, strict=True)):
-        under = [obstacles.under(box + margin + np.tile(shift[k], 2)) for obstacles, shift in frames]
-        own.append(1.6 * np.mean(under, axis=0) + [each.dislike for each in some])
-    return [options[k][c] for k, c in enumerate(_settled(boxes, own))]
+    for k, (cover, some) in enumerate(zip(covered, options, strict=True)):
+        under = [obstacles.under(cover.boxes + margin + np.tile(shift[k], 2)) for obstacles, shift in frames]
+        own.append(1.6 * cover.summed(np.mean(under, axis=0)) + [each.dislike for each in some])
+    return [options[k][c] for k, c in enumerate(_settled(covered, own))]
 
 
-def _settled(boxes: Sequence[Floats], own: Sequence[Floats], rounds: int = 4) -> list[int]:
-    """Which box every label takes: one after the other, then each anew while that changes anything."""
-    chosen = [-1] * len(boxes)
-    order = sorted(range(len(boxes)), key=lambda k: -float(own[k].min()))
+@dataclass(frozen=True)
+class Covered:
+    """What the candidates of a label cover: boxes (m, 4), and where those of each candidate begin."""
+
+    boxes: Floats
+    begins: Whole
+
+    @staticmethod
+    def of(some: Sequence[Candidate]) -> Covered:
+        parts = [each.parts or (each.box,) for each in some]
+        begins = np.cumsum([0, *map(len, parts)])
+        return Covered(np.array([box for each in parts for box in each]), begins)
+
+    def one(self, candidate: int) -> Floats:
+        """The boxes of one candidate."""
+        return self.boxes[self.begins[candidate] : self.begins[candidate + 1]]
+
+    def summed(self, values: Floats) -> Floats:
+        """A sum for every candidate of values of its boxes."""
+        return np.asarray(np.add.reduceat(values, self.begins[:-1]))
+
+
+def _settled(covered: Sequence[Covered], own: Sequence[Floats], rounds: int = 4) -> list[int]:
+    """Which place every label takes: one after the other, then each anew while that changes anything."""
+    chosen = [-1] * len(covered)
+    order = sorted(range(len(covered)), key=lambda k: -float(own[k].min()))
     for _ in range(rounds):
         before = list(chosen)
         for k in order:
-            others = np.array([boxes[i][c] for i, c in enumerate(chosen) if i != k and c >= 0]).reshape(-1, 4)
-            chosen[k] = int(np.argmin(own[k] + 3.0 * _overlap(boxes[k], others)))
+            taken = [covered[i].one(c) for i, c in enumerate(chosen) if i != k and c >= 0]
+            shared = _overlap(covered[k].boxes, np.concatenate([*taken, np.zeros((0, 4))]))
+            chosen[k] = int(np.argmin(own[k] + 3.0 * covered[k].summed(shared)))
         if chosen == before:
             break
     return chosen
@@ -169,12 +242,13 @@ def written(label: Label, chosen: Candidate) -> list[Element]:
         share = label.clearance / (math.hypot(dx, dy) or 1.0)
         end = (chosen.anchor[0] - share * dx, chosen.anchor[1] - share * dy)
         found.append(element("line", {"class": "lw-leader", "x1": x, "y1": y, "x2": end[0], "y2": end[1]}))
-    baseline = bottom - (0.14 + label.drop) * label.size
-    middle = (left + right) / 2
-    found.append(
-        text_element(middle, baseline, label.text, label.style, label.size, "middle", index=label.index)
-    )
-    return found
+    middle, level = (left + right) / 2, (top + bottom) / 2
+    baseline = level + 0.5 * label.extent[1] - (0.14 + label.drop) * label.size
+    text = text_element(middle, baseline, label.text, label.style, label.size, "middle", index=label.index)
+    if chosen.turned:
+        turn = " ".join(map(number, (chosen.turned, middle, level)))
+        text = element("g", {"transform": f"rotate({turn})"}, text)
+    return [*found, text]
 
 
 LINK_SIZE = 12.0

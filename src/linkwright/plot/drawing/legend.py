@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
@@ -15,6 +14,8 @@ from linkwright.plot.svg.element import Element
 from linkwright.plot.svg.text import name_width, text_element, width
 from linkwright.plot.symbols.base import SYMBOLS, points
 from linkwright.words import say
+from linkwright.words.characters import pieces
+from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.mechanism.mechanism import Mechanism
@@ -22,8 +23,6 @@ if TYPE_CHECKING:
 SIZE, ROW = 12.0, 19.0
 #: A line of text is at least as wide as this.
 LEAST = 300.0
-#: Where a line may break: after blanks and Chinese characters.
-_WORDS = re.compile(r"[\u2e80-\uffef]\s*|[^\s\u2e80-\uffef]+\s*")
 
 
 class Legend:
@@ -72,18 +71,18 @@ class Legend:
         named = {**link_numbers(mechanism)}
         links = [f"{named.pop('frame')} {say('drawing.frame', language)}"]
         links += [f"{number} {name}" for name, number in named.items()]
-        self.text(say("drawing.reaction", language, links=", ".join(links)))
+        self.text(Sentence("drawing.reaction", links=tuple(links)).say(language))
         if any(len(joint.joined) > 2 for joint in mechanism.joints.values()):
             self.text(say("drawing.pin", language))
 
     def text(self, text: str) -> None:
         """A sentence in as many lines as it takes."""
         line = ""
-        for word in _WORDS.findall(text):
-            if line and width(line + word.rstrip(), SIZE) > self._wide:
+        for word in pieces(text):
+            if line and width(line + word, SIZE) > self._wide:
                 self._line(line)
                 line = ""
-            line += word
+            line += word if line else word.lstrip()
         self._line(line)
 
     def _line(self, text: str) -> None:

@@ -10,11 +10,13 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.errors import RequestError
+from linkwright.plot.diagrams.axes import significant, unit_of
 from linkwright.plot.drawing.picture import Box
 from linkwright.plot.svg.element import Element, element, path
 from linkwright.plot.svg.text import text_element, width
 from linkwright.plot.symbols.base import points
 from linkwright.registry import offered
+from linkwright.words import has, say
 
 HEIGHT, GAP, SIZE = 78.0, 26.0, 12.0
 
@@ -41,22 +43,34 @@ class Panel:
         )
 
 
-def panel(results: Mapping[Output, Floats], wanted: Sequence[str], box: Box) -> Panel:
-    """Rows of curves under the box; ``wanted``: names of columns, with or without the unit."""
+def panel(
+    results: Mapping[Output, Floats], wanted: Sequence[str], box: Box, language: str, *, alone: bool
+) -> Panel:
+    """Rows of curves under the box; ``wanted``: names of columns, with or without the unit; ``alone``: whether there
+    is one driver."""
     left, span = box[0], max(box[2] - box[0], 260.0)
     y = box[3] + GAP
     elements: list[Element] = []
     right = left + span
     for name in wanted:
         output = named(results, name)
-        elements += _row(output.heading, results[output], left, span, y)
-        right = max(right, left + width(output.heading, SIZE))
+        text = _caption(output, results[output], language, alone=alone)
+        elements += _row(text, results[output], left, span, y)
+        right = max(right, left + 4.0 + width(text, SIZE))
         y += HEIGHT + GAP
     extent = points([(left, box[3] + GAP - 1.4 * SIZE), (right, y - GAP + SIZE)])
     return Panel(tuple(elements), extent, left, span, box[3] + GAP, y - GAP)
 
 
-def _row(title: str, values: Floats, left: float, span: float, top: float) -> list[Element]:
+def _caption(output: Output, values: Floats, language: str, *, alone: bool) -> str:
+    """The quantity with its unit, and its ends."""
+    said = output.sentence(alone=alone).say(language) if has(f"quantity.{output.kind}") else output.column
+    unit = unit_of(output.dimension, [values])
+    low, high = (significant(float(end) * unit.factor) for end in (np.nanmin(values), np.nanmax(values)))
+    return say("drawing.curve", language, quantity=unit.label(said), low=low, high=high)
+
+
+def _row(text: str, values: Floats, left: float, span: float, top: float) -> list[Element]:
     low, high = float(np.nanmin(values)), float(np.nanmax(values))
     reach = (high - low) or 1.0
     x = left + span * np.arange(len(values)) / max(len(values) - 1, 1)
@@ -66,7 +80,6 @@ def _row(title: str, values: Floats, left: float, span: float, top: float) -> li
     if low < 0 < high:
         zero = top + HEIGHT * (0.96 - 0.9 * (0.0 - low) / reach)
         elements.append(path(points([(left, zero), (left + span, zero)]), "lw-leader"))
-    text = f"{title.replace('_', ' ')}  {low:.4g} … {high:.4g}"
     elements.append(text_element(left + 4.0, top - 4.0, text, "lw-value", SIZE))
     return elements
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
+from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
@@ -241,7 +242,12 @@ def point_vectors(motion: Motion, names: Iterable[str], kind: str) -> Arrows:
     values = {
         name: each.velocity if kind == "velocity" else each.acceleration for name, each in found.items()
     }
-    return Arrows(kind, (Vectors(kind, unit, feet, values, {name: (letter, name) for name in found}),))
+    short = Counter(name.rpartition(".")[2] for name in all_points(motion.mechanism))
+    symbols = {}
+    for name in found:
+        point = name.rpartition(".")[2]
+        symbols[name] = (letter, point if short[point] == 1 else name)
+    return Arrows(kind, (Vectors(kind, unit, feet, values, symbols),))
 
 
 def all_points(mechanism: Mechanism) -> tuple[str, ...]:

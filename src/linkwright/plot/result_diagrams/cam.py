@@ -11,7 +11,7 @@ from linkwright.cams.result import CamDesign
 from linkwright.errors import RequestError
 from linkwright.plot.diagrams.base import Request, result_diagram
 from linkwright.plot.diagrams.picture import FAINT, INK, Figure
-from linkwright.plot.result_diagrams.part_axes import Line, Pane, panes, plane
+from linkwright.plot.result_diagrams.part_axes import Line, Pane, fitted, panes, plane
 
 #: Points of the coloured profile, and speeds of the vibration's diagram.
 _POINTS, _SPEEDS = 1440, 240
@@ -31,7 +31,8 @@ def draw_cam_motion(result: CamDesign, request: Request) -> Figure:
     for order, symbol in enumerate("svaj"):
         values = result.motion[order] * (speed**order if speed else 1.0)
         marks = tuple(sorted({int(values.argmax()), int(values.argmin())}))
-        given.append(Pane(symbol, kinds[order], (Line(result.angles, values, marks=marks),)))
+        title = request.say(f"cam_{symbol}")
+        given.append(Pane(title, kinds[order], (Line(result.angles, values, marks=marks),)))
     return panes(result.title, (request.say("cam_angle"), "angle"), given, request)
 
 
@@ -39,30 +40,34 @@ def draw_cam_motion(result: CamDesign, request: Request) -> Figure:
 def draw_cam_checks(result: CamDesign, request: Request) -> Figure:
     """Pressure angle, radius of curvature, contact force, Hertz's pressure and torque over the cam's angle."""
     phi, contact = result.angles, result.contact
-    given = [Pane("α", "angle", (Line(phi, contact.pressure_angle),))]
+    given = [Pane(request.say("cam_pressure_angle"), "angle", (Line(phi, contact.pressure_angle),))]
     largest = 5.0 * result.size
     with np.errstate(divide="ignore"):
         radius = 1.0 / contact.bend
-    given.append(Pane("ρ", "length", (Line(phi, np.where(np.abs(radius) < largest, radius, np.nan)),)))
+    bent = np.where(np.abs(radius) < largest, radius, np.nan)
+    given.append(Pane(request.say("cam_curvature"), "length", (Line(phi, bent),)))
     if result.loaded and result.cam.barrel_radius is None:
-        given.append(Pane("N", "force", (Line(phi, result.contact_force),)))
+        given.append(Pane(request.say("cam_force"), "force", (Line(phi, result.contact_force),)))
         if result.pressure is not None:
-            given.append(Pane("p", "pressure", (Line(phi, result.pressure),)))
-        given.append(Pane("T", "torque", (Line(phi, result.torque),)))
+            given.append(Pane(request.say("cam_pressure"), "pressure", (Line(phi, result.pressure),)))
+        given.append(Pane(request.say("cam_torque"), "torque", (Line(phi, result.torque),)))
     return panes(result.title, (request.say("cam_angle"), "angle"), given, request)
 
 
 @result_diagram("cam_profile", CamDesign, usual=False)
 def draw_cam_profile(result: CamDesign, request: Request) -> Figure:
-    """The profile at true shape; its colour is Hertz's pressure, else the contact force, else the pressure angle."""
+    """The profile at true shape; its colour is Hertz's pressure, else the contact force, else the pressure angle
+    (no colours where that is the same all round)."""
     from matplotlib.collections import LineCollection
 
     figure, (axes,) = plane(result.title, request)
     values, label = _coloured(result, request)
     places = 1e3 * np.stack([result.contact.point.real, result.contact.point.imag], axis=1)
     pieces = np.stack([places[:-1], places[1:]], axis=1)
+    varied = bool(np.ptp(values) > 1e-9 * (1.0 + np.abs(values).max()))
     shown = LineCollection(list(pieces), cmap="viridis", linewidths=4.0, capstyle="round")
-    shown.set_array(0.5 * (values[:-1] + values[1:]))
+    if not varied:
+        shown.set(color=INK, linewidth=1.8)
     for k in range(1, len(result.cam.walls)):
         other = 1e3 * result.profile(_POINTS, k)
         if result.cam.conjugate is not None and not result.cam.follower.oscillating:
@@ -77,19 +82,22 @@ def draw_cam_profile(result: CamDesign, request: Request) -> Figure:
         axes.plot(0.0, 0.0, "+", color=INK)
     axes.add_collection(shown)
     axes.autoscale_view()
-    axes.set_xlabel("x [mm]")
-    axes.set_ylabel("y [mm]")
-    figure.colorbar(shown, ax=axes, label=label, shrink=0.8)
+    axes.set_xlabel("x (mm)")
+    axes.set_ylabel("y (mm)")
+    if varied:
+        shown.set_array(0.5 * (values[:-1] + values[1:]))
+        figure.colorbar(shown, ax=axes, label=label, shrink=0.8)
+    fitted(figure, [axes], request)
     return figure
 
 
 def _coloured(result: CamDesign, request: Request) -> tuple[np.ndarray, str]:
     """What the profile is coloured by, and its name with unit."""
     if result.pressure is not None:
-        return 1e-6 * result.pressure, f"{request.say('cam_pressure')} [MPa]"
+        return 1e-6 * result.pressure, f"{request.say('cam_pressure')} (MPa)"
     if result.loaded and result.cam.barrel_radius is None:
-        return result.contact_force, f"{request.say('cam_force')} [N]"
-    return np.degrees(result.contact.pressure_angle), f"{request.say('cam_pressure_angle')} [°]"
+        return result.contact_force, f"{request.say('cam_force')} (N)"
+    return np.degrees(result.contact.pressure_angle), f"{request.say('cam_pressure_angle')} (°)"
 
 
 @result_diagram("cam_vibration", CamDesign, usual=False)
@@ -102,7 +110,13 @@ def draw_cam_vibration(result: CamDesign, request: Request) -> Figure:
     left = result.residual_vibration(speeds)
     kind = result.cam.follower.lift_dimension
     given = [
-        Pane("z", kind, (Line(speeds, result.steady_deviation(speeds)),)),
-        Pane("A", kind, tuple(Line(speeds, column) for column in left.T)),
+        Pane(request.say("cam_deviation"), kind, (Line(speeds, result.steady_deviation(speeds)),)),
+        Pane(
+            request.say("cam_residual"),
+            kind,
+            tuple(
+                Line(speeds, column, request.say("cam_after", number=k)) for k, column in enumerate(left.T, 1)
+            ),
+        ),
     ]
     return panes(result.title, (request.say("cam_speed"), "angular_velocity"), given, request)

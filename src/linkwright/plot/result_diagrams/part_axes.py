@@ -119,6 +119,20 @@ def plane(name: str, request: Request, count: int = 1) -> tuple[Figure, list[Axe
     return figure, found
 
 
+#: Inches of a plane across, of what stands about it below and above, and bounds of its height as shares of its width.
+ACROSS, AROUND, FLAT, TALL = 3.6, 1.2, 0.3, 1.25
+
+
+def fitted(figure: Figure, planes: Sequence[Axes], request: Request) -> None:
+    """A figure as high as what its planes of equal scale show, where no size is asked for."""
+    if request.size is not None:
+        return
+    extents = [axes.dataLim for axes in planes]
+    share = max(each.height / each.width if each.width > 0.0 else TALL for each in extents)
+    wide = float(figure.get_size_inches()[0])
+    figure.set_size_inches(wide, AROUND + (wide / len(planes) - 1.2) * min(max(share, FLAT), TALL))
+
+
 def arrow(
     axes: Axes, start: Floats, vector: Floats, colour: str, label: str, *, middle: float | None = None
 ) -> None:

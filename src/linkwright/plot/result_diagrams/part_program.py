@@ -24,7 +24,7 @@ def draw_optimum(result: Optimum, request: Request) -> Figure:
     if len(result.x) == 2:
         _region(axes, result)
     else:
-        _bars(axes, result)
+        _bars(axes, result, request)
     framed(figure, request.titled(result.title), request)
     return figure
 
@@ -61,7 +61,7 @@ def _region(axes: Axes, result: Optimum) -> None:
     axes.set_ylabel(f"{names[1]} ({scales[1][0]})" if scales[1][0] else names[1])
 
 
-def _bars(axes: Axes, result: Optimum) -> None:
+def _bars(axes: Axes, result: Optimum, request: Request) -> None:
     """For every constraint, how much of the larger of its sides is not left over."""
     limits = result.program.subject_to
     used = []
@@ -71,5 +71,6 @@ def _bars(axes: Axes, result: Optimum) -> None:
     colours = [COLOURS[1] if result.active(c) else COLOURS[0] for c in limits]
     axes.barh([c.name for c in limits], 100 * np.array(used), color=colours)
     axes.set_xlim(0.0, 105.0)
-    axes.set_xlabel("%")
+    axes.axvline(100.0, color=INK, linewidth=0.9)
+    axes.set_xlabel(request.say("used"))
     axes.invert_yaxis()

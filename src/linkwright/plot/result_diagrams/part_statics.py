@@ -16,7 +16,7 @@ from linkwright.parts.statics.structure import StructureForces
 from linkwright.parts.statics.wedge import WedgeForces
 from linkwright.plot.diagrams.base import Request, result_diagram
 from linkwright.plot.diagrams.picture import COLOURS, INK, Axes, Figure
-from linkwright.plot.result_diagrams.part_axes import Line, Pane, arrow, line_of, panes, plane, point
+from linkwright.plot.result_diagrams.part_axes import Line, Pane, arrow, fitted, line_of, panes, plane, point
 from linkwright.words import say
 
 #: Longest arrow as a share of the picture's size.
@@ -45,6 +45,7 @@ def draw_resultant(result: Resultant, request: Request) -> Figure:
         arrow(one, np.zeros(2), whole, COLOURS[1], "R", middle=-_side(vectors, whole, a, b))
         one.set_xlabel(f"F{'xyz'[a]} (N)")
         one.set_ylabel(f"F{'xyz'[b]} (N)")
+    fitted(figure, axes, request)
     return figure
 
 
@@ -58,6 +59,7 @@ def draw_body_reactions(result: Reactions, request: Request) -> Figure:
         point(axes, spatial(support.at)[:2], name)
         arrows.append((spatial(support.at)[:2], _reaction(result, name), COLOURS[0], name))
     _arrows(axes, arrows)
+    fitted(figure, [axes], request)
     return figure
 
 
@@ -78,6 +80,7 @@ def draw_structure_reactions(result: StructureForces, request: Request) -> Figur
         place = motion.point(f"{on}.{at}").position[0]
         arrows.append((place, result.reaction(joint, on), COLOURS[0], joint))
     _arrows(axes, arrows)
+    fitted(figure, [axes], request)
     return figure
 
 
@@ -113,6 +116,7 @@ def draw_rotor_balance(result: RotorBalance, request: Request) -> Figure:
         one.set_title(say("statics.balancing_plane", request.language, name=name))
         one.set_xlabel("m·r·cos θ (kg·m)")
         one.set_ylabel("m·r·sin θ (kg·m)")
+    fitted(figure, axes, request)
     return figure
 
 

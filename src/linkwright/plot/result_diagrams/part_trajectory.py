@@ -6,7 +6,7 @@ from linkwright.parts.trajectories.conveyor import Transport
 from linkwright.parts.trajectories.particle import Flight
 from linkwright.plot.diagrams.base import Request, result_diagram
 from linkwright.plot.diagrams.picture import COLOURS, Figure
-from linkwright.plot.result_diagrams.part_axes import Line, Pane, panes, plane
+from linkwright.plot.result_diagrams.part_axes import Line, Pane, fitted, panes, plane
 
 
 @result_diagram("flight", Flight)
@@ -18,6 +18,7 @@ def draw_flight(result: Flight, request: Request) -> Figure:
     axes.axhline(0.0, color="#555555", linewidth=0.9)
     axes.set_xlabel("x (m)")
     axes.set_ylabel("y (m)")
+    fitted(figure, [axes], request)
     return figure
 
 

@@ -6,9 +6,12 @@ from typing import Any
 
 import numpy as np
 
+from linkwright.core.arrays import Complexes, Floats
+from linkwright.plot.diagrams.axes import Legend, framed
 from linkwright.plot.diagrams.base import Request, result_diagram
-from linkwright.plot.diagrams.picture import COLOURS, FAINT, INK, Figure, new_figure
-from linkwright.synthesis.report import name_said
+from linkwright.plot.diagrams.picture import COLOURS, FAINT, INK, Axes, Figure, new_figure
+from linkwright.plot.diagrams.position import draw_support
+from linkwright.synthesis.report import title_said
 from linkwright.synthesis.result import Candidate, Synthesis
 from linkwright.words import say, speaker
 
@@ -23,52 +26,47 @@ def draw_synthesis(result: Synthesis, request: Request) -> Figure:
     """
     function = any(each.curve is not None and each.curve.ndim == 2 for each in result.candidates)
     figure = new_figure(request.size or ((11, 5.2) if function else (7.5, 6)))
-    axes = figure.subplots(1, 2 if function else 1, squeeze=False)[0]
-    _plane(axes[0], result, request.language)
+    axes, legend = figure.subplots(1, 2 if function else 1, squeeze=False)[0], Legend()
+    _plane(axes[0], result, request.language, legend)
     if function:
         _function(axes[1], result, request.language)
-    task = name_said(result.task, speaker(request.language))
-    title = say("synthesize.title", request.language, task=task, count=len(result))
-    figure.suptitle(title if request.title is None else request.title)
+    framed(figure, title_said(result, speaker(request.language)), request, legend)
     return figure
 
 
-def _plane(axes: Any, result: Synthesis, language: str) -> None:
+def _plane(axes: Axes, result: Synthesis, language: str, legend: Legend) -> None:
     for name, curve in result.curves.items():
-        label = say(f"synthesize.legend.{name}", language)
-        axes.plot(
-            curve.real,
-            curve.imag,
-            ".",
-            ms=2.5,
-            color=FAINT if "centre" in name else "#d9a13b",
-            label=label,
-        )
+        colour = FAINT if "centre" in name else "#d9a13b"
+        (dots,) = axes.plot(*_places(curve), ".", ms=2.5, color=colour)
+        legend.add(say(f"synthesize.legend.{name}", language), dots)
     for number, each in enumerate(result.candidates[:SHOWN]):
         colour = COLOURS[number % len(COLOURS)]
+        label = say("synthesize.legend.candidate", language, number=number + 1)
         if each.curve is not None and each.curve.ndim == 1:
-            label = say("synthesize.legend.candidate", language, number=number + 1)
-            own = label if result.task == "free_curve" and number else "_"
-            axes.plot(each.curve.real, each.curve.imag, color=colour, lw=1, label=own)
-        if result.task == "free_curve" and number:
-            continue
-        _links(axes, each, colour, say("synthesize.legend.candidate", language, number=number + 1))
+            (line,) = axes.plot(*_places(each.curve), color=colour, lw=1)
+            legend.add(label, line)
+        if result.task != "free_curve" or not number:
+            legend.add(label, _links(axes, each, colour))
     target = result.target
     if target is not None and np.iscomplexobj(target):
-        places = target if target.ndim == 1 else target[0]
-        label = say("synthesize.legend.target", language)
+        places = _places(target if target.ndim == 1 else target[0])
         mark = "--" if result.task == "free_curve" else "o"
-        axes.plot(places.real, places.imag, mark, ms=4, mfc="none", color=INK, label=label)
+        (marks,) = axes.plot(*places, mark, ms=4, mfc="none", color=INK)
+        legend.add(say("synthesize.legend.target", language), marks)
         if target.ndim == 2:
-            axes.quiver(places.real, places.imag, target[1].real, target[1].imag, color=INK, width=0.003)
+            axes.quiver(*places, target[1].real, target[1].imag, color=INK, width=0.003)
     axes.set_aspect("equal", adjustable="datalim")
-    axes.set_xlabel(say("synthesize.axis.x", language))
-    axes.set_ylabel(say("synthesize.axis.y", language))
-    axes.margins(0.05)
-    axes.legend()
+    axes.set_xlabel("x (mm)")
+    axes.set_ylabel("y (mm)")
+    axes.margins(0.08)
 
 
-def _function(axes: Any, result: Synthesis, language: str) -> None:
+def _places(numbers: Complexes) -> tuple[Floats, Floats]:
+    """Places x and y, mm."""
+    return 1e3 * numbers.real, 1e3 * numbers.imag
+
+
+def _function(axes: Axes, result: Synthesis, language: str) -> None:
     for number, each in enumerate(result.candidates[:SHOWN]):
         if each.curve is not None and each.curve.ndim == 2:
             axes.plot(*each.curve, color=COLOURS[number % len(COLOURS)])
@@ -79,13 +77,16 @@ def _function(axes: Any, result: Synthesis, language: str) -> None:
     axes.set_ylabel(say("synthesize.axis.output", language))
 
 
-def _links(axes: Any, each: Candidate, colour: str, label: str) -> None:
-    points = each.linkage.points
+def _links(axes: Axes, each: Candidate, colour: str) -> Any:
+    """The links of a candidate and its pins, those of the frame on supports; one of its lines."""
+    points, line = each.linkage.points, None
     for names in each.linkage.links.values():
         if len(names) > 1:
             ring = [*names, names[0]] if len(names) > 2 else list(names)
-            places = np.array([points[name] for name in ring])
-            axes.plot(places.real, places.imag, "-o", ms=3.5, color=colour, lw=1.8, label=label)
-            label = "_"
-    pivots = np.array([points[name] for name in each.linkage.frame])
-    axes.plot(pivots.real, pivots.imag, "^", ms=7, color=colour)
+            x, y = _places(np.array([points[name] for name in ring]))
+            (line,) = axes.plot(x, y, "-o", ms=4.2, mfc="white", color=colour, lw=1.8, zorder=2.5)
+            if len(names) > 2:
+                axes.fill(x, y, color=colour, alpha=0.1, linewidth=0)
+    for name in each.linkage.frame:
+        draw_support(axes, np.ravel(_places(np.array([points[name]]))))
+    return line

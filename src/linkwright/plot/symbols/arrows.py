@@ -11,6 +11,8 @@ from linkwright.plot.svg.element import Element, path
 from linkwright.plot.symbols.base import EMPTY, SYMBOLS, Shape, Vec, around, placed, points, vec, way
 
 HEAD = 9.0
+#: Lengths up to which dimensions have their heads outside, and how far their lines go on behind them there.
+NARROW, BEHIND = 24.0, 16.0
 
 
 def head(tip: Vec, along: Vec, size: float, style: str) -> Element:
@@ -135,9 +137,9 @@ def dimension_line(
     over = offset + math.copysign(5.0, offset)
     line = placed([(0, offset), (length, offset)], start, along)
     first, last = vec(line[0]), vec(line[1])
-    inside = length > 24.0
+    inside = length > NARROW
     back = (-along[0], -along[1])
-    stroke = line if inside else placed([(-16, offset), (length + 16, offset)], start, along)
+    stroke = line if inside else placed([(-BEHIND, offset), (length + BEHIND, offset)], start, along)
     extensions = tuple(
         placed([(x, rise + math.copysign(7.0, offset - rise)), (x, over)], start, along)
         for x, rise in zip((0.0, length), rises, strict=True)

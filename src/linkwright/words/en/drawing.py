@@ -3,6 +3,7 @@
 WORDS = {
     "force": "joint forces",
     "load": "loads",
+    "curve": "{quantity}: {low} … {high}",
     "velocity": "velocities",
     "acceleration": "accelerations",
     "title": "Kinematic drawing of {name}",

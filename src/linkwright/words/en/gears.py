@@ -27,7 +27,8 @@ WORDS = {
     "no_clearance": "a tip reaches {clearance:.4g} mm into a root: shorten the tips or deepen the roots",
     "fillet_touched": "the mating tip reaches below the involute of the gear of {teeth} teeth, into its fillet",
     "title": "Gear pair {first} : {second}",
-    "pair": "z = {first} : {second}, m = {module} mm, a = {distance} mm, α_w = {angle}°, ε_α = {ratio}",
+    "pair": "z = {first} : {second}, m = {module} mm, a = {distance} mm, working pressure angle {angle}°, "
+    "contact ratio {ratio}",
     "rack_title": "Rack of {teeth} teeth",
     "rack": "z = {teeth}, m = {module} mm, p = {pitch} mm, α = {angle}°",
     "tips_overlap": "tips of pinion and ring overlap by {overlap:.4g}° beside the mesh; take a larger difference "

@@ -3,6 +3,7 @@
 WORDS = {
     "force": "运动副反力",
     "load": "载荷",
+    "curve": "{quantity}：{low} … {high}",
     "velocity": "速度",
     "acceleration": "加速度",
     "title": "{name} 机构运动简图",

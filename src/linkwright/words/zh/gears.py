@@ -20,7 +20,7 @@ WORDS = {
     "no_clearance": "齿顶伸入齿根 {clearance:.4g} mm：应缩短齿顶或加深齿根",
     "fillet_touched": "相啮合齿轮的齿顶伸到 {teeth} 齿齿轮渐开线以下的过渡曲线",
     "title": "齿轮副 {first} : {second}",
-    "pair": "z = {first} : {second}，m = {module} mm，a = {distance} mm，α_w = {angle}°，ε_α = {ratio}",
+    "pair": "z = {first} : {second}，m = {module} mm，a = {distance} mm，啮合角 {angle}°，重合度 {ratio}",
     "rack_title": "{teeth} 齿齿条",
     "rack": "z = {teeth}，m = {module} mm，p = {pitch} mm，α = {angle}°",
     "tips_overlap": "啮合区之外齿顶相互干涉 {overlap:.4g}°；应加大齿数差",

@@ -1,0 +1,88 @@
+"""Names in diagrams where they cover least: points of a machine, inputs along curves."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import field
+from typing import Any
+
+import numpy as np
+
+from linkwright.core.arrays import Floats
+from linkwright.core.dataclass import dataclass
+from linkwright.plot.diagrams.picture import INK, Axes, Figure
+from linkwright.plot.diagrams.scaled_page import with_index
+from linkwright.plot.drawing.labels import Label, Obstacles, place
+from linkwright.plot.symbols.base import vec
+
+SIZE, CLEARANCE, CORNERS = 7.5, 3.5, 180
+#: Two spare names nearer to each other than this, across and up, are not both written, points.
+NEAR = np.array([20.0, 10.0])
+_HALO: dict[str, Any] = {
+    "boxstyle": "round,pad=0.08",
+    "facecolor": "white",
+    "edgecolor": "none",
+    "alpha": 0.75,
+}
+
+
+@dataclass(frozen=True)
+class Name:
+    """A text for a place of the axes; a ``spare`` one is left out where another one is near."""
+
+    text: str
+    place: Floats
+    spare: bool = False
+
+
+@dataclass
+class Names:
+    """What is to be named in axes; names keep clear of ``lines`` (n, 2), and of strokes (n, 2) of symbols, points,
+    ``around`` places."""
+
+    axes: Axes
+    names: list[Name] = field(default_factory=list)
+    lines: list[Floats] = field(default_factory=list)
+    around: list[tuple[Floats, Floats]] = field(default_factory=list)
+
+    def line(self, places: Floats) -> None:
+        """A line that is drawn; of a curve with very many corners some are enough."""
+        self.lines.append(places[:: max(1, len(places) // CORNERS)])
+
+
+def write_names(figure: Figure, every: Sequence[Names]) -> None:
+    """Writes all names of a figure to which nothing else is added."""
+    figure.draw_without_rendering()
+    for each in every:
+        _write(each, 72.0 / figure.dpi)
+
+
+def _write(names: Names, scale: float) -> None:
+    axes = names.axes
+
+    def paper(places: Floats) -> Floats:
+        return np.asarray(axes.transData.transform(places) * (scale, -scale))
+
+    (left, right), (low, high) = axes.get_xlim(), axes.get_ylim()
+    edges = np.array([(left, high), (left, low), (right, low)])
+    kept = _kept(names.names, [paper(each.place[None])[0] for each in names.names])
+    labels = [Label(each.text, (vec(at),), "", SIZE, CLEARANCE, leader=False) for each, at in kept]
+    symbols = [paper(at[None]) + stroke * (1.0, -1.0) for at, stroke in names.around]
+    places = place(labels, Obstacles.of([*map(paper, (*names.lines, edges)), *symbols]))
+    for (each, at), chosen in zip(kept, places, strict=True):
+        box = np.array(chosen.box)
+        offset = (0.5 * (box[:2] + box[2:]) - at) * (1.0, -1.0)
+        axes.annotate(with_index(each.text), vec(each.place), vec(offset), textcoords="offset points", ha="center",
+                      va="center", fontsize=SIZE, color=INK, zorder=5,
+                      bbox=_HALO if each.spare else None).set_in_layout(False)  # fmt: skip
+
+
+def _kept(names: Sequence[Name], places: Sequence[Floats]) -> list[tuple[Name, Floats]]:
+    """Names with their places on the paper, without spare ones for which there is no room."""
+    found: list[tuple[Name, Floats]] = []
+    for name, at in zip(names, places, strict=True):
+        if not name.spare or not any(
+            (np.abs(at - other) < NEAR).all() for each, other in found if each.spare
+        ):
+            found.append((name, at))
+    return found
