@@ -109,6 +109,7 @@ MEANINGS = {
     "increasing times": "递增的时刻",
     "coordinate at each time": "各时刻的坐标",
     "default cubic": "默认 cubic（三次样条）",
+    "default linear": "默认 linear（折线）",
     "the prismatic joint that is driven": "被驱动的移动副",
     "several drivers by name": "几个原动件，按名称",
     "what one cycle is (default: one turn of the driver)": "一个循环是什么（默认：原动件转一周）",

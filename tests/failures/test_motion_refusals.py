@@ -272,3 +272,26 @@ driver: {turn: crank, about: O1, speed: 1 rad/s, start: 40 deg}
         origin = complex(*motion.point(f"{name}.{point}").position[0]) - turned
         assert complex(x, y) * size == pytest.approx(origin, abs=1e-12)
         assert np.exp(1j * angle) == pytest.approx(np.exp(1j * motion.link(name).angle[0]), abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("asked", "told"),
+    [
+        (
+            lambda m: lw.solve_motion(m, at="30 deg"),
+            "'30 deg' is no input and no time; give numbers in SI units",
+        ),
+        (lambda m: lw.solve_motion(m, times=["1 s"]), "no input and no time"),
+        (lambda m: lw.solve_motion(m, failures="ignore"), "failures is 'ignore'; give 'raise'"),
+        (
+            lambda m: m.with_dimensions({"coupler.length": "60 mm"}),
+            "coupler.length: '60 mm' is no number; give its SI",
+        ),
+    ],
+)
+def test_texts_for_numbers_and_other_ways_with_failures_are_told(
+    asked: Callable[[Mechanism], object], told: str
+) -> None:
+    with pytest.raises(lw.LinkwrightError) as refused:
+        asked(lw.load("gallery:crank_rocker"))
+    assert told in str(refused.value) and str(refused.value) != refused.value.say("zh")

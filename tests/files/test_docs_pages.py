@@ -9,6 +9,7 @@ import pytest
 
 import linkwright as lw
 from linkwright import gallery
+from linkwright.metrics import METRICS
 
 DOCS = Path(__file__).parents[2] / "docs"
 PAGES = DOCS / "pages.py"
@@ -55,6 +56,16 @@ def test_every_public_name_leads_to_its_example(language: str) -> None:
 def test_a_page_in_one_language_is_there_in_the_other() -> None:
     en, zh = ({page.relative_to(DOCS / own) for page in (DOCS / own).rglob("*.md")} for own in ("en", "zh"))
     assert en == zh
+
+
+@pytest.mark.parametrize("language", ["en", "zh"])
+def test_every_design_number_is_named_with_how_it_is_had(language: str) -> None:
+    """In the table of the page on design numbers; a star where it has to be asked for."""
+    rows = re.findall(r"`(\w+)`(\\\*)?", (DOCS / language / "theory/metrics.md").read_text("utf-8"))
+    told = {
+        name: bool(star) for name, star in rows if name in METRICS and (star or not METRICS[name].on_request)
+    }
+    assert told == {name: METRICS[name].on_request for name in METRICS}
 
 
 def test_links_of_pages_lead_to_pages() -> None:

@@ -149,6 +149,23 @@ loads: {{work: {{kind: torque, on: b, magnitude: 8 N·m}}}}
     assert forces.input_torque == pytest.approx(np.full(12, -moment * ratio), rel=1e-12)
 
 
+@pytest.mark.parametrize("run", ["open", "crossed"])
+@pytest.mark.parametrize(("pretension", "loose"), [("", False), ("199 N", True), ("201 N", False)])
+def test_a_belt_whose_slack_strand_would_push_is_told(pretension: str, loose: bool, run: str) -> None:
+    """400 N on the rim take a pretension of 200 N in each strand."""
+    given = f", pretension: {pretension}" if pretension else ""
+    belt = lw.loads(f"""
+format: 1
+frame: {{points: {{O: [0 mm, 0 mm], Q: [200 mm, 0 mm]}}}}
+links: {{a: {{points: [O]}}, b: {{points: [Q]}}}}
+joints: {{belt: {{kind: belt, links: [a, b], radii: [50 mm, 20 mm], run: {run}{given}}}}}
+driver: {{turn: a, about: O, speed: 1 rad/s}}
+loads: {{work: {{kind: torque, on: b, magnitude: 8 N·m}}}}
+""")
+    notes = [str(note) for note in lw.solve_forces(belt, steps=12).notes]
+    assert [note.startswith("the belt belt is too loose from 0 deg") for note in notes] == [True] * loose
+
+
 @pytest.mark.parametrize("name", ["external_gear_pair", "internal_gear_pair"])
 def test_teeth_off_their_distance_keep_the_ratio_and_press_under_the_working_angle(name: str) -> None:
     """cos α_w = d₀ cos α / d (ISO 21771); F_t = M / r_w at the working pitch circles, F_r = F_t tan α_w."""

@@ -386,7 +386,8 @@ class Joint(ABC):
         return None
 
     def pulls(self, forces: Forces) -> Any:
-        """Where (n,) a pair that can only push would have to pull; None for one that can do both."""
+        """Where (n,) a pair that can only push would have to pull, or a belt to push; None for one that can do
+        both."""
         return None
 
     @property

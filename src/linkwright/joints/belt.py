@@ -6,7 +6,7 @@ import cmath
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from math import asin
 from math import sqrt as sqrt_of
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.trace import Mask, Scalar, reciprocal, sqrt
@@ -19,6 +19,7 @@ from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.kinematics.dimensions import Dimensions
+    from linkwright.kinetostatics.forces import Forces
     from linkwright.mechanism.mechanism import Mechanism
     from linkwright.structure.group import Connection
 
@@ -30,8 +31,8 @@ class BeltPair(WheelPair):
 
     The row is r_a (θ_a - θ_c) ∓ r_b (θ_b - θ_c) = const, - for an open belt. Its multiplier F is the effective pull,
     positive where it turns a counter-clockwise. The strands lie along the tangents; with the ``pretension`` F0 (N, of
-    each strand) they carry F0 + F/2 and F0 - F/2, without it the taut one carries |F| and the other nothing (Norton,
-    Machine Design, ch. 14).
+    each strand) they carry F0 + F/2 and F0 - F/2 (a note says where F0 is less than F/2), without it the taut one
+    carries |F| and the other nothing (Norton, Machine Design, ch. 14).
     """
 
     letter: ClassVar[str] = "B"
@@ -119,6 +120,13 @@ class BeltPair(WheelPair):
             press=0.0 if self.pretension else 1.0,
             pull=self.pretension,
         )
+
+    def pulls(self, forces: Forces) -> Any:
+        """Where the slack strand would have to push: more than twice the pretension is transmitted."""
+        if not self.pretension:
+            return None
+        transmitted = abs(forces.couple(self.name, on=self.links[0])) / self.pitch_radii()[0]
+        return transmitted > (2.0 + 1e-9) * self.pretension
 
     def traced_radii(self, dimensions: Dimensions) -> tuple[Scalar, Scalar]:
         """The radii as traced values."""

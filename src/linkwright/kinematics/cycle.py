@@ -132,11 +132,18 @@ class Positions:
 
 def at_times(mechanism: Mechanism, time: ArrayLike, period: float | None = None) -> Positions:
     """The positions at given times, s, of a closed cycle that is back after a ``period``, s, if one is given."""
-    t = np.atleast_1d(np.asarray(time, dtype=float))
+    t = _numbers(time)
     if not np.isfinite(t).all():
         raise CycleError("motion.bad_time")
     coordinates = {name: _driven(driver, t) for name, driver in mechanism.drivers.items()}
     return Positions(t, coordinates, rotary(mechanism), period)
+
+
+def _numbers(given: ArrayLike) -> Floats:
+    try:
+        return np.atleast_1d(np.asarray(given, dtype=float))
+    except (TypeError, ValueError):
+        raise CycleError("motion.no_numbers", given=repr(given)[:60]) from None
 
 
 def _driven(driver: Driver, time: Floats) -> tuple[Floats, Floats, Floats]:
@@ -192,7 +199,7 @@ def at_inputs(mechanism: Mechanism, at: ArrayLike | Mapping[str, ArrayLike]) -> 
         driver = _driver(mechanism, name)
         if driver.law.constant_speed is None:
             raise CycleError("motion.own_law", name=name)
-        q = np.atleast_1d(np.asarray(values, dtype=float))
+        q = _numbers(values)
         if not np.isfinite(q).all():
             raise CycleError("motion.bad_input", name=name)
         rows[name] = q

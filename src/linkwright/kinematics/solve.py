@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from linkwright.core.arrays import Floats
 from linkwright.core.cached_property import cached_property
 from linkwright.core.inputs import mode_groups
+from linkwright.errors import RequestError
 from linkwright.kinematics.change_points import (
     cut_off,
     mark_singular,
@@ -111,6 +112,8 @@ class MotionRun:
 
     def solve(self, failures: str = "raise", stored: tuple[str, ...] = ()) -> Motion:
         """The motion, with change points passed smoothly; ``stored``: the outputs evaluated at once, all if empty."""
+        if failures not in ("raise", "mark"):
+            raise RequestError("motion.no_failures", given=failures)
         followed = self.solver.follow(self.positions, apart=self.single)
         at_once = None if followed or stored or self.single else self._at_once()
         if at_once is not None:

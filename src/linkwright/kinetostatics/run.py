@@ -141,7 +141,7 @@ def _with_notes(forces: Forces) -> Forces:
 
 
 def _contacts_lost(forces: Forces) -> Iterable[Sentence]:
-    """Where pairs that can only push would have to pull."""
+    """Where pairs that can only push would have to pull, and belts to push."""
     motion = forces.motion
     drivers = motion.mechanism.drivers.values()
     unit = ("angle", "deg") if all(driver.law.rotary for driver in drivers) else ("length", "mm")

@@ -417,7 +417,10 @@ class Mechanism(Frozen):
     def _checked(self, address: str, value: float) -> float:
         if address not in self._dimensions:
             raise self._unknown(address)
-        value = float(value)
+        try:
+            value = float(value)
+        except (TypeError, ValueError):
+            raise RequestError("model.set_no_number", address=address, given=repr(value)[:60]) from None
         if not math.isfinite(value):
             raise RequestError("model.set_not_finite", address=address, value=value)
         if abs(value) > LARGEST_OF_ALL:

@@ -153,9 +153,8 @@ def sweep(
             change the drive's law.
 
     A dimension that changes the positions of the input is refused. Friction near locking or in more than 16 pairs of
-    one group, loads that divide by an output or follow a link that turns through, those between limit positions where
-    the cycle is no whole number of turns at constant speed, and motion through change points are found design by
-    design, in milliseconds each.
+    one group, loads that divide by an output or follow a link that turns through, and motion through change points
+    are found design by design, in milliseconds each.
     """
     positions = over_cycle(mechanism, steps)
     columns = design_values(mechanism, vary)

@@ -25,6 +25,9 @@ WORDS = {
     "{where}; press its links together with a spring or a load",
     "contact_lost_cam": "the cam {name} cannot hold its follower {places}: it would have to pull, with up to "
     "{most} at {where}; press it on with a spring or a load, or run it in a groove",
+    "contact_lost_belt": "the belt {name} is too loose {places}: it transmits more than twice its pretension, so "
+    "that its slack strand would have to push; raise the pretension, or leave it out: then the slack strand carries "
+    "nothing",
     "from_to": "from {first} to {last} of the input",
     "friction_apart": "The force in a guide is what presses its parts together; its friction, μ times that, along "
     "the guide, comes on top: {names}",

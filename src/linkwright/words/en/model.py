@@ -78,6 +78,7 @@ WORDS = {
     "not_utf8": "the file is not UTF-8: byte 0x{byte:02x} at offset {start}",
     "see_addresses": "see the addresses in dimensions()",
     "no_dimension": 'the mechanism has no dimension "{address}"; {hint}',
+    "set_no_number": "{address}: {given} is no number; give its SI value, such as 0.05 for 50 mm",
     "set_not_finite": "{address} is set to {value}; give a finite number",
     "set_outside": "{address} is set to {value}; give {limit}",
     "a_mapping": "a mapping (key: value)",

@@ -18,7 +18,7 @@ model file with everything else as it was. Several objectives give a front.""",
     "robust_help": "worst: objectives and demands hold for the worst machine within the tolerances; yield: a share "
     "of the machines made (--yield) meets the demands",
     "yield_help": "that share, such as 0.99",
-    "evaluations_help": "most designs that the search judges",
+    "evaluations_help": "most designs of the search; the last steps along gradients come on top",
     "seed_help": "seed of the search; the same seed gives the same result",
     "state_help": "keep the search's state in this file, and go on from it where it exists",
     "output_help": "write the model file with the best values (a front: NAME_2 … as well)",

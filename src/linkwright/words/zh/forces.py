@@ -21,6 +21,8 @@ WORDS = {
     "请用弹簧或载荷把两构件压紧",
     "contact_lost_cam": "凸轮 {name} 在{places} 不能保持与从动件接触：需要拉力（{where} 处最大，为 {most}）；"
     "请用弹簧或载荷压紧，或采用槽凸轮",
+    "contact_lost_belt": "带 {name} 在{places} 太松：所传的力大于初拉力的两倍，松边须受压；请加大初拉力，或不写初拉力"
+    "（此时松边不受力）",
     "from_to": "输入 {first} 至 {last}",
     "friction_apart": "导路的反力是两侧相压的法向力；沿导路的摩擦力为其 μ 倍，另计：{names}",
 }

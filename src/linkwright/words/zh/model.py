@@ -77,6 +77,7 @@ WORDS = {
     "not_utf8": "文件不是 UTF-8：偏移 {start} 处的字节为 0x{byte:02x}",
     "see_addresses": "地址见 dimensions()",
     "no_dimension": "机构没有尺寸“{address}”；{hint}",
+    "set_no_number": "{address}：{given} 不是数；请给出国际单位的数值，如 0.05 表示 50 mm",
     "set_not_finite": "{address} 设为 {value}；请给出有限的数",
     "set_outside": "{address} 设为 {value}；请给出{limit}",
     "a_mapping": "映射（键: 值）",

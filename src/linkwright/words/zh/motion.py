@@ -14,6 +14,8 @@ WORDS = {
     "no_input_to_set": "“{name}”没有驱动，因此没有可设的输入；请去掉输入",
     "own_law": "驱动“{name}”按自己的时间规律运动；请按时刻而不是按输入求位置",
     "bad_input": "驱动“{name}”的一个输入不是有限的数",
+    "no_numbers": "{given} 不是输入或时刻；请给出国际单位（rad、m、s）的数，如 0.5 或 [0.0, 0.5]",
+    "no_failures": "failures 为 {given!r}；写 'raise' 时到不了的位置会报错，写 'mark' 时只作标记",
     "bad_steps": "步数为 {steps}；至少为 1",
     "no_natural_end": "“{name}”的循环没有自然的终点，因为驱动“{driver}”不转动；请写 cycle: {{from: …, to: "
     "…}}（驱动的坐标）或 cycle: {{duration: 2 s}}",

@@ -16,7 +16,7 @@ WORDS = {
     "tolerance_help": "尺寸的 ±：ADDRESS=VALUE，如 crank.length=0.1mm",
     "robust_help": "worst：目标与要求对公差内最坏的机器成立；yield：制成的机器中有 --yield 所给的比例满足要求",
     "yield_help": "这一比例，如 0.99",
-    "evaluations_help": "搜索最多计算的设计数",
+    "evaluations_help": "搜索最多计算的设计数；最后沿梯度的各步不计在内",
     "seed_help": "搜索的种子；同一种子给出同一结果",
     "state_help": "把搜索状态存在此文件，已存在时由此继续",
     "output_help": "把最好的值写入模型文件（前沿另写 NAME_2 …）",
