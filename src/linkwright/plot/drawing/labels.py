@@ -12,7 +12,7 @@ from dataclasses import field
 
 import numpy as np
 
-from linkwright.core.arrays import Floats, Whole
+from linkwright.core.arrays import Flags, Floats, Whole
 from linkwright.core.dataclass import dataclass
 from linkwright.plot.drawing.machine import Machine, flat
 from linkwright.plot.drawing.scene import Scene
@@ -93,9 +93,10 @@ class Obstacles:
 
     def under(self, boxes: Floats) -> Floats:
         """Length of ink in every box (k, 4), by clipping each segment to it."""
-        if not len(self.segments):
+        near = self.segments[self._beside(boxes)]
+        if not len(near):
             return np.zeros(len(boxes))
-        start, way = self.segments[None, :, :2], self.segments[None, :, 2:] - self.segments[None, :, :2]
+        start, way = near[None, :, :2], near[None, :, 2:] - near[None, :, :2]
         low, high = boxes[:, None, :2], boxes[:, None, 2:]
         with np.errstate(all="ignore"):
             a, b = (low - start) / way, (high - start) / way
@@ -106,6 +107,12 @@ class Obstacles:
         touched = share > 0
         length: Floats = share * np.hypot(way[..., 0], way[..., 1]) + 4.0 * touched
         return np.asarray(length.sum(axis=1))
+
+    def _beside(self, boxes: Floats) -> Flags:
+        """Which segments (m,) may touch one of the boxes: those whose own boxes touch the box of all."""
+        one, other = self.segments[:, :2], self.segments[:, 2:]
+        low, high = boxes[:, :2].min(axis=0), boxes[:, 2:].max(axis=0)
+        return np.asarray(((np.maximum(one, other) >= low) & (np.minimum(one, other) <= high)).all(axis=1))
 
 
 def candidates(label: Label) -> list[Candidate]:
