@@ -217,7 +217,7 @@ def read_load(reader: Reader, node: Node, place: Place, name: str) -> Load | Non
     before = reader.error_count
     said = node.get("kind") if isinstance(node, MappingNode) else None
     text = said.text if isinstance(said, ScalarNode) and said.text not in LOADS else ""
-    for concept in meaning(text) & ELSEWHERE.keys():
+    for concept in meaning(text) & ELSEWHERE.keys() if text else ():
         problem = Sentence("model.unknown_word", text=text)
         reader.error(said, place.child("kind"), problem, Sentence(ELSEWHERE[concept]), "unknown-word")
         return None

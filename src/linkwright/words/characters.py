@@ -12,11 +12,11 @@ _FORMULA = re.compile(r"[=+\-@\t\r]")
 _COLOUR = re.compile("\x1b\\[[0-9;]*m")
 #: What stays together where lines break: a word with a number before it, up to a plus or dash; a Chinese character;
 #: and the Chinese marks behind.
-_PIECE = re.compile(
+_PIECE = (
     r"\s*(?:\d[\d.]* )?(?:[\u2e80-\uffef]|[^\s+–\u2e80-\uffef]*[+–]|[^\s+–\u2e80-\uffef]+)[，。；：、）]*"
 )
 #: Columns of tables stand apart.
-_COLUMNS = re.compile(r"\S {2,}\S")
+_COLUMNS = r"\S {2,}\S"
 
 
 def terminal_text(text: str) -> str:
@@ -107,7 +107,7 @@ def _narrowed(rows: Sequence[Sequence[str]], align: str, widths: Sequence[int], 
 
 def pieces(text: str) -> list[str]:
     """What a text consists of where lines may break, each with the blanks before it."""
-    return _PIECE.findall(text)
+    return re.findall(_PIECE, text)
 
 
 def folded(text: str, width: int) -> list[str]:
@@ -128,7 +128,7 @@ def folded_lines(text: str, width: int) -> str:
     for line in text.split("\n"):
         words = line.lstrip(" ")
         indent = len(line) - len(words)
-        if cells(line) <= width or _COLUMNS.search(words):
+        if cells(line) <= width or re.search(_COLUMNS, words):
             found.append(line)
             continue
         first, *rest = folded(words, width - indent - len(GAP))
