@@ -95,6 +95,31 @@ def test_a_kind_by_habit_is_pointed_to_the_right_word_and_the_rest_is_checked(ki
     assert [each.key for each in others] == ["joints.way.offset", "loads.gust.area"]
 
 
+@pytest.mark.parametrize(
+    ("load", "key", "habit"),
+    [
+        ("{kind: spring, between: [frame.A, rocker.C], k: 5 N/mm}", "stiffness", "k"),
+        ("{kind: spring, between: [frame.A, rocker.C], 刚度: 5 N/mm}", "stiffness", "刚度"),
+        ("{kind: spring, between: [frame.A, rocker.C], stiffness: 5 N/mm, l0: 1 m}", "free_length", "l0"),
+        ("{kind: damper, between: [frame.A, rocker.C], c: 5 N·s/m}", "damping", "c"),
+    ],
+)
+def test_symbols_of_books_are_pointed_to_the_key(load: str, key: str, habit: str) -> None:
+    with pytest.raises(lw.ModelError) as refused:
+        lw.loads(f"{MODEL.partition('loads:')[0]}loads: {{push: {load}}}")
+    (finding,) = refused.value.findings
+    assert finding.key == f"loads.push.{habit}" and f'did you mean "{key}"?' in finding.remedy
+
+
+@pytest.mark.parametrize(("key", "habit"), [("links", "wheels"), ("teeth", "z"), ("teeth", "齿数")])
+def test_symbols_of_wheels_are_pointed_to_the_key(key: str, habit: str) -> None:
+    wheel = "joints: {mesh: {kind: gear, links: [crank, rocker], teeth: [20, 30]}}"
+    with pytest.raises(lw.ModelError) as refused:
+        lw.loads(MODEL + wheel.replace(key, habit, 1))
+    (finding,) = refused.value.findings
+    assert f'did you mean "{key}"?' in finding.remedy
+
+
 @pytest.mark.parametrize(("habit", "kind"), [("hinge", "revolute"), ("铰", "revolute"), ("rigid", "weld")])
 def test_other_habits_of_joints_are_pointed_to_the_right_word(habit: str, kind: str) -> None:
     with pytest.raises(lw.ModelError) as refused:

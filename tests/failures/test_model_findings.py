@@ -482,6 +482,37 @@ def test_a_mass_is_told_how_it_is_written_as_a_weight(weight: str, newtons: floa
     assert force.magnitude == pytest.approx(newtons, rel=1e-12)  # type: ignore[attr-defined]
 
 
+def test_a_parameter_without_its_unit_is_named_as_the_place_to_mend() -> None:
+    (found,) = findings(changed("length: 1 m", "length: r").replace("links:", "parameters: {r: 1}\nlinks:"))
+    assert found.key == "links.crank.length" and 'give the parameter "r" its unit' in found.remedy
+
+
+@pytest.mark.parametrize(
+    ("joint", "severity", "words"),
+    [
+        ("A: {kind: revolute, friction: 0.1}", "error", "add pin_radius"),
+        ("A: {kind: revolute, friction: 5, pin_radius: 5 mm}", "warning", "more than dry rubber"),
+    ],
+)
+def test_check_finds_friction_that_gives_no_forces(
+    joint: str, severity: str, words: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "m.yaml"
+    path.write_text(f"{MODEL}assembly: {{B: left}}\njoints:\n  {joint}\n", encoding="utf-8")
+    assert main(["check", str(path)]) == int(severity == "error")
+    told = capsys.readouterr().out
+    assert "m.yaml:11:" in told and "joints.A.friction" in told and words in told
+
+
+def test_of_a_block_without_its_guide_no_inertia_is_missed() -> None:
+    told = findings(
+        "format: 1\nframe: {points: {O: [0 m, 0 m]}}\n"
+        "links:\n  crank: {points: [O, A], length: 1 m}\n  rod: {points: [A, B], length: 3 m}\n"
+        "  piston: {points: [B], mass: 2 kg}\ndriver: {turn: crank, about: O, speed: 10 rpm}\n"
+    )
+    assert [each.code for each in told] == ["one-point"]
+
+
 def test_coordinates_for_the_name_of_a_point_are_one_finding() -> None:
     load = "loads: {push: {kind: force, on: crank, at: [1 m, 0 m], direction: 0 deg, magnitude: 3 N}}\n"
     (found,) = findings(MODEL + load)

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 from linkwright.core.dataclass import dataclass
 from linkwright.drivers.base import LAWS, Law, repeated
 from linkwright.errors import LinkwrightError
-from linkwright.fields.base import Field
+from linkwright.fields.base import Field, Quantity
 from linkwright.laws.program_fields import ProgramField
 
 if TYPE_CHECKING:
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
 @LAWS.register("program")
 @dataclass(frozen=True)
 class ProgramLaw(Law):
-    """q goes through the segments of a motion program, from 0.
+    """q goes through the segments of a motion program, from the program's ``start`` (rad or m).
 
     Where it ends with the velocity it began with it is repeated, from where it has come; else times beyond its end
     raise.
@@ -61,11 +62,20 @@ class ProgramLaw(Law):
     def natural_duration(self) -> float | None:
         return self.program.period
 
+    def dimensions(self) -> Mapping[str, float]:
+        return {"start": self.program.start}
+
+    def with_dimensions(self, value: Callable[[str], float], parameters: Mapping[str, float]) -> ProgramLaw:
+        return replace(self, program=replace(self.program, start=value("start")))
+
     @classmethod
     def fields(cls, rotary: bool) -> Mapping[str, Field]:
         lift = "angle" if rotary else "length"
         return {
-            "program": ProgramField(lift, "time", closed=False, doc="segments over time, one after the other")
+            "start": Quantity(lift, doc="coordinate at time 0 (default 0)"),
+            "program": ProgramField(
+                lift, "time", closed=False, doc="segments over time, one after the other"
+            ),
         }
 
     @classmethod
@@ -79,4 +89,5 @@ class ProgramLaw(Law):
         return cls(program, rotary)
 
     def text_values(self) -> Mapping[str, object]:
-        return {"program": self.program}
+        start = {"start": self.program.start} if self.program.start else {}
+        return {"program": self.program, **start}

@@ -196,6 +196,8 @@ def _missing_inertias(reader: Reader, root: MappingNode, mechanism: Mechanism) -
     """Links that turn and have a mass, but no word about their moment of inertia, which then counts as zero."""
     sliding = _sliding(mechanism)
     for name, link in mechanism.links.items() if mechanism.drivers else ():
+        if len(link.points) == 1 and reader.error_count:  # a block whose guide is not told, perhaps
+            continue
         if name in sliding or not link.mass or below(root, "links", name, "inertia"):
             continue
         message = Sentence("model.no_inertia", link=name, mass=number(link.mass, 6))

@@ -65,7 +65,7 @@ def _split_by_commas(texts: list[str]) -> bool:
     whole = [bool(re.fullmatch(r"[+-]?\d+", text)) for text in texts]
     rest = [re.match(r"\d+\s*[^\s\d.]", text) is not None for text in texts]
     zeros = [text.lstrip("+-") == "0" for text in texts]
-    return any(
+    return not all(whole) and any(
         first and (not zero or second)
         for first, zero, second in zip(whole, zeros, [*rest[1:], False], strict=True)
     )

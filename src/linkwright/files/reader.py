@@ -151,7 +151,9 @@ class Reader(PlainReader):
         offset = 0
         if isinstance(node, Scalar) and "\n" not in node.text:
             offset = error.column + (0 if node.plain else 1)
-        self.error(node, place, error.message, error.remedy, error.code, column=offset)
+        bare = error.code == "wrong-dimension" and self.kinds.get(text) == units.NONE
+        remedy = Sentence("model.give_unit_there", name=text) if bare else error.remedy
+        self.error(node, place, error.message, remedy, error.code, column=offset)
 
     def follows(self, text: str) -> bool:
         """Whether a text has a name that is wrong itself, so that what is wrong with the text may only follow."""

@@ -155,16 +155,22 @@ class ProgramField(Field):
         if reader.error_count > before:
             return None
         made = tuple(each for each in segments if each is not None)
-        return self._program(reader, node, items, place, made)
+        return self._program(reader, node, items, place, made, given.get("start") or 0.0)
 
     def _program(
-        self, reader: Reader, node: Node, items: list[Node], place: Place, segments: tuple[Segment, ...]
+        self,
+        reader: Reader,
+        node: Node,
+        items: list[Node],
+        place: Place,
+        segments: tuple[Segment, ...],
+        start: float,
     ) -> MotionProgram | None:
         from linkwright.laws.program import TURN, MotionProgram
 
         period = TURN if self.across == "angle" else sum(each.over for each in segments)
         try:
-            return MotionProgram(segments, period=period, closed=self.closed)
+            return MotionProgram(segments, start, period=period, closed=self.closed)
         except ModelError as error:
             for each in error.findings:
                 number = each.key.split(".")[1:2]

@@ -39,7 +39,10 @@ peak max maximum largest 最大 峰值
 least min minimum smallest 最小
 mean average 平均
 spring elastic 弹簧
-damper dashpot 阻尼器 阻尼
+stiffness spring_rate spring_constant 刚度 弹簧刚度
+free_length l0 natural_length rest_length 原长 自由长度
+damper dashpot 阻尼器
+damping c 阻尼 阻尼系数
 friction rubbing 摩擦
 power 功率
 energy work 能量 功
@@ -72,7 +75,7 @@ kind type sort 类型 种类
 name title 名称 题目
 magnitude amount 大小
 parameters constants variables 参数 变量
-teeth 齿数
+teeth z 齿数
 module 模数
 assembly 装配 装配模式
 drawing 装配图
@@ -80,7 +83,8 @@ cycle 循环 工作循环
 toggle knee 肘板 肘杆
 """
 
-#: What a thing goes with, where nothing means just that thing: a slider runs in a guide, which is a joint.
+#: What a thing goes with, where nothing means just that thing: a slider runs in a guide, which is a joint; other
+#: things that the same letter stands for.
 BESIDE = {
     "ram": "guide",
     "frame": "weld",
@@ -94,6 +98,8 @@ BESIDE = {
     "damper": "force",
     "torque": "force",
     "pressure": "force",
+    "joint": "link",
+    "quick_return_ratio": "stiffness",
     "crank": "link",
     "rocker": "link",
     "coupler": "link",

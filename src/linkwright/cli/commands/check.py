@@ -23,6 +23,8 @@ if TYPE_CHECKING:
 
 #: Positions of the cycle that are tried.
 TRIED = 72
+#: A coefficient of friction that no pair of materials has.
+RUBS = 2.0
 
 
 def arguments(option: Options) -> None:
@@ -97,6 +99,7 @@ def findings_of(name: str) -> tuple[list[Finding], dict[str, object]]:
         *turned,
         *idle,
         *(_of_cams(name, mechanism) if mechanism.higher else ()),
+        *_of_friction(name, mechanism),
         *_of_settings(name, mechanism, moves=not turned),
         *notes,
     ]
@@ -214,6 +217,20 @@ def _of_loads(name: str, mechanism: Mechanism, loads: Sequence[str], varying: Se
             magnitudes(mechanism.loads[load], signals)
         except LinkwrightError as error:
             found.append(Finding("error", name, f"loads.{load}", error.sentence, code="load"))
+    return found
+
+
+def _of_friction(name: str, mechanism: Mechanism) -> list[Finding]:
+    """Friction of which no force can be found, or so much as no joint has."""
+    found: list[Finding] = []
+    for joint in mechanism.joints.values():
+        key, friction = f"joints.{joint.name}.friction", float(getattr(joint, "friction", 0.0))
+        if friction and getattr(joint, "pin_radius", 0.0) is None:
+            told, remedy = Sentence("check.no_pin_radius"), Sentence("check.add_pin_radius")
+            found.append(Finding("error", name, key, told, remedy, "missing-key"))
+        if friction > RUBS:
+            told, remedy = Sentence("check.rubs", friction=friction), Sentence("check.rubs_do")
+            found.append(Finding("warning", name, key, told, remedy, "unlikely"))
     return found
 
 

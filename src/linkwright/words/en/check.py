@@ -19,6 +19,10 @@ linkwright check crusher.yaml --json  findings for an editor or a script""",
     "never_increasing": "the load never acts: {output} does not increase anywhere in the cycle",
     "never_decreasing": "the load never acts: {output} does not decrease anywhere in the cycle",
     "never_do": "name an output that moves that way, or the other direction",
+    "no_pin_radius": "the pin has friction, but no radius, so its forces cannot be found",
+    "add_pin_radius": "add pin_radius, such as pin_radius: 20 mm",
+    "rubs": "a coefficient of friction of {friction:g} is more than dry rubber has",
+    "rubs_do": "usual are 0.01 to 0.6; check it",
     "assumed": "group {signature} ({links}) has two assemblies, and neither assembly nor drawing says which: "
     '"{first}" is taken; write assembly: {{{joint}: {first}}} or {{{joint}: {second}}}',
 }

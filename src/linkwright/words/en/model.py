@@ -92,6 +92,7 @@ WORDS = {
     "where_text_do": "write a name or a text",
     "place_for_name": "coordinates stand where the name of a point is needed",
     "place_for_name_do": 'give the point a name among the points of "{link}", and write that name here',
+    "give_unit_there": 'give the parameter "{name}" its unit where it stands under parameters',
     "bad_name": '"{text}" cannot be the name of a {what}',
     "bad_name_do": 'names begin with a letter and hold letters, digits, _ and -: "{right}"',
     "unknown_word": '"{text}" is not known here',

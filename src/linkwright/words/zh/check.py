@@ -18,6 +18,10 @@ linkwright check crusher.yaml --json  供编辑器或脚本使用的结果""",
     "never_increasing": "载荷从不作用：{output} 在循环内从不增大",
     "never_decreasing": "载荷从不作用：{output} 在循环内从不减小",
     "never_do": "请改用沿该方向运动的输出，或改写 direction",
+    "no_pin_radius": "转动副给了摩擦系数而没有销轴半径，无法求力",
+    "add_pin_radius": "请加上 pin_radius，如 pin_radius: 20 mm",
+    "rubs": "摩擦系数 {friction:g} 比干橡胶还大",
+    "rubs_do": "常见为 0.01 至 0.6；请核对",
     "assumed": "{signature} 杆组（{links}）有两种装配模式，assembly 与 drawing 均未指明：取“{first}”；"
     "请写 assembly: {{{joint}: {first}}} 或 {{{joint}: {second}}}",
 }

@@ -91,6 +91,7 @@ WORDS = {
     "where_text_do": "请写名称或文字",
     "place_for_name": "此处为坐标，而需要点的名称",
     "place_for_name_do": "请在“{link}”的 points 中给该点起名，并在此写出名称",
+    "give_unit_there": "请在 parameters 中给参数“{name}”写上单位",
     "bad_name": "“{text}”不能作{what}的名称",
     "bad_name_do": "名称以字母开头，由字母、数字、_ 和 - 组成：“{right}”",
     "unknown_word": "此处不认识“{text}”",
