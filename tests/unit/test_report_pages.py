@@ -4,6 +4,7 @@ import re
 
 import pytest
 
+from linkwright.plot.svg.render import natural_size
 from linkwright.report.document import Figure
 from linkwright.report.report import report
 from linkwright.report.typst_pages import compiled
@@ -43,3 +44,16 @@ def test_words_and_links_stand_out_from_the_ground() -> None:
             assert found is not None, rule
             pair = sorted((lightness(found[1]), lightness(back)))
             assert (pair[1] + 0.05) / (pair[0] + 0.05) >= 4.5
+
+
+@pytest.mark.parametrize("name", ["jaw_crusher_fourbar", "printing_press", "swing_conveyor", "crank_rocker"])
+def test_letters_of_drawings_can_be_read_in_print(name: str) -> None:
+    """Names of links are at least 6 points high in both drawings of a report, whatever the machine's shape."""
+    document = report(f"gallery:{name}", sections=["drawing"]).document
+    figures = [each for each in document.blocks if isinstance(each, Figure)]
+    assert figures
+    for each in figures:
+        ((svg, share),) = each.pictures
+        wide, high = natural_size(svg)
+        millimetres = min(share * 170.0 / wide, each.tallest / high)
+        assert 12.0 * millimetres / 25.4 * 72.0 >= 6.0
