@@ -89,3 +89,15 @@ def test_title_and_purpose_follow_the_language(opened: Opened, tmp_path: Path) -
     assert shown[0].inner_text() == "Crank-rocker four-bar with a coupler point"
     assert shown[1].inner_text().startswith("The plainest crank-rocker")
     assert all(each.inner_text() != before for each, before in zip(shown, chinese, strict=True))
+
+
+def test_paper_has_no_controls(opened: Opened, tmp_path: Path) -> None:
+    """What is printed has dimensions, curves and numbers, and nothing that can only be clicked."""
+    opened.open(page_of(lw.read_document("gallery:crank_rocker"), tmp_path))
+    opened.tab.get_by_text("Show", exact=True).click()
+    assert opened.tab.locator(".checks").first.is_visible()
+    opened.tab.emulate_media(media="print")
+    for each in ("header", ".tools", ".checks", ".choice", ".lock", ".more"):
+        assert not any(found.is_visible() for found in opened.tab.locator(each).all()), each
+    assert opened.tab.locator('.dimension input[type="number"]').first.is_visible()
+    assert opened.tab.locator(".plot").first.is_visible()

@@ -10,6 +10,7 @@ import re
 import uuid
 import zipfile
 from collections.abc import Callable, Sequence
+from functools import partial
 from xml.sax.saxutils import escape, quoteattr
 
 from linkwright.course.mistakes import RPM, passed
@@ -25,8 +26,9 @@ from linkwright.words import Say, speaker
 
 #: Width of the pictures of questions, pixels.
 PICTURE = 640
-#: Largest and least height of a sheet's drawing, of it with the rows of the tables, and of a row, mm; its diagonal.
-TALLEST, LOWEST, ROOM, ROW, SMALL = 110.0, 30.0, 196.0, 5.0, 300.0
+#: Largest and least height of a sheet's drawing, of it with the rows of the tables, and of a row, mm; its share of
+#: the width.
+TALLEST, LOWEST, ROOM, ROW, SHARE = 110.0, 30.0, 196.0, 5.0, 0.8
 Files = dict[str, bytes]
 
 
@@ -119,6 +121,7 @@ def braceless(text: str) -> str:
 def sheets(found: Variants, language: str) -> Files:
     """One page per variant: drawing, data, numbers asked for."""
     from linkwright.report.document import Block, Document, Figure, Heading, Paragraph, Source, Table, literal
+    from linkwright.report.legible import legible
     from linkwright.report.typst_pages import compiled
 
     say = speaker(language)
@@ -131,9 +134,8 @@ def sheets(found: Variants, language: str) -> Files:
         rows = tuple((literal(a), literal(b)) for a, b in data_rows(found, each, say))
         left = ROOM - ROW * (len(rows) + len(found.task.questions))
         tallest = min(max(left, LOWEST), TALLEST)
-        page.append(
-            Figure(literal(found.name), ((drawing(found, each, language, SMALL), 0.8),), tallest=tallest)
-        )
+        shown = legible(partial(drawing, found, each, language), SHARE, tallest)
+        page.append(Figure(literal(found.name), ((shown, SHARE),), tallest=tallest))
         page.append(Table(say("course.given"), (say("report.name"), say("report.value")), rows, "<<"))
         asked = tuple((literal(q.text(language)), "…" * 14, q.unit) for q in found.task.questions)
         page.append(

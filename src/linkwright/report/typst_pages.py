@@ -165,6 +165,11 @@ _HEAD = """\
     image(bytes(svg), format: "svg", width: share * 170mm, height: high * 1mm)
   }}
 }}
+#let lw-pictures(..given) = {{
+  if lw-is-html {{ html.elem("div", attrs: (class: "pictures"))[#given.pos().join()] }} else {{
+    align(center, given.pos().map(each => box(each)).join(h(1fr, weak: true)))
+  }}
+}}
 #let lw-need = if not lw-is-html {{
   block(height: 7em, breakable: false, above: 0pt, below: 0pt)
   v(-7em)
@@ -180,13 +185,16 @@ max-width:52rem;margin:2rem auto;padding:0 1rem;color:#1c2733;background:#fff}ta
 font-size:.84rem;margin:.4rem auto}th,td{padding:.2rem .55rem;text-align:left}th{border-top:2px solid;\
 border-bottom:1px solid}.title,.under{text-align:center}tbody tr:last-child td{border-bottom:2px solid}\
 figure{margin:1.4rem 0;text-align:center;overflow-x:auto}figure img{max-width:100%;height:auto;display:inline-block\
-!important}figcaption{font-size:.9rem;margin:.4rem}.formula{display:flex;justify-content:space-between;align-items:\
+!important}figcaption{font-size:.9rem;margin:.4rem}.pictures{display:flex;flex-wrap:wrap;\
+justify-content:space-evenly;gap:.6rem}a{color:#0b57a4}.formula{display:flex;justify-content:space-between;align-items:\
 center;margin:.2rem 0 .2rem 1.2rem;padding:.15rem 0;overflow:auto hidden}\
 .note{background:#f4f4f4;border-left:3px solid #c8501e;\
 padding:.5rem .8rem}nav ol{padding-left:1.2rem}nav a{color:inherit;text-decoration:none}nav a:hover{text-decoration:\
 underline}@media print{figure{break-inside:avoid}}body>div:not(.formula,.note){margin:1em 0}\
 @media screen and (prefers-color-scheme:dark){body{color:#dfe5ec;background:#15191e}figure img{background:#fff}\
-.note{background:#242a32}}</style>"""
+.note{background:#242a32}a{color:#8cc4ff}}\
+@media screen and (max-width:40rem){table:has(th:nth-child(5)){min-width:34rem}\
+table:has(th:nth-child(8)){min-width:46rem}}</style>"""
 
 
 def pages(document: Document) -> tuple[str, dict[str, str]]:
@@ -373,16 +381,11 @@ class _Writer:
             self.pictures[name] = svg
             wide, high = placed(svg, share, figure.tallest)
             found.append(f"lw-picture(sys.inputs.{name}, {wide:.4f}, {high:.2f})")
-        body = found[0] if len(found) == 1 else self._row(found)
+        body = found[0] if len(found) == 1 else f"lw-pictures({', '.join(found)})"
         return (
             f"#figure({body}, kind: image, numbering: none, supplement: none, "
             f"caption: {self._caption(index, figure.caption)}) <{_place(index)}>\n"
         )
-
-    def _row(self, found: list[str]) -> str:
-        """Several pictures beside and under each other, each as wide as its share."""
-        inside = " #h(1fr, weak: true) ".join(f"#box({each})" for each in found)
-        return f"align(center)[{inside}]"
 
     def inline(self, text: str) -> str:
         """A text with its formulas, strong words and references."""

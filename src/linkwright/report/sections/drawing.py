@@ -7,11 +7,12 @@ from collections.abc import Iterator
 from linkwright.errors import LinkwrightError
 from linkwright.plot.drawing.draw import draw
 from linkwright.report.document import Block, Figure, Paragraph
+from linkwright.report.legible import legible
 from linkwright.report.machine_results import Case
 from linkwright.report.section import section
 
-#: Height of a drawing, mm: two of them share a page.
-TALLEST = 104.0
+#: Share of the width and height, mm, of a drawing: two of them share a page.
+WIDE, TALLEST = 0.85, 104.0
 
 
 @section("drawing", 2.0)
@@ -20,12 +21,20 @@ def blocks(case: Case) -> Iterator[Block]:
     say = case.say
     motion, index = case.worked_motion
     yield Paragraph(say("report.drawing_text", figure="[[drawing]]"))
-    shown = draw(motion, position=index, centres=True, language=case.language)
+    language = case.language
+
+    def shown(diagonal: float) -> str:
+        return draw(motion, position=index, centres=True, diagonal=diagonal, language=language).svg
+
+    def faded(diagonal: float) -> str:
+        limits = draw(case.motion, overlay="limits", labels="points", diagonal=diagonal, language=language)
+        return limits.svg
+
     loaded = any(link.mass for link in case.mechanism.links.values()) or bool(case.mechanism.loads)
     caption = say("report.drawing_caption" if loaded else "report.drawing_plain_caption")
-    yield Figure(caption, ((shown.svg, 0.85),), "drawing", TALLEST)
+    yield Figure(caption, ((legible(shown, WIDE, TALLEST), WIDE),), "drawing", TALLEST)
     try:
-        faded = draw(case.motion, overlay="limits", labels="points", language=case.language)
+        limits = legible(faded, WIDE, TALLEST)
     except LinkwrightError:
         return
-    yield Figure(say("report.limits_caption"), ((faded.svg, 0.85),), "limit-drawing", TALLEST)
+    yield Figure(say("report.limits_caption"), ((limits, WIDE),), "limit-drawing", TALLEST)
