@@ -57,6 +57,13 @@ def code(page: Path) -> str:
     return "".join(ast.dump(ast.parse(body)) for body in blocks(page, "python"))
 
 
+#: A file that an example writes, but where it says that one of the name may be replaced.
+WRITTEN = re.compile(
+    r'--(?:output|plot|draw|profile|to) "?([\w/]+\.\w+)|'
+    r'(?:\.save\w*\(\s*|export\([^\n]*?)"([\w/]+\.\w+)"(?![^)\n]*force)'
+)
+
+
 #: One page of those that have the same code in two languages, and a line of those on several pages.
 WITH_PYTHON = list({code(page): page for page in reversed(PAGES) if blocks(page, "python")}.values())[::-1]
 LINES = {words_of(line): (name(page), line) for page in reversed(PAGES) for line in commands(page)}
@@ -108,6 +115,14 @@ def test_every_public_name_is_in_an_example() -> None:
                 shown |= {each.name for each in node.names}
     missing = {each for names in linkwright.PUBLIC.values() for each in names} - shown
     assert not missing
+
+
+@pytest.mark.parametrize("page", PAGES, ids=name)
+def test_a_page_writes_every_file_once(page: Path) -> None:
+    """So that its examples run one after the other in a fresh folder: what exists is not replaced."""
+    body = "\n".join([*blocks(page, "python"), *commands(page)])
+    found = [command or call for command, call in WRITTEN.findall(body)]
+    assert sorted(found) == sorted(set(found))
 
 
 @pytest.mark.parametrize("page", WITH_PYTHON, ids=name)

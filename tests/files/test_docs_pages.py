@@ -9,7 +9,9 @@ import pytest
 
 import linkwright as lw
 from linkwright import gallery
+from linkwright.core.expressions import FUNCTIONS
 from linkwright.metrics import METRICS
+from linkwright.units import UNITS
 
 DOCS = Path(__file__).parents[2] / "docs"
 PAGES = DOCS / "pages.py"
@@ -66,6 +68,14 @@ def test_every_design_number_is_named_with_how_it_is_had(language: str) -> None:
         name: bool(star) for name, star in rows if name in METRICS and (star or not METRICS[name].on_request)
     }
     assert told == {name: METRICS[name].on_request for name in METRICS}
+
+
+@pytest.mark.parametrize("language", ["en", "zh"])
+def test_every_unit_and_every_function_of_expressions_is_named(language: str) -> None:
+    text = (DOCS / language / "how-to/model.md").read_text("utf-8")
+    told = {word for words in re.findall(r"`([^`\n]+)`", text) for word in words.split()}
+    assert set(FUNCTIONS) <= told
+    assert {"µm" if unit in ("um", "μm") else unit for unit in UNITS} <= told
 
 
 def test_links_of_pages_lead_to_pages() -> None:
