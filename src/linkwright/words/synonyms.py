@@ -113,13 +113,17 @@ def _concepts() -> dict[str, str]:
 
 @cache
 def meaning(name: str) -> frozenset[str]:
-    """What a name says: its words, each as the first of those that are :data:`ALIKE`, in no order."""
+    """What a name says: its words, each as the first of those that are :data:`ALIKE`, in no order; a letter says
+    something alone."""
     known = _concepts()
     whole = name.casefold()
     if whole in known:
         return frozenset((known[whole],))
     words = re.findall(r"[a-z]+|[\u4e00-\u9fff]+", re.sub(r"(?<=[a-z])(?=[A-Z])", "_", name).casefold())
-    return frozenset(known.get(word, known.get(word.removesuffix("s"), word)) for word in words)
+    letters = frozenset(word for word in words if len(word) == 1 and word.isascii())
+    return letters | {
+        known.get(word, known.get(word.removesuffix("s"), word)) for word in words if word not in letters
+    }
 
 
 def nearest_in_meaning(name: str, candidates: Iterable[str]) -> tuple[str, float]:
