@@ -34,7 +34,7 @@ def test_the_table_shows_units_limits_and_remarks(capsys: pytest.CaptureFixture[
     shown = capsys.readouterr().out
     table, warnings = shown.split("\n\n")[1:]
     line = next(line for line in table.splitlines() if line.startswith("distance from a singular"))
-    assert line.split()[-3:] == ["332.241°", "≥", "0.17"]
+    assert line.split()[-4:] == ["332.241°", "≥", "0.17", "!"]
     assert "crank-rocker: s + l < p + q" in table
     lines = warnings.strip().splitlines()
     assert all(line.startswith("! ") for line in lines)

@@ -20,6 +20,8 @@ CODES = re.compile("\x1b\\[[0-9;]*m")
         ["metrics", "gallery:theo_jansen_leg"],
         ["solve", "gallery:slider_crank_inline"],
         ["check", "gallery:planetary_two_inputs"],
+        ["study", "gallery:jaw_crusher_sixbar", "--vary", "pitman.length=1.2..1.3 m:3"],
+        ["compare", "gallery:jaw_crusher_sixbar", "gallery:jaw_crusher_fourbar"],
         ["--help"],
     ],
     ids=" ".join,

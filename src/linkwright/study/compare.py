@@ -161,11 +161,14 @@ class Comparison(Plotted, Frozen):
 
         return "\n".join(evaluation(self, language))
 
-    def text(self, language: str = "en") -> str:
-        """The table, best values marked, the ranking with reasons, and the evaluation."""
+    def text(self, language: str = "en", width: int | None = None) -> str:
+        """The table, best values marked, the ranking with reasons, and the evaluation.
+
+        ``width``: characters across within which texts of the table are folded.
+        """
         from linkwright.study.evaluation import report
 
-        return "\n".join(report(self, language))
+        return "\n".join(report(self, language, width))
 
     def data(self) -> dict[str, Any]:
         """Plain data, SI."""

@@ -10,7 +10,7 @@ from linkwright.metrics.quantities import SHOWN, shown
 from linkwright.study.alternatives import Alternative
 from linkwright.study.criteria import criterion
 from linkwright.words import Say, speaker
-from linkwright.words.characters import aligned
+from linkwright.words.characters import aligned_within
 from linkwright.words.sentence import in_language
 
 if TYPE_CHECKING:
@@ -31,10 +31,10 @@ def told(value: float, dimension: str) -> str:
     return shown(value, dimension, 4 if size < 1e4 else 6)
 
 
-def report(comparison: Comparison, language: str) -> list[str]:
+def report(comparison: Comparison, language: str, width: int | None) -> list[str]:
     """The table with the best values marked, the ranking, the evaluation, the notes."""
     say = speaker(language)
-    lines = [*table(comparison, say), "", say("compare.marked"), "", say("compare.ranking")]
+    lines = [*table(comparison, say, width), "", say("compare.marked"), "", say("compare.ranking")]
     lines += ranking(comparison, say)
     lines += ["", say("compare.evaluation"), *evaluation(comparison, language)]
     if comparison.notes:
@@ -42,9 +42,10 @@ def report(comparison: Comparison, language: str) -> list[str]:
     return lines
 
 
-def table(comparison: Comparison, say: Say) -> list[str]:
+def table(comparison: Comparison, say: Say, width: int | None) -> list[str]:
     """Criteria in rows, alternatives in columns."""
-    return aligned(table_rows(comparison, say), "<" + ">" * len(comparison.labels))
+    rows, align = table_rows(comparison, say), "<" + ">" * len(comparison.labels)
+    return [line for each in aligned_within(rows, align, width) for line in each]
 
 
 def table_rows(comparison: Comparison, say: Say) -> list[list[str]]:

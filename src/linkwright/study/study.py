@@ -114,11 +114,14 @@ class Study(Plotted, Frozen):
             found[f"{name} [{unit}]" if unit else name] = np.asarray(values)
         return found
 
-    def text(self, language: str = "en", rows: int = 40) -> str:
-        """The table (every row, or ``rows`` of them evenly chosen), the best designs, and what failed."""
+    def text(self, language: str = "en", rows: int = 40, width: int | None = None) -> str:
+        """The table (every row, or ``rows`` of them evenly chosen), the best designs, and what failed.
+
+        ``width``: characters across within which the heads of the table are folded.
+        """
         from linkwright.study.study_text import report
 
-        return "\n".join(report(self, language, rows))
+        return "\n".join(report(self, language, rows, width))
 
     def csv(self) -> str:
         """The columns as CSV, SI; numbers to the last bit."""

@@ -9,7 +9,7 @@ import numpy as np
 from linkwright.metrics.quantities import number, shown, shown_unit
 from linkwright.study.criteria import criterion
 from linkwright.words import Say, speaker
-from linkwright.words.characters import aligned
+from linkwright.words.characters import aligned_within
 from linkwright.words.sentence import in_language
 
 if TYPE_CHECKING:
@@ -17,14 +17,14 @@ if TYPE_CHECKING:
     from linkwright.study.study import Study
 
 
-def report(study: Study, language: str, rows: int) -> list[str]:
+def report(study: Study, language: str, rows: int, width: int | None) -> list[str]:
     """Table, best designs, failures, notes."""
     say = speaker(language)
     lines = [
         say("study.counts", name=study.mechanism.name, designs=study.designs, movable=int(study.ok.sum())),
         "",
     ]
-    lines += _table(study, language, rows, say)
+    lines += _table(study, language, rows, width, say)
     best = _best(study, language, say)
     if best:
         lines += ["", say("study.best"), *best]
@@ -34,7 +34,7 @@ def report(study: Study, language: str, rows: int) -> list[str]:
     return [*lines, *([""] if notes else []), *notes]
 
 
-def _table(study: Study, language: str, rows: int, say: Say) -> list[str]:
+def _table(study: Study, language: str, rows: int, width: int | None, say: Say) -> list[str]:
     chosen = _chosen(study.designs, rows)
     head = [say("study.number"), *(each.address for each in study.ranges)]
     head += [_heading(study, name, language) for name in study.metrics]
@@ -45,7 +45,7 @@ def _table(study: Study, language: str, rows: int, say: Say) -> list[str]:
             value = float(values[index])
             cells.append("—" if np.isnan(value) else number(value, study.dimensions[name], 5))
         table.append(cells)
-    lines = aligned(table, ">" * len(head))
+    lines = [line for each in aligned_within(table, ">" * len(head), width) for line in each]
     if len(chosen) < study.designs:
         lines.append(say("study.left_out", shown=len(chosen), designs=study.designs))
     return lines

@@ -76,7 +76,7 @@ def aligned_within(
     """Lines of every row of a table that takes at most a width: texts of its widest columns are folded."""
     widths = [max((cells(row[i]) for row in rows), default=0) for i in range(len(align))]
     if width is not None:
-        widths = _narrowed(rows, align, widths, width - len(gap) * (len(align) - 1))
+        widths = _narrowed(rows, widths, width - len(gap) * (len(align) - 1))
     found = []
     for row in rows:
         folds = [folded(text, wide) for text, wide in zip(row, widths, strict=True)]
@@ -90,15 +90,15 @@ def aligned_within(
     return found
 
 
-def _narrowed(rows: Sequence[Sequence[str]], align: str, widths: Sequence[int], room: int) -> list[int]:
-    """Widths of columns in a room: the widest texts are made narrower, no column narrower than its widest word."""
+def _narrowed(rows: Sequence[Sequence[str]], widths: Sequence[int], room: int) -> list[int]:
+    """Widths of columns in a room: the widest are made narrower, none narrower than its widest word."""
     found = list(widths)
     least = [
         max((cells(each.strip()) for row in rows for each in pieces(row[i])), default=0)
-        for i in range(len(align))
+        for i in range(len(widths))
     ]
     while sum(found) > room:
-        foldable = [i for i, each in enumerate(align) if each == "<" and found[i] > least[i]]
+        foldable = [i for i, each in enumerate(least) if found[i] > each]
         if not foldable:
             break
         found[max(foldable, key=lambda i: found[i])] -= 1

@@ -99,5 +99,5 @@ def _show(found: Comparison, options: argparse.Namespace, session: Session) -> N
     if session.json:
         session.show_data(found.data())
         return
-    session.show("\n".join(session.table(found.text(session.language).splitlines())))
+    session.show("\n".join(session.table(found.text(session.language, session.room).splitlines())))
     session.show_written(*(path and Path(path) for path in (options.output, options.curves, options.plot)))

@@ -77,5 +77,6 @@ def _show(found: Study, options: argparse.Namespace, session: Session) -> None:
     if session.json:
         session.show_data(found.data())
         return
-    session.show("\n".join(session.table(found.text(session.language, max(2, options.rows)).splitlines())))
+    text = found.text(session.language, max(2, options.rows), session.room)
+    session.show("\n".join(session.table(text.splitlines())))
     session.show_written(options.output, options.plot, apart=True)
