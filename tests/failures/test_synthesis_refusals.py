@@ -231,3 +231,11 @@ def test_a_curve_that_no_four_bar_draws_closely_enough() -> None:
         lw.free_curve([(0.9, 0), (0.9, 1.7), (0, 0.6), (1.3, 0.6)], joints=5, error=0.001, seconds=1.0)
     assert caught.value.nearest is not None
     assert caught.value.nearest.best.error < 0.25
+
+
+def test_bare_numbers_of_a_list_are_one_finding_with_the_line_that_gives_their_unit() -> None:
+    text = "format: 1\nsynthesis:\n  task: path\n  points: [[1, 2], [3, 4], [5, 6]]\n"
+    with pytest.raises(lw.ModelError) as refused:
+        synthesize_text(text, "task.yaml")
+    (finding,) = refused.value.findings
+    assert finding.where == "task.yaml:4:13" and '"unit: mm" beside the task' in finding.say()

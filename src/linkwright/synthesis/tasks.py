@@ -10,7 +10,7 @@ from typing import Any
 
 from linkwright import units
 from linkwright.core.dataclass import dataclass
-from linkwright.errors import Finding, ModelError, QuantityError
+from linkwright.errors import Finding, ModelError, QuantityError, with_remedy
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar, Sequence
 from linkwright.files.compose import compose
@@ -23,6 +23,8 @@ from linkwright.registry import nearest
 from linkwright.synthesis.result import Synthesis, note, refuse
 from linkwright.words.sentence import Sentence
 
+#: The line that gives the unit of bare numbers in lists, by their dimension.
+UNIT_KEYS = {"length": "unit: mm", "angle": "angle_unit: deg"}
 #: Forms of values: dimensions of the entries, and how deep the list is.
 SHAPES: Mapping[str, tuple[tuple[str, ...], int]] = {
     "length": (("length",), 0),
@@ -196,6 +198,7 @@ class _Reader:
         self.name = name
         self.findings: list[Finding] = []
         self.units: dict[str, str] = {}
+        self.bare: set[tuple[str, str]] = set()
 
     def add(self, node: Node, key: str, sentence: str) -> None:
         """A finding at a node."""
@@ -255,8 +258,18 @@ class _Reader:
         try:
             return units.parse(text, dimension)
         except QuantityError as error:
-            self.add(node, f"synthesis.{key}", error.sentence)
+            if error.code == "missing-unit" and SHAPES[form][1] and dimension in UNIT_KEYS:
+                self._bare(node, key, dimension, error.message)
+            else:
+                self.add(node, f"synthesis.{key}", error.sentence)
             return None
+
+    def _bare(self, node: Node, key: str, dimension: str, message: str) -> None:
+        """Told of the first bare number of a list: the unit of all of them can be given at once."""
+        if (key, dimension) not in self.bare:
+            self.bare.add((key, dimension))
+            told = note("task.unit_of_all", line=UNIT_KEYS[dimension])
+            self.add(node, f"synthesis.{key}", with_remedy(message, told))
 
     def _word(self, node: Node, key: str, form: str) -> Any:
         if not isinstance(node, Scalar) or (form == "flag" and node.text not in ("true", "false")):

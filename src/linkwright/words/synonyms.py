@@ -116,7 +116,7 @@ def meaning(name: str) -> frozenset[str]:
     """What a name says: its words, each as the first of those that are :data:`ALIKE`, in no order; a letter says
     something alone."""
     known = _concepts()
-    whole = name.casefold()
+    whole = re.sub(r"\W", "", name).casefold()
     if whole in known:
         return frozenset((known[whole],))
     words = re.findall(r"[a-z]+|[\u4e00-\u9fff]+", re.sub(r"(?<=[a-z])(?=[A-Z])", "_", name).casefold())
