@@ -29,7 +29,7 @@ export class Names {
       const text = element("text", { class: "lw-name" }, layer);
       text.append(stem);
       if (index) element("tspan", { dy: "0.36em", "font-size": "70%" }, text).append(index);
-      this.names.set(key, { text, letters: LETTER * stem.length + LOW * index.length, place: 0 });
+      this.names.set(key, { text, letters: LETTER * stem.length + LOW * index.length, place: -1 });
     }
   }
 
@@ -42,15 +42,25 @@ export class Names {
     const size = SIZE / Math.sqrt(zoom), taken: Box[] = [];
     this.layer.setAttribute("font-size", String(Math.round(size)));
     for (const [key, name] of this.names) {
-      const wide = size * name.letters + 2, high = 0.95 * size, [x, y] = at(key);
-      let best: Box | null = null, least = Infinity, chosen = name.place;
-      for (let k = 0; k < WAYS.length * GAPS.length; k++) {
+      const wide = size * name.letters + 2, high = 0.95 * size, [x, y] = at(key), reach = GAPS[GAPS.length - 1] + wide;
+      const near = within([x - reach, y - reach, x + reach, y + reach], ink);
+      const box = (k: number): Box | null => {
         const [dx, dy] = WAYS[k % WAYS.length], gap = GAPS[Math.floor(k / WAYS.length)];
         const u = x + dx * (gap + (wide / 2) * Math.abs(dx)), v = y + dy * (gap + (high / 2) * Math.abs(dy));
-        const box: Box = [u - wide / 2, v - high / 2, u + wide / 2, v + high / 2];
-        if (box[0] < 0 || box[1] < 0 || box[2] > width || box[3] > height || taken.some((other) => meet(box, other))) continue;
-        const cost = INK * under(box, ink) + FAR * gap + LIKED * (k % WAYS.length) - (k === name.place ? STAY : 0);
-        if (cost < least) [best, least, chosen] = [box, cost, k];
+        const found: Box = [u - wide / 2, v - high / 2, u + wide / 2, v + high / 2];
+        return found[0] < 0 || found[1] < 0 || found[2] > width || found[3] > height || taken.some((other) => meet(found, other)) ? null : found;
+      };
+      let best = name.place < 0 ? null : box(name.place), chosen = name.place;
+      // A place where nothing is covered is kept: names do not jump while the machine moves.
+      if (!best || under(best, near) > 0) {
+        let least = Infinity;
+        best = null;
+        for (let k = 0; k < WAYS.length * GAPS.length; k++) {
+          const found = box(k);
+          if (!found) continue;
+          const cost = INK * under(found, near) + FAR * GAPS[Math.floor(k / WAYS.length)] + LIKED * (k % WAYS.length) - (k === name.place ? STAY : 0);
+          if (cost < least) [best, least, chosen] = [found, cost, k];
+        }
       }
       put(name.text, "visibility", best ? "visible" : "hidden");
       if (!best) continue;
@@ -65,17 +75,33 @@ function meet(a: Box, b: Box): boolean {
   return a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3];
 }
 
+/** The strokes that come near a box. */
+function within([left, top, right, bottom]: Box, ink: number[]): number[] {
+  const found: number[] = [];
+  for (let k = 0; k < ink.length; k += 4) {
+    const ax = ink[k], ay = ink[k + 1], bx = ink[k + 2], by = ink[k + 3];
+    if ((ax < left && bx < left) || (ax > right && bx > right) || (ay < top && by < top) || (ay > bottom && by > bottom)) continue;
+    found.push(ax, ay, bx, by);
+  }
+  return found;
+}
+
 /** How much of the strokes lies in a box: their length in it, and a little for each of them. */
 function under([left, top, right, bottom]: Box, ink: number[]): number {
   let found = 0;
   for (let k = 0; k < ink.length; k += 4) {
     const ax = ink[k], ay = ink[k + 1], dx = ink[k + 2] - ax, dy = ink[k + 3] - ay;
     let first = 0, last = 1;
-    for (const [from, way, low, high] of [[ax, dx, left, right], [ay, dy, top, bottom]]) {
-      const a = (low - from) / way, b = (high - from) / way;
-      if (way) [first, last] = [Math.max(first, Math.min(a, b)), Math.min(last, Math.max(a, b))];
-      else if (from < low || from > high) last = -1;
-    }
+    if (dx) {
+      const a = (left - ax) / dx, b = (right - ax) / dx;
+      first = Math.max(first, Math.min(a, b));
+      last = Math.min(last, Math.max(a, b));
+    } else if (ax < left || ax > right) continue;
+    if (dy) {
+      const a = (top - ay) / dy, b = (bottom - ay) / dy;
+      first = Math.max(first, Math.min(a, b));
+      last = Math.min(last, Math.max(a, b));
+    } else if (ay < top || ay > bottom) continue;
     if (last > first) found += 4 + (last - first) * Math.hypot(dx, dy);
   }
   return found;
