@@ -28,6 +28,12 @@ def test_parts_are_the_sweep_and_a_restart_makes_what_is_missing(tmp_path: Path)
         assert columns[name] == pytest.approx(column, rel=1e-12, nan_ok=True)
     best = found.best("rocker.angle range", 3, largest=True)
     assert best["rocker.angle range"][0] == np.nanmax(columns["rocker.angle range"])
+    assert found.best("rocker.angle range", 1)["rocker.angle range"] == [
+        np.nanmin(columns["rocker.angle range"])
+    ]
+    assert found.best("transmission_angle", 1)["transmission_angle"] == [
+        np.nanmax(columns["transmission_angle"])
+    ]
     before = contents(tmp_path)
     found.path(3).unlink()
     found.path(1).write_bytes(found.path(1).read_bytes()[:200])  # cut short by something else
@@ -56,7 +62,7 @@ def test_the_command(
         main([*words, "--folder", str(tmp_path / "a"), "--part", "16", "--best", "transmission_angle"]) == 0
     )
     out = capsys.readouterr().out
-    assert "50 designs in 4 parts" in out and "Least transmission_angle" in out
+    assert "50 designs in 4 parts" in out and "Best transmission_angle" in out
     assert main([*words, "--folder", str(tmp_path / "a"), "--part", "16", "--json"]) == 0
     assert '"skipped": 4' in capsys.readouterr().out
     assert main([*words, "--folder", str(tmp_path / "a"), "--part", "32"]) == 2

@@ -17,6 +17,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
 from linkwright.export.base import package
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.metrics.base import METRICS
 from linkwright.metrics.summary import wanted
 from linkwright.study.cluster import connected, current, in_turn
 from linkwright.study.designs import sweep
@@ -133,8 +134,14 @@ class SweepParts:
         found = list(self.each(chosen))
         return {name: np.concatenate([part[name] for part in found]) for name in found[0]}
 
-    def best(self, name: str, count: int = 10, *, largest: bool = False) -> dict[str, Floats]:
-        """The columns of the designs with the least (``largest``: greatest) values, in order; NaN is left out."""
+    def best(self, name: str, count: int = 10, *, largest: bool | None = None) -> dict[str, Floats]:
+        """The columns of the designs with the least (``largest``: greatest) values, in order; NaN is left out.
+
+        Where ``largest`` is left out, the greatest of registered design numbers that are better so, else the least.
+        """
+        if largest is None:
+            metric = METRICS.get(name.partition(" ")[0])
+            largest = metric is not None and metric.better == "higher"
         kept: dict[str, Floats] = {}
         for part in self.each():
             if name not in part:
