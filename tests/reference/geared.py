@@ -100,7 +100,7 @@ class Geared(Multibody):
 
     def _arm(self, q: Array, body: int, p: Vec) -> Array:
         c, s = np.cos(q[..., body, 2]), np.sin(q[..., body, 2])
-        return np.stack([c * p[0] - s * p[1], s * p[0] + c * p[1]], axis=-1)
+        return _pair(c * p[0] - s * p[1], s * p[0] + c * p[1])
 
     def _place(self, q: Array, body: int, p: Vec) -> Array:
         return np.asarray(q[..., body, :2] + self._arm(q, body, p))
@@ -194,4 +194,10 @@ def belt(
 
 
 def _left(v: Array) -> Array:
-    return np.stack([-v[..., 1], v[..., 0]], axis=-1)
+    return _pair(-v[..., 1], v[..., 0])
+
+
+def _pair(x: Array, y: Array) -> Array:
+    found = np.empty((*np.shape(x), 2))
+    found[..., 0], found[..., 1] = x, y
+    return found

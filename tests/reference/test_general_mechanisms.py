@@ -21,10 +21,11 @@ from tests.reference.laws import kinks
 
 import linkwright as lw
 
-BATCH = 25
+#: Mechanisms of every run of the tests; ``python -m tests.random_mechanisms`` judges as many as wanted.
+COUNT, BATCH = 125, 25
 
 
-@pytest.mark.parametrize("batch", range(300 // BATCH))
+@pytest.mark.parametrize("batch", range(COUNT // BATCH))
 def test_no_wrong_number_no_jump_no_unjustified_refusal(batch: int) -> None:
     results = [judge_seed(seed) for seed in range(batch * BATCH, (batch + 1) * BATCH)]
     wrong = [r for r in results if r.kind not in (*GOOD, UNSURE)]
