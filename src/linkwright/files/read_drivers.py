@@ -128,7 +128,7 @@ def _law_fields(rotary: bool, laws: tuple[tuple[str, type[Law]], ...]) -> Mappin
 def _every_key() -> list[str]:
     """What may stand in the table of a driver."""
     laws = _law_fields(True, tuple(LAWS.items()))
-    return [*TURN_FIELDS, *SLIDE_FIELDS, *(key for law in laws.values() for key in law)]
+    return list(dict.fromkeys((*TURN_FIELDS, *SLIDE_FIELDS, *(key for law in laws.values() for key in law))))
 
 
 def _read_law(
