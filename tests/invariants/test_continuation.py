@@ -20,8 +20,9 @@ from linkwright.kinematics.between_positions import Between
 from linkwright.kinematics.branch import CORRECTION, MISFIT, Branch, Way, _Walk, follow, straight
 from linkwright.kinematics.certificate import End, certify, cubic
 from linkwright.kinematics.closed_loops import ClosedLoops
-from linkwright.kinematics.continuation import Followed, Follower, _Journey
+from linkwright.kinematics.continuation import Follower, _Journey
 from linkwright.kinematics.design import Design
+from linkwright.kinematics.followed_way import Followed
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.reach_sentences import branch_notes
 from linkwright.kinematics.solver import MotionSolver

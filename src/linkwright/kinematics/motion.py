@@ -27,7 +27,7 @@ from linkwright.structure import Structure
 if TYPE_CHECKING:
     import pandas
 
-    from linkwright.kinematics.continuation import Followed
+    from linkwright.kinematics.followed_way import Followed
 
 
 Evaluate = Callable[[tuple[str, ...]], Floats]

@@ -20,7 +20,7 @@ from linkwright.units import number
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
-    from linkwright.kinematics.continuation import Stop
+    from linkwright.kinematics.followed_way import Stop
     from linkwright.kinematics.motion import Motion
     from linkwright.mechanism.mechanism import Mechanism
     from linkwright.structure.group import Group
