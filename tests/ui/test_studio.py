@@ -549,6 +549,12 @@ def test_a_photo_to_scale_and_linkages_for_a_drawn_curve(
             tab.close()
 
 
+SLOW_TO_KEEP = """() => {
+  const ask = window.fetch, late = () => new Promise((go) => setTimeout(go, 500));
+  window.fetch = async (to, asked) => (String(to).endsWith("/keep") && (await late()), ask(to, asked));
+}"""
+
+
 @contextmanager
 def started(folder: Path) -> Iterator[tuple[subprocess.Popen[str], str]]:
     """The command in a process of its own, and the address that it says."""
@@ -583,6 +589,7 @@ def test_twenty_links_and_a_server_that_is_killed_and_comes_back(
             assert lw.structure(lw.loads(tab.locator("textarea").input_value())).mobility == 1
         tab.locator("textarea").fill(before + "# while the server was gone\n")
         tab.locator(".said", has_text="does not answer").wait_for()
+        tab.evaluate(SLOW_TO_KEEP)
         with started(tmp_path) as (_, again):
             assert again == address
             tab.locator(".said", has_text="does not answer").wait_for(state="detached")

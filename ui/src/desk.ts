@@ -73,6 +73,9 @@ export class Desk {
   /** A file on the disk that is not the one that was opened, and so is not overwritten unasked. */
   readonly onDisk = signal<{ name: string; version: string } | null>(null);
   readonly dirty = signal(false);
+  /** Whether the server has not answered since a question or a change that it does not have. */
+  readonly gone = signal(false);
+  private unkept = false;
   readonly sought = signal<Sought | null>(null);
   private readonly window = crypto.randomUUID();
   private readonly token = new URLSearchParams(location.search).get("token") ?? "";
@@ -113,10 +116,12 @@ export class Desk {
         body: JSON.stringify({ ...body, language: this.page.language.value }),
       });
       const found = (await answer.json()) as T & { error?: string };
+      this.gone.value &&= this.unkept;
       if (answer.ok) return found;
       this.page.note.value = found.error ?? "";
     } catch {
-      this.page.note.value = this.say("gone");
+      this.page.note.value = "";
+      this.gone.value = true;
     }
     return null;
   }
@@ -145,7 +150,9 @@ export class Desk {
     this.queue = this.queue.then(async () => {
       if (!this.name.value || this.elsewhere.value !== null) return;
       const kept = await this.ask<{ serial: number; other: string | null }>("keep", { name: this.name.value, text: this.text.value, window: this.window, serial: this.serial });
+      this.unkept = !kept;
       if (!kept) return;
+      this.gone.value = false;
       this.serial = kept.serial;
       if (kept.other !== null) this.elsewhere.value = kept.other;
     });
@@ -154,11 +161,10 @@ export class Desk {
 
   private async watch(): Promise<void> {
     if (!this.name.value || this.elsewhere.value !== null) return;
-    const name = this.name.value, { version } = this;
+    const name = this.name.value, behind = this.gone.value || this.unkept, { version } = this;
     const state = await this.ask<{ serial: number; other: boolean; version: string }>("state", { name, window: this.window });
     if (!state || name !== this.name.value) return;
-    if (this.page.note.value === this.say("gone")) {
-      this.page.note.value = "";
+    if (behind) {
       this.serial = state.serial;
       await this.keep();
       return;
@@ -270,7 +276,7 @@ export class Desk {
     if (text !== this.text.value) return;
     if (!solved) {
       const sentence = this.page.note.value;
-      if (sentence !== this.say("gone")) this.solved.value = { findings: [], model: null, sentence, text };
+      if (!this.gone.value) this.solved.value = { findings: [], model: null, sentence, text };
       return;
     }
     if (!solved.model && this.moved?.text === text) return this.refuse(this.moved.before, solved);

@@ -252,7 +252,7 @@ function Room({ desk }: { desk: Desk }) {
         </div>
       </main>
       <footer>
-        <p role="status" class="said">{page.note.value || (desk.dirty.value ? desk.say("unsaved") : "")}</p>
+        <p role="status" class="said">{desk.gone.value ? desk.say("gone") : page.note.value || (desk.dirty.value ? desk.say("unsaved") : "")}</p>
       </footer>
     </>
   );
