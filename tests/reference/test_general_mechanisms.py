@@ -1,4 +1,4 @@
-"""300 random mechanisms without reserve, judged by the independently followed branch; and the judge itself.
+"""125 random mechanisms without reserve, judged by the independently followed branch; and the judge itself.
 
 `python -m tests.random_mechanisms` judges as many as wanted.
 """

@@ -147,7 +147,7 @@ def read_parameters(reader: Reader, node: Node | None) -> dict[str, float]:
     """Values of the named quantities, in order; they are known to the reader afterwards."""
     mapping = None if node is None else reader.mapping(node, "parameters")
     entries = mapping.entries if mapping else []
-    told = {name: node.text for name, node in mapping or [] if isinstance(node, Scalar)}
+    told = {name: _names(node.text) for name, node in mapping or [] if isinstance(node, Scalar)}
     for entry in entries:
         name, place = entry.key.text, Place(f"parameters.{entry.key.text}", entry.key.text)
         value = _parameter(reader, entry.key, entry.value, place, told)
@@ -160,8 +160,10 @@ def read_parameters(reader: Reader, node: Node | None) -> dict[str, float]:
     }
 
 
-def _parameter(reader: Reader, key: Node, node: Node, place: Place, told: Mapping[str, str]) -> float | None:
-    """The value of a parameter; ``told`` are the texts of this one and those below it."""
+def _parameter(
+    reader: Reader, key: Node, node: Node, place: Place, told: Mapping[str, list[str]]
+) -> float | None:
+    """The value of a parameter; ``told`` are the names in this one and in those below it."""
     name = place.address
     reserved = {*expressions.CONSTANTS, *expressions.FUNCTIONS, "t", "input"}
     if not re.fullmatch(r"[^\W\d]\w*", name) or name in reserved:
@@ -202,17 +204,19 @@ def _names(text: str) -> list[str]:
     return sorted(set(re.findall(r"[^\W\d]\w*", text)))
 
 
-def _ring(name: str, told: Mapping[str, str]) -> list[str]:
+def _ring(name: str, told: Mapping[str, list[str]]) -> list[str]:
     """The names that lead from a parameter back to itself, the shortest way; none where nothing does."""
-    ways, seen = [[name]], set[str]()
-    while ways:
-        way = ways.pop(0)
-        for each in _names(told[way[-1]]):
+    before, reached = {name: ""}, [name]
+    for last in reached:
+        for each in told[last]:
             if each == name:
-                return [*way, name]
-            if each in told and each not in seen:
-                seen.add(each)
-                ways.append([*way, each])
+                way = [name]
+                while last:
+                    way, last = [last, *way], before[last]
+                return way
+            if each in told and each not in before:
+                before[each] = last
+                reached.append(each)
     return []
 
 
