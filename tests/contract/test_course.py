@@ -15,7 +15,7 @@ from tests.course_sheets import FOUR_BAR, Pen
 
 import linkwright as lw
 from linkwright.cli import main
-from linkwright.course.calculation_chain import lines_of, run
+from linkwright.course.calculation_chain import Calculation, lines_of
 from linkwright.course.mistakes import MISTAKES
 from linkwright.errors import LinkwrightError
 from linkwright.words import LANGUAGES, has, say
@@ -39,8 +39,7 @@ def keys(found: lw.Variants) -> dict[str, dict]:
 def test_a_worked_solution_can_be_reckoned_again(name: str) -> None:
     """Every line from those before it gives the solver's numbers."""
     forces = lw.solve_forces(lw.load(f"gallery:{name}"), steps=36)
-    lines = lines_of(lw.worked(forces, 5))
-    values = run(lines)
+    values = Calculation(lines_of(lw.worked(forces, 5))).values()
     columns = forces.columns()
     seen = [output for output in values if output.heading in columns and output.dimension != "angle"]
     assert len(seen) > 10

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 
+from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.worked.solution import Worked
@@ -30,6 +31,11 @@ class Line:
         """Whether it is only told, not reckoned."""
         return self.formula is self.result
 
+    @cached_property
+    def symbols(self) -> frozenset[str]:
+        """Names of the symbols in its formula."""
+        return frozenset(each.plain for each in self.formula.leaves() if each.op == "symbol")
+
 
 def lines_of(solution: Worked) -> tuple[Line, ...]:
     """The equations of a worked solution in their order."""
@@ -41,44 +47,55 @@ def lines_of(solution: Worked) -> tuple[Line, ...]:
     )
 
 
-def run(
-    lines: tuple[Line, ...],
-    change: Change | None = None,
-    functions: Mapping[str, Function] | None = None,
-    given: Mapping[str, float] | None = None,
-) -> Values:
-    """Results by output (angles in degrees), every line reckoned from those before it.
+@dataclass(frozen=True)
+class Calculation:
+    """Equations that are reckoned one after the other."""
 
-    ``change``: puts another formula into lines; ``functions``: other meanings of ``cos``, ``sin``, ``atan2``;
-    ``given``: other values of symbols that are only told. A value that a formula does not have (a root of a negative
-    number) is NaN, and so is what follows from it.
-    """
-    known: dict[str, float] = dict(given or {})
-    found: Values = {}
-    for number, line in enumerate(lines):
-        name = line.result.plain
-        if line.given:
-            value = known.get(name, line.result.amount)
-        else:
+    lines: tuple[Line, ...]
+
+    def values(
+        self,
+        change: Change | None = None,
+        functions: Mapping[str, Function] | None = None,
+        given: Mapping[str, float] | None = None,
+    ) -> Values:
+        """Results by output (angles in degrees), every line reckoned from those before it.
+
+        ``change``: puts another formula into lines; ``functions``: other meanings of ``cos``, ``sin``, ``atan2``;
+        ``given``: other values of symbols that are only told. A value that a formula does not have (a root of a
+        negative number) is NaN, and so is what follows from it.
+        """
+        every = self._reckoned(change, functions, given)
+        return {line.output: value for line, value in zip(self.lines, every, strict=True) if line.output}
+
+    @cached_property
+    def _right(self) -> list[float]:
+        return self._reckoned(functions={})
+
+    def _reckoned(
+        self,
+        change: Change | None = None,
+        functions: Mapping[str, Function] | None = None,
+        given: Mapping[str, float] | None = None,
+    ) -> list[float]:
+        """Values of all lines; where functions mean what they do, only what a change reaches is reckoned anew."""
+        known, moved, found = dict(given or {}), set(given or ()), list[float]()
+        right = self._right if functions is None else [math.nan] * len(self.lines)
+        apply = {**APPLY, **(functions or {})}
+
+        def leaf(term: Term) -> float:
+            return known.get(term.plain, term.amount) if term.op == "symbol" else term.amount
+
+        for number, (line, value) in enumerate(zip(self.lines, right, strict=True)):
             formula = line.formula if change is None else change(number, line.result, line.formula)
-            value = reckon(formula, known, functions or {})
-        known[name] = value
-        if line.output:
-            found[line.output] = value
-    return found
-
-
-def reckon(term: Term, known: Mapping[str, float], functions: Mapping[str, Function]) -> float:
-    """A term with the values that are known; symbols that are not have their own."""
-    if not term.args:
-        return known.get(term.plain, term.amount) if term.op == "symbol" else term.amount
-    values = [reckon(each, known, functions) for each in term.args]
-    try:
-        if term.op in functions:
-            return functions[term.op](term, values)
-        return APPLY[term.op](term, values)
-    except (ValueError, ZeroDivisionError, OverflowError):
-        return math.nan
+            if line.given:
+                value = leaf(line.result)
+            elif functions is not None or formula is not line.formula or not moved.isdisjoint(line.symbols):
+                value = formula.reckon(leaf, apply)
+            known[line.result.plain] = value
+            (moved.discard if value == right[number] else moved.add)(line.result.plain)
+            found.append(value)
+        return found
 
 
 def with_terms(term: Term, replace: Callable[[Term], Term | None]) -> Term:

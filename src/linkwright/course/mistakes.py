@@ -12,7 +12,7 @@ from dataclasses import replace
 from functools import partial
 
 from linkwright.core.dataclass import dataclass
-from linkwright.course.calculation_chain import Change, Line, Values, lines_of, run, with_terms
+from linkwright.course.calculation_chain import Calculation, Change, Line, Values, lines_of, with_terms
 from linkwright.kinematics.cycle import at_inputs
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
@@ -41,7 +41,8 @@ class Sheet:
     def __init__(self, mechanism: Mechanism, at: float) -> None:
         self.mechanism, self.at = mechanism, at
         self.lines = _lines(mechanism, at)
-        self.values = run(self.lines)
+        self.reckoned = Calculation(self.lines).values
+        self.values = self.reckoned()
 
     def consequences(self) -> Iterator[Consequence]:
         """The answers of every usual mistake, at every place where it can be made."""
@@ -71,7 +72,7 @@ def degrees_for_radians(sheet: Sheet) -> Made:
     """The input's degrees are put into the functions as radians; or an angle is answered in radians."""
     q = next((line.result for line in sheet.lines if line.result.plain == "q"), None)
     if q is not None and q.degrees:
-        yield "q", run(sheet.lines, given={"q": math.degrees(q.amount)})
+        yield "q", sheet.reckoned(given={"q": math.degrees(q.amount)})
     radians = {
         each: math.radians(value) if each.dimension == "angle" else value
         for each, value in sheet.values.items()
@@ -84,7 +85,7 @@ def rpm_for_radians(sheet: Sheet) -> Made:
     driver = next(iter(sheet.mechanism.drivers.values()))
     if sheet.mechanism.joints[driver.joint].coordinate == "turn":
         rate = next((line.result.amount for line in sheet.lines if line.result.plain == "q'"), 0.0)
-        yield "q'", run(sheet.lines, given={"q'": rate / RPM})
+        yield "q'", sheet.reckoned(given={"q'": rate / RPM})
 
 
 def wrong_assembly_mode(sheet: Sheet) -> Made:
@@ -98,7 +99,7 @@ def wrong_assembly_mode(sheet: Sheet) -> Made:
             line = sheet.lines[number]
             return with_terms(formula, _negated("ρ")) if line.group == group and number > start else formula
 
-        yield group, run(sheet.lines, change)
+        yield group, sheet.reckoned(change)
 
 
 def _negated(name: str) -> Callable[[Term], Term | None]:
@@ -109,7 +110,7 @@ def missing_parenthesis(sheet: Sheet) -> Made:
     """Of a quotient only the last term is divided, or only the first factor divides; in one line of the solution."""
     for number, line in enumerate(sheet.lines):
         for wrong in _slips(line.formula):
-            yield line.result.plain, run(sheet.lines, _only(number, wrong))
+            yield line.result.plain, sheet.reckoned(_only(number, wrong))
     yield from _pairs(sheet)
 
 
@@ -129,7 +130,7 @@ def _pairs(sheet: Sheet) -> Made:
             ) -> Term:
                 return a if k == n else b if k == n + 1 else formula
 
-            yield f"{line.result.plain}, {follower.result.plain}", run(sheet.lines, change)
+            yield f"{line.result.plain}, {follower.result.plain}", sheet.reckoned(change)
 
 
 def _only(number: int, wrong: Term) -> Change:
@@ -184,12 +185,12 @@ def arctangent_quadrant(sheet: Sheet) -> Made:
     def principal(_: Term, values: list[float]) -> float:
         return math.degrees(math.atan(values[0] / values[1])) if values[1] else math.copysign(90.0, values[0])
 
-    yield "", run(sheet.lines, functions={"atan2": principal})
+    yield "", sheet.reckoned(functions={"atan2": principal})
     for number, line in enumerate(sheet.lines):
         if line.formula.op == "atan2":
             y, x = line.formula.args
             wrong = Term("atan2", (y / x, Term("number", amount=1.0)))
-            yield line.result.plain, run(sheet.lines, _only(number, wrong))
+            yield line.result.plain, sheet.reckoned(_only(number, wrong))
 
 
 def inertia_couple_sign(sheet: Sheet) -> Made:
@@ -200,7 +201,7 @@ def inertia_couple_sign(sheet: Sheet) -> Made:
 
     for chosen in dict.fromkeys((tuple(places), *((place,) for place in places))):
         where = ", ".join(sheet.lines[place].result.plain for place in chosen)
-        yield where, run(sheet.lines, partial(_reversed, chosen))
+        yield where, sheet.reckoned(partial(_reversed, chosen))
 
 
 def _reversed(chosen: tuple[int, ...], number: int, _: Term, formula: Term) -> Term:
@@ -217,7 +218,7 @@ def missing_coriolis(sheet: Sheet) -> Made:
         slides = any(name.startswith("s'") and not name.startswith("s''") for name in names)
         return ZERO if slides and any(name.startswith("ω") for name in names) else None
 
-    yield "", run(sheet.lines, lambda _, __, formula: with_terms(formula, coriolis))
+    yield "", sheet.reckoned(lambda _, __, formula: with_terms(formula, coriolis))
 
 
 def mass_centre_wrong_end(sheet: Sheet) -> Made:
@@ -233,7 +234,10 @@ def mass_centre_wrong_end(sheet: Sheet) -> Made:
     for names in dict.fromkeys([*((name,) for name in turned), tuple(turned)]):
         if names:
             links = {**sheet.mechanism.links, **{name: turned[name] for name in names}}
-            yield ", ".join(names), run(_lines(replace(sheet.mechanism, links=links), sheet.at))
+            yield (
+                ", ".join(names),
+                Calculation(_lines(replace(sheet.mechanism, links=links), sheet.at)).values(),
+            )
 
 
 MISTAKES: dict[str, Callable[[Sheet], Made]] = {

@@ -15,11 +15,11 @@ from xml.sax.saxutils import escape, quoteattr
 
 from linkwright.course.mistakes import RPM, passed
 from linkwright.course.task import Question
-from linkwright.course.variants import Variant, Variants
+from linkwright.course.variants import MOST, Variant, Variants
 from linkwright.drivers.base import Law
+from linkwright.engine.recently_made import Recent
 from linkwright.errors import RequestError
 from linkwright.files.write import to_data
-from linkwright.kinematics.motion import Motion
 from linkwright.plot.drawing.draw import draw
 from linkwright.plot.drawing.view import DIAGONAL
 from linkwright.words import Say, speaker
@@ -30,6 +30,8 @@ PICTURE = 640
 #: the width.
 TALLEST, LOWEST, ROOM, ROW, SHARE = 110.0, 30.0, 196.0, 5.0, 0.8
 Files = dict[str, bytes]
+#: Drawings, which several forms show.
+_DRAWN: Recent[Variant, str] = Recent(MOST)
 
 
 def files_of(found: Variants, forms: Sequence[str], language: str) -> Files:
@@ -45,15 +47,14 @@ def files_of(found: Variants, forms: Sequence[str], language: str) -> Files:
 
 
 # what every form says ---------------------------------------------------------------------------
-def motion_of(found: Variants, each: Variant) -> tuple[Motion, int]:
-    """The motion that passes the position asked for, and its index."""
-    return passed(each.mechanism, found.task.at)
-
-
 def drawing(found: Variants, each: Variant, language: str, diagonal: float = DIAGONAL) -> str:
     """The machine of a variant as SVG, without numbers that would give answers away."""
-    motion, index = motion_of(found, each)
-    return draw(motion, position=index, centres=True, language=language, diagonal=diagonal).svg
+
+    def drawn() -> str:
+        motion, index = passed(each.mechanism, found.task.at)
+        return draw(motion, position=index, centres=True, language=language, diagonal=diagonal).svg
+
+    return _DRAWN.get(each, (found.task.at, language, diagonal), drawn)
 
 
 def data_rows(found: Variants, each: Variant, say: Say) -> list[tuple[str, str]]:

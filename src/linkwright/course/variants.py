@@ -23,6 +23,8 @@ from linkwright.metrics import metrics
 FORMAT = 1
 #: Designs that are tried per variant, at most; digits of a changed dimension; positions of the cycle.
 TRIES, DIGITS, STEPS = 60, 3, 90
+#: Variants that can be asked for.
+MOST = 1000
 #: Smallest transmission angle that asks for no more, and how far a variant's may be below the model's, rad.
 GOOD, SLACK = math.radians(40), math.radians(5)
 #: An answer may be so many times as large or as small as the model's.
@@ -153,7 +155,7 @@ def variants(
     Raises:
         LinkwrightError: settings that make no sense; fewer variants than asked for within the limits.
     """
-    if not 1 <= count <= 1000:
+    if not 1 <= count <= MOST:
         raise RequestError("course.bad_count", count=count)
     if seed < 0:
         raise RequestError("study.bad_seed", seed=seed)

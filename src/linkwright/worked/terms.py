@@ -5,12 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from operator import mul
 
 from linkwright.core.dataclass import dataclass
 
 #: Anything smaller (SI) is nothing but rounding.
 NOTHING = 1e-12
 Leaf = Callable[["Term"], float]
+Function = Callable[["Term", list[float]], float]
 
 
 @dataclass(frozen=True)
@@ -72,12 +74,15 @@ class Term:
         """Whether the amount of a symbol or a number is nothing but rounding; degrees are small units."""
         return abs(self.amount) < (100.0 * NOTHING if self.degrees else NOTHING)
 
-    def reckon(self, leaf: Leaf) -> float:
-        """The term with ``leaf`` deciding what every symbol and number is worth; NaN where it has no value."""
+    def reckon(self, leaf: Leaf, apply: Mapping[str, Function] | None = None) -> float:
+        """The term with ``leaf`` deciding what every symbol and number is worth; NaN where it has no value.
+
+        ``apply``: what operations do with the values of their terms, in place of ``APPLY``.
+        """
         if not self.args:
             return leaf(self)
         try:
-            return APPLY[self.op](self, [each.reckon(leaf) for each in self.args])
+            return (apply or APPLY)[self.op](self, [each.reckon(leaf, apply) for each in self.args])
         except (ValueError, ZeroDivisionError, OverflowError):
             return math.nan
 
@@ -93,11 +98,12 @@ class Term:
 
 
 def _add(term: Term, values: list[float]) -> float:
-    return sum(sign * value for sign, value in zip(term.signs, values, strict=True))
+    total: float = sum(map(mul, term.signs, values))
+    return total
 
 
 #: What every operation does with the values of its terms.
-APPLY: dict[str, Callable[[Term, list[float]], float]] = {
+APPLY: dict[str, Function] = {
     "sum": _add,
     "product": lambda _, v: math.prod(v),
     "quotient": lambda _, v: v[0] / v[1],
