@@ -390,6 +390,26 @@ def test_limits_lie_in_what_is_reached(seed: int) -> None:
             assert np.isfinite(each.value) and motion.ok[each.index]
 
 
+@pytest.mark.parametrize(
+    "name", ["swing_conveyor", "dyad_rpp", "theo_jansen_leg", "planetary_two_inputs", "scotch_yoke"]
+)
+def test_numbers_of_a_cycle_in_few_positions_are_those_in_many(name: str) -> None:
+    """Two positions hide turns, and of four reversals close to each other some."""
+    model = lw.load(f"gallery:{name}")
+    many, *few = (
+        {(row.metric, row.subject): row.value for row in lw.metrics(lw.solve_forces(model, steps=steps))}
+        for steps in (360, 1, 2, 4, 7)
+    )
+    for found in few:
+        assert found == pytest.approx(many, rel=1e-6, abs=1e-9)
+
+
+def test_positions_out_of_reach_are_counted_as_they_were_asked_for() -> None:
+    short = lw.load("gallery:crank_rocker").with_dimensions({"coupler.length": 1.5})
+    table = lw.metrics(lw.solve_motion(short, steps=8, failures="mark"))
+    assert "of 8 positions" in table.text()
+
+
 @pytest.mark.parametrize("seed", [100, 135, 138, 139])
 def test_numbers_of_what_is_reached_are_those_for_any_number_of_positions(seed: int) -> None:
     """Machines that come out of reach in a step, some of them before guides become parallel in it."""

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from math import isfinite
 
+from linkwright.core.arrays import Flags
 from linkwright.errors import RequestError
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.whole_turns import MOST
@@ -55,7 +56,9 @@ def metrics(result: Motion | Forces, names: Iterable[str] | str | None = None) -
         else:
             raise RequestError(_refusal(name, analysis))
     shown = _without_rounding(rows, _roundings(analysis))
-    return MetricsTable(analysis.motion.mechanism.name, shown, skipped, _notes(analysis))
+    motion = result.motion if isinstance(result, Forces) else result
+    notes = _notes(analysis, motion.ok)
+    return MetricsTable(analysis.motion.mechanism.name, shown, skipped, notes)
 
 
 def _countable(motion: Motion) -> None:
@@ -66,9 +69,9 @@ def _countable(motion: Motion) -> None:
         raise RequestError("metrics.too_many_turns", name=motion.mechanism.name, turns=turns, most=MOST)
 
 
-def _notes(analysis: Analysis) -> tuple[Sentence, ...]:
-    """What is to be said where not all positions are reached."""
-    name, ok = analysis.motion.mechanism.name, analysis.motion.ok
+def _notes(analysis: Analysis, ok: Flags) -> tuple[Sentence, ...]:
+    """What is to be said where not all positions are reached; ``ok``: which of those that were asked for are."""
+    name = analysis.motion.mechanism.name
     if not ok.any():
         return (Sentence("metrics.none_reached", name=name),)
     if not analysis.partial:
