@@ -6,12 +6,14 @@ import json
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from os import PathLike
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.given import require
 from linkwright.course.mistakes import Consequence, Sheet
 from linkwright.course.task import Question, Task, task
 from linkwright.errors import LinkwrightError, RequestError
@@ -153,6 +155,7 @@ def variants(
     Raises:
         LinkwrightError: settings that make no sense; fewer variants than asked for within the limits.
     """
+    require(machine, Mechanism, str, PathLike)
     if not 1 <= count <= 1000:
         raise RequestError("course.bad_count", count=count)
     if seed < 0:

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Floats
 from linkwright.core.cached_property import cached_property
+from linkwright.core.given import require
 from linkwright.core.inputs import mode_groups
 from linkwright.errors import RequestError
 from linkwright.kinematics.change_points import (
@@ -59,6 +60,7 @@ def solve_motion(
         StructureError, AssemblyError, CycleError: the model is not determined, cannot be put together, or has no
             cycle.
     """
+    require(mechanism, Mechanism)
     positions = _positions(mechanism, steps, at, times, endpoint)
     single = at is not None or times is not None
     return MotionRun(MotionSolver(mechanism), positions, single=single).solve(failures)

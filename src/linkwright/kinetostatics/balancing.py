@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.given import require
 from linkwright.core.plot_method import Plotted
 from linkwright.core.read_only import Frozen
 from linkwright.errors import LinkwrightError, RequestError
@@ -76,6 +77,7 @@ def balance(mechanism: Mechanism, *, radius: Radius, share: float = 1.0, steps: 
     Raises:
         LinkwrightError: another kind of mechanism, a share outside 0 … 1, a radius that is not positive.
     """
+    require(mechanism, Mechanism)
     if not 0.0 <= share <= 1.0:
         raise RequestError("forces.share", share=share)
     moments = _moments(mechanism, radius, share)

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from math import isfinite
 
+from linkwright.core.given import require
 from linkwright.errors import RequestError
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.whole_turns import MOST
@@ -35,6 +36,7 @@ def metrics(result: Motion | Forces, names: Iterable[str] | str | None = None) -
         LinkwrightError: a number that was asked for by name does not apply, or the cycle is given more than 1000
             turns.
     """
+    require(result, Motion, Forces)
     analysis = Analysis.of(result)
     _countable(analysis.motion)
     asked = None if names is None else [names] if isinstance(names, str) else list(names)

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Flags, Floats, Whole
 from linkwright.core.dataclass import dataclass
+from linkwright.core.given import require
 from linkwright.core.html import columns_html
 from linkwright.core.plot_method import Plotted
 from linkwright.core.read_only import Frozen
@@ -156,6 +157,7 @@ def sweep(
     one group, loads that divide by an output or follow a link that turns through, and motion through change points
     are found design by design, in milliseconds each.
     """
+    require(mechanism, Mechanism)
     positions = over_cycle(mechanism, steps)
     columns = design_values(mechanism, vary)
     refuse_moved_positions(mechanism, positions, columns)

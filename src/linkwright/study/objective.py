@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.core.given import require
 from linkwright.core.outputs import Output
 from linkwright.cycle_programs.iterated_groups import Following, following, limits_beside
 from linkwright.cycle_programs.limit_stages import constants
@@ -222,6 +223,7 @@ def objective(
         LinkwrightError: unknown names; the friction and loads that :func:`sweep` finds design by design; positions
             too far apart to count the turns of a link that a dyad places and a wheel follows.
     """
+    require(mechanism, Mechanism)
     names = checked_addresses(mechanism, vary)
     given = _weighted(terms)
     numbers = {term: weight for term, weight in given.items() if isinstance(term, str) and is_metric(term)}

@@ -12,6 +12,7 @@ from typing import Literal
 import numpy as np
 
 from linkwright.core.arrays import Floats
+from linkwright.core.given import require
 from linkwright.core.outputs import row_name
 from linkwright.cycle_programs.limit_stages import CONVERGED, agree, constants, limit_stages, near_limits
 from linkwright.cycle_programs.loaded_cycle import along_input, with_loads
@@ -60,7 +61,8 @@ def prepare(
     Raises:
         LinkwrightError: an unknown address (nearest ones offered), or ``llvm`` without llvmlite.
     """
-    return Prepared(mechanism, tuple(vary), over_cycle(mechanism, steps), backend)
+    require(mechanism, Mechanism)
+    return Prepared(mechanism, checked_addresses(mechanism, vary), over_cycle(mechanism, steps), backend)
 
 
 class Prepared:
@@ -75,7 +77,6 @@ class Prepared:
     def __init__(
         self, mechanism: Mechanism, vary: tuple[str, ...], positions: Positions, backend: Backend
     ) -> None:
-        checked_addresses(mechanism, vary)
         self.mechanism = mechanism
         self.vary = vary
         self.positions = positions
@@ -130,6 +131,7 @@ class Prepared:
             LinkwrightError: a dimension that is zero in the starting design, and was not named in ``vary``.
             PositionError: a position cannot be reached, and ``failures`` is ``raise``.
         """
+        require(changes, Mapping)
         design = Design(self.mechanism, self._modes, changes)
         values = self._values(changes) if self._at_once else None
         if values is None or is_near(values[-2]):

@@ -10,6 +10,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.core.given import require
 from linkwright.core.html import html_table
 from linkwright.core.plot_method import Plotted
 from linkwright.core.read_only import Frozen, locked
@@ -165,6 +166,7 @@ def sensitivity(
 
     Where the size of a vector is zero its derivative is taken as zero.
     """
+    require(mechanism, Mechanism)
     positions = over_cycle(mechanism, steps)
     dimensions = checked_addresses(mechanism, by)
     if not dimensions:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TypeAlias, cast
+from typing import Any, TypeAlias, cast
 
+from linkwright.core.given import require
 from linkwright.core.plot_method import Plotted
 from linkwright.errors import RequestError, about, require_language
 from linkwright.kinematics.motion import Motion
@@ -69,7 +70,7 @@ def plot(
     """
     require_language(language)
     own = _own_kind(result, kind)
-    sources = [] if own else _sources(cast(_Solved, result), static=static)
+    sources = [] if own else _sources(result, static=static)
     name = own or kind or _usual(cast(_Solved, result))
     if not own:
         require_kind(name)
@@ -142,13 +143,17 @@ def _own_kind(result: object, kind: str | None) -> str | None:
     return kind
 
 
-def _sources(result: _Solved, *, static: bool) -> list[Source]:
+def _sources(result: object, *, static: bool) -> list[Source]:
+    given: list[tuple[str | None, Any]]
     if isinstance(result, Mapping):
-        found = [Source(each, label, static=static) for label, each in result.items()]
-    elif isinstance(result, Sequence):
-        found = [Source(each, static=static) for each in result]
+        given = [(label, each) for label, each in result.items()]
+    elif isinstance(result, Sequence) and not isinstance(result, str):
+        given = [(None, each) for each in result]
     else:
-        found = [Source(result, static=static)]
+        given = [(None, result)]
+    for _, each in given:
+        require(each, Mechanism, Motion, Forces, SteadyRunning)
+    found = [Source(each, label, static=static) for label, each in given]
     if not found:
         raise RequestError("picture.nothing_given")
     if len(found) > 1 and len({source.label for source in found}) < len(found):

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from linkwright.core.arrays import Floats
+from linkwright.core.given import one_or_more, require
 from linkwright.errors import LinkwrightError, RequestError, require_language
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
@@ -91,6 +92,7 @@ def draw(
     Raises:
         LinkwrightError: an unknown name, a position that does not exist or was not reached.
     """
+    require(source, Motion, Mechanism)
     require_language(language)
     motion = source if isinstance(source, Motion) else solve_motion(source, steps=STEPS, failures="mark")
     shown = _shown(motion, position, at, time)
@@ -100,6 +102,7 @@ def draw(
     )
     sheet = Sheet(scene, index, shown.index)
     sheet.ghosts(others, style)
+    paths = one_or_more(paths)
     sheet.add(scene.traces(paths), [scene.trace(name) for name in paths])
     known = _forces_shown(motion, shown, forces)
     arrows = all_arrows(shown.motion, velocities, accelerations, known, reactions_of)
@@ -279,11 +282,11 @@ def all_arrows(
     """All vectors that a drawing shows; each entry has a scale of its own."""
     found: list[Arrows] = []
     for kind, wanted in (("velocity", velocities), ("acceleration", accelerations)):
-        names = all_points(motion.mechanism) if wanted is True else tuple(wanted or ())
+        names = all_points(motion.mechanism) if wanted is True else one_or_more(wanted or ())
         if names:
             found.append(point_vectors(motion, names, kind))
     if forces is not None:
-        found.append(force_vectors(forces, of))
+        found.append(force_vectors(forces, None if of is None else one_or_more(of)))
     return found
 
 

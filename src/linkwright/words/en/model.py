@@ -62,6 +62,8 @@ WORDS = {
     "folder": "this is a folder",
     "name_file_in": "name a model file in it",
     "no_file": "there is no such file",
+    "text_for_name": "this is a text of several lines, where the name of a file is needed",
+    "write_loads": "for the text of a model write lw.loads(text)",
     "file_size": "the file has {size:.1f} MB",
     "most_size": "a model has at most {most:.0f} MB",
     "unreadable": "the file cannot be read ({reason})",

@@ -1,0 +1,26 @@
+"""What is needed where something else was given."""
+
+WORDS = {
+    "needed": "{needed} is needed, not {told}; {hint}",
+    "or": "{others} or {last}",
+    "kind_Mechanism": "a mechanism",
+    "kind_Motion": "a motion",
+    "kind_Forces": "the forces of a machine",
+    "kind_SteadyRunning": "steady running",
+    "kind_Document": "a document",
+    "text": 'the text "{text}"',
+    "long_text": "a long text",
+    "path": "the path {path}",
+    "class": "the class {kind}",
+    "object": "a value of the type {kind}",
+    "write": "write {code}",
+    "such_as": "give one, such as {code}",
+    "kind_str": "the name of a file",
+    "kind_PathLike": "its path",
+    "kind_Problem": "a calculation of machine parts",
+    "kind_Mapping": "a mapping from addresses to values",
+    "kind_Linkage": "a linkage of a synthesis",
+    "no_file_name": 'the name of a model file is needed, not {told}; write lw.load("machine.yaml")',
+    "no_text": "the text of a model is needed, not {told}; files are read by lw.load",
+    "name_for_text": 'the text of a model is needed, not the name of a file; write lw.load("{name}")',
+}

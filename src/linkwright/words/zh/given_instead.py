@@ -1,0 +1,26 @@
+"""给出的不是机构或结果时，需要什么，怎样写。"""
+
+WORDS = {
+    "needed": "这里需要{needed}，而不是{told}；{hint}",
+    "or": "{others}或{last}",
+    "kind_Mechanism": "机构",
+    "kind_Motion": "运动",
+    "kind_Forces": "机器的受力",
+    "kind_SteadyRunning": "稳定运转",
+    "kind_Document": "文档",
+    "text": "文字“{text}”",
+    "long_text": "一段长文字",
+    "path": "路径 {path}",
+    "class": "类 {kind}",
+    "object": " {kind} 类型的值",
+    "write": "请写 {code}",
+    "such_as": "例如 {code}",
+    "kind_str": "文件名",
+    "kind_PathLike": "文件路径",
+    "kind_Problem": "机械零件的计算",
+    "kind_Mapping": "由尺寸地址到数值的映射",
+    "kind_Linkage": "综合得到的连杆机构",
+    "no_file_name": '这里需要模型文件的名称，而不是{told}；请写 lw.load("machine.yaml")',
+    "no_text": "这里需要模型的文字，而不是{told}；文件用 lw.load 读取",
+    "name_for_text": '这里需要模型的文字，而不是文件名；请写 lw.load("{name}")',
+}
