@@ -133,7 +133,9 @@ def _scan(reader: Reader, root: MappingNode) -> None:
     """Gather all names first, so that references can be checked wherever they stand."""
     reader.names.links = {"frame": scan_points(_frame(root))}
     links = root.get("links")
-    reader.names.listed = isinstance(links, MappingNode)
+    reader.names.listed = isinstance(links, MappingNode) and not any(
+        isinstance(each, MappingNode) and each.repeated for each in (links, root.get("joints"))
+    )
     if isinstance(links, MappingNode):
         reader.names.illegible |= {name for name, value in links if not legible(value)}
         reader.names.links |= {key: scan_points(value) for key, value in links if key != "frame"}
