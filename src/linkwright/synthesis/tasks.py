@@ -16,6 +16,7 @@ from linkwright.core.given import told
 from linkwright.errors import Finding, ModelError, QuantityError, with_remedy
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar, Sequence
+from linkwright.files.calculations import refuse_kind
 from linkwright.files.compose import compose
 from linkwright.files.model_file import read_nodes
 from linkwright.files.node_reader import Place
@@ -138,6 +139,10 @@ def asked_in(text: str, name: str) -> tuple[str, dict[str, Any]]:
     """Task and demands (SI) of the section ``synthesis`` of a text; raises ModelError."""
     root, findings = read_nodes(text, name)
     section = root.get("synthesis") if isinstance(root, MappingNode) else None
+    kind = root.get("kind") if isinstance(root, MappingNode) else None
+    if section is None and isinstance(kind, Scalar):
+        refuse_kind(reader := Reader(name), kind)
+        raise ModelError(reader.findings)
     if findings or not isinstance(section, MappingNode):
         place = f"{name}:1:1"
         raise ModelError(findings or [Finding("error", place, "", note("task.section"), "", "missing")])

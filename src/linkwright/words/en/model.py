@@ -302,7 +302,9 @@ WORDS = {
     "as zero",
     "add_inertia": "add the moment of inertia about its mass centre (inertia: … kg·m²), or inertia: 0 if that is "
     "meant",
-    "no_mechanism": 'this is a calculation of kind "{kind}", not a mechanism',
-    "calculations": "call linkwright beam, cam, statics, vibration, statistics, program, trajectory, tolerance",
+    "calculation": "this is a calculation of the kind {kind}, and no machine",
+    "calculation_do": "linkwright {command} calculates it",
+    "unknown_kind": 'the kind "{kind}" is not known',
+    "unknown_kind_do": "{hint}; the model of a machine has no kind",
     "from_and_to": "from and to",
 }

@@ -294,8 +294,9 @@ WORDS = {
     "add_mass_centre": "请在构件坐标系中给出 mass_centre: [x, y]，或写构件上一点的名称",
     "no_inertia": "构件“{link}”会转动且质量为 {mass} kg，但没有转动惯量：按零计算",
     "add_inertia": "请加上对质心的转动惯量（inertia: … kg·m²），若确为零则写 inertia: 0",
-    "no_mechanism": "该文件是类型“{kind}”的计算，不是机构",
-    "calculations": "请用相应的命令：linkwright beam、cam、statics、vibration、"
-    "statistics、program、trajectory、tolerance",
+    "calculation": "该文件是类型为 {kind} 的计算，不是机构",
+    "calculation_do": "请用 linkwright {command} 计算",
+    "unknown_kind": "未知的类型“{kind}”",
+    "unknown_kind_do": "{hint}；机构的模型没有 kind",
     "from_and_to": "from 和 to",
 }
