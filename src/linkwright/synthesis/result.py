@@ -131,11 +131,14 @@ class Synthesis(Plotted):
     def __getitem__(self, index: int) -> Candidate:
         return self.candidates[index]
 
-    def text(self, language: str = "en") -> str:
-        """The table of candidates, the lengths of the best one, and the notes."""
+    def text(self, language: str = "en", width: int | None = None) -> str:
+        """The table of candidates, the lengths of the best one, and the notes.
+
+        ``width``: characters across within which the heads of the table are folded.
+        """
         from linkwright.synthesis.report import report
 
-        return "\n".join(report(self, language))
+        return "\n".join(report(self, language, width))
 
     def data(self) -> dict[str, Any]:
         """Plain data, SI."""

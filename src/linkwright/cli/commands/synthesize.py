@@ -122,7 +122,7 @@ def _show(found: Synthesis, options: argparse.Namespace, mass: float | None, ses
             each |= effort
         session.show_data({"ok": True, **data})
         return
-    session.show(found.text(session.language))
+    session.show(found.text(session.language, session.room))
     if efforts:
         session.show("\n" + "\n".join(_effort_lines(efforts, session.say)))
     session.show_written(*written)
