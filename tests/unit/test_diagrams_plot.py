@@ -245,7 +245,7 @@ def test_an_option_without_use_is_refused_by_every_kind(forces: lw.Forces) -> No
 
 
 def test_sizes_beyond_all_paper_are_refused(forces: lw.Forces) -> None:
-    with pytest.raises(LinkwrightError, match="give 1 to 100 each"):
+    with pytest.raises(LinkwrightError, match="1 to 100 each"):
         plot(forces, "torque", size=(7.0, 1e6))
     with pytest.raises(LinkwrightError, match="dots per inch; give 1 to"):
         plot(forces, "torque").png(dpi=1e5)

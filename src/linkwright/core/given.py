@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import math
+from collections.abc import Iterable, Sequence
 from os import PathLike
+from typing import Any, SupportsInt, TypeVar, overload
 
 from linkwright.errors import RequestError
+from linkwright.registry import listed
 from linkwright.words.sentence import Sentence
 
+T = TypeVar("T")
 #: Longest text that a sentence repeats.
 LONGEST = 80
 #: Calls that make results of a mechanism, and what is given as an example of other kinds.
@@ -34,9 +38,44 @@ def require(given: object, *kinds: type) -> None:
     raise RequestError("given_instead.needed", needed=needed, told=told(given), hint=_hint(given, names))
 
 
-def one_or_more(given: Iterable[str] | str) -> tuple[str, ...]:
-    """Names as a tuple; a text alone is one name."""
-    return (given,) if isinstance(given, str) else tuple(given)
+@overload
+def one_or_more(given: Iterable[str] | str) -> tuple[str, ...]: ...
+@overload
+def one_or_more(given: Iterable[T]) -> tuple[T, ...]: ...
+def one_or_more(given: Any) -> tuple[Any, ...]:
+    """Names as a tuple; a text alone, and what holds none, is one name."""
+    return tuple(given) if isinstance(given, Iterable) and not isinstance(given, str) else (given,)
+
+
+def whole(option: str, given: object, least: int | None = None) -> int:
+    """A whole number, ``least`` or more; raises RequestError for anything else."""
+    number = given if isinstance(given, SupportsInt) and not isinstance(given, str) else None
+    try:
+        found = None if number is None else int(number)
+    except (ValueError, OverflowError):
+        found = None
+    if found is None or found != given or (least is not None and found < least):
+        key = "no_whole" if least is None else "no_whole_from"
+        raise RequestError(f"given_instead.{key}", option=option, given=repr(given)[:LONGEST], least=least)
+    return found
+
+
+def real(option: str, given: object, *, finite: bool = True) -> float:
+    """A number, ``finite`` unless told otherwise; raises RequestError for anything else."""
+    try:
+        found = None if isinstance(given, str) else float(given)  # type: ignore[arg-type]
+    except (TypeError, ValueError):
+        found = None
+    if found is None or (finite and not math.isfinite(found)):
+        raise RequestError("given_instead.no_real", option=option, given=repr(given)[:LONGEST])
+    return found
+
+
+def one_of(option: str, given: object, known: Sequence[str]) -> None:
+    """Raises RequestError, with the nearest, where a word is none of those that are known."""
+    if given not in known:
+        hint = listed(str(given), known, "one_of")
+        raise RequestError("given_instead.no_choice", option=option, given=repr(given)[:LONGEST], hint=hint)
 
 
 def told(given: object) -> str:

@@ -80,7 +80,7 @@ def limit_positions(motion: Motion, output: Output | str) -> tuple[LimitPosition
         LinkwrightError: there is no such output, or the positions do not follow the drivers' laws in time.
     """
     require(motion, Motion)
-    found = output_of(motion.mechanism, output) if isinstance(output, str) else output
+    found = output if isinstance(output, Output) else output_of(motion.mechanism, str(output))
     if motion.steps < 3 or not motion.mechanism.drivers:
         return ()
     return motion.kept(("limits", found), lambda: _limits(motion, found))

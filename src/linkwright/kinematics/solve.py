@@ -73,11 +73,17 @@ def _positions(
     times: ArrayLike | None,
     endpoint: bool,
 ) -> Positions:
+    if at is not None and times is not None:
+        raise RequestError("motion.at_and_times")
     if at is not None:
-        return at_inputs(mechanism, at)
-    if times is not None:
-        return at_times(mechanism, times)
-    return over_cycle(mechanism, steps, endpoint)
+        positions = at_inputs(mechanism, at)
+    elif times is not None:
+        positions = at_times(mechanism, times)
+    else:
+        return over_cycle(mechanism, steps, endpoint)
+    if not positions.count:
+        raise RequestError("motion.no_positions")
+    return positions
 
 
 def try_motion(mechanism: Mechanism, steps: int) -> Motion:

@@ -412,7 +412,7 @@ class Mechanism(Frozen):
         return found
 
     def _unknown(self, address: str) -> LinkwrightError:
-        offer = nearest(address, self._dimensions)
+        offer = nearest(str(address), self._dimensions)
         hint = Sentence("names.did_you_mean", offer=offer) if offer else Sentence("model.see_addresses")
         return LinkwrightError("model.no_dimension", address=address, hint=hint)
 

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from math import isfinite
 
-from linkwright.core.given import require
+from linkwright.core.given import one_or_more, require
 from linkwright.errors import RequestError
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.whole_turns import MOST
@@ -39,7 +39,7 @@ def metrics(result: Motion | Forces, names: Iterable[str] | str | None = None) -
     require(result, Motion, Forces)
     analysis = Analysis.of(result)
     _countable(analysis.motion)
-    asked = None if names is None else [names] if isinstance(names, str) else list(names)
+    asked = None if names is None else list(one_or_more(names))
     rows: list[MetricValue] = []
     skipped: list[str] = []
     chosen = {name: metric() for name, metric in _chosen(asked).items()}

@@ -11,7 +11,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.core.given import one_or_more, require
+from linkwright.core.given import one_or_more, real, require, whole
 from linkwright.core.outputs import Output
 from linkwright.errors import RequestError, require_language
 from linkwright.kinematics.motion import Motion
@@ -85,9 +85,9 @@ def animate(
     """
     require(source, Motion, Mechanism)
     require_language(language)
-    if not 2 <= frames <= 2000:
+    if not 2 <= whole("frames", frames) <= 2000:
         raise RequestError("picture.bad_frames", frames=frames)
-    if seconds is not None and not 0.05 <= seconds <= 3600:
+    if seconds is not None and not 0.05 <= real("seconds", seconds) <= 3600:
         raise RequestError("picture.bad_seconds", seconds=seconds)
     machine = source.mechanism if isinstance(source, Motion) else source
     paths, curves = one_or_more(paths), one_or_more(curves)
@@ -202,7 +202,7 @@ class Animation:
         missing package or font, a folder that cannot be written.
         """
         suffix = Path(path).suffix.lower()
-        if suffix != ".svg" and not WIDTHS[0] <= width <= WIDTHS[1]:
+        if suffix != ".svg" and not WIDTHS[0] <= whole("width", width) <= WIDTHS[1]:
             raise RequestError("picture.bad_film_width", width=width, least=WIDTHS[0], most=WIDTHS[1])
         if suffix == ".svg":
             return write_whole(path, self.svg.encode())

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import field
 from functools import cached_property
 from itertools import chain, count
@@ -128,7 +128,7 @@ def alternatives(
     Raises:
         LinkwrightError: fewer than two machines, an unknown output, or none that all share.
     """
-    if not isinstance(sources, Iterable) or isinstance(sources, str) or len(list(sources)) < 2:
+    if not isinstance(sources, Sequence) or isinstance(sources, str) or len(sources) < 2:
         raise RequestError("study.two_or_more")
     for source in sources:
         require(source, Mechanism, str, PathLike)

@@ -12,7 +12,7 @@ from typing import Literal
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.core.given import require
+from linkwright.core.given import one_of, require
 from linkwright.core.outputs import row_name
 from linkwright.cycle_programs.limit_stages import CONVERGED, agree, constants, limit_stages, near_limits
 from linkwright.cycle_programs.loaded_cycle import along_input, with_loads
@@ -23,7 +23,7 @@ from linkwright.engine.llvm_backend import CompiledProgram, compile_program
 from linkwright.engine.machine_code import OF_ONE_ADDRESS, available
 from linkwright.engine.numpy_backend import numpy_program
 from linkwright.engine.program import Program
-from linkwright.engine.stage import Backend
+from linkwright.engine.stage import BACKENDS, Backend
 from linkwright.engine.trace import Mask, Scalar, absolute, select
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.change_points import nearness, parts
@@ -62,6 +62,7 @@ def prepare(
         LinkwrightError: an unknown address (nearest ones offered), or ``llvm`` without llvmlite.
     """
     require(mechanism, Mechanism)
+    one_of("backend", backend, BACKENDS)
     return Prepared(mechanism, checked_addresses(mechanism, vary), over_cycle(mechanism, steps), backend)
 
 

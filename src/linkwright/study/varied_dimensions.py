@@ -49,6 +49,8 @@ def varied_ranges(
     if not ranges:
         raise RequestError("study.nothing_varies")
     for each in ranges:
+        if not each.values.size:
+            raise RequestError("study.no_values", address=each.address)
         if gives_part_of_tooth(mechanism, each.address, between(each)) and (
             sampled or any(gives_part_of_tooth(mechanism, each.address, value) for value in each.values)
         ):

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from linkwright.core.arrays import Complexes, Flags, Floats, Whole
 from linkwright.core.dataclass import dataclass
+from linkwright.core.given import real
 from linkwright.core.plot_method import Plotted
 from linkwright.errors import LinkwrightError
 from linkwright.mechanism.mechanism import Mechanism
@@ -240,6 +241,7 @@ def merits(candidates: Sequence[Candidate], extent: float) -> Floats:
 def whole(*, least: int = 1, **values: float) -> None:
     """Raises SynthesisError for the first value that is no whole number of ``least`` or more."""
     for name, value in values.items():
+        real(name, value, finite=False)
         if not (value == value and value >= least and float(value).is_integer()):
             raise refuse("not_whole", name=name, given=f"{value:g}", least=least)
 

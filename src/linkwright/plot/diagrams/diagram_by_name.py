@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any, TypeAlias, cast
 
-from linkwright.core.given import require
+from linkwright.core.given import real, require
 from linkwright.core.plot_method import Plotted
 from linkwright.errors import RequestError, about, require_language
 from linkwright.kinematics.motion import Motion
@@ -86,8 +86,8 @@ def plot(
     require_options(
         name, [option for option, value in given.items() if value not in (None, (), "", [], False)]
     )
-    if size is not None and not all(1.0 <= each <= 100.0 for each in size):
-        raise RequestError("picture.bad_inches", wide=size[0], tall=size[1])
+    if size is not None:
+        _require_inches(size)
     request = Request(
         kind=name,
         of=(of,) if isinstance(of, str) else tuple(of),
@@ -97,7 +97,7 @@ def plot(
         at=_place(at, sources[0]) if sources else None,
         fluctuation=0.03 if fluctuation is None else fluctuation,
         marks=marks,
-        title=None if title is None else printable(title).replace("\t", " "),
+        title=None if title is None else printable(str(title)).replace("\t", " "),
         size=size,
         language=language,
     )
@@ -106,6 +106,13 @@ def plot(
             RESULT_DIAGRAMS[name].draw(result, request) if own else DIAGRAMS[name]().draw(sources, request)
         )
     return Diagram(name, drawn, language)
+
+
+def _require_inches(size: object) -> None:
+    """Raises RequestError for what are no width and height of a diagram."""
+    given = size if isinstance(size, Sequence) and not isinstance(size, str) else ()
+    if len(given) != 2 or not all(1.0 <= real("size", each) <= 100.0 for each in given):
+        raise RequestError("picture.bad_inches", size=repr(size)[:60])
 
 
 def kinds() -> tuple[str, ...]:

@@ -110,7 +110,10 @@ def motion_generation(
 
 
 def _read(poses: ArrayLike) -> tuple[Complexes, Floats]:
-    given = np.asarray(poses, float)
+    try:
+        given = np.asarray(poses, float)
+    except (TypeError, ValueError):
+        raise refuse("motion.poses") from None
     if given.ndim != 2 or given.shape[1] != 3 or len(given) < 2 or not np.isfinite(given[:, :2]).all():
         raise refuse("motion.poses")
     p, phi = given[:, 0] + 1j * given[:, 1], given[:, 2]

@@ -54,6 +54,7 @@ metrics of every design. Designs that cannot move are counted and explained.""",
     "no_metric": "there is no metric {name!r}; {hint} An output with a summary will do as well, such as "
     '"driver.effort rms"',
     "no_value_for": "{name!r} of {label!r} has no value for {subject!r}; {hint}",
+    "no_output_name": 'an output is asked for by a text such as "driver.effort rms", not by {given}',
     "not_asked": "{summary!r} was not asked for; there is {summaries}",
     "friction_slope": "friction has a derivative where it is far from self-locking and no group has it in more than "
     "{most} pairs; leave the friction out of the model, or vary the dimension in a study",
@@ -99,12 +100,15 @@ metrics of every design. Designs that cannot move are counted and explained.""",
     "bad_seed": "the seed is {seed}; give a whole number that is not negative",
     "needs_scipy": "a Sobol sequence needs scipy; install it with: pip install scipy",
     "not_a_dimension": "{name!r} is not among the dimensions {names}",
-    "no_curve": "no curve of {output!r} was asked for; there is {curves}",
+    "no_curve": "no curve of {output!r} was asked for; name an output without a summary, as in of=['jaw.angle']",
     "no_summary_asked": "no summary {output!r} was asked for; there is {names}",
     "nothing_to_differentiate": "no dimension is given to differentiate by; name some, such as "
     "by=['crank.length']",
     "no_outputs": 'no outputs are asked for; name some, such as "driver.effort rms"',
     "objective_shape": "the designs must have the columns {names}, not the shape {shape}",
+    "objective_numbers": "a design is given by one number for each of {names}, not by {given}",
+    "objective_gaps": "the target of a path error has points that are not finite; leave them out, and give the "
+    "inputs of the others by at",
     "objective_target": "the target of a path error is a list of points [x, y] in m, and all targets have as many "
     "points",
     "objective_count": "{points} target points do not belong to {positions} positions; give as many inputs (at)",

@@ -49,6 +49,7 @@ WORDS = {
     "no_metric_named": "没有要求任何指标；请给出一些，如 peak_input_torque",
     "no_metric": "没有指标“{name}”；{hint} 带汇总方式的输出也可以，如“driver.effort rms”",
     "no_value_for": "{label} 的 {name} 没有“{subject}”的值；{hint}",
+    "no_output_name": "输出用“driver.effort rms”这样的文字指定，而不是 {given}",
     "not_asked": "没有要求“{summary}”；已有 {summaries}",
     "friction_slope": "运动副中的摩擦只有在远离自锁、且每个杆组的摩擦副不多于 {most} 个时才有导数；"
     "请去掉模型中的摩擦，或在 study 中改变尺寸",
@@ -86,11 +87,13 @@ WORDS = {
     "bad_seed": "种子为 {seed}；请给出非负的整数",
     "needs_scipy": "Sobol 序列需要 scipy；安装命令：pip install scipy",
     "not_a_dimension": "“{name}”不在尺寸 {names} 中",
-    "no_curve": "没有要求“{output}”的曲线；已有 {curves}",
+    "no_curve": "没有要求“{output}”的曲线；请写出不带统计量的输出，如 of=['jaw.angle']",
     "no_summary_asked": "没有要求汇总“{output}”；已有 {names}",
     "nothing_to_differentiate": "没有给出求导的尺寸；请给出一些，如 by=['crank.length']",
     "no_outputs": "没有要求任何输出；请给出一些，如“driver.effort rms”",
     "objective_shape": "各方案的列必须是 {names}，而不是形状 {shape}",
+    "objective_numbers": "一个设计由 {names} 各一个数给出，而不是 {given}",
+    "objective_gaps": "路径误差的目标中有非有限的点；请去掉这些点，并用 at 给出其余各点的输入",
     "objective_target": "轨迹误差的目标是点 [x, y]（m）的列表，并且所有目标的点数相同",
     "objective_count": "目标有 {points} 个点，而位置有 {positions} 个；请给出同样多的输入（at）",
     "objective_speed": "“{name}”的真实速度或决定它的力矩变化过于突然（如几乎停转处），不能求梯度；"
