@@ -24,6 +24,14 @@ slopes = partial(lw.sensitivity, FOUR_BAR, steps=12)
 aim = partial(lw.objective, FOUR_BAR, steps=12)
 OUTPUT = "rocker.angle range"
 VALUE = aim(OUTPUT, vary=CRANK)
+POSES = [[0.0, 0.0, 0.0], [0.1, 0.1, 0.3], [0.2, 0.1, 0.5]]
+
+
+def twice(model: lw.Model) -> None:
+    """Two links of one name."""
+    for _ in range(2):
+        model.link("crank", ["O", "A"], length=0.1)
+
 
 #: A call, and what its sentence says.
 CALLS: list[tuple[Callable[[], object], str]] = [
@@ -87,6 +95,15 @@ CALLS: list[tuple[Callable[[], object], str]] = [
     (lambda: lw.path_generation(POINTS, pivot=(0.0,)), "points"),
     (lambda: lw.function_generation("a", "b"), "lists of the same number of finite values"),
     (lambda: lw.motion_generation("poses"), "poses"),
+    (lambda: lw.motion_generation(POSES, within=((0, 0),)), "points"),
+    (lambda: lw.motion_generation(POSES, fixed_pivots=[(0.0,)]), "points"),
+    (lambda: lw.gear_pair(20, 0.003), "teeth is 20; give two numbers, as in teeth=(1, 2)"),
+    (lambda: lw.gear_pair((20, 40), 0.003, profile_shift=0.2), "profile_shift is 0.2; give two numbers"),
+    (lambda: lw.gear_pair((20, 40), "3 mm"), "module is '3 mm'"),
+    (lambda: lw.motion_law("cycloidal", portion="x"), "portion is 'x'; give two numbers"),
+    (lambda: lw.variants("gallery:crank_rocker", 2.5), "count is 2.5; give a whole number"),
+    (lambda: lw.variants("gallery:crank_rocker", 2, seed="a"), "seed is 'a'"),
+    (lambda: twice(lw.Model("four-bar")), 'links: "crank" is there already; choose another name'),
 ]
 
 

@@ -71,6 +71,15 @@ def real(option: str, given: object, *, finite: bool = True) -> float:
     return found
 
 
+def require_pair(option: str, given: object) -> None:
+    """Raises RequestError for anything but two numbers."""
+    numbers = list(given) if isinstance(given, Iterable) and not isinstance(given, str) else []
+    if len(numbers) != 2:
+        raise RequestError("given_instead.no_pair", option=option, given=repr(given)[:LONGEST])
+    for number in numbers:
+        real(option, number)
+
+
 def one_of(option: str, given: object, known: Sequence[str]) -> None:
     """Raises RequestError, with the nearest, where a word is none of those that are known."""
     if given not in known:

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
-from linkwright.core.given import require
+from linkwright.core.given import require, whole
 from linkwright.course.mistakes import Consequence, Sheet
 from linkwright.course.task import Question, Task, task
 from linkwright.errors import LinkwrightError, RequestError
@@ -156,6 +156,7 @@ def variants(
         LinkwrightError: settings that make no sense; fewer variants than asked for within the limits.
     """
     require(machine, Mechanism, str, PathLike)
+    count, seed = whole("count", count), whole("seed", seed)
     if not 1 <= count <= 1000:
         raise RequestError("course.bad_count", count=count)
     if seed < 0:

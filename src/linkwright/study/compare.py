@@ -262,8 +262,8 @@ def compare(
         if metrics is None and all(value is None for value in values):
             continue
         if metrics is not None and all(value is None for value in values):
-            known = "; ".join(note for a in found for note in a.notes)
-            raise RequestError("study.applies_to_none", name=each.name, known=known or "leave it out")
+            known: object = [note for a in found for note in a.notes] or Sentence("study.leave_out")
+            raise RequestError("study.applies_to_none", name=each.name, known=known)
         rows.append(Row(each, values, given.get(each.name, 1.0)))
     return Comparison(tuple(found), tuple(rows), fluctuation)
 

@@ -26,5 +26,6 @@ WORDS = {
     "no_whole": "{option} is {given}; give a whole number",
     "no_whole_from": "{option} is {given}; give a whole number, {least} or more",
     "no_real": "{option} is {given}; give a finite number in SI units",
+    "no_pair": "{option} is {given}; give two numbers, as in {option}=(1, 2)",
     "no_choice": "{option} is {given}; {hint}",
 }

@@ -62,6 +62,7 @@ WORDS = {
     "folder": "this is a folder",
     "name_file_in": "name a model file in it",
     "no_file": "there is no such file",
+    "there_already": '{section}: "{name}" is there already; choose another name',
     "text_for_name": "this is a text of several lines, where the name of a file is needed",
     "write_loads": "for the text of a model write lw.loads(text)",
     "file_size": "the file has {size:.1f} MB",

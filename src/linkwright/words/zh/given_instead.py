@@ -26,5 +26,6 @@ WORDS = {
     "no_whole": "{option} 为 {given}；请给出整数",
     "no_whole_from": "{option} 为 {given}；请给出不小于 {least} 的整数",
     "no_real": "{option} 为 {given}；请给出国际单位制中的有限数",
+    "no_pair": "{option} 为 {given}；请给出两个数，如 {option}=(1, 2)",
     "no_choice": "{option} 为 {given}；{hint}",
 }

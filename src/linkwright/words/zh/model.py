@@ -58,6 +58,7 @@ WORDS = {
     "last_as_first": "请让最后一个位置等于第一个",
     "empty": "文件是空的",
     "begin_with": "请以 format: 1 开头",
+    "there_already": "{section}：“{name}”已有；请换一个名称",
     "text_for_name": "这是多行文字，这里需要文件名",
     "write_loads": "模型的文字请用 lw.loads(text) 读取",
     "folder": "这是文件夹",
