@@ -23,6 +23,7 @@ study = partial(lw.study, FOUR_BAR, metrics="swing_angle", steps=12)
 slopes = partial(lw.sensitivity, FOUR_BAR, steps=12)
 aim = partial(lw.objective, FOUR_BAR, steps=12)
 OUTPUT = "rocker.angle range"
+FOUND = lw.synthesize("crank_rocker", swing_angle=0.7, quick_return_ratio=1.2, frame=0.3)[0]
 VALUE = aim(OUTPUT, vary=CRANK)
 POSES = [[0.0, 0.0, 0.0], [0.1, 0.1, 0.3], [0.2, 0.1, 0.5]]
 
@@ -97,6 +98,10 @@ CALLS: list[tuple[Callable[[], object], str]] = [
     (lambda: lw.motion_generation("poses"), "poses"),
     (lambda: lw.motion_generation(POSES, within=((0, 0),)), "points"),
     (lambda: lw.motion_generation(POSES, fixed_pivots=[(0.0,)]), "points"),
+    (lambda: FOUND.mechanism(speed="60 kg"), "speed: "),
+    (lambda: FOUND.loads("1 kg/m"), "mass_per_length is '1 kg/m'; give a finite number"),
+    (lambda: lw.export(MOTION, "model.yaml"), "lw.dump gives the text of a model"),
+    (lambda: lw.sweep(FOUR_BAR, {CRANK: np.ones((2, 2))}, outputs=OUTPUT), "in one row (values.ravel())"),
     (lambda: lw.gear_pair(20, 0.003), "teeth is 20; give two numbers, as in teeth=(1, 2)"),
     (lambda: lw.gear_pair((20, 40), 0.003, profile_shift=0.2), "profile_shift is 0.2; give two numbers"),
     (lambda: lw.gear_pair((20, 40), "3 mm"), "module is '3 mm'"),
@@ -126,3 +131,10 @@ def test_whole_numbers_may_be_floats() -> None:
 def test_a_generator_of_outputs_is_read_once() -> None:
     found = sweep(outputs=(each for each in (OUTPUT, "rocker.angle max")))
     assert [each.name for each in found.summaries] == [OUTPUT, "rocker.angle max"]
+
+
+def test_speeds_of_candidates_are_texts_or_rad_per_s() -> None:
+    speeds = [
+        FOUND.mechanism(speed=each).dimension("driver.speed") for each in (2 * np.pi, "60 rpm", "60rpm", 6)
+    ]
+    assert speeds == pytest.approx([2 * np.pi, 2 * np.pi, 2 * np.pi, 6.0], rel=1e-12)

@@ -58,11 +58,13 @@ class Candidate:
         lengths = ", ".join(f"{name} {length:.6g}" for name, length in self.linkage.lengths().items())
         return f"Candidate({self.grashof_type}: error {self.error:.3g}, {lengths})"
 
-    def mechanism(self, name: str = "", *, speed: str = "60 rpm") -> Mechanism:
-        """The candidate as a mechanism, its input link driven at constant speed."""
+    def mechanism(self, name: str = "", *, speed: str | float = "60 rpm") -> Mechanism:
+        """The candidate as a mechanism, its input link driven at constant speed: a text or rad/s."""
         return self.linkage.mechanism(name, speed=speed)
 
-    def loads(self, mass_per_length: float, *, speed: str = "60 rpm", steps: int = 180) -> dict[str, float]:
+    def loads(
+        self, mass_per_length: float, *, speed: str | float = "60 rpm", steps: int = 180
+    ) -> dict[str, float]:
         """Peak input torque (N·m) and peak reaction (N) where every link has ``mass_per_length`` (kg/m).
 
         Links are slender rods between their first two points, m l²/12 about their middle; gravity is left out.

@@ -136,7 +136,7 @@ WORDS = {
     "turns_through": "“{link}”整周转动，角度没有最小值和最大值；请改求 {link}.angular_velocity",
     "no_dimension": "“{name}”中没有尺寸或参数“{address}”；{hint}",
     "nothing_varied": '没有改变任何量；请给出尺寸及其各值：{{"crank.length": values}}',
-    "bad_shape": "{address} 的值的形状为 {shape}；请每个方案给出一个",
+    "bad_shape": "{address} 的值的形状为 {shape}；请每个方案给出一个，排成一列（values.ravel()）",
     "uneven": "各尺寸的值的个数不同（{told}）；请都按每个方案一个给出",
     "no_values": "{address} 没有值",
     "no_numbers": "{address}：{given} 不是一列数；请用国际单位给出数值，如 [0.05, 0.06] 表示 50 mm 和 60 mm",
