@@ -110,7 +110,7 @@ def _radius(radius: Radius, link: str) -> float:
     if isinstance(radius, Mapping) and link not in radius:
         raise RequestError("forces.weight_no_radius", link=link)
     distance = radius[link] if isinstance(radius, Mapping) else radius
-    if not real("radius", distance) > 0.0:
+    if not real("radius", distance, finite=False) > 0.0:
         raise RequestError("forces.weight_radius", link=link, distance=distance)
     return distance
 

@@ -95,7 +95,7 @@ def rim(
 
 
 def _require(fluctuation: float, speed: float) -> None:
-    if not real("fluctuation", fluctuation) > 0:
+    if not real("fluctuation", fluctuation, finite=False) > 0:
         raise RequestError("running.bad_coefficient", fluctuation=fluctuation)
     if not abs(speed) > 0:
         raise LinkwrightError("running.still_shaft")
