@@ -86,8 +86,8 @@ if TYPE_CHECKING:
     from linkwright.study.finished_parts import Interrupted as Interrupted
     from linkwright.study.finished_parts import kept_in as kept_in
     from linkwright.study.objective import Objective as Objective
-    from linkwright.study.objective import PathError as PathError
     from linkwright.study.objective import objective as objective
+    from linkwright.study.objective_terms import PathError as PathError
     from linkwright.study.prepared import Prepared as Prepared
     from linkwright.study.prepared import prepare as prepare
     from linkwright.study.sensitivity import Sensitivity as Sensitivity

@@ -117,7 +117,7 @@ def offered(
     ``key``: the sentence that lists them as ``names``.
     """
     names = tuple(dict.fromkeys(known))
-    offer = nearest(name[:100], names)
+    offer = nearest(str(name)[:100], names)
     if offer is not None:
         return Sentence("names.did_you_mean", offer=offer)
     return Sentence(key, names=_shown(names[:most])) if names else Sentence("names.there_is_none")
@@ -138,7 +138,7 @@ def _shown(names: tuple[str, ...]) -> tuple[str, ...]:
 
 
 def no_such(noun: str, name: str, known: Iterable[str]) -> Sentence:
-    """The sentence for a name that does not exist; ``noun`` is a key of the catalogue's ``nouns``."""
+    """The sentence for a name that does not exist, or is none; ``noun`` is a key of the catalogue's ``nouns``."""
     return Sentence("names.no_such", noun=Sentence(f"nouns.{noun}"), name=name, hint=offered(name, known))
 
 

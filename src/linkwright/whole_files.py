@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 from contextlib import suppress
 from pathlib import Path
@@ -28,6 +29,19 @@ def refuse_target(path: str | Path, *, force: bool = True, remedy: str = "") -> 
         raise _refused(target, problem) from None
     if not force:
         raise RequestError("file.exists", path=target, remedy=remedy)
+
+
+def refuse_folder(path: str | Path) -> None:
+    """Raise RequestError where a folder is not there and could not be made, before any work is done."""
+    target = Path(path)
+    try:
+        there = next(each for each in (target, *target.absolute().parents) if each.exists())
+    except (OSError, ValueError) as problem:
+        raise _refused(target, problem, "file.cannot_make") from None
+    if not there.is_dir():
+        raise RequestError("file.no_folder_there", path=target, there=there)
+    if not os.access(there, os.W_OK | os.X_OK):
+        raise _refused(target, PermissionError(errno.EACCES, ""), "file.cannot_make")
 
 
 def make_folder(path: str | Path) -> Path:

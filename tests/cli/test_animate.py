@@ -88,6 +88,18 @@ def test_positions_left_out_are_told(tmp_path: Path, capsys: pytest.CaptureFixtu
     assert (tmp_path / "a.svg").exists()
 
 
+@pytest.mark.parametrize("command", ["animate", "draw"])
+@pytest.mark.parametrize("option", ["--paths", "--velocities", "--accelerations", "--forces"])
+def test_unknown_names_are_told_before_the_cycle_is_solved(
+    command: str, option: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    model = tmp_path / "stuck.yaml"
+    model.write_text(STUCK.replace("length: 1.2 m", "length: 0.1 m"))  # no position can be reached
+    assert main([command, str(model), "--output", str(tmp_path / "a.svg"), option, "Q"]) == 2
+    told = capsys.readouterr().err
+    assert f"{option}: there is no" in told and '"Q"' in told and "reach" not in told
+
+
 def test_interruption_leaves_no_file(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 from linkwright.cli import main
+from linkwright.files.calculations import COMMANDS
 
 
 def test_numbers_and_worked_text_in_both_languages(capsys: pytest.CaptureFixture[str]) -> None:
@@ -44,7 +45,38 @@ def test_a_mechanism_command_names_the_calculation(
     path = tmp_path / "b.yaml"
     path.write_text("format: 1\nkind: beam\nlength: 1 m\n", encoding="utf-8")
     assert main(["solve", str(path)]) == 1
-    assert 'a calculation of kind "beam", not a mechanism' in capsys.readouterr().err
+    told = capsys.readouterr().err
+    assert "a calculation of the kind beam" in told and "linkwright beam calculates it" in told
+
+
+@pytest.mark.parametrize("kind", [*COMMANDS])
+def test_every_kind_names_its_own_command_alone(
+    kind: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "p.yaml"
+    path.write_text(f"format: 1\nkind: {kind}\n", encoding="utf-8")
+    for command in ("structure", "synthesize"):
+        for language, said in (("en", "linkwright {} calculates it"), ("zh", "请用 linkwright {} 计算")):
+            assert main([command, str(path), "--lang", language]) in (1, 2)
+            told = capsys.readouterr().err
+            assert said.format(COMMANDS[kind]) in told and told.count("linkwright ") == 1
+
+
+def test_a_kind_that_does_not_exist_is_told_with_those_that_do(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "p.yaml"
+    path.write_text("format: 1\nkind: vibrations\n", encoding="utf-8")
+    assert main(["solve", str(path)]) == 1
+    told = capsys.readouterr().err
+    assert 'the kind "vibrations" is not known; did you mean "vibration"?' in told
+    assert "the model of a machine has no kind" in told
+
+
+def test_a_task_of_synthesis_names_its_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for command in ("solve", "cam"):
+        assert main([command, "gallery:path_of_five_points"]) in (1, 2)
+        assert "linkwright synthesize finds machines for it" in capsys.readouterr().err
 
 
 def test_check_reads_calculations(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -60,12 +60,40 @@ def test_picture(tmp_path: Path) -> None:
         (["synthesize", "nothing.yaml"], "no such file"),
         (["synthesize", "slider_crank", "stroke"], "is no demand"),
         ([*PRESS, "--mass", "x"], "mass per length"),
-        ([*PRESS, "--output", "/no/such/folder"], "there is no folder"),
+        ([*PRESS, "--output", f"{__file__}/models"], f'"{__file__}" is a file'),
+        ([*PRESS, "--output", "/proc/models"], "cannot be made"),
+        ([*PRESS, "--plot", "/no/such/folder/a.svg"], 'there is no folder "/no/such/folder"'),
     ],
 )
 def test_misuse(words: list[str], told: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(words) == 2
     assert told in capsys.readouterr().err
+
+
+def test_folders_are_made_where_candidates_are_found(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    folder = tmp_path / "presses" / "first"
+    assert main([*PRESS, "--output", str(folder)]) == 0
+    models = sorted(folder.iterdir())
+    assert models and all(lw.check(model) == [] for model in models)
+    unmet = ["synthesize", "slider_crank", "stroke=1 m"]
+    assert main([*unmet, "--output", str(tmp_path / "none")]) != 0
+    assert not (tmp_path / "none").exists()
+
+
+def test_what_cannot_be_written_is_told_before_anything_is_sought(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert main([*PRESS, "--output", str(tmp_path)]) == 0
+
+    def never(task: str, **demands: object) -> None:
+        raise AssertionError(task)
+
+    monkeypatch.setattr("linkwright.synthesis.tasks.synthesize", never)
+    for folder, told in ((tmp_path, "exists"), (tmp_path / "slider_crank_1.yaml" / "deeper", "is a file")):
+        assert main([*PRESS, "--output", str(folder)]) == 2
+        assert told in capsys.readouterr().err
 
 
 TASK = "format: 1\nsynthesis:\n  task: slider_crank\n  stroke: 40 mm\n  rod_ratio: 4\n"

@@ -22,6 +22,12 @@ CODES = re.compile("\x1b\\[[0-9;]*m")
         ["check", "gallery:planetary_two_inputs"],
         ["study", "gallery:jaw_crusher_sixbar", "--vary", "pitman.length=1.2..1.3 m:3"],
         ["compare", "gallery:jaw_crusher_sixbar", "gallery:jaw_crusher_fourbar"],
+        ["structure", "gallery:jaw_crusher_sixbar"],
+        ["structure", "gallery:planetary_two_inputs"],
+        ["validate"],
+        ["gallery", "list"],
+        ["tolerance", "gallery:pressed_pins"],
+        ["statistics", "gallery:shaft_diameters"],
         ["--help"],
     ],
     ids=" ".join,
@@ -70,9 +76,18 @@ def test_folded(text: str, width: int, lines: list[str]) -> None:
     assert folded(text, width) == lines
 
 
-def test_what_follows_is_indented_and_tables_stay() -> None:
+def test_what_follows_is_indented_and_narrow_columns_stay() -> None:
     assert folded_lines("  a sentence that is long", 14) == "  a sentence\n    that is\n    long"
     assert folded_lines("name  value  unit", 8) == "name  value  unit"
+
+
+def test_the_last_column_is_folded_below_itself() -> None:
+    line = "  1.  RRR  outer joints O3 and A, inner joint B"
+    assert folded_lines(line, 34).split("\n") == [
+        "  1.  RRR  outer joints O3 and A,",
+        "           inner joint B",
+    ]
+    assert folded_lines(line, 20) == line  # no room for it
 
 
 def test_tables_fold_their_widest_texts() -> None:

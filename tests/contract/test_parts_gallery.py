@@ -15,7 +15,7 @@ from tests.gallery_turns import in_turn
 
 from linkwright import parts
 from linkwright.cli import main
-from linkwright.cli.part import COMMANDS
+from linkwright.files.calculations import COMMANDS
 from linkwright.parts.file import KINDS, kind_of
 from linkwright.plot.diagrams.picture import chinese_font
 

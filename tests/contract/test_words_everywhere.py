@@ -60,7 +60,7 @@ def test_the_walk_finds_sentences() -> None:
     assert in_place('raise LinkwrightError(f"the crank {name} does not turn")')
     assert in_place('reader.error(node, place, "the frame does not move", "x")')
     assert in_place('raise UsageError("not at all" if x else f"it has {y} steps")')
-    assert not in_place('raise LinkwrightError(Sentence("motion.bad_steps", steps=steps))')
+    assert not in_place('raise LinkwrightError(Sentence("motion.no_row", shape=shape))')
     assert not in_place('raise ValueError("the rows have other lengths")')
 
 

@@ -88,7 +88,7 @@ ONE_CHANGE = [
     ("name: four-bar", "expected: " + "[" * 60 + "]" * 60, "2:51", "", "depth", "deeper"),
     ("  crank:", "\tcrank:", "5:1", "", "tab", "spaces"),
     ("[O1, A]", "[O1, A", "5:38", "", "syntax", "]"),
-    ("four-bar", '"four-bar', "9:1", "", "syntax", "line 2"),
+    ("four-bar", '"four-bar', "2:7", "", "syntax", "not closed"),
     ("four-bar", "four: bar", "2:11", "", "syntax", "quotes"),
     ("four-bar", "four\x07bar", "2:11", "", "syntax", "control character"),
     ("driver:", "---\nformat: 1\n", "8:1", "", "documents", "one model"),

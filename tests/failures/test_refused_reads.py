@@ -68,7 +68,7 @@ TRUSS = "'Triangular truss on a pin and a roller' has no driver, so "
         (lambda: balance(model("triad"), radius=0.1),
          "'Triad (class III group)' is neither a four-bar nor a slider-crank; counterweights by formula are for "
          "these two, other mechanisms are balanced by varying masses and mass centres in a study"),
-        (lambda: over_cycle(model(), 0), "steps is 0; give one step or more"),
+        (lambda: over_cycle(model(), 0), "steps is 0; give a whole number, 1 or more"),
         (lambda: at_inputs(model("truss"), [0.0]), TRUSS + "there is no input to set; leave the input out"),
         (lambda: at_inputs(model(), {}),
          "no input is given; give the coordinates of a driver, as in at={'driver': [0.5]}"),

@@ -80,6 +80,24 @@ def test_mean_torque_is_marked_as_the_power_over_the_speed(forces: lw.Forces) ->
     assert any(text.startswith("mean −") and text.endswith("N·m") for text in words_of(diagram))
 
 
+def test_a_small_mean_has_a_unit_in_which_it_can_be_read() -> None:
+    """A wheel that is pushed to and fro by 100 MN·m about a mean that the driver supplies."""
+    model = """
+format: 1
+name: Pushed wheel
+frame: {points: {O: [0 m, 0 m]}}
+links: {wheel: {points: [O, A], length: 1 m, mass: 1 kg, inertia: 1 kg·m²}}
+driver: {turn: wheel, about: O, speed: 10 rad/s}
+loads:
+  push: {kind: torque, on: wheel, magnitude: "1e8 N·m * sin(input) - MEAN N·m"}
+"""
+    for mean, shown in ((9426, "mean 9426 N·m"), (9426e3, "mean 9.426 MN·m"), (0, "mean 0 MN·m")):
+        forces = lw.solve_forces(lw.loads(model.replace("MEAN", str(mean))))
+        diagram = lw.plot(forces, "torque")
+        assert any("(MN·m)" in text for text in words_of(diagram))
+        assert shown in words_of(diagram)
+
+
 def test_results_draw_themselves(forces: lw.Forces) -> None:
     assert forces.motion.plot().kind == "sva"
     assert forces.plot().kind == "torque"
@@ -227,7 +245,7 @@ def test_an_option_without_use_is_refused_by_every_kind(forces: lw.Forces) -> No
 
 
 def test_sizes_beyond_all_paper_are_refused(forces: lw.Forces) -> None:
-    with pytest.raises(LinkwrightError, match="give 1 to 100 each"):
+    with pytest.raises(LinkwrightError, match="1 to 100 each"):
         plot(forces, "torque", size=(7.0, 1e6))
     with pytest.raises(LinkwrightError, match="dots per inch; give 1 to"):
         plot(forces, "torque").png(dpi=1e5)

@@ -75,10 +75,11 @@ def test_a_comparison_lays_its_curves_over_each_other(comparison: Comparison) ->
     assert diagram.kind == "comparison" and len(diagram.figure.axes) == len(overlays) == 5
     factors = (180 / np.pi, 1.0, 1.0, 1e-3, 1.0)
     for axes, overlay, factor in zip(diagram.figure.axes, overlays, factors, strict=True):
-        curves = drawn(axes, 90)
+        curves = drawn(axes, 91)
         assert len(curves) == 2
         for (x, y), (passed, values) in zip(curves, overlay.lines.values(), strict=True):
-            assert x == pytest.approx(np.degrees(passed)) and y == pytest.approx(values * factor)
+            assert x[:-1] == pytest.approx(np.degrees(passed)) and y[:-1] == pytest.approx(values * factor)
+            assert x[-1] == pytest.approx(360.0) and y[-1] == pytest.approx(y[0])  # the curves close
     labels = [axes.get_ylabel() for axes in diagram.figure.axes]
     assert [label.rpartition("\n")[2] for label in labels] == ["(°)", "(rad/s)", "(rad/s²)", "(kN)", "(N·m)"]
     assert diagram.figure.axes[-1].get_xlabel() == "input passed φ (°)"
@@ -87,7 +88,7 @@ def test_a_comparison_lays_its_curves_over_each_other(comparison: Comparison) ->
 
 def test_curves_of_a_comparison_are_chosen_by_name(comparison: Comparison) -> None:
     (axes,) = comparison.plot(of="input_torque").figure.axes
-    assert len(drawn(axes, 90)) == 2
+    assert len(drawn(axes, 91)) == 2
     with pytest.raises(LinkwrightError, match='did you mean "input_torque"'):
         comparison.plot(of="torque")
     with pytest.raises(LinkwrightError, match="comparison, pivot_hodograph"):
@@ -98,8 +99,9 @@ def test_the_pivots_hodographs_have_one_scale(comparison: Comparison) -> None:
     (axes,) = comparison.plot("pivot_hodograph").figure.axes
     assert axes.get_aspect() == 1.0 and axes.get_xlabel() == "Fx (kN)"
     forces = next(each for each in comparison.curves if each.name == "hodograph").lines.values()
-    for (x, y), (fx, fy) in zip(drawn(axes, 90), forces, strict=True):
-        assert x == pytest.approx(fx / 1e3) and y == pytest.approx(fy / 1e3)
+    for (x, y), (fx, fy) in zip(drawn(axes, 91), forces, strict=True):
+        assert x[:-1] == pytest.approx(fx / 1e3) and y[:-1] == pytest.approx(fy / 1e3)
+        assert (x[-1], y[-1]) == (x[0], y[0])
 
 
 def test_outputs_that_turn_and_that_slide_have_panels_of_their_own() -> None:
@@ -107,7 +109,7 @@ def test_outputs_that_turn_and_that_slide_have_panels_of_their_own() -> None:
         [SIX, "gallery:slider_crank_inline"], metrics=["travel"], output=["jaw", "cylinder"], steps=36
     )
     figure = found.plot(of=["travel", "velocity"]).figure
-    assert [len(drawn(axes, 36)) for axes in figure.axes] == [1, 1, 1, 1]
+    assert [len(drawn(axes, 37)) for axes in figure.axes] == [1, 1, 1, 1]
     assert [axes.get_ylabel() for axes in figure.axes] == [
         "angle θ\n(°)", "displacement s\n(mm)", "angular velocity ω\n(rad/s)", "velocity v\n(m/s)",
     ]  # fmt: skip

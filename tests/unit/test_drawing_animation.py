@@ -90,7 +90,14 @@ def test_traces_vectors_and_cursor(crusher: lw.Motion) -> None:
 )
 def test_what_is_refused(crusher: lw.Motion, options: dict[str, object], words: str) -> None:
     with pytest.raises(lw.LinkwrightError, match=re.escape(words)):
-        _ = animate(crusher, **options).svg  # type: ignore[arg-type]
+        animate(crusher, **options)  # type: ignore[arg-type]
+
+
+def test_a_text_alone_is_one_name(crusher: lw.Motion) -> None:
+    assert animate(crusher, paths="jaw.D").paths == ("jaw.D",)
+    assert lw.draw(crusher, paths="jaw.D", velocities="jaw.D").svg == (
+        lw.draw(crusher, paths=["jaw.D"], velocities=["jaw.D"]).svg
+    )
 
 
 def test_files(crusher: lw.Motion, tmp_path: Path) -> None:

@@ -210,7 +210,7 @@ def test_a_missing_package_is_named_with_its_command(
 
 
 def test_only_results_are_exported(tmp_path: Path) -> None:
-    with pytest.raises(LinkwrightError, match="a str cannot be exported"):
+    with pytest.raises(LinkwrightError, match="is needed, not the text"):
         export("gallery:crank_rocker", tmp_path / "a.csv")  # type: ignore[arg-type]
 
 

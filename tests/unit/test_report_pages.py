@@ -5,9 +5,10 @@ import re
 import pytest
 
 from linkwright.plot.svg.render import natural_size
-from linkwright.report.document import Figure
+from linkwright.report.document import Document, Figure, Heading
 from linkwright.report.report import report
-from linkwright.report.typst_pages import compiled
+from linkwright.report.typst_pages import compiled, pages
+from linkwright.words import speaker
 
 pytest.importorskip("typst")
 
@@ -57,3 +58,15 @@ def test_letters_of_drawings_can_be_read_in_print(name: str) -> None:
         wide, high = natural_size(svg)
         millimetres = min(share * 170.0 / wide, each.tallest / high)
         assert 12.0 * millimetres / 25.4 * 72.0 >= 6.0
+
+
+def test_headings_without_a_number_of_their_own_show_none() -> None:
+    document = Document("Exercise", speaker("en"), "en", ())
+    document.blocks += [
+        Heading("Variant 1", number=False),
+        Heading("Given", 2),
+        Heading("Variant 2", number=False),
+    ]
+    text = pages(document)[0]
+    shown = [re.sub(r'[#";]|<.*', "", line).strip() for line in text.split("\n") if re.match("=+ ", line)]
+    assert shown == ["= Variant 1", "== 1.1  Given", "= Variant 2"]

@@ -10,23 +10,12 @@ from typing import TYPE_CHECKING
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
+from linkwright.files.calculations import COMMANDS
 
 if TYPE_CHECKING:
     from linkwright.parts.base import Problem, Result
 
 ENDINGS = (".csv", ".json")
-#: The kinds of files that each command takes, and the command of each kind.
-TAKES = {
-    "beam": ("beam", "link_bending"),
-    "statics": ("forces", "rigid_body", "belt", "wedge", "rotor"),
-    "cam": ("cam",),
-    "vibration": ("vibration", "follower", "mounts"),
-    "statistics": ("statistics",),
-    "program": ("program",),
-    "tolerance": ("tolerance",),
-    "trajectory": ("trajectory", "throw"),
-}
-COMMANDS = {kind: command for command, kinds in TAKES.items() for kind in kinds}
 #: Digits that numbers can be shown with.
 DIGITS = range(3, 16)
 

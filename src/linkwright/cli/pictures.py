@@ -51,11 +51,14 @@ def names_or_all(words: Sequence[str] | None) -> tuple[str, ...] | bool:
     return False if words is None else names(words) or True
 
 
-def refuse_unknown_vectors(motion: Motion, options: argparse.Namespace) -> None:
-    """Raises UsageError for a point or a joint of an arrow that does not exist, before any drawing."""
-    refuse_unknown(motion.point, "--velocities", names(options.velocities))
-    refuse_unknown(motion.point, "--accelerations", names(options.accelerations))
-    joints = motion.mechanism.joints
+def refuse_unknown_marks(mechanism: Mechanism, options: argparse.Namespace) -> None:
+    """Raises UsageError for a point of a path, a point or a joint of an arrow that does not exist."""
+    from linkwright.kinematics.names import point_key
+
+    for option in ("paths", "velocities", "accelerations"):
+        given = names(getattr(options, option))
+        refuse_unknown(lambda name: point_key(mechanism, name), f"--{option}", given)
+    joints = mechanism.joints
     for name in names(options.forces):
         if (joint := name.rpartition(".")[2]) not in joints:
             raise UsageError("cli.about", name="--forces", cause=no_such("joint", joint, joints))

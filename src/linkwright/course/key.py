@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Mapping
+from os import PathLike
 from pathlib import Path
 from typing import Any
 
+from linkwright.core.given import told
 from linkwright.course.mistakes import MISTAKES
 from linkwright.course.variants import FORMAT
 from linkwright.errors import RequestError
@@ -28,6 +30,8 @@ def read_key(given: Mapping[str, Any] | str | Path) -> Mapping[str, Any]:
 
 
 def _read(path: str | Path) -> Any:
+    if not isinstance(path, str | PathLike):
+        raise RequestError("course.no_key", path=told(path))
     try:
         return json.loads(Path(path).read_text("utf-8"))
     except (OSError, ValueError, RecursionError) as error:

@@ -129,7 +129,7 @@ def sheets(found: Variants, language: str) -> Files:
     document = Document(say("course.sheet_title", name=found.name), say, language, contents=False)
     for each in found.variants:
         page: list[Block] = [] if each.number == 1 else [Source("#pagebreak()")]
-        page.append(Heading(say("course.sheet_number"), 1))
+        page.append(Heading(say("course.sheet_number", number=each.number), number=False))
         page.append(Paragraph(say("course.sheet_name")))
         page.append(Paragraph(literal(position_text(found, say)) + " " + say("course.convention")))
         rows = tuple((literal(a), literal(b)) for a, b in data_rows(found, each, say))

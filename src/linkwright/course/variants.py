@@ -6,12 +6,14 @@ import json
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from os import PathLike
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.given import require, whole
 from linkwright.course.mistakes import Consequence, Sheet
 from linkwright.course.task import Question, Task, task
 from linkwright.errors import LinkwrightError, RequestError
@@ -155,6 +157,8 @@ def variants(
     Raises:
         LinkwrightError: settings that make no sense; fewer variants than asked for within the limits.
     """
+    require(machine, Mechanism, str, PathLike)
+    count, seed = whole("count", count), whole("seed", seed)
     if not 1 <= count <= MOST:
         raise RequestError("course.bad_count", count=count)
     if seed < 0:

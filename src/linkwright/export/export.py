@@ -9,6 +9,7 @@ from typing import Any
 from linkwright.errors import RequestError, require_language
 from linkwright.export.base import FORMATS, Format
 from linkwright.export.results import STEPS, Results
+from linkwright.files.source import ENDINGS
 from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import Forces
 from linkwright.mechanism.mechanism import Mechanism
@@ -64,6 +65,8 @@ def chosen_format(path: Path, name: str | None) -> str:
     suffix = path.suffix.lower()
     if suffix in by_suffix:
         return by_suffix[suffix]
+    if suffix in ENDINGS[:2]:
+        raise RequestError("export.no_ending", path=path, suffix=suffix, hint=Sentence("export.model_text"))
     names, near = tuple(sorted(by_suffix)), nearest(suffix[1:], [each[1:] for each in by_suffix])
     hint = (
         Sentence("names.near_one_of", offer=f".{near}", names=names)

@@ -6,7 +6,8 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from linkwright.core.dataclass import dataclass
-from linkwright.errors import LinkwrightError, RequestError
+from linkwright.core.given import require
+from linkwright.errors import LinkwrightError
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces, solve_forces
@@ -37,8 +38,7 @@ class Results:
             return cls(source.motion, source, language)
         if isinstance(source, Motion):
             return cls(source, None, language)
-        if not isinstance(source, Mechanism):
-            raise RequestError("export.no_source", name=type(source).__name__)
+        require(source, Mechanism, Motion, Forces)
         motion = solve_motion(source, steps=steps)
         return cls(motion, solve_forces(motion) if source.has_loads else None, language)
 

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.core.given import require, whole
 from linkwright.errors import RequestError
 from linkwright.export.base import package
 from linkwright.mechanism.mechanism import Mechanism
@@ -200,6 +201,7 @@ def sweep_parts(
     Raises:
         LinkwrightError: unknown names, a folder with another sweep, no pyarrow or distributed, no cluster.
     """
+    require(mechanism, Mechanism)
     if not str(folder):
         raise RequestError("study.no_folder")
     plan = _plan(mechanism, vary, outputs, sampling, samples, seed, steps, part)
@@ -223,6 +225,7 @@ def _plan(
         raise RequestError("study.no_sampling", sampling=sampling)
     ranges = varied_ranges(mechanism, vary, sampled=sampling == "sobol")
     count = samples if sampling == "sobol" else int(np.prod([float(len(each.values)) for each in ranges]))
+    part = whole("part", part)
     if seed < 0:
         raise RequestError("study.bad_seed", seed=seed)
     if not 1 <= count <= MOST:

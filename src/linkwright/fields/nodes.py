@@ -58,10 +58,11 @@ class Entry:
 
 @dataclass(slots=True)
 class Mapping(Node):
-    """Keys and values in the order of the text; a key occurs once."""
+    """Keys and values in the order of the text; a key occurs once, ``repeated`` are entries whose key was there."""
 
     entries: list[Entry] = field(default_factory=list)
     flow: bool = False
+    repeated: list[Entry] = field(default_factory=list)
     _index: dict[str, Node] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     def get(self, key: str) -> Node | None:

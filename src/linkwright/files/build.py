@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from linkwright.errors import ModelError
+from linkwright.core.given import one_or_more
+from linkwright.errors import ModelError, RequestError
 from linkwright.fields.nodes import Entry, Node, Scalar, Sequence
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.files.read_model import read_model
@@ -37,7 +38,7 @@ class Model:
     def _section(self, section: str, name: str, value: Any) -> None:
         entries = self._data.setdefault(section, {})
         if name in entries:
-            raise ValueError(f'{section}: "{name}" is there already; choose another name')
+            raise RequestError("model.there_already", section=section, name=name)
         entries[name] = value
 
     def parameters(self, **values: Value) -> None:
@@ -63,7 +64,7 @@ class Model:
         mass_centre: Pair | str | None = None,
     ) -> None:
         """A moving link; the keys are those of a file: m, rad, kg, kg·m². ``mass_centre``: (x, y) or a point."""
-        listed = points if isinstance(points, Mapping) else list(points)
+        listed = points if isinstance(points, Mapping) else one_or_more(points)
         sizes = _present(length=length, lengths=lengths, angle=angle, also=also)
         masses = _present(mass=mass, inertia=inertia, mass_centre=mass_centre)
         self._section("links", name, {"points": listed, **sizes, **masses})

@@ -190,6 +190,7 @@ class _Composer:
             self.remark(key, "key", "key")
         elif key.text in seen:
             self.remark(key, "twice", "duplicate-key", text=key.text, line=seen[key.text].line + 1)
+            found.repeated.append(Entry(key, value))
         else:
             seen[key.text] = key
             found.entries.append(Entry(key, value))

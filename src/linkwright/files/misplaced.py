@@ -10,6 +10,7 @@ from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.files.node_reader import MODES, PlainReader, meant_kind
 from linkwright.joints.base import JOINTS
 from linkwright.loads.base import LOADS
+from linkwright.mechanism.mechanism import LINK_FIELDS
 from linkwright.registry import PROBABLE, nearest
 
 #: Keys under which a list of elements gives their names.
@@ -57,7 +58,7 @@ ELEMENTS = ("links", "joints", "loads", "drivers")
 
 def in_place(reader: PlainReader, root: MappingNode, known: tuple[str, ...]) -> MappingNode:
     """The root of a model with sections and elements where they belong; ``known`` are the sections."""
-    root = _named(reader, _raised(reader, root))
+    root = _indented(reader, _named(reader, _raised(reader, root)))
     return _lowered(reader, root, known)
 
 
@@ -104,6 +105,47 @@ def _named(reader: PlainReader, root: MappingNode) -> MappingNode:
                 entry = Entry(entry.key, table)
         entries.append(entry)
     return replace(root, entries=entries)
+
+
+def _indented(reader: PlainReader, root: MappingNode) -> MappingNode:
+    """With the keys of links, joints and loads that stand beside the element above them, not in it."""
+    entries = list[Entry]()
+    for entry in root.entries:
+        value, section = entry.value, entry.key.text
+        if section in ELEMENTS and isinstance(value, MappingNode):
+            entry = Entry(entry.key, replace(value, entries=_deepened(reader, value.entries, section)))
+        entries.append(entry)
+    return replace(root, entries=entries)
+
+
+def _deepened(reader: PlainReader, entries: list[Entry], section: str) -> list[Entry]:
+    """The elements of a section, with values that stand after one in it."""
+    found = list[Entry]()
+    for entry in entries:
+        above = found[-1] if found else None
+        table = above.value if above is not None else None
+        within = isinstance(table, MappingNode) or (isinstance(table, Scalar) and table.empty)
+        if above is None or table is None or not within or not _of_element(entry, section):
+            found.append(entry)
+            continue
+        name = above.key.text
+        at = f"{section}.{entry.key.text}"
+        reader.finding(entry.key, at, "beside_element", "misplaced", name=name, key_=entry.key.text)
+        own = table.entries if isinstance(table, MappingNode) else []
+        more = MappingNode(table.line, table.column, table.start, table.end, [*own, entry])
+        found[-1] = Entry(above.key, more)
+    return found
+
+
+def _of_element(entry: Entry, section: str) -> bool:
+    """Whether an entry of a section is a key of its elements, and no element."""
+    key, inner = entry.key.text, isinstance(entry.value, MappingNode)
+    if section == "links":
+        return key in LINK_FIELDS and (not inner or key in ("points", "also"))
+    if inner or section not in ("joints", "loads"):
+        return False
+    every = [kind.fields() for kind in (JOINTS if section == "joints" else LOADS).values()]
+    return key == "kind" or any(key in fields for fields in every)
 
 
 def _by_name(item: Node) -> Entry | None:

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from linkwright.errors import Finding, ModelError
+from linkwright.core.given import told
+from linkwright.errors import Finding, ModelError, RequestError
 from linkwright.fields.nodes import Node, Scalar, below
 from linkwright.files.compose import compose
 from linkwright.files.read_model import read_model
-from linkwright.files.source import gallery_names, read_source
+from linkwright.files.source import ENDINGS, GALLERY, gallery_names, read_source
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words.sentence import Sentence
 
@@ -34,6 +35,10 @@ def loads(text: str, name: str = "<text>") -> Mechanism:
 
     Raises ModelError with all findings where the text cannot be used.
     """
+    if not isinstance(text, str):
+        raise RequestError("given_instead.no_text", told=told(text))
+    if "\n" not in text.strip() and (text.startswith(GALLERY) or text.endswith(ENDINGS)):
+        raise RequestError("given_instead.name_for_text", name=text)
     mechanism, findings = read_text(text, name)
     if mechanism is None:
         raise ModelError(findings)

@@ -26,6 +26,7 @@ NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
 _WHOLE = re.compile(r"[+-]?\d{1,18}")
 NAME = re.compile(r"[^\W\d][\w'-]*")
 
+_NOTHING: Mapping[str, str] = {}
 #: Words of assembly modes.
 MODES = ("left", "right", "forward", "backward")
 
@@ -248,12 +249,13 @@ class PlainReader:
     ) -> tuple[MappingNode, dict[str, Any]]:
         """The mapping with keys that are nearly known in the place of those, and its values."""
         keys = {each.key or name: name for name, each in fields.items()}
-        mapping, split = self.unknown_keys(mapping, place, list(keys))
+        meant = self._in_place_of(mapping, place, {key: fields[name] for key, name in keys.items()})
+        mapping, split = self.unknown_keys(mapping, place, list(keys), meant)
         found: dict[str, Any] = {}
         for key, name in keys.items():
             value = mapping.get(key)
             each = fields[name]
-            if value is None and each.required:
+            if value is None and each.required and key not in split:
                 remedy = missing_remedy(key, each.doc, each.shape())
                 self.finding(mapping, place.child(key), "missing_key", "missing-key", remedy, key_=key)
             elif value is not None:
@@ -261,23 +263,42 @@ class PlainReader:
                 found[name] = None if key in split else each.read(reader, value, place.child(key), found)
         return mapping, found
 
-    def unknown_keys(
-        self, mapping: MappingNode, place: Place, known: list[str]
-    ) -> tuple[MappingNode, set[str]]:
-        """A finding for each key that is not known, with the nearest that is.
+    def _in_place_of(
+        self, mapping: MappingNode, place: Place, fields: Mapping[str, Field]
+    ) -> Mapping[str, str]:
+        """The one key that is missing, by the only one that is not known, where it could have its value: a name of
+        the model, though perhaps one that does not exist."""
+        unknown = [entry for entry in mapping.entries if entry.key.text not in fields]
+        missing = [key for key, each in fields.items() if each.required and mapping.get(key) is None]
+        if len(unknown) != 1 or len(missing) != 1:
+            return {}
+        before, unread = len(self.findings), self.unread
+        each, at = fields[missing[0]], place.child(missing[0])
+        value = each.read(cast("Reader", self), unknown[0].value, at, {})
+        fits = value is not None or {told.code for told in self.findings[before:]} == {"unknown-name"}
+        del self.findings[before:]
+        self.unread = unread
+        return {unknown[0].key.text: missing[0]} if fits else {}
 
-        Gives the mapping with those nearest ones in their place, and the keys whose value a decimal comma has split
-        (``{length: 60,5 mm}`` has the key ``5 mm``), and those that are one key with their value (``length:60 mm``,
-        ``length 60 mm``).
+    def unknown_keys(
+        self, mapping: MappingNode, place: Place, known: list[str], meant: Mapping[str, str] = _NOTHING
+    ) -> tuple[MappingNode, set[str]]:
+        """A finding for each key that is not known, with the nearest that is; ``meant``: such ones by what they mean.
+
+        Gives the mapping with those nearest ones in their place, and the keys that need no other finding: those whose
+        value a decimal comma has split (``{length: 60,5 mm}`` has the key ``5 mm``), those that are one key with
+        their value (``length:60 mm``, ``length 60 mm``), and those that are offered in the place of another one.
         """
         present = {entry.key.text for entry in mapping.entries}
         split: set[str] = set()
+        kept = list(mapping.entries)
         for index, entry in enumerate(mapping.entries):
             key = entry.key.text
             if key in known:
                 continue
             if (joined := self._joined(entry, place, known)) is not None:
                 split.add(joined)
+                kept.remove(entry)
                 continue
             before = mapping.entries[index - 1] if index else None
             if before is not None and self._comma(before, entry, place):
@@ -285,18 +306,23 @@ class PlainReader:
                 continue
             absent = [each for each in known if each not in present]
             likely = nearest(key[:100], absent, PROBABLE) or nearest(key[:100], known, PROBABLE)
-            offer = likely or nearest(key[:100], absent)
+            offer = likely or meant.get(key) or nearest(key[:100], absent)
+            if offer in absent and not likely:
+                split.add(offer)
             remedy = Sentence(f"names.{'near' if offer else 'all'}_known", offer=offer, names=tuple(known))
             self.finding(entry.key, place.child(key), "unknown_key", "unknown-key", remedy, key_=key[:100])
-        return as_meant(mapping, known), split
+        return as_meant(replace(mapping, entries=kept), known), split
 
     def _joined(self, entry: Entry, place: Place, known: list[str]) -> str | None:
         """The known key whose value stands behind it without a space after the colon, behind another sign or none."""
         found = re.fullmatch(r"(\w+)(?:\s*[:=：]\s*|\s+(?=[+-]?\.?\d))(\S.*)", entry.key.text)
-        nothing = isinstance(entry.value, Scalar) and entry.value.empty
-        if found is None or found[1] not in known or not nothing:
+        if found is None or found[1] not in known or not isinstance(entry.value, Scalar):
             return None
         key, rest = found[1], found[2][:60]
+        if not entry.value.empty:
+            if rest[0] not in "{[":
+                return None
+            rest = f"{rest}: {entry.value.text}"[:60]
         self.finding(entry.key, place.child(key), "joined_key", "syntax", key_=key, rest=rest)
         return key
 

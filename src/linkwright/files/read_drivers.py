@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from functools import lru_cache
 from typing import Any
 
@@ -11,10 +12,11 @@ from linkwright.fields.base import Field
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar
 from linkwright.fields.references import LinkName
-from linkwright.files.node_reader import Place, as_meant
+from linkwright.files.node_reader import NAME, Place, as_meant
 from linkwright.files.reader import Reader
 from linkwright.joints.base import Joint, JointName
 from linkwright.mechanism.mechanism import Cycle
+from linkwright.registry import nearest
 from linkwright.words.sentence import Sentence, together
 
 TURN_FIELDS: Mapping[str, Field] = {
@@ -92,8 +94,7 @@ def _read_driver(
     laws = _law_fields(rotary, tuple(LAWS.items()))
     every = {**way, **{key: each for law in laws.values() for key, each in law.items()}}
     if not turns and not slides:
-        reader.unknown_keys(mapping, place, _every_key())
-        reader.finding(node, place, "nothing_driven", "missing-key", _meant(reader, mapping))
+        _refuse_nothing_driven(reader, mapping, place)
         return None
     given = reader.table(mapping, place, every) or {}
     law = _read_law(reader, mapping, place, given, laws, rotary)
@@ -106,6 +107,23 @@ def _read_driver(
     if joint is None or law is None or reader.error_count > before:
         return None
     return Driver(name, *joint, law)
+
+
+def _refuse_nothing_driven(reader: Reader, mapping: MappingNode, place: Place) -> None:
+    """One finding, at the first key that would say it in other words, and those about the other unknown keys."""
+    known = _every_key()
+    told = [
+        entry
+        for entry in mapping.entries
+        if isinstance(entry.value, Scalar)
+        and NAME.fullmatch(entry.value.text)
+        and entry.key.text not in known
+        and nearest(entry.key.text[:100], known) is None
+    ]
+    others = [entry for entry in mapping.entries if entry not in told]
+    reader.unknown_keys(replace(mapping, entries=others), place, known)
+    at = told[0].key if told else mapping
+    reader.finding(at, place, "nothing_driven", "missing-key", _meant(reader, mapping))
 
 
 def _meant(reader: Reader, mapping: MappingNode) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar, Sequence
@@ -10,6 +11,8 @@ from linkwright.files.node_reader import Place, as_meant, meant_kind
 from linkwright.files.reader import Names, Reader
 from linkwright.joints.base import IMPLIED, JOINTS, Entry, Joint, implied_joint
 from linkwright.mechanism.mechanism import Link
+from linkwright.registry import PROBABLE, nearest
+from linkwright.words.sentence import Sentence, together
 
 
 def scan_joints(reader: Reader, node: Node | None) -> None:
@@ -75,9 +78,39 @@ def read_joints(reader: Reader, node: Node | None, links: Mapping[str, Link]) ->
     return joints
 
 
+def _of_points(reader: Reader, table: MappingNode, place: Place) -> MappingNode:
+    """A pin's table without the keys that would say what it joins or where, which are one finding."""
+    known, names, pin = ["kind", *JOINTS[IMPLIED].fields()], reader.names, place.address
+    points = {point for each in names.links.values() for point in each}
+    told = [
+        entry
+        for entry in table.entries
+        if nearest(entry.key.text[:100], known, PROBABLE) is None
+        and (words := _texts(entry.value))
+        and words <= {*names.links, *points}
+    ]
+    if told:
+        joined = [link for link in names.links if any(link in _texts(each.value) for each in told)]
+        lacking = [each for each in joined if pin not in names.links[each]]
+        remedy = Sentence("model.pin_name_points", pin=pin, links=together(lacking)) if lacking else ""
+        keys = tuple(each.key.text for each in told)
+        at = place.child(told[0].key.text)
+        reader.finding(told[0].key, at, "pin_joins", "unknown-key", remedy, pin=pin, keys=keys)
+    return replace(table, entries=[each for each in table.entries if each not in told])
+
+
+def _texts(node: Node) -> set[str]:
+    """The word or words of a value; none where there is anything else."""
+    items = node.items if isinstance(node, Sequence) else [node]
+    texts = [each.text for each in items if isinstance(each, Scalar)]
+    return set(texts) if len(texts) == len(items) else set()
+
+
 def _read_joint(reader: Reader, node: Node, name: str, links: Mapping[str, Link]) -> Joint | None:
     place = Place(f"joints.{name}", name)
     before = reader.error_count
+    if isinstance(node, MappingNode) and meant_kind(as_meant(node, ["kind"]).get("kind"), JOINTS) == IMPLIED:
+        node = _of_points(reader, node, place)
     found = reader.of_kind(node, place, JOINTS, "model.joint_no_kind", "model.add_kind")
     if found is None or reader.error_count > before:
         return None

@@ -14,6 +14,7 @@ from linkwright.errors import Finding, QuantityError
 from linkwright.fields.base import Count, Field, Free, WordedText
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar, below
+from linkwright.files.calculations import refuse_kind
 from linkwright.files.check_mechanism import check_whole
 from linkwright.files.misplaced import in_place
 from linkwright.files.node_reader import MODES, Place, TooManyFindings
@@ -56,7 +57,7 @@ def read_model(root: Node, source: str, *, si: bool = False) -> tuple[Mechanism 
         return None, reader.findings
     kind = mapping.get("kind")
     if isinstance(kind, Scalar) and mapping.get("links") is None:
-        reader.finding(kind, "kind", "no_mechanism", "kind", Sentence("model.calculations"), kind=kind.text)
+        refuse_kind(reader, kind)
         return None, reader.findings
     task = mapping.get("synthesis")
     if task is not None and mapping.get("frame") is None and mapping.get("links") is None:
@@ -133,7 +134,9 @@ def _scan(reader: Reader, root: MappingNode) -> None:
     """Gather all names first, so that references can be checked wherever they stand."""
     reader.names.links = {"frame": scan_points(_frame(root))}
     links = root.get("links")
-    reader.names.listed = isinstance(links, MappingNode)
+    reader.names.listed = isinstance(links, MappingNode) and not any(
+        isinstance(each, MappingNode) and each.repeated for each in (links, root.get("joints"))
+    )
     if isinstance(links, MappingNode):
         reader.names.illegible |= {name for name, value in links if not legible(value)}
         reader.names.links |= {key: scan_points(value) for key, value in links if key != "frame"}

@@ -35,7 +35,8 @@ class Names:
     ``links`` maps every link, the frame among them, to its points; ``joints`` every joint, the implied pins
     among them, to its kind; ``pins`` every implied pin to its links, ``blocks`` every block to its guide,
     ``welded`` a link to the one to which a weld ties it on a pin that it would share.
-    ``illegible`` are the links whose points cannot be read; ``listed`` where the links themselves can be.
+    ``illegible`` are the links whose points cannot be read; ``listed`` where the links themselves can be,
+    each under a name of its own.
     """
 
     links: dict[str, tuple[str, ...]] = field(default_factory=lambda: {"frame": ()})

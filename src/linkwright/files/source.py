@@ -7,7 +7,8 @@ import stat
 from typing import TYPE_CHECKING
 
 from linkwright import gallery
-from linkwright.errors import Finding, ModelError
+from linkwright.core.given import told
+from linkwright.errors import Finding, ModelError, RequestError
 from linkwright.registry import nearest
 from linkwright.words.sentence import Sentence, reason_of
 
@@ -31,9 +32,13 @@ def read_source(source: str | Path) -> tuple[str, str]:
     """Text of a source, and the name of the file for findings."""
     if isinstance(source, str) and source.startswith(GALLERY):
         return _read_gallery(source.removeprefix(GALLERY))
+    if not isinstance(source, str | os.PathLike):
+        raise RequestError("given_instead.no_file_name", told=told(source))
     from pathlib import Path
 
     path = Path(source)
+    if "\n" in str(source):
+        raise _refuse("<text>", Sentence("model.text_for_name"), Sentence("model.write_loads"), "no-file")
     try:
         if path.is_dir():
             raise _refuse(path, Sentence("model.folder"), Sentence("model.name_file_in"), "not-a-file")

@@ -17,10 +17,15 @@ _MEANINGS: tuple[tuple[str, str], ...] = (
     ("expected ',' or '}'", "open_brace"),
     ("expected ',' or ']'", "open_bracket"),
     ("cannot start any token", "beginning"),
+    ("expected alphabetic or numeric character", "beginning"),
+    ("unexpected non-alphabetical character", "beginning"),
+    ("unknown directive name", "beginning"),
+    ("could not find expected directive name", "beginning"),
     ("unexpected end of stream", "open_quote"),
     ("expected <block end>", "indentation"),
     ("expected key", "indentation_or_bracket"),
-    ("expected '-' indicator", "indentation"),
+    ("expected '-' indicator", "no_item"),
+    ("sequence entries are not allowed", "item"),
     ("expected <document start>", "apart"),
     ("expected the node content", "no_value"),
     ("expected comment or line break", "block"),
@@ -36,25 +41,58 @@ _MEANINGS: tuple[tuple[str, str], ...] = (
 )
 
 
+#: Complaints whose cause stands where that began which cannot be read.
+_AT_THE_BEGINNING = ("no_colon", "open_quote", "beginning")
+#: Slips by which a line is no key with its value, and what the line looks like; groups are what is to be written.
+_KEY_OF = r"\s*(?:- )?(?P<key_>[^\W\d][\w.-]*)"
+_SLIPS = {
+    "blank_after": rf"{_KEY_OF}:(?P<sign>[\xa0\u2000-\u200b\u202f\u205f\u3000\ufeff])",
+    "no_space": rf"{_KEY_OF}:(?P<rest>[^\s/].*)",
+    "no_space_item": r"\s*-(?P<rest>[^\W\d].*)",
+    "equals_sign": rf"{_KEY_OF}\s*=\s*(?P<rest>\S.*)",
+    "odd_quote": rf"(?:{_KEY_OF}:)?\s+(?P<sign>[“”‘’])",
+    "comment": r"\s*(?P<sign>//|/\*|%|;|--(?!-))",
+}
+
+
 def explain(error: Any, text: str) -> Remark:
     """The remark for an exception of the YAML reader."""
     mark = getattr(error, "problem_mark", None) or getattr(error, "context_mark", None)
     line, column = _within(text, mark.line, mark.column) if mark is not None else _place(error, text)
+    began = getattr(error, "context_mark", None)
+    slip = _slip(text, line if began is None else began.line, line)
+    if slip is not None:
+        return slip
     said = str(getattr(error, "problem", None) or getattr(error, "reason", None) or "the text is not YAML")
+    key = next((key for sign, key in _MEANINGS if sign in said), None)
+    ended = mark is not None and not text[mark.index :].strip()
+    if began is not None and (ended or key in _AT_THE_BEGINNING):
+        line, column = began.line, began.column
+    since = Sentence("yaml.began", line=began.line + 1) if began is not None and began.line != line else ""
+    if key is not None:
+        sign = text.split("\n")[line][column : column + 1]
+        told = Sentence("yaml.unreadable", message=Sentence(f"yaml.{key}", sign=sign), since=since)
+        return Remark(line, column, told, Sentence(f"yaml.{key}_do"), "syntax")
     context = str(getattr(error, "context", None) or "")
-    since = _since(error, line)
-    for sign, key in _MEANINGS:
-        if sign in said:
-            told = Sentence("yaml.unreadable", message=Sentence(f"yaml.{key}"), since=since)
-            return Remark(line, column, told, Sentence(f"yaml.{key}_do"), "syntax")
     where = f" {context}" if context else ""
     told = Sentence("yaml.unreadable_so", where=where, said=said, since=since)
     return Remark(line, column, told, Sentence("yaml.other_do"), "syntax")
 
 
-def _since(error: Any, line: int) -> str:
-    opened = getattr(error, "context_mark", None)
-    return Sentence("yaml.began", line=opened.line + 1) if opened is not None and opened.line != line else ""
+def _slip(text: str, began: int, line: int) -> Remark | None:
+    """The remark about a slip of the pen in the line where that began which cannot be read, in the one where it could
+    not be read any further, or in the one above that."""
+    lines = text.split("\n")
+    above = next((number for number in range(line - 1, -1, -1) if lines[number].strip()), line)
+    for number in dict.fromkeys((began, line, above)):
+        shown = lines[number].rstrip()
+        for key, pattern in _SLIPS.items():
+            if found := re.match(pattern, shown):
+                values = found.groupdict()
+                code = f"U+{ord(values.get('sign', ' ')[0]):04X}"
+                told, remedy = (Sentence(f"yaml.{each}", code=code, **values) for each in (key, f"{key}_do"))
+                return Remark(number, len(shown) - len(shown.lstrip()), told, remedy, "syntax")
+    return None
 
 
 def _within(text: str, line: int, column: int) -> tuple[int, int]:
@@ -107,7 +145,19 @@ def tab_remarks(text: str) -> list[Remark]:
 
 
 #: Full-width punctuation with what YAML writes for it, in a key, and anywhere in braces and brackets.
-_HALF = {"：": ": ", "，": ",", "｛": "{", "｝": "}", "［": "[", "］": "]", "【": "[", "】": "]", "、": ","}
+_HALF = {
+    "：": ": ",
+    "，": ",",
+    "｛": "{",
+    "｝": "}",
+    "［": "[",
+    "］": "]",
+    "【": "[",
+    "】": "]",
+    "、": ",",
+    "（": "(",
+    "）": ")",
+}
 _QUOTES = {"“": '"', "”": '"', "‘": "'", "’": "'"}
 _WIDE = re.compile("[" + "".join({**_HALF, **_QUOTES}) + "]")
 _KEY = re.compile(r"(?:^|[{,｛，])\s*(?:- )?[\w.]+\s*(：)")

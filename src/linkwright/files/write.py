@@ -7,6 +7,7 @@ import re
 from collections.abc import Mapping
 from typing import Any
 
+from linkwright.core.given import require
 from linkwright.core.json_data import Plain
 from linkwright.drivers.base import Driver
 from linkwright.fields.references import PLACE
@@ -24,6 +25,7 @@ _RESERVED = frozenset(("null", "Null", "NULL", "true", "false", "True", "False",
 
 def dump(mechanism: Mechanism) -> str:
     """Text of a model file that reads back as the same mechanism (values to the last digit)."""
+    require(mechanism, Mechanism)
     return to_yaml(to_data(mechanism))
 
 

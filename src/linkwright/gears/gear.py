@@ -10,6 +10,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.core.given import real
 from linkwright.errors import RequestError
 from linkwright.gears.involute import involute, involute_at
 
@@ -57,7 +58,7 @@ class Gear:
             "fillet": (self.fillet, 0.0, 1.0),
         }
         for name, (value, low, high) in ranges.items():
-            if not low <= value <= high:
+            if not low <= real(name, value, finite=False) <= high:
                 raise RequestError("gears.out_of_range", name=name, value=value, low=low, high=high)
         if int(self.teeth) != self.teeth:
             raise RequestError("gears.whole_teeth", teeth=self.teeth)

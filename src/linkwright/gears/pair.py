@@ -12,6 +12,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.core.given import require_pair
 from linkwright.errors import RequestError
 from linkwright.gears.gear import Gear
 from linkwright.gears.involute import angle_of_involute, involute
@@ -39,6 +40,8 @@ def gear_pair(
 
     Raises RequestError for numbers out of range and for teeth that cannot mesh.
     """
+    require_pair("teeth", teeth)
+    require_pair("profile_shift", profile_shift)
     pinion, wheel = (
         Gear(z, module, x, pressure_angle, ring, addendum, dedendum, fillet)
         for z, x, ring in zip(teeth, profile_shift, (False, internal), strict=True)

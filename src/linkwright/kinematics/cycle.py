@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 from linkwright.core.arrays import Floats, Indices
 from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
+from linkwright.core.given import whole
 from linkwright.core.inputs import driven
 from linkwright.drivers.base import Driver, Law
 from linkwright.engine.recently_made import Recent
@@ -141,9 +142,12 @@ def at_times(mechanism: Mechanism, time: ArrayLike, period: float | None = None)
 
 def _numbers(given: ArrayLike) -> Floats:
     try:
-        return np.atleast_1d(np.asarray(given, dtype=float))
+        found = np.atleast_1d(np.asarray(given, dtype=float))
     except (TypeError, ValueError):
         raise CycleError("motion.no_numbers", given=repr(given)[:60]) from None
+    if found.ndim > 1:
+        raise CycleError("motion.no_row", shape=str(found.shape))
+    return found
 
 
 def _driven(driver: Driver, time: Floats) -> tuple[Floats, Floats, Floats]:
@@ -218,8 +222,7 @@ def over_cycle(mechanism: Mechanism, steps: int, endpoint: bool = False) -> Posi
     A closed cycle (whole turns of a driver, or a law that repeats) gives ``steps`` positions, or one more with
     ``endpoint``; an open one always ``steps`` + 1 positions, both ends among them.
     """
-    if steps < 1:
-        raise CycleError("motion.bad_steps", steps=steps)
+    steps = whole("steps", steps, 1)
     if not mechanism.drivers:
         return at_times(mechanism, [0.0])
     if mechanism.higher:

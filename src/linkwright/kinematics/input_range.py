@@ -11,6 +11,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.core.given import require
 from linkwright.core.inputs import mode_groups
 from linkwright.core.outputs import row_name
 from linkwright.core.search import edge
@@ -123,6 +124,7 @@ def input_range(mechanism: Mechanism, driver: str | None = None) -> InputRange:
         LinkwrightError: no such driver, or the mechanism cannot be assembled at any starting coordinate.
         StructureError, AssemblyError: the model is not determined or cannot be put together.
     """
+    require(mechanism, Mechanism)
     name = driver or next(iter(mechanism.drivers), None)
     if name is None or name not in mechanism.drivers:
         if not driver:

@@ -16,6 +16,7 @@ import numpy as np
 from linkwright.core.arrays import Floats, Indices
 from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
+from linkwright.core.given import require
 from linkwright.core.outputs import Output, kind_of, row_name
 from linkwright.core.search import ends, zero, zeros
 from linkwright.engine.recently_made import Recent
@@ -78,7 +79,8 @@ def limit_positions(motion: Motion, output: Output | str) -> tuple[LimitPosition
     Raises:
         LinkwrightError: there is no such output, or the positions do not follow the drivers' laws in time.
     """
-    found = output_of(motion.mechanism, output) if isinstance(output, str) else output
+    require(motion, Motion)
+    found = output if isinstance(output, Output) else output_of(motion.mechanism, str(output))
     if motion.steps < 3 or not motion.mechanism.drivers:
         return ()
     return motion.kept(("limits", found), lambda: _limits(motion, found))

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Floats
 from linkwright.core.cached_property import cached_property
+from linkwright.core.given import require
 from linkwright.core.inputs import mode_groups
 from linkwright.errors import RequestError
 from linkwright.kinematics.change_points import (
@@ -59,6 +60,7 @@ def solve_motion(
         StructureError, AssemblyError, CycleError: the model is not determined, cannot be put together, or has no
             cycle.
     """
+    require(mechanism, Mechanism)
     positions = _positions(mechanism, steps, at, times, endpoint)
     single = at is not None or times is not None
     return MotionRun(MotionSolver(mechanism), positions, single=single).solve(failures)
@@ -71,11 +73,17 @@ def _positions(
     times: ArrayLike | None,
     endpoint: bool,
 ) -> Positions:
+    if at is not None and times is not None:
+        raise RequestError("motion.at_and_times")
     if at is not None:
-        return at_inputs(mechanism, at)
-    if times is not None:
-        return at_times(mechanism, times)
-    return over_cycle(mechanism, steps, endpoint)
+        positions = at_inputs(mechanism, at)
+    elif times is not None:
+        positions = at_times(mechanism, times)
+    else:
+        return over_cycle(mechanism, steps, endpoint)
+    if not positions.count:
+        raise RequestError("motion.no_positions")
+    return positions
 
 
 def try_motion(mechanism: Mechanism, steps: int) -> Motion:

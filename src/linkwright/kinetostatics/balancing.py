@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.given import real, require
 from linkwright.core.plot_method import Plotted
 from linkwright.core.read_only import Frozen
 from linkwright.errors import LinkwrightError, RequestError
@@ -76,7 +77,8 @@ def balance(mechanism: Mechanism, *, radius: Radius, share: float = 1.0, steps: 
     Raises:
         LinkwrightError: another kind of mechanism, a share outside 0 … 1, a radius that is not positive.
     """
-    if not 0.0 <= share <= 1.0:
+    require(mechanism, Mechanism)
+    if not 0.0 <= real("share", share) <= 1.0:
         raise RequestError("forces.share", share=share)
     moments = _moments(mechanism, radius, share)
     links = dict(mechanism.links)
@@ -108,7 +110,7 @@ def _radius(radius: Radius, link: str) -> float:
     if isinstance(radius, Mapping) and link not in radius:
         raise RequestError("forces.weight_no_radius", link=link)
     distance = radius[link] if isinstance(radius, Mapping) else radius
-    if not distance > 0.0:
+    if not real("radius", distance, finite=False) > 0.0:
         raise RequestError("forces.weight_radius", link=link, distance=distance)
     return distance
 

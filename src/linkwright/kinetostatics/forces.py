@@ -10,6 +10,7 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
+from linkwright.core.given import require
 from linkwright.core.outputs import kind_of, row_name, row_names
 from linkwright.core.plot_method import Plotted
 from linkwright.core.read_only import locked
@@ -285,4 +286,5 @@ def solve_forces(source: Motion | Mechanism, *, static: bool = False, steps: int
 
     if isinstance(source, Motion):
         return forces_of_motion(source, static)
+    require(source, Motion, Mechanism)
     return forces_of_run(MotionRun(MotionSolver(source), over_cycle(source, steps)), static)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.given import require_pair
 from linkwright.errors import RequestError
 from linkwright.laws.base import END_KINDS, MOTION_LAWS, Ends, MotionLaw
 from linkwright.laws.derived_laws import Backwards, Portion, Shifted
@@ -45,6 +46,7 @@ def altered(
     if crossover is not None and crossover != 0.5:
         law = Shifted(law, crossover)
     if portion is not None:
+        require_pair("portion", portion)
         law = Portion(law, *portion)
     return Backwards(law) if backwards else law
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import pi
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.given import real
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.words.sentence import Sentence
 
@@ -94,7 +95,7 @@ def rim(
 
 
 def _require(fluctuation: float, speed: float) -> None:
-    if not fluctuation > 0:
+    if not real("fluctuation", fluctuation, finite=False) > 0:
         raise RequestError("running.bad_coefficient", fluctuation=fluctuation)
     if not abs(speed) > 0:
         raise LinkwrightError("running.still_shaft")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.given import real
 from linkwright.errors import RequestError
 
 
@@ -27,8 +28,8 @@ def motor(mean_torque: float, speed: float, *, efficiency: float = 1.0, margin: 
     ``efficiency`` of everything between motor and input, above 0 and up to 1; ``margin`` ≥ 1 on the power.
     Raises LinkwrightError for values out of range.
     """
-    if not 0 < efficiency <= 1:
+    if not 0 < real("efficiency", efficiency) <= 1:
         raise RequestError("running.bad_efficiency", efficiency=efficiency)
-    if not margin >= 1:
+    if not real("margin", margin) >= 1:
         raise RequestError("running.bad_margin", margin=margin)
     return Motor(mean_torque, mean_torque * speed, efficiency, margin)

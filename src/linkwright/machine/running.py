@@ -8,6 +8,7 @@ from dataclasses import field
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.given import real, require
 from linkwright.core.plot_method import Plotted
 from linkwright.errors import LinkwrightError
 from linkwright.kinetostatics.forces import Forces
@@ -139,6 +140,8 @@ def steady_running(
     The energy fluctuation is that of the driver torque at constant speed, inertia of the links included.
     Raises LinkwrightError for δ ≤ 0, a mean torque of zero, or a cycle that is not closed.
     """
+    require(forces, Forces)
+    on_faster_shaft(1.0, real("ratio", ratio))
     reduced, cycle = steady_cycle(forces)
     flywheel_inertia(1.0, reduced.speed, fluctuation)
     mean = reduced.load.mean

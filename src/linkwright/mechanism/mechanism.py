@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
+from linkwright.core.given import require
 from linkwright.core.read_only import Frozen, FrozenDict, frozen
 from linkwright.drivers.base import Driver
 from linkwright.errors import LinkwrightError, RequestError
@@ -238,6 +239,7 @@ class Mechanism(Frozen):
         expression loses it. Raises LinkwrightError for an unknown address, a value that is not finite, and one that a
         file may not give it either (a length that is not positive, a negative mass or stiffness).
         """
+        require(changes, Mapping)
         known = self._dimensions
         new = known | {address: self._checked(address, value) for address, value in changes.items()}
         kept = {address: each for address, each in self.expressions.items() if address not in changes}
@@ -410,7 +412,7 @@ class Mechanism(Frozen):
         return found
 
     def _unknown(self, address: str) -> LinkwrightError:
-        offer = nearest(address, self._dimensions)
+        offer = nearest(str(address), self._dimensions)
         hint = Sentence("names.did_you_mean", offer=offer) if offer else Sentence("model.see_addresses")
         return LinkwrightError("model.no_dimension", address=address, hint=hint)
 

@@ -7,6 +7,7 @@ from dataclasses import replace
 from math import isfinite
 
 from linkwright.core.arrays import Flags
+from linkwright.core.given import one_or_more, require
 from linkwright.errors import RequestError
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.whole_turns import MOST
@@ -36,9 +37,10 @@ def metrics(result: Motion | Forces, names: Iterable[str] | str | None = None) -
         LinkwrightError: a number that was asked for by name does not apply, or the cycle is given more than 1000
             turns.
     """
+    require(result, Motion, Forces)
     analysis = Analysis.of(result)
     _countable(analysis.motion)
-    asked = None if names is None else [names] if isinstance(names, str) else list(names)
+    asked = None if names is None else list(one_or_more(names))
     rows: list[MetricValue] = []
     skipped: list[str] = []
     chosen = {name: metric() for name, metric in _chosen(asked).items()}

@@ -9,6 +9,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats, Whole
 from linkwright.core.dataclass import dataclass
+from linkwright.core.given import one_or_more
 from linkwright.engine.reductions import Reduction
 from linkwright.errors import RequestError
 from linkwright.kinematics.names import PHRASES
@@ -52,10 +53,8 @@ def wanted(outputs: Iterable[str | tuple[str, str]]) -> tuple[Summary, ...]:
 
     Raises LinkwrightError for an unknown kind, and where nothing is asked.
     """
-    if isinstance(outputs, str):
-        outputs = (outputs,)
     found: dict[Summary, None] = {}
-    for each in outputs:
+    for each in one_or_more(outputs):
         for summary in _one(each):
             found[summary] = None
     if not found:
@@ -98,6 +97,8 @@ def _one(each: str | tuple[str, str]) -> list[Summary]:
             if not dot or kind not in KINDS:
                 return [Summary(each, "min"), Summary(each, "max")]
         return [Summary(output, kind)]
+    if not isinstance(each, tuple | list) or len(each) != 2:
+        raise RequestError("study.no_output_name", given=repr(each)[:60])
     output, kind = each
     if kind not in KINDS:
         hint = offered(kind, KINDS, "names.one_of")

@@ -6,12 +6,14 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import replace
 from functools import partial
+from os import PathLike
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from linkwright.core.arrays import Floats
+from linkwright.core.given import require
 from linkwright.engine.cycle import Progress
 from linkwright.errors import LinkwrightError, ModelError, RequestError
 from linkwright.files.document import Document
@@ -124,6 +126,7 @@ def optimize(
 def _source(
     source: Mechanism | Document | str | Path, settings: Mapping[str, Any]
 ) -> tuple[Mechanism, Document | None, dict[str, Any]]:
+    require(source, Mechanism, Document, str, PathLike)
     if isinstance(source, Mechanism):
         document, mechanism = None, source
     else:

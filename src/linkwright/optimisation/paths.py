@@ -14,7 +14,8 @@ from linkwright.cycle_programs.path_curvature import path_curvature
 from linkwright.engine.stage import Backend
 from linkwright.errors import QuantityError
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.study.objective import Part, PathError, of_path
+from linkwright.study.objective import Part, of_path
+from linkwright.study.objective_terms import PathError
 from linkwright.words.sentence import Sentence
 
 #: Designs that one thread takes.

@@ -17,7 +17,7 @@ from linkwright.errors import Finding, LinkwrightError, ModelError, RequestError
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.optimisation.paths import path_error
 from linkwright.registry import offered
-from linkwright.study.objective import PathError
+from linkwright.study.objective_terms import PathError
 from linkwright.study.ranges import Range, parse_range
 from linkwright.study.varied_dimensions import between, checked_addresses, gives_part_of_tooth
 from linkwright.words.sentence import Sentence

@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from linkwright.core.given import require
 from linkwright.core.inputs import mode_inputs
 from linkwright.core.json_data import Plain
 from linkwright.core.outputs import row_name
@@ -47,6 +48,7 @@ _TAGS = {"en": "en", "zh": "zh-CN"}
 
 def solved(machine: Mechanism | Document, steps: int) -> tuple[Motion, str | None]:
     """The motion of a machine over its cycle, and the text of its file where there is one."""
+    require(machine, Mechanism, Document)
     mechanism, text = (machine, None) if isinstance(machine, Mechanism) else (machine.mechanism, machine.text)
     return solve_motion(mechanism, steps=steps), text
 

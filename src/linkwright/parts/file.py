@@ -177,6 +177,9 @@ def _kind(reader: Reader, root: MappingNode) -> str | None:
     node = root.get("kind")
     if node is not None:
         return reader.word(node, "kind", tuple(KINDS))
+    if (task := root.get("synthesis")) is not None and root.get("links") is None:
+        reader.finding(task, "synthesis", "task_alone", "kind", Sentence("model.synthesize"))
+        return None
     key = "model" if root.get("links") is not None else "no_kind"
     remedy = Sentence(f"part.{key}_remedy", known=tuple(KINDS))
     reader.error(root, "kind", Sentence(f"part.{key}"), remedy, "kind")

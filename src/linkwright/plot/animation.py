@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -11,8 +11,11 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.core.given import one_or_more, real, require, whole
+from linkwright.core.outputs import Output
 from linkwright.errors import RequestError, require_language
 from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.names import point_key
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinematics.table import motion_results
 from linkwright.kinetostatics.table import force_results
@@ -23,7 +26,7 @@ from linkwright.plot.drawing.labels import Label, Obstacles, place_moving, point
 from linkwright.plot.drawing.legend import Legend
 from linkwright.plot.drawing.loads import load_marks, moving_springs
 from linkwright.plot.drawing.moving import moving_links, moving_torques, moving_vectors, shift_text, shifted
-from linkwright.plot.drawing.panel import Panel, panel
+from linkwright.plot.drawing.panel import Panel, named, panel
 from linkwright.plot.drawing.picture import Box, bounds, document
 from linkwright.plot.drawing.scene import Scene, laid_out
 from linkwright.plot.drawing.vectors import Arrows, scale_of
@@ -80,29 +83,37 @@ def animate(
     Raises:
         LinkwrightError: an unknown name, no position reached, a time or number of frames that makes no sense.
     """
+    require(source, Motion, Mechanism)
     require_language(language)
-    if not 2 <= frames <= 2000:
+    if not 2 <= whole("frames", frames) <= 2000:
         raise RequestError("picture.bad_frames", frames=frames)
-    if seconds is not None and not 0.05 <= seconds <= 3600:
+    if seconds is not None and not 0.05 <= real("seconds", seconds) <= 3600:
         raise RequestError("picture.bad_seconds", seconds=seconds)
+    machine = source.mechanism if isinstance(source, Motion) else source
+    paths, curves = one_or_more(paths), one_or_more(curves)
+    for name in paths:
+        point_key(machine, name)
     motion = source if isinstance(source, Motion) else solve_motion(source, steps=STEPS, failures="mark")
     run = frame_indices(motion, frames)
     scene = laid_out(motion, run[0], centres=centres)
     known = solved(motion, forces)
     arrows = all_arrows(motion, velocities, accelerations, known, reactions_of)
-    return Animation(
+    made = Animation(
         scene=scene,
         run=tuple(run),
         keys=tuple(key_indices(scene.machine, frames)),
         seconds=seconds or usual_seconds(motion),
-        paths=tuple(paths),
+        paths=paths,
         arrows=tuple((each, scale_of(each.vectors, run)) for each in arrows),
-        curves=tuple(curves),
+        curves=curves,
         forces=known,
         labelled=labels,
         size=size,
         language=language,
     )
+    for name in curves:
+        named(made.results, name)
+    return made
 
 
 @dataclass(frozen=True)
@@ -191,7 +202,7 @@ class Animation:
         missing package or font, a folder that cannot be written.
         """
         suffix = Path(path).suffix.lower()
-        if suffix != ".svg" and not WIDTHS[0] <= width <= WIDTHS[1]:
+        if suffix != ".svg" and not WIDTHS[0] <= whole("width", width) <= WIDTHS[1]:
             raise RequestError("picture.bad_film_width", width=width, least=WIDTHS[0], most=WIDTHS[1])
         if suffix == ".svg":
             return write_whole(path, self.svg.encode())
@@ -276,13 +287,17 @@ class Animation:
         return bounds([*self._ink, *(each.reshape(-1, 2) for each in names)])
 
     @cached_property
+    def results(self) -> Mapping[Output, Floats]:
+        """What curves can show, (n,) each."""
+        motion, forces = self.scene.machine.motion, self.forces
+        return motion_results(motion) if forces is None else force_results(forces)
+
+    @cached_property
     def _panel(self) -> Panel | None:
         if not self.curves:
             return None
-        motion, forces = self.scene.machine.motion, self.forces
-        results = motion_results(motion) if forces is None else force_results(forces)
-        alone = len(motion.mechanism.drivers) == 1
-        return panel(results, self.curves, self._drawn_box, self.language, alone=alone)
+        alone = len(self.scene.machine.motion.mechanism.drivers) == 1
+        return panel(self.results, self.curves, self._drawn_box, self.language, alone=alone)
 
     @cached_property
     def _legend(self) -> Legend:

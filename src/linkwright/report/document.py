@@ -42,11 +42,12 @@ def shown(text: str) -> str:
 
 @dataclass(frozen=True)
 class Heading:
-    """A heading of level 1 to 4."""
+    """A heading of level 1 to 4; ``number``: whether that is printed before it."""
 
     text: str
     level: int = 1
     label: str = ""
+    number: bool = True
 
 
 @dataclass(frozen=True)
@@ -150,7 +151,8 @@ class Numbers:
             if isinstance(block, Heading):
                 levels = [*(levels + [0] * 4)[: block.level]]
                 levels[-1] += 1
-                self.of[index] = ".".join(map(str, levels))
+                if block.number:
+                    self.of[index] = ".".join(map(str, levels))
                 if levels[0] != chapter:
                     chapter, counts = levels[0], dict.fromkeys(counts, 0)
             elif isinstance(block, Formula | Table | Figure) and getattr(block, "number", True):
@@ -158,6 +160,10 @@ class Numbers:
                 self.of[index] = f"{chapter}.{counts[type(block)]}"
             if getattr(block, "label", ""):
                 self.labels[block.label] = index  # type: ignore[union-attr]
+
+    def before(self, index: int) -> str:
+        """What stands before the text of a heading: its number."""
+        return f"{self.of[index]}  " if index in self.of else ""
 
     def name(self, index: int) -> str:
         """How a block is called in a sentence: ``Table 3.1``."""

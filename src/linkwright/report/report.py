@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from itertools import chain
+from os import PathLike
 from pathlib import Path
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.given import require
 from linkwright.engine.cycle import Progress
 from linkwright.errors import LinkwrightError, QuantityError, RequestError, require_language
 from linkwright.files.model_file import load
@@ -153,12 +155,13 @@ def _told_apart(machines: Machine | Sequence[Machine]) -> tuple[list[Mechanism |
     from linkwright.parts.file import kind_of
     from linkwright.parts.file import load as load_calculation
 
-    given = [machines] if isinstance(machines, Mechanism | Problem | str | Path) else list(machines)
+    given = list(machines) if isinstance(machines, Iterable) and not isinstance(machines, str) else [machines]
     if not given:
         raise RequestError("report.no_machine")
     found: list[Mechanism | str] = []
     problems = []
     for each in given:
+        require(each, Mechanism, Problem, str, PathLike)
         if isinstance(each, Problem):
             problems.append(each)
         elif isinstance(each, Mechanism):

@@ -328,8 +328,8 @@ class _Writer:
     def _block(self, index: int, block: Block) -> str:
         match block:
             case Heading():
-                number = self.numbers.of[index]
-                return f"{'=' * block.level} {_words(f'{number}  ')}{self.inline(block.text)} <{_place(index)}>\n"
+                number = _words(self.numbers.before(index))
+                return f"{'=' * block.level} {number}{self.inline(block.text)} <{_place(index)}>\n"
             case Paragraph():
                 return self._paragraph(block, sticky=self.document.leads(index))
             case Formula():

@@ -182,7 +182,7 @@ class _Writer:
         from docx.oxml.ns import qn
 
         before = len(line._p)
-        self._inline(line, f"{self.numbers.of[index]}  {block.text}")
+        self._inline(line, f"{self.numbers.before(index)}{block.text}")
         link = line._p.makeelement(qn("w:hyperlink"), {qn("w:anchor"): f"b{index}"})
         for part in line._p[before:]:
             link.append(part)
@@ -192,7 +192,7 @@ class _Writer:
         match block:
             case Heading():
                 shown = self.file.add_heading(level=block.level)
-                shown.add_run(f"{self.numbers.of[index]}  ")
+                shown.add_run(self.numbers.before(index))
                 self._inline(shown, block.text)
                 self._bookmark(shown, index)
             case Paragraph():

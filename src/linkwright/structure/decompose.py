@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Set
 
+from linkwright.core.given import require
 from linkwright.drivers.base import Driver
 from linkwright.joints.base import Joint
 from linkwright.mechanism.mechanism import Mechanism
@@ -26,6 +27,7 @@ def structure(mechanism: Mechanism) -> Structure:
     Raises:
         StructureError: the drivers do not determine the motion, or determine it more than once.
     """
+    require(mechanism, Mechanism)
     graph = ConstraintGraph.of(mechanism)
     numbers = counts(mechanism)
     order = _solving_order(mechanism, graph, grubler(numbers) + len(graph.redundant))

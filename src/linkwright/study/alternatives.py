@@ -6,12 +6,14 @@ from collections.abc import Mapping, Sequence
 from dataclasses import field
 from functools import cached_property
 from itertools import chain, count
+from os import PathLike
 from pathlib import Path
 
 import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.core.given import require
 from linkwright.core.outputs import Output
 from linkwright.cycle_programs.terms import Asked, pivot
 from linkwright.errors import LinkwrightError, RequestError
@@ -126,8 +128,10 @@ def alternatives(
     Raises:
         LinkwrightError: fewer than two machines, an unknown output, or none that all share.
     """
-    if isinstance(sources, str | Path | Mechanism) or len(sources) < 2:
+    if not isinstance(sources, Sequence) or isinstance(sources, str) or len(sources) < 2:
         raise RequestError("study.two_or_more")
+    for source in sources:
+        require(source, Mechanism, str, PathLike)
     flywheel_inertia(1.0, 1.0, fluctuation)
     machines = [each if isinstance(each, Mechanism) else load(each) for each in sources]
     labels = _labels(machines)

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.given import real, require
 from linkwright.core.html import html_table
 from linkwright.core.plot_method import Plotted
 from linkwright.core.read_only import Frozen
@@ -261,20 +262,21 @@ def compare(
         if metrics is None and all(value is None for value in values):
             continue
         if metrics is not None and all(value is None for value in values):
-            known = "; ".join(note for a in found for note in a.notes)
-            raise RequestError("study.applies_to_none", name=each.name, known=known or "leave it out")
+            known: object = [note for a in found for note in a.notes] or Sentence("study.leave_out")
+            raise RequestError("study.applies_to_none", name=each.name, known=known)
         rows.append(Row(each, values, given.get(each.name, 1.0)))
     return Comparison(tuple(found), tuple(rows), fluctuation)
 
 
 def _weights(weights: Mapping[str, float], asked: Sequence[Criterion]) -> Mapping[str, float]:
     """The weights, checked."""
+    require(weights, Mapping)
     known = {each.name: each for each in asked}
     for name, weight in weights.items():
         if name not in known:
             hint = offered(name, known, "study.compared_are")
             raise RequestError("study.stray_weight", name=name, hint=hint)
-        if not weight >= 0.0 or weight == float("inf"):
+        if not real(f"weights[{name!r}]", weight) >= 0.0 or weight == float("inf"):
             raise RequestError("study.bad_weight_value", name=name, weight=weight)
         if known[name].better is None and weight > 0.0:
             raise RequestError("study.no_direction", name=name)

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.given import one_or_more
 from linkwright.cycle_programs.terms import OWN, governing, metric_of, own, term
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.metrics import METRICS, Metric, MetricValue
@@ -56,10 +57,10 @@ class Criterion:
 
 def criteria(names: Iterable[str] | str) -> list[Criterion]:
     """The criteria of the given names; raises LinkwrightError for an unknown one, the nearest offered."""
-    asked = [names] if isinstance(names, str) else list(names)
+    asked = one_or_more(names)
     if not asked:
         raise RequestError("study.no_metric_named")
-    return [criterion(name) for name in dict.fromkeys(asked)]
+    return [criterion(str(name)) for name in dict.fromkeys(asked)]
 
 
 def criterion(name: str) -> Criterion:

@@ -11,12 +11,13 @@ from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Flags, Floats, Whole
 from linkwright.core.dataclass import dataclass
+from linkwright.core.given import one_of, require, whole
 from linkwright.core.html import columns_html
 from linkwright.core.plot_method import Plotted
 from linkwright.core.read_only import Frozen
 from linkwright.engine.cycle import Progress
 from linkwright.engine.machine_code import available
-from linkwright.engine.stage import Backend
+from linkwright.engine.stage import BACKENDS, Backend
 from linkwright.engine.threads import chunks
 from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import over_cycle
@@ -156,6 +157,9 @@ def sweep(
     one group, loads that divide by an output or follow a link that turns through, and motion through change points
     are found design by design, in milliseconds each.
     """
+    require(mechanism, Mechanism)
+    one_of("backend", backend, BACKENDS)
+    threads = None if threads is None else whole("threads", threads, 1)
     positions = over_cycle(mechanism, steps)
     columns = design_values(mechanism, vary)
     refuse_moved_positions(mechanism, positions, columns)

@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.core.given import one_of, require
 from linkwright.core.outputs import Output
 from linkwright.cycle_programs.iterated_groups import Following, following, limits_beside
 from linkwright.cycle_programs.limit_stages import constants
@@ -33,7 +34,7 @@ from linkwright.engine.machine_code import available
 from linkwright.engine.program import Program
 from linkwright.engine.recently_made import Recent
 from linkwright.engine.reductions import Reduction
-from linkwright.engine.stage import Backend, Stage
+from linkwright.engine.stage import BACKENDS, Backend, Stage
 from linkwright.engine.states import states_as_fields
 from linkwright.engine.table import Table
 from linkwright.engine.trace import Mask, Scalar, Trace, absolute, maximum, select
@@ -46,26 +47,12 @@ from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.summary import KINDS, Summary, is_metric, reductions, wanted
 from linkwright.study.design_numbers import Numbers
+from linkwright.study.objective_terms import PathError, Terms, number_of_points, weighted
 from linkwright.study.varied_dimensions import checked_addresses, refuse_moved_positions
 from linkwright.units import LARGEST
 from linkwright.words.sentence import Sentence
 
 VALUE = "objective"
-
-
-@dataclass(frozen=True, eq=False)
-class PathError:
-    """Mean square distance, m², of a point from target points (n, 2), m, position by position.
-
-    ``point``: ``C`` or ``coupler.P``. There are as many positions as targets: over the cycle, or at the inputs that
-    the objective is given.
-    """
-
-    point: str
-    target: ArrayLike
-
-
-Terms = str | PathError | Mapping[str | PathError, float] | Sequence[str | PathError]
 
 
 class Part(Protocol):
@@ -164,7 +151,8 @@ class Objective:
 
     def __call__(self, values: ArrayLike) -> tuple[float, Floats]:
         """Value and gradient (k,) of one design."""
-        found, gradient = self.many(np.asarray(values, dtype=float)[None, :])
+        one: Any = [values]
+        found, gradient = self.many(one)
         return float(found[0]), gradient[0]
 
     def many(self, values: ArrayLike, *, threads: int | None = 1) -> tuple[Floats, Floats]:
@@ -185,7 +173,10 @@ class Objective:
         return np.asarray(sum(part.values(columns, threads) for part in self._parts))
 
     def _columns(self, values: ArrayLike) -> dict[str, Floats]:
-        given = np.asarray(values, dtype=float)
+        try:
+            given = np.asarray(values, dtype=float)
+        except (TypeError, ValueError):
+            raise RequestError("study.objective_numbers", names=self.names, given=repr(values)[:60]) from None
         if given.ndim != 2 or given.shape[1] != len(self.names):
             raise RequestError("study.objective_shape", names=self.names, shape=str(np.shape(values)))
         return dict(zip(self.names, given.T, strict=True))
@@ -222,8 +213,12 @@ def objective(
         LinkwrightError: unknown names; the friction and loads that :func:`sweep` finds design by design; positions
             too far apart to count the turns of a link that a dyad places and a wheel follows.
     """
+    require(mechanism, Mechanism)
+    one_of("backend", backend, BACKENDS)
     names = checked_addresses(mechanism, vary)
-    given = _weighted(terms)
+    if not names:
+        raise RequestError("study.nothing_varied")
+    given = weighted(terms)
     numbers = {term: weight for term, weight in given.items() if isinstance(term, str) and is_metric(term)}
     others = {term: weight for term, weight in given.items() if term not in numbers}
     compiled: Backend = "llvm" if backend == "auto" and available() else backend
@@ -232,7 +227,7 @@ def objective(
     ranges = {name: weight for name, weight in numbers.items() if ranged(name)}
     formulas = {name: weight for name, weight in numbers.items() if name not in {*hulls, *ranges}}
     parts += [of_metrics(mechanism, names, each, steps, compiled) for each in (hulls, ranges) if each]
-    if formulas or not given:
+    if formulas:
         parts.append(of_metrics(mechanism, names, formulas, steps, compiled))
     if others:
         parts.append(_of_positions(mechanism, names, others, steps, at, compiled))
@@ -301,29 +296,18 @@ def _of_positions(
     at: ArrayLike | None,
     backend: Backend,
 ) -> Part:
-    targets = [np.asarray(term.target, dtype=float) for term in given if isinstance(term, PathError)]
-    counts = {len(target) for target in targets}
-    if any(target.ndim != 2 or target.shape[1] != 2 for target in targets) or len(counts) > 1:
-        raise RequestError("study.objective_target")
-    positions = (
-        at_inputs(mechanism, at) if at is not None else over_cycle(mechanism, next(iter(counts), steps))
-    )
-    if counts and positions.count not in counts:
-        raise RequestError("study.objective_count", points=counts.pop(), positions=positions.count)
+    points = number_of_points(given)
+    positions = at_inputs(mechanism, at) if at is not None else over_cycle(mechanism, points or steps)
+    if not positions.count:
+        raise RequestError("motion.no_positions")
+    if points and positions.count != points:
+        raise RequestError("study.objective_count", points=points, positions=positions.count)
     known = mechanism.dimensions()
     if at is None:
         refuse_moved_positions(
             mechanism, positions, {name: np.array([1.001 * known[name] or 1e-3]) for name in names}
         )
     return _Builder(mechanism, names, positions, given).built(backend)
-
-
-def _weighted(terms: Terms) -> dict[str | PathError, float]:
-    if isinstance(terms, str | PathError):
-        return {terms: 1.0}
-    if isinstance(terms, Mapping):
-        return dict(terms)
-    return dict.fromkeys(terms, 1.0)
 
 
 class _Builder:

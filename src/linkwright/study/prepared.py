@@ -12,6 +12,7 @@ from typing import Literal
 import numpy as np
 
 from linkwright.core.arrays import Floats
+from linkwright.core.given import one_of, require
 from linkwright.core.outputs import row_name
 from linkwright.cycle_programs.limit_stages import CONVERGED, agree, constants, limit_stages, near_limits
 from linkwright.cycle_programs.loaded_cycle import along_input, with_loads
@@ -22,7 +23,7 @@ from linkwright.engine.llvm_backend import CompiledProgram, compile_program
 from linkwright.engine.machine_code import OF_ONE_ADDRESS, available
 from linkwright.engine.numpy_backend import numpy_program
 from linkwright.engine.program import Program
-from linkwright.engine.stage import Backend
+from linkwright.engine.stage import BACKENDS, Backend
 from linkwright.engine.trace import Mask, Scalar, absolute, select
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.change_points import nearness, parts
@@ -60,7 +61,9 @@ def prepare(
     Raises:
         LinkwrightError: an unknown address (nearest ones offered), or ``llvm`` without llvmlite.
     """
-    return Prepared(mechanism, tuple(vary), over_cycle(mechanism, steps), backend)
+    require(mechanism, Mechanism)
+    one_of("backend", backend, BACKENDS)
+    return Prepared(mechanism, checked_addresses(mechanism, vary), over_cycle(mechanism, steps), backend)
 
 
 class Prepared:
@@ -75,7 +78,6 @@ class Prepared:
     def __init__(
         self, mechanism: Mechanism, vary: tuple[str, ...], positions: Positions, backend: Backend
     ) -> None:
-        checked_addresses(mechanism, vary)
         self.mechanism = mechanism
         self.vary = vary
         self.positions = positions
@@ -130,6 +132,7 @@ class Prepared:
             LinkwrightError: a dimension that is zero in the starting design, and was not named in ``vary``.
             PositionError: a position cannot be reached, and ``failures`` is ``raise``.
         """
+        require(changes, Mapping)
         design = Design(self.mechanism, self._modes, changes)
         values = self._values(changes) if self._at_once else None
         if values is None or is_near(values[-2]):

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from linkwright.core.arrays import Floats
+from linkwright.core.given import whole
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.study.ranges import Range
 
@@ -32,6 +33,7 @@ def sobol(ranges: Sequence[Range], samples: int, seed: int, sampling: str) -> di
     """
     if sampling != "sobol":
         raise RequestError("study.no_sampling", sampling=sampling)
+    samples, seed = whole("samples", samples), whole("seed", seed)
     if not 1 <= samples <= MOST:
         raise RequestError("study.bad_samples", samples=samples, most=MOST)
     if seed < 0:

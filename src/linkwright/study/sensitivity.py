@@ -4,19 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import field
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, get_args
 
 import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.core.given import one_of, one_or_more, require
 from linkwright.core.html import html_table
 from linkwright.core.plot_method import Plotted
 from linkwright.core.read_only import Frozen, locked
 from linkwright.cycle_programs.known_loads import known_loads
 from linkwright.cycle_programs.slopes import Slopes
 from linkwright.cycle_programs.traced_outputs import Traced
-from linkwright.engine.stage import Backend
+from linkwright.engine.stage import BACKENDS, Backend
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinematics.reach_sentences import refusal
@@ -121,7 +122,7 @@ class Sensitivity(Plotted, Frozen):
 
     def _asked(self, output: str) -> None:
         if output not in self.curves:
-            raise RequestError("study.no_curve", output=output, curves=tuple(self.curves))
+            raise RequestError("study.no_curve", output=output)
 
     def _summary(self, output: str, kind: str | None) -> Summary:
         found = split(output if kind is None else (output, kind))
@@ -165,13 +166,16 @@ def sensitivity(
 
     Where the size of a vector is zero its derivative is taken as zero.
     """
+    require(mechanism, Mechanism)
+    one_of("way", way, get_args(Way))
+    one_of("backend", backend, BACKENDS)
     positions = over_cycle(mechanism, steps)
     dimensions = checked_addresses(mechanism, by)
     if not dimensions:
         raise RequestError("study.nothing_to_differentiate")
     _refuse_input(dimensions)
     refuse_misfits(mechanism, dimensions)
-    asked = [split(each) for each in ([of] if isinstance(of, str) else of)]
+    asked = [split(each) for each in one_or_more(of)]
     if not asked:
         raise RequestError("study.no_outputs")
     traced = Traced(mechanism, dimensions, positions, turning=True)

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.dataclass import dataclass
+from linkwright.core.given import require
 from linkwright.core.html import columns_html
 from linkwright.core.plot_method import Plotted
 from linkwright.core.read_only import Frozen
@@ -219,6 +220,7 @@ def study(
         LinkwrightError: an unknown parameter or metric (nearest ones offered), a text that is no range, or none of
             the designs can move (how many fail, at which group, why).
     """
+    require(mechanism, Mechanism)
     flywheel_inertia(1.0, 1.0, fluctuation)
     ranges = varied_ranges(mechanism, vary, sampled=sampling != "grid")
     columns = grid(ranges) if sampling == "grid" else sobol(ranges, samples, seed, sampling)

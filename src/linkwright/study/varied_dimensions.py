@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Floats
+from linkwright.core.given import one_or_more, require
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.joints.toothed import Numbers, whole
 from linkwright.kinematics.assembly import AssemblyError
@@ -26,7 +27,7 @@ SMALL = 1e-4
 def checked_addresses(mechanism: Mechanism, addresses: Iterable[str]) -> tuple[str, ...]:
     """The addresses, each once; raises LinkwrightError for one that the mechanism does not have."""
     known = mechanism.dimensions()
-    wanted = tuple(dict.fromkeys(addresses))
+    wanted = tuple(dict.fromkeys(one_or_more(addresses)))
     for address in wanted:
         if address not in known:
             hint = offered(address, known, "study.such_as", most=6)
@@ -42,11 +43,14 @@ def varied_ranges(
     Raises:
         LinkwrightError: nothing varies, an unknown address, a text that is no range, fractions of teeth.
     """
+    require(vary, Mapping)
     checked_addresses(mechanism, vary)
     ranges = tuple(parse_range(mechanism, address, given) for address, given in vary.items())
     if not ranges:
         raise RequestError("study.nothing_varies")
     for each in ranges:
+        if not each.values.size:
+            raise RequestError("study.no_values", address=each.address)
         if gives_part_of_tooth(mechanism, each.address, between(each)) and (
             sampled or any(gives_part_of_tooth(mechanism, each.address, value) for value in each.values)
         ):
@@ -78,6 +82,7 @@ def design_values(mechanism: Mechanism, vary: Mapping[str, ArrayLike]) -> dict[s
         LinkwrightError: an unknown address, columns of different lengths, a value that is no number or not finite, a
             length that is not positive, a negative mass.
     """
+    require(vary, Mapping)
     checked_addresses(mechanism, vary)
     if not vary:
         raise RequestError("study.nothing_varied")

@@ -6,16 +6,18 @@ from dataclasses import replace
 
 import numpy as np
 
+from linkwright.core.given import real
 from linkwright.kinematics import solve_motion
 from linkwright.kinetostatics.forces import solve_forces
 from linkwright.synthesis.linkage import Linkage
 
 
-def peak_loads(linkage: Linkage, mass_per_length: float, speed: str, steps: int) -> dict[str, float]:
+def peak_loads(linkage: Linkage, mass_per_length: float, speed: str | float, steps: int) -> dict[str, float]:
     """``peak_input_torque`` (N·m) and ``peak_reaction`` (N) over the cycle, links as slender rods, no gravity.
 
     Raises PositionError where the linkage does not pass its cycle.
     """
+    mass_per_length = real("mass_per_length", mass_per_length)
     mechanism = linkage.mechanism(speed=speed)
     links = {}
     for name, link in mechanism.links.items():

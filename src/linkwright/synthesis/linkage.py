@@ -4,13 +4,17 @@ from __future__ import annotations
 
 import cmath
 import math
+import re
 from collections.abc import Mapping
 from dataclasses import field, replace
 from itertools import combinations
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.given import real
+from linkwright.errors import about
 from linkwright.files.model_file import loads
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.units import parse
 
 #: Digits of lengths and angles in a model file: rounding below every demand, short enough to read.
 DIGITS = 12
@@ -95,9 +99,17 @@ class Linkage:
         """The linkage as the text of a model file."""
         return "\n".join(_lines(self, name, purpose, source, speed)) + "\n"
 
-    def mechanism(self, name: str = "", *, speed: str = "60 rpm") -> Mechanism:
-        """The linkage as a mechanism: what its text says."""
-        return loads(self.text(name or self.kind, speed=speed), f"{self.kind}.yaml")
+    def mechanism(self, name: str = "", *, speed: str | float = "60 rpm") -> Mechanism:
+        """The linkage as a mechanism: what its text says; ``speed`` a text or rad/s."""
+        return loads(self.text(name or self.kind, speed=_speed(speed)), f"{self.kind}.yaml")
+
+
+def _speed(given: str | float) -> str:
+    """A speed as a number and a unit with a space between; raises RequestError for anything else."""
+    text = given if isinstance(given, str) else f"{real('speed', given)!r} rad/s"
+    with about("speed"):
+        parse(text, "angular_velocity")
+    return re.sub(r"^\s*([-+]?[\d.]+(?:[eE][-+]?\d+)?)\s*", r"\1 ", text)
 
 
 def _moved_guide(guide: Guide, size: float, turn: float) -> Guide:

@@ -6,7 +6,7 @@ from math import degrees
 
 from linkwright.synthesis.result import Candidate, Synthesis
 from linkwright.words import Say, has, speaker
-from linkwright.words.characters import aligned
+from linkwright.words.characters import aligned_within
 from linkwright.words.sentence import in_language
 
 #: Share of the longest length, or of a radian, below which a deviation is rounding.
@@ -20,7 +20,7 @@ def title_said(found: Synthesis, tell: Say) -> str:
     return tell(key, task=name_said(found.task, tell), count=len(found))
 
 
-def report(found: Synthesis, language: str) -> list[str]:
+def report(found: Synthesis, language: str, width: int | None) -> list[str]:
     """Title, table of candidates, dimensions of each, counts and notes."""
     tell = speaker(language)
     rows = [[tell(f"synthesize.column.{name}") for name in COLUMNS]]
@@ -30,7 +30,7 @@ def report(found: Synthesis, language: str) -> list[str]:
         title_said(found, tell),
         tell(f"synthesize.error.{found.error_name}"),
         "",
-        *aligned(rows, "><>><<>>>"),
+        *(line for each in aligned_within(rows, "><>><<>>>", width) for line in each),
         "",
     ]
     for number, each in enumerate(found.candidates, 1):

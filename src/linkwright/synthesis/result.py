@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from linkwright.core.arrays import Complexes, Flags, Floats, Whole
 from linkwright.core.dataclass import dataclass
+from linkwright.core.given import real
 from linkwright.core.plot_method import Plotted
 from linkwright.errors import LinkwrightError
 from linkwright.mechanism.mechanism import Mechanism
@@ -57,11 +58,13 @@ class Candidate:
         lengths = ", ".join(f"{name} {length:.6g}" for name, length in self.linkage.lengths().items())
         return f"Candidate({self.grashof_type}: error {self.error:.3g}, {lengths})"
 
-    def mechanism(self, name: str = "", *, speed: str = "60 rpm") -> Mechanism:
-        """The candidate as a mechanism, its input link driven at constant speed."""
+    def mechanism(self, name: str = "", *, speed: str | float = "60 rpm") -> Mechanism:
+        """The candidate as a mechanism, its input link driven at constant speed: a text or rad/s."""
         return self.linkage.mechanism(name, speed=speed)
 
-    def loads(self, mass_per_length: float, *, speed: str = "60 rpm", steps: int = 180) -> dict[str, float]:
+    def loads(
+        self, mass_per_length: float, *, speed: str | float = "60 rpm", steps: int = 180
+    ) -> dict[str, float]:
         """Peak input torque (N·m) and peak reaction (N) where every link has ``mass_per_length`` (kg/m).
 
         Links are slender rods between their first two points, m l²/12 about their middle; gravity is left out.
@@ -131,11 +134,14 @@ class Synthesis(Plotted):
     def __getitem__(self, index: int) -> Candidate:
         return self.candidates[index]
 
-    def text(self, language: str = "en") -> str:
-        """The table of candidates, the lengths of the best one, and the notes."""
+    def text(self, language: str = "en", width: int | None = None) -> str:
+        """The table of candidates, the lengths of the best one, and the notes.
+
+        ``width``: characters across within which the heads of the table are folded.
+        """
         from linkwright.synthesis.report import report
 
-        return "\n".join(report(self, language))
+        return "\n".join(report(self, language, width))
 
     def data(self) -> dict[str, Any]:
         """Plain data, SI."""
@@ -237,6 +243,7 @@ def merits(candidates: Sequence[Candidate], extent: float) -> Floats:
 def whole(*, least: int = 1, **values: float) -> None:
     """Raises SynthesisError for the first value that is no whole number of ``least`` or more."""
     for name, value in values.items():
+        real(name, value, finite=False)
         if not (value == value and value >= least and float(value).is_integer()):
             raise refuse("not_whole", name=name, given=f"{value:g}", least=least)
 

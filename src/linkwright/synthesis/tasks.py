@@ -5,14 +5,18 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from inspect import signature
+from os import PathLike
+from os.path import exists
 from pathlib import Path
 from typing import Any
 
 from linkwright import units
 from linkwright.core.dataclass import dataclass
+from linkwright.core.given import told
 from linkwright.errors import Finding, ModelError, QuantityError, with_remedy
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar, Sequence
+from linkwright.files.calculations import refuse_kind
 from linkwright.files.compose import compose
 from linkwright.files.model_file import read_nodes
 from linkwright.files.node_reader import Place
@@ -87,7 +91,7 @@ def tasks() -> dict[str, Task]:
     return dict(TASKS)
 
 
-def synthesize(task: str, **demands: Any) -> Synthesis:
+def synthesize(task: str | Path, **demands: Any) -> Synthesis:
     """Runs a task by its name with demands in SI: ``synthesize("slider_crank", stroke=0.3, rod_ratio=3.5)``.
 
     Or the section ``synthesis`` of a file: ``synthesize("press.yaml")``. Tasks and their demands: the command
@@ -99,8 +103,12 @@ def synthesize(task: str, **demands: Any) -> Synthesis:
         ModelError: a file that cannot be read, with all findings.
     """
     known = tasks()
+    if isinstance(task, PathLike):
+        return synthesize_file(task)
+    if not isinstance(task, str):
+        raise refuse("task", task=told(task), known=tuple(known))
     if task not in known:
-        if task.lower().endswith((".yaml", ".yml", ".json")) or Path(task).exists():
+        if task.lower().endswith((".yaml", ".yml", ".json")) or exists(task):
             return synthesize_file(task)
         near = nearest(task, list(known))
         raise refuse("task", task=task, known=near or tuple(known))
@@ -131,6 +139,10 @@ def asked_in(text: str, name: str) -> tuple[str, dict[str, Any]]:
     """Task and demands (SI) of the section ``synthesis`` of a text; raises ModelError."""
     root, findings = read_nodes(text, name)
     section = root.get("synthesis") if isinstance(root, MappingNode) else None
+    kind = root.get("kind") if isinstance(root, MappingNode) else None
+    if section is None and isinstance(kind, Scalar):
+        refuse_kind(reader := Reader(name), kind)
+        raise ModelError(reader.findings)
     if findings or not isinstance(section, MappingNode):
         place = f"{name}:1:1"
         raise ModelError(findings or [Finding("error", place, "", note("task.section"), "", "missing")])

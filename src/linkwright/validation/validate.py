@@ -11,7 +11,7 @@ from linkwright.units import unit
 from linkwright.validation.probes import PROBES
 from linkwright.validation.published import Printed, Published, published
 from linkwright.words import say, speaker
-from linkwright.words.characters import aligned
+from linkwright.words.characters import aligned_within
 from linkwright.words.sentence import in_language
 from linkwright.words.titles import title_said
 
@@ -62,8 +62,11 @@ class Validation:
             found.setdefault((each.case.case, each.case.source), []).append(each)
         return found
 
-    def text(self, language: str = "en", *, every: bool = False) -> str:
-        """A line per case with its counts, or per number; what fails, and the errata, in full."""
+    def text(self, language: str = "en", *, every: bool = False, width: int | None = None) -> str:
+        """A line per case with its counts, or per number; what fails, and the errata, in full.
+
+        ``width``: characters across within which texts of the table are folded.
+        """
         say = speaker(language)
         rows = [tuple(say(f"validate.{key}") for key in ("case", "numbers", "agree", "worst"))]
         for (case, _), checks in self.cases().items():
@@ -72,7 +75,7 @@ class Validation:
             rows.append(
                 (title_said(case, language), str(len(checks)), str(agree), f"{abs(worst.digits):.2g}")
             )
-        lines = aligned(rows, "<>>>")
+        lines = [line for each in aligned_within(rows, "<>>>", width) for line in each]
         shown = self.checks if every else [each for each in self.checks if not each.ok or each.erratum]
         lines += ["", *(line(each, language) for each in shown)] if shown else []
         agree, errata = sum(each.ok for each in self.checks), sum(each.erratum for each in self.checks)

@@ -38,9 +38,8 @@ def has(key: str) -> bool:
 
 
 def speaker(language: str) -> Say:
-    """``say`` for one language: ``speaker("zh")("cli.error")``."""
-    if language not in LANGUAGES:
-        raise KeyError(language)
+    """``say`` for one language: ``speaker("zh")("cli.error")``; raises UnknownName for one that does not exist."""
+    _require(language)
     return partial(say, language=language)
 
 
@@ -49,11 +48,17 @@ def language_of(speaks: Say) -> str:
     return str(getattr(speaks, "keywords", {}).get("language", LANGUAGES[0]))
 
 
+def _require(language: str) -> None:
+    if language not in LANGUAGES:
+        from linkwright.registry import UnknownName
+
+        raise UnknownName("names.no_language", language=language, languages=LANGUAGES)
+
+
 @cache
 def catalogue(area: str, language: str) -> Mapping[str, str]:
     """All texts of an area; raises KeyError for an area or a language that does not exist."""
-    if language not in LANGUAGES:
-        raise KeyError(language)
+    _require(language)
     name = f"{__name__}.{language}.{area}"
     try:
         module = importlib.import_module(name)

@@ -15,8 +15,9 @@ _COLOUR = re.compile("\x1b\\[[0-9;]*m")
 _PIECE = (
     r"\s*(?:\d[\d.]* )?(?:[\u2e80-\uffef]|[^\s+–\u2e80-\uffef]*[+–]|[^\s+–\u2e80-\uffef]+)[，。；：、）]*"
 )
-#: Columns of tables stand apart.
-_COLUMNS = r"\S {2,}\S"
+#: Columns of tables stand apart; the last one is folded where it has so many cells.
+_COLUMNS = r"(?<=\S) {2,}(?=\S)"
+NARROWEST = 12
 
 
 def terminal_text(text: str) -> str:
@@ -123,14 +124,25 @@ def folded(text: str, width: int) -> list[str]:
 
 
 def folded_lines(text: str, width: int) -> str:
-    """A text whose sentences are folded, what follows indented; lines of tables stay as they are."""
+    """A text whose sentences are folded, what follows indented; of lines of tables the last column."""
     found = []
     for line in text.split("\n"):
-        words = line.lstrip(" ")
-        indent = len(line) - len(words)
-        if cells(line) <= width or re.search(_COLUMNS, words):
+        columns = [each.end() for each in re.finditer(_COLUMNS, line)]
+        indent = cells(line) - cells(line.lstrip(" "))
+        if cells(line) <= width:
             found.append(line)
-            continue
-        first, *rest = folded(words, width - indent - len(GAP))
-        found += [" " * indent + first, *(" " * indent + GAP + each for each in rest)]
+        elif not columns:
+            first, *rest = folded(line[indent:], width - indent - len(GAP))
+            found += [" " * indent + first, *(" " * indent + GAP + each for each in rest)]
+        else:
+            found += _last_folded(line, columns[-1], width)
     return "\n".join(found)
+
+
+def _last_folded(line: str, start: int, width: int) -> list[str]:
+    """A line of a table with its last column, which begins at a place, folded below itself if there is room."""
+    before = cells(line[:start])
+    if width - before < NARROWEST:
+        return [line]
+    first, *rest = folded(line[start:], width - before)
+    return [line[:start] + first, *(" " * before + each for each in rest)]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.given import require, whole
 from linkwright.core.outputs import Output
 from linkwright.errors import LinkwrightError, RequestError, require_language
 from linkwright.kinematics.groups import dyad_shape, in_one_step
@@ -136,10 +137,12 @@ def worked(
     Raises:
         LinkwrightError: a position that does not exist or was not reached, an unknown language.
     """
+    require(source, Forces, Motion)
     require_language(language)
     if at is not None:
         source, position = _solved_at(source, at), 0
     motion = source.motion if isinstance(source, Forces) else source
+    position = whole("position", position)
     _refuse_missing(motion, position)
     index = position % motion.steps
     say = speaker(language)

@@ -13,7 +13,7 @@ from linkwright.cli.pictures import (
     names,
     names_or_all,
     refuse_unknown,
-    refuse_unknown_vectors,
+    refuse_unknown_marks,
     source_arguments,
     told,
     vector_arguments,
@@ -56,9 +56,8 @@ def run(options: argparse.Namespace, session: Session) -> int:
     refuse_output(options.output, ENDINGS, force=options.force)
     seconds = _seconds(options.seconds)
     mechanism, _ = read_model(options.file, session)
+    refuse_unknown_marks(mechanism, options)
     motion = cycle(mechanism, max(options.steps, options.frames), session)
-    refuse_unknown_vectors(motion, options)
-    refuse_unknown(motion.point, "--paths", names(options.paths))
     forces = _forces(motion, options)
     results = motion_results(motion) if forces is None else force_results(forces)
     refuse_unknown(lambda name: named(results, name), "--curves", names(options.curves))

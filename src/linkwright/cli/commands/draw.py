@@ -14,7 +14,7 @@ from linkwright.cli.pictures import (
     names,
     names_or_all,
     refuse_unknown,
-    refuse_unknown_vectors,
+    refuse_unknown_marks,
     source_arguments,
     told,
     vector_arguments,
@@ -57,9 +57,9 @@ def run(options: argparse.Namespace, session: Session) -> int:
 
     refuse_output(options.output, ENDINGS, force=options.force)
     mechanism, _ = read_model(options.file, session)
-    motion = cycle(mechanism, options.steps, session)
     dimensions = _dimensions(options.dimensions)
-    _refuse_unknown_names(motion, options, dimensions)
+    _refuse_unknown_names(mechanism, options, dimensions)
+    motion = cycle(mechanism, options.steps, session)
     drawing = draw(
         motion,
         at=_inputs(mechanism, options.at),
@@ -132,14 +132,12 @@ def _dimensions(words: list[str] | None) -> list[Dimension] | bool:
 
 
 def _refuse_unknown_names(
-    motion: Motion, options: argparse.Namespace, dimensions: list[Dimension] | bool
+    mechanism: Mechanism, options: argparse.Namespace, dimensions: list[Dimension] | bool
 ) -> None:
     from linkwright.kinematics.limits import output_of
     from linkwright.kinematics.names import find_point
 
-    mechanism = motion.mechanism
-    refuse_unknown_vectors(motion, options)
-    refuse_unknown(motion.point, "--paths", names(options.paths))
+    refuse_unknown_marks(mechanism, options)
     named = [] if isinstance(dimensions, bool) else dimensions
     links = [each for each in named if isinstance(each, str)]
     refuse_unknown(mechanism.link, "--dimensions", links)

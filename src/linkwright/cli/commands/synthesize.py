@@ -35,23 +35,37 @@ def run(options: argparse.Namespace, session: Session) -> int:
     from linkwright.synthesis.result import SynthesisError
 
     refuse_output(options.plot, PICTURES, force=options.force)
-    if options.output is not None and not Path(options.output).is_dir():
-        raise UsageError("synthesize.no_folder", path=options.output)
     mass = _mass(options.mass)
+    task, demands = _asked(options, session)
+    if options.output is not None:
+        _refuse_folder(Path(options.output), task, force=options.force)
     try:
-        found = _solve(options, session)
+        found = _solve(task, demands, options, session)
     except SynthesisError as error:
         return _unmet(error, options, mass, session)
     _show(found, options, mass, session)
     return 0
 
 
-def _solve(options: argparse.Namespace, session: Session) -> Synthesis:
+def _refuse_folder(folder: Path, task: str, *, force: bool) -> None:
+    """Raises RequestError, before anything is sought, where models cannot be written into a folder."""
+    from linkwright.cli.files import refuse_existing
+    from linkwright.whole_files import refuse_folder
+
+    refuse_folder(folder)
+    if folder.is_dir():
+        refuse_existing(_model_file(folder, task, 0), force=force)
+
+
+def _model_file(folder: Path, task: str, index: int) -> Path:
+    return folder / f"{task}_{index + 1}.yaml"
+
+
+def _solve(task: str, demands: dict[str, Any], options: argparse.Namespace, session: Session) -> Synthesis:
     from linkwright.cli.long_commands import kept
     from linkwright.study.cluster import on_cluster
     from linkwright.synthesis.tasks import synthesize
 
-    task, demands = _asked(options, session)
     with kept(options.state, task, (task, demands), session), on_cluster(options.cluster):
         return synthesize(task, **demands)
 
@@ -89,12 +103,14 @@ def _unmet(error: SynthesisError, options: argparse.Namespace, mass: float | Non
 
 def _show(found: Synthesis, options: argparse.Namespace, mass: float | None, session: Session) -> None:
     from linkwright.cli.files import write_diagram, write_whole
+    from linkwright.whole_files import make_folder
 
     efforts = [each.loads(mass, speed=options.speed) for each in found] if mass is not None else []
     written = []
     if options.output is not None:
+        folder = make_folder(options.output)
         for index in range(len(found)):
-            path = Path(options.output) / f"{found.task}_{index + 1}.yaml"
+            path = _model_file(folder, found.task, index)
             write_whole(path, found.model_text(index, language=session.language), force=options.force)
             written.append(path)
     if options.plot is not None:
@@ -106,7 +122,7 @@ def _show(found: Synthesis, options: argparse.Namespace, mass: float | None, ses
             each |= effort
         session.show_data({"ok": True, **data})
         return
-    session.show(found.text(session.language))
+    session.show(found.text(session.language, session.room))
     if efforts:
         session.show("\n" + "\n".join(_effort_lines(efforts, session.say)))
     session.show_written(*written)

@@ -29,5 +29,5 @@ def run(options: argparse.Namespace, session: Session) -> int:
     if session.json:
         session.show_data({"ok": found.ok, "numbers": found.data()})
     else:
-        session.show(found.text(session.language, every=options.every))
+        session.show(found.text(session.language, every=options.every, width=session.room))
     return int(not found.ok)

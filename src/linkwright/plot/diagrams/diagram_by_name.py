@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TypeAlias, cast
+from typing import Any, TypeAlias, cast
 
+from linkwright.core.given import real, require
 from linkwright.core.plot_method import Plotted
 from linkwright.errors import RequestError, about, require_language
 from linkwright.kinematics.motion import Motion
@@ -69,7 +70,7 @@ def plot(
     """
     require_language(language)
     own = _own_kind(result, kind)
-    sources = [] if own else _sources(cast(_Solved, result), static=static)
+    sources = [] if own else _sources(result, static=static)
     name = own or kind or _usual(cast(_Solved, result))
     if not own:
         require_kind(name)
@@ -85,8 +86,8 @@ def plot(
     require_options(
         name, [option for option, value in given.items() if value not in (None, (), "", [], False)]
     )
-    if size is not None and not all(1.0 <= each <= 100.0 for each in size):
-        raise RequestError("picture.bad_inches", wide=size[0], tall=size[1])
+    if size is not None:
+        _require_inches(size)
     request = Request(
         kind=name,
         of=(of,) if isinstance(of, str) else tuple(of),
@@ -96,7 +97,7 @@ def plot(
         at=_place(at, sources[0]) if sources else None,
         fluctuation=0.03 if fluctuation is None else fluctuation,
         marks=marks,
-        title=None if title is None else printable(title).replace("\t", " "),
+        title=None if title is None else printable(str(title)).replace("\t", " "),
         size=size,
         language=language,
     )
@@ -105,6 +106,13 @@ def plot(
             RESULT_DIAGRAMS[name].draw(result, request) if own else DIAGRAMS[name]().draw(sources, request)
         )
     return Diagram(name, drawn, language)
+
+
+def _require_inches(size: object) -> None:
+    """Raises RequestError for what are no width and height of a diagram."""
+    given = size if isinstance(size, Sequence) and not isinstance(size, str) else ()
+    if len(given) != 2 or not all(1.0 <= real("size", each) <= 100.0 for each in given):
+        raise RequestError("picture.bad_inches", size=repr(size)[:60])
 
 
 def kinds() -> tuple[str, ...]:
@@ -142,13 +150,17 @@ def _own_kind(result: object, kind: str | None) -> str | None:
     return kind
 
 
-def _sources(result: _Solved, *, static: bool) -> list[Source]:
+def _sources(result: object, *, static: bool) -> list[Source]:
+    given: list[tuple[str | None, Any]]
     if isinstance(result, Mapping):
-        found = [Source(each, label, static=static) for label, each in result.items()]
-    elif isinstance(result, Sequence):
-        found = [Source(each, static=static) for each in result]
+        given = [(label, each) for label, each in result.items()]
+    elif isinstance(result, Sequence) and not isinstance(result, str):
+        given = [(None, each) for each in result]
     else:
-        found = [Source(result, static=static)]
+        given = [(None, result)]
+    for _, each in given:
+        require(each, Mechanism, Motion, Forces, SteadyRunning)
+    found = [Source(each, label, static=static) for label, each in given]
     if not found:
         raise RequestError("picture.nothing_given")
     if len(found) > 1 and len({source.label for source in found}) < len(found):

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from linkwright.core.arrays import Floats
+from linkwright.core.arrays import Floats, largest
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.plot.diagrams.axes import Legend, Unit, framed, label_input, unit_of
@@ -18,6 +18,8 @@ from linkwright.plot.diagrams.picture import COLOURS, FAINT, INK, SHADE, Axes, F
 from linkwright.plot.diagrams.source import Extremes, InputAxis, Source
 from linkwright.words import Say
 
+#: A value below this in the unit of the axis has a unit of its own, below that share of the largest it is rounding.
+SMALL, ROUNDING = 0.1, 1e-9
 DASHES = ("-", "--", ":", "-.")
 
 
@@ -77,9 +79,16 @@ def with_mean(
     is none, as of a cycle that is only partly reached."""
     if np.isnan(mean):
         return Panel(title, dimension, (curve,), (), fill)
-    value = Panel(title, dimension, (curve,)).unit.text(mean)
+    value = _readable(Panel(title, dimension, (curve,)).unit, dimension, mean, curve.values)
     level = Level(f"{whose}{request.say('mean', value=value)}", mean)
     return Panel(title, dimension, (curve,), (level,), fill)
+
+
+def _readable(unit: Unit, dimension: str, value: float, values: Floats) -> str:
+    """A value with the unit of its axis, or one of its own where it is small beside the values, but no rounding."""
+    if ROUNDING * largest(values) < abs(value) < SMALL / unit.factor:
+        unit = unit_of(dimension, [np.array([value])])
+    return unit.text(value)
 
 
 def look(number: int) -> tuple[str, str]:

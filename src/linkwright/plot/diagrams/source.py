@@ -171,14 +171,19 @@ class Source:
             raise RequestError("picture.no_input", name=motion.mechanism.name)
         if motion.steps < 2:
             raise RequestError("picture.one_position_only", name=motion.mechanism.name)
-        name, driver = next(iter(motion.mechanism.drivers.items()))
+        name = next(iter(motion.mechanism.drivers))
         if not motion.mechanism.steady:
             end = [] if self._end is None else [self._end]
             return InputAxis("", "time", np.append(motion.time, end))
-        values = motion.input
-        if self._end is not None:
-            values = np.append(values, driver.law.coordinate(np.array([self._end]))[0])
-        return InputAxis(name, "angle" if motion.positions.rotary[name] else "length", values)
+        return InputAxis(name, "angle" if motion.positions.rotary[name] else "length", self.input)
+
+    @property
+    def input(self) -> Floats:
+        """The first driver's coordinate, rad or m, up to the cycle's end."""
+        if self._end is None:
+            return self.motion.input
+        driver = next(iter(self.mechanism.drivers.values()))
+        return np.append(self.motion.input, driver.law.coordinate(np.array([self._end]))[0])
 
     def closed(self, values: Floats, *, turns: bool = False) -> Floats:
         """Values at all positions (n, …), the first one repeated where the cycle ends.

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from linkwright.core.arrays import Floats
+from linkwright.core.given import one_or_more, real, require, whole
 from linkwright.errors import LinkwrightError, RequestError, require_language
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
@@ -91,7 +92,10 @@ def draw(
     Raises:
         LinkwrightError: an unknown name, a position that does not exist or was not reached.
     """
+    require(source, Motion, Mechanism)
     require_language(language)
+    if not real("diagonal", diagonal) > 0:
+        raise RequestError("picture.bad_diagonal", diagonal=diagonal)
     motion = source if isinstance(source, Motion) else solve_motion(source, steps=STEPS, failures="mark")
     shown = _shown(motion, position, at, time)
     ghosts, style = _overlay(motion, overlay)
@@ -100,6 +104,7 @@ def draw(
     )
     sheet = Sheet(scene, index, shown.index)
     sheet.ghosts(others, style)
+    paths = one_or_more(paths)
     sheet.add(scene.traces(paths), [scene.trace(name) for name in paths])
     known = _forces_shown(motion, shown, forces)
     arrows = all_arrows(shown.motion, velocities, accelerations, known, reactions_of)
@@ -232,13 +237,14 @@ def _shown(motion: Motion, position: int | None, at: At | None, time: float | No
     if at is not None:
         return at_input(motion, at).checked()
     if time is not None:
-        return at_time(motion, time).checked()
+        return at_time(motion, real("time", time)).checked()
     if position is None:
         return Shown(motion, int(np.argmax(motion.ok))).checked()
     return Shown(motion, _index(motion, position))
 
 
 def _index(motion: Motion, position: int) -> int:
+    position = whole("position", position)
     if not -motion.steps <= position < motion.steps:
         raise RequestError(
             "picture.no_position", position=position, name=motion.mechanism.name, last=motion.steps - 1
@@ -251,7 +257,8 @@ def _index(motion: Motion, position: int) -> int:
 
 def _overlay(motion: Motion, overlay: Sequence[int] | str) -> tuple[list[Shown], str]:
     if not isinstance(overlay, str):
-        return [Shown(motion, _index(motion, each)) for each in overlay], "lw-faded"
+        positions = overlay if isinstance(overlay, Iterable) else [overlay]
+        return [Shown(motion, _index(motion, each)) for each in positions], "lw-faded"
     word, _, rest = overlay.partition(":")
     if word == "limits":
         denser, indices = with_limits(motion, limits_of(motion, rest or None))
@@ -279,11 +286,11 @@ def all_arrows(
     """All vectors that a drawing shows; each entry has a scale of its own."""
     found: list[Arrows] = []
     for kind, wanted in (("velocity", velocities), ("acceleration", accelerations)):
-        names = all_points(motion.mechanism) if wanted is True else tuple(wanted or ())
+        names = all_points(motion.mechanism) if wanted is True else one_or_more(wanted or ())
         if names:
             found.append(point_vectors(motion, names, kind))
     if forces is not None:
-        found.append(force_vectors(forces, of))
+        found.append(force_vectors(forces, None if of is None else one_or_more(of)))
     return found
 
 

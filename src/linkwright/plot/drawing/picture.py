@@ -9,6 +9,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.core.given import real
 from linkwright.errors import RequestError
 from linkwright.plot.drawing.style import CSS
 from linkwright.plot.svg.element import Element, element, number
@@ -76,7 +77,7 @@ def _paper(left: float, top: float, width: float, height: float) -> Element:
 
 def document(content: Sequence[Element], box: Box, title: str, size: float | None) -> str:
     """A whole SVG document over a box; ``size`` is its longer side in pixels."""
-    if size is not None and not SIZES[0] <= size <= SIZES[1]:
+    if size is not None and not SIZES[0] <= real("size", size) <= SIZES[1]:
         raise RequestError("picture.bad_size", size=size, least=SIZES[0], most=SIZES[1])
     left, top = box[0] - MARGIN, box[1] - MARGIN
     width, height = box[2] - left + MARGIN, box[3] - top + MARGIN

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.errors import RequestError
 from linkwright.plot.diagrams.axes import Legend, equal, framed, unit_of
 from linkwright.plot.diagrams.base import Request, result_diagram
 from linkwright.plot.diagrams.panels import Curve, Panel, look, stacked
 from linkwright.plot.diagrams.picture import INK, Figure, new_figure
-from linkwright.plot.diagrams.source import InputAxis
+from linkwright.plot.diagrams.source import InputAxis, Source
 from linkwright.registry import offered
 from linkwright.study.compare import Comparison
 from linkwright.study.overlay import Overlay
@@ -38,8 +39,13 @@ def draw_comparison(result: Comparison, request: Request) -> Figure:
 
     ``of``: travel, velocity, acceleration, pivot_reaction, input_torque; all that there are by default.
     """
-    axis = _axis(result)
-    panels = [panel for overlay in _chosen(result, request.of) for panel in _panels(result, overlay, request)]
+    sources = {each.label: Source(each.motion) for each in result.alternatives}
+    axis = _axis(sources)
+    panels = [
+        panel
+        for overlay in _chosen(result, request.of)
+        for panel in _panels(result, overlay, sources, request)
+    ]
     figure, axes = stacked(panels, axis, request, " – ".join(result.labels))
     passed = say("compare.curve.input", request.language)
     axes[-1].set_xlabel(axis.unit.label(f"{passed} {'φ' if axis.dimension == 'angle' else 's'}"))
@@ -55,7 +61,9 @@ def draw_pivot_hodograph(result: Comparison, request: Request) -> Figure:
     unit = unit_of("force", [values for line in overlay.lines.values() for values in line])
     figure = new_figure(request.size or (6.4, 5.4))
     axes, legend = figure.subplots(), Legend()
-    for number, (label, (x, y)) in enumerate(overlay.lines.items()):
+    sources = {each.label: Source(each.motion) for each in result.alternatives}
+    for number, (label, components) in enumerate(overlay.lines.items()):
+        x, y = map(sources[label].closed, components)
         colour, dash = look(number)
         (line,) = axes.plot(x * unit.factor, y * unit.factor, color=colour, linestyle=dash)
         legend.add(label, line)
@@ -77,39 +85,45 @@ def _chosen(result: Comparison, names: Sequence[str]) -> list[Overlay]:
     return [known[name] for name in names or known]
 
 
-def _axis(result: Comparison) -> InputAxis:
+def _axis(sources: Mapping[str, Source]) -> InputAxis:
     """The input passed; raises LinkwrightError where one input turns and another slides."""
-    turning = {next(iter(each.motion.positions.rotary.values())) for each in result.alternatives}
+    turning = {next(iter(each.motion.positions.rotary.values())) for each in sources.values()}
     if len(turning) > 1:
         raise RequestError("picture.turn_and_slide")
-    lines = [x for x, _ in result.curves[0].lines.values()]
-    return InputAxis(
-        "", "angle" if turning.pop() else "length", max(lines, key=lambda x: float(np.nanmax(x)))
-    )
+    longest = max(map(_passed, sources.values()), key=lambda x: float(np.nanmax(x)))
+    return InputAxis("", "angle" if turning.pop() else "length", longest)
 
 
-def _panels(result: Comparison, overlay: Overlay, request: Request) -> list[Panel]:
+def _passed(source: Source) -> Floats:
+    """How far the input has gone since the cycle began, up to its end."""
+    return np.asarray(np.abs(source.input - source.input[0]))
+
+
+def _panels(
+    result: Comparison, overlay: Overlay, sources: Mapping[str, Source], request: Request
+) -> list[Panel]:
     """One panel for a quantity; two where some outputs turn and others slide."""
     looks = {label: look(n) for n, label in enumerate(result.labels)}
     kinds = _MOTION.get(overlay.name)
     if kinds is None:
-        return [_panel(overlay, say(f"compare.curve.{overlay.name}", request.language), overlay.dimension,
-                       result.labels, looks)]  # fmt: skip
+        title = say(f"compare.curve.{overlay.name}", request.language)
+        curves = [_curve(overlay, label, sources[label], looks) for label in result.labels]
+        return [Panel(title, overlay.dimension, tuple(curves))]
     found = []
     for kind, (word, symbol, dimension) in kinds.items():
         labels = [
             each.label for each in result.alternatives if (each.output.kind == "angle") == (kind == "angle")
         ]
         if labels:
-            found.append(_panel(overlay, f"{request.say(word)} {symbol}", dimension, labels, looks))
+            turns = dimension == "angle"
+            curves = [_curve(overlay, label, sources[label], looks, turns=turns) for label in labels]
+            found.append(Panel(f"{request.say(word)} {symbol}", dimension, tuple(curves)))
     return found
 
 
-def _panel(
-    overlay: Overlay, title: str, dimension: str, labels: Sequence[str], looks: dict[str, tuple[str, str]]
-) -> Panel:
-    curves = []
-    for label in labels:
-        x, values = overlay.lines[label]
-        curves.append(Curve(label, values, "", *looks[label], x))
-    return Panel(title, dimension, tuple(curves))
+def _curve(
+    overlay: Overlay, label: str, source: Source, looks: Mapping[str, tuple[str, str]], *, turns: bool = False
+) -> Curve:
+    """The curve of one alternative up to the end of its cycle; ``turns``: it is an angle."""
+    values = source.closed(overlay.lines[label][1], turns=turns)
+    return Curve(label, values, "", *looks[label], _passed(source))

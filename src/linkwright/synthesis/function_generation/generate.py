@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Complexes, Floats
+from linkwright.core.given import real
 from linkwright.synthesis.assessment import assess_four_bars
 from linkwright.synthesis.build import four_bar_candidate
 from linkwright.synthesis.function_generation.exact import families, freudenstein
@@ -86,7 +87,7 @@ def function_generation(
         least
             squares, or the one with defects).
     """
-    x, y = np.asarray(inputs, float), np.asarray(outputs if places is None else places, float)
+    x, y = (_values(each) for each in (inputs, outputs if places is None else places))
     _check(x, y, linkage, frame)
     whole(count=count)
     whole(least=0, seed=seed)
@@ -105,6 +106,14 @@ def function_generation(
     return _fitted(generator, demand, frame, count, seed)
 
 
+def _values(given: ArrayLike) -> Floats:
+    """Values as an array; of what are no numbers one that is no list of values."""
+    try:
+        return np.asarray(given, float)
+    except (TypeError, ValueError):
+        return np.array(math.nan)
+
+
 def _check(x: Floats, y: Floats, linkage: str, frame: float) -> None:
     if linkage not in KINDS:
         raise refuse("function.linkage", linkage=linkage, known=tuple(KINDS))
@@ -112,7 +121,7 @@ def _check(x: Floats, y: Floats, linkage: str, frame: float) -> None:
         raise refuse("function.values", inputs=x.size, outputs=y.size)
     if len(x) < 3:
         raise refuse("function.few", count=len(x))
-    if not 0 < frame < math.inf:
+    if not 0 < real("frame", frame, finite=False) < math.inf:
         raise refuse("not_positive", name="frame", given=f"{frame:g}")
 
 

@@ -31,6 +31,7 @@ from linkwright.synthesis.motion_generation.families import (
     usual_window,
 )
 from linkwright.synthesis.motion_generation.mixed_poses import counted_solutions, mixed_solutions
+from linkwright.synthesis.path_generation.generate import complex_points
 from linkwright.synthesis.result import (
     Candidate,
     Synthesis,
@@ -88,7 +89,7 @@ def motion_generation(
     if np.isnan(phi).any():
         return _mixed(p, phi, link_ratio, count)
     _special(p, phi, link_ratio, count)
-    window = usual_window(p) if within is None else Window(complex(*within[0]), complex(*within[1]))
+    window = usual_window(p) if within is None else _window(within)
     found, error = _all_dyads(p, phi, window, fixed_pivots, moving_pivots, pivot_line)
     counts = {"dyads": len(found), "sliders": int(found.slides.sum())}
     if len(found) < 2 and len(p) == 5:
@@ -109,8 +110,24 @@ def motion_generation(
     return result
 
 
+def _window(corners: tuple[tuple[float, float], tuple[float, float]]) -> Window:
+    """The window between two corners."""
+    first, last = _two_points(corners)
+    return Window(first, last)
+
+
+def _two_points(given: Sequence[Sequence[float]]) -> tuple[complex, complex]:
+    found = complex_points(given)
+    if len(found) != 2:
+        raise refuse("points")
+    return complex(found[0]), complex(found[1])
+
+
 def _read(poses: ArrayLike) -> tuple[Complexes, Floats]:
-    given = np.asarray(poses, float)
+    try:
+        given = np.asarray(poses, float)
+    except (TypeError, ValueError):
+        raise refuse("motion.poses") from None
     if given.ndim != 2 or given.shape[1] != 3 or len(given) < 2 or not np.isfinite(given[:, :2]).all():
         raise refuse("motion.poses")
     p, phi = given[:, 0] + 1j * given[:, 1], given[:, 2]
@@ -201,8 +218,8 @@ def _all_dyads(
         if len(p) > 3:
             raise refuse("motion.pivots", poses=len(p))
         d, e = relative_poses(p, phi)
-        given = [_with_centre(p, phi, complex(*place)) for place in fixed]
-        given += [complex(*place) - p[0] for place in moving]
+        given = [_with_centre(p, phi, complex(place)) for place in complex_points(fixed)] if fixed else []
+        given += [complex(place) - p[0] for place in complex_points(moving)] if moving else []
         named = circles(np.array(given), p, d, e)
         rest = dyads(p, phi, window) if len(given) == 1 else named[:0]
         found = join(named, rest)
@@ -228,7 +245,7 @@ def _with_centre(p: Complexes, phi: Floats, centre: complex) -> complex:
 
 def _on_line(p: Complexes, phi: Floats, ends: Sequence[Sequence[float]]) -> Dyads:
     """Dyads of three or four poses whose fixed pivots lie on the stretch between two places."""
-    first, last = (complex(*place) for place in ends)
+    first, last = _two_points(ends)
     middle, half = 0.5 * (first + last) - p[0], 0.5 * (last - first)
     if len(p) == 3:
         pivots = middle + half * np.linspace(-1, 1, 48)

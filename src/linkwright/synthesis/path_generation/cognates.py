@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from linkwright.core.given import require
 from linkwright.synthesis.assessment import Assessment, assess_four_bars
 from linkwright.synthesis.build import four_bar_candidate, path_of_four_bar
 from linkwright.synthesis.linkage import Linkage
@@ -23,6 +24,7 @@ def cognates(linkage: Linkage) -> Synthesis:
     Raises:
         SynthesisError: the linkage is not a four-bar with a coupler point P, or P lies on a pin.
     """
+    require(linkage, Linkage)
     points = linkage.points
     if linkage.guides or not {"O1", "A", "B", "O2", "P"} <= set(points):
         raise refuse("cognates.four_bar")

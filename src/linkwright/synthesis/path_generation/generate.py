@@ -120,7 +120,7 @@ def _demand(
     theta = np.zeros(len(z)) if angles is None else np.asarray(angles, float)
     if theta.shape != z.shape or not np.isfinite(theta).all():
         raise refuse("path.angles", angles=int(np.isfinite(theta).sum()), points=len(z))
-    place = None if pivot is None else complex(*pivot)
+    place = None if pivot is None else complex_points([pivot])[0]
     found = Demand(z, theta, phase, angles is not None, place, direction)
     if not found.size > 0:
         raise refuse("path.one_place")

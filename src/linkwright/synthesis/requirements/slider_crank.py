@@ -12,6 +12,7 @@ import math
 
 import numpy as np
 
+from linkwright.core.given import real
 from linkwright.synthesis.assessment import assess_slider_cranks
 from linkwright.synthesis.build import candidate, slider_crank
 from linkwright.synthesis.result import Synthesis, refuse
@@ -110,14 +111,14 @@ def angle_between_limits(quick_return_ratio: float) -> float:
 def positive(**values: float) -> None:
     """Raises SynthesisError for a value that is not positive and finite."""
     for name, value in values.items():
-        if not 0 < value < math.inf:
+        if not 0 < real(name, value, finite=False) < math.inf:
             raise refuse("not_positive", name=name, given=f"{value:g}")
 
 
 def not_negative(**values: float) -> None:
     """Raises SynthesisError for a value that is negative or not finite."""
     for name, value in values.items():
-        if not 0 <= value < math.inf:
+        if not 0 <= real(name, value, finite=False) < math.inf:
             raise refuse("negative", name=name, given=f"{value:g}")
 
 

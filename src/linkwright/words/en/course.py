@@ -27,7 +27,7 @@ WORDS = {
     "convention": "x to the right, y up; angles and moments counter-clockwise positive; angles of a link's x axis in "
     "degrees.",
     "sheet_title": "Exercise: {name}",
-    "sheet_number": "Variant",
+    "sheet_number": "Variant {number}",
     "sheet_name": "Name: ……………………………………  Number: ………………………",
     "given": "Given",
     "asked": "Wanted",

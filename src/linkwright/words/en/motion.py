@@ -18,7 +18,9 @@ WORDS = {
     "no_numbers": "{given} is no input and no time; give numbers in SI units (rad, m, s), such as 0.5 or [0.0, 0.5]",
     "no_failures": "failures is {given!r}; give 'raise' to refuse positions that cannot be reached, or 'mark' to "
     "mark them",
-    "bad_steps": "steps is {steps}; give one step or more",
+    "no_row": "inputs and times stand in one row, not in an array of the shape {shape}; give a number per position",
+    "at_and_times": "positions are given by inputs (at) and by times; give one of the two",
+    "no_positions": "no positions are given; give an input or a time, or leave at and times out for the whole cycle",
     "no_natural_end": "the cycle of {name!r} has no natural end, as driver {driver!r} does not turn; write "
     "cycle: {{from: …, to: …}} (the driver's coordinate) or cycle: {{duration: 2 s}}",
     "law_without_end": "the cycle of {name!r} has no natural end, as driver {driver!r} follows a law in time; write "

@@ -23,7 +23,7 @@ WORDS = {
     "position": "位置：{link} 在 {input}。",
     "convention": "x 向右，y 向上；角度与力矩以逆时针为正；角度指构件 x 轴的方向，以度计。",
     "sheet_title": "习题：{name}",
-    "sheet_number": "变式",
+    "sheet_number": "变式 {number}",
     "sheet_name": "姓名：……………………………………  学号：………………………",
     "given": "已知",
     "asked": "求",

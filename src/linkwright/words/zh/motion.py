@@ -16,7 +16,9 @@ WORDS = {
     "bad_input": "驱动“{name}”的一个输入不是有限的数",
     "no_numbers": "{given} 不是输入或时刻；请给出国际单位（rad、m、s）的数，如 0.5 或 [0.0, 0.5]",
     "no_failures": "failures 为 {given!r}；写 'raise' 时到不了的位置会报错，写 'mark' 时只作标记",
-    "bad_steps": "步数为 {steps}；至少为 1",
+    "no_row": "输入或时刻应排成一列，而不是形状为 {shape} 的数组；请给每个位置一个数",
+    "at_and_times": "位置既由输入（at）又由时刻（times）给出；请只给其中之一",
+    "no_positions": "没有给出位置；请给出至少一个输入或时刻，或不写 at 和 times 以取整个循环",
     "no_natural_end": "“{name}”的循环没有自然的终点，因为驱动“{driver}”不转动；请写 cycle: {{from: …, to: "
     "…}}（驱动的坐标）或 cycle: {{duration: 2 s}}",
     "law_without_end": "“{name}”的循环没有自然的终点，因为驱动“{driver}”按时间规律运动；请写出循环的时间：cycle: "

@@ -14,7 +14,6 @@ Grashof 类型、整个范围内的缺陷、最小传动角、最长与最短杆
     "speed_help": "模型文件与 --mass 中输入构件的转速（默认 60 rpm）",
     "bad_demand": '"{text}" 不是要求；请写 KEY=VALUE，如 stroke="40 mm"',
     "bad_mass": '--mass："{text}" 不是以 kg/m 计的单位长度质量；请给正数',
-    "no_folder": '--output：没有文件夹 "{path}"；请新建，或另给一个',
     "title": "综合：{task}，{count} 个方案",
     "title_one": "综合：{task}，{count} 个方案",
     "column.number": "序号",

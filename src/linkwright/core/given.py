@@ -1,0 +1,132 @@
+"""What was given in place of a mechanism or a result, and how it becomes what is needed."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from os import PathLike
+from typing import Any, SupportsInt, TypeVar, overload
+
+from linkwright.errors import RequestError
+from linkwright.registry import listed
+from linkwright.words.sentence import Sentence
+
+T = TypeVar("T")
+#: Longest text that a sentence repeats.
+LONGEST = 80
+#: Calls that make results of a mechanism, and what is given as an example of other kinds.
+_SOLVING = {"Motion": "solve_motion", "Forces": "solve_forces"}
+_EXAMPLES = {
+    "Mechanism": 'lw.load("machine.yaml")',
+    "Motion": "lw.solve_motion(mechanism)",
+    "Forces": "lw.solve_forces(mechanism)",
+    "Linkage": "candidate.linkage",
+    "Mapping": '{"crank.length": 0.1}',
+}
+
+
+def require(given: object, *kinds: type) -> None:
+    """Raises RequestError, with what to write instead, where something is of none of the kinds.
+
+    The kinds are those that have words under ``given_instead.kind_…``.
+    """
+    if isinstance(given, kinds):
+        return
+    names = [kind.__name__ for kind in kinds]
+    *others, last = [Sentence(f"given_instead.kind_{name}") for name in names]
+    needed = Sentence("given_instead.or", others=tuple(others), last=last) if others else last
+    raise RequestError("given_instead.needed", needed=needed, told=told(given), hint=_hint(given, names))
+
+
+@overload
+def one_or_more(given: Iterable[str] | str) -> tuple[str, ...]: ...
+@overload
+def one_or_more(given: Iterable[T]) -> tuple[T, ...]: ...
+def one_or_more(given: Any) -> tuple[Any, ...]:
+    """Names as a tuple; a text alone, and what holds none, is one name."""
+    return tuple(given) if isinstance(given, Iterable) and not isinstance(given, str) else (given,)
+
+
+def whole(option: str, given: object, least: int | None = None) -> int:
+    """A whole number, ``least`` or more; raises RequestError for anything else."""
+    number = given if isinstance(given, SupportsInt) and not isinstance(given, str) else None
+    try:
+        found = None if number is None else int(number)
+    except (ValueError, OverflowError):
+        found = None
+    if found is None or found != given or (least is not None and found < least):
+        key = "no_whole" if least is None else "no_whole_from"
+        raise RequestError(f"given_instead.{key}", option=option, given=repr(given)[:LONGEST], least=least)
+    return found
+
+
+def real(option: str, given: object, *, finite: bool = True) -> float:
+    """A number, ``finite`` unless told otherwise; raises RequestError for anything else."""
+    try:
+        found = None if isinstance(given, str) else float(given)  # type: ignore[arg-type]
+    except (TypeError, ValueError):
+        found = None
+    if found is None or (finite and not math.isfinite(found)):
+        raise RequestError("given_instead.no_real", option=option, given=repr(given)[:LONGEST])
+    return found
+
+
+def require_pair(option: str, given: object) -> None:
+    """Raises RequestError for anything but two numbers."""
+    numbers = list(given) if isinstance(given, Iterable) and not isinstance(given, str) else []
+    if len(numbers) != 2:
+        raise RequestError("given_instead.no_pair", option=option, given=repr(given)[:LONGEST])
+    for number in numbers:
+        real(option, number)
+
+
+def one_of(option: str, given: object, known: Sequence[str]) -> None:
+    """Raises RequestError, with the nearest, where a word is none of those that are known."""
+    if given not in known:
+        hint = listed(str(given), known, "one_of")
+        raise RequestError("given_instead.no_choice", option=option, given=repr(given)[:LONGEST], hint=hint)
+
+
+def told(given: object) -> str:
+    """What was given, as a sentence names it."""
+    if isinstance(given, str):
+        short = len(given) <= LONGEST and "\n" not in given
+        return Sentence("given_instead.text", text=given) if short else Sentence("given_instead.long_text")
+    if isinstance(given, PathLike):
+        return Sentence("given_instead.path", path=str(given))
+    if given is None or isinstance(given, int | float):
+        return repr(given)
+    kind = given if isinstance(given, type) else type(given)
+    return Sentence("given_instead.class" if kind is given else "given_instead.object", kind=kind.__name__)
+
+
+def _hint(given: object, names: list[str]) -> str:
+    """What to write instead."""
+    name = type(given).__name__.lower()
+    own = next((each.lower() for each in names if hasattr(given, each.lower()) and each != "Mechanism"), None)
+    code = f"{name}.{own}" if own else _made(given, names)
+    if code:
+        return Sentence("given_instead.write", code=code)
+    return Sentence("given_instead.such_as", code=_EXAMPLES[names[0]])
+
+
+def _made(given: object, names: list[str]) -> str:
+    """How what was given becomes what is needed; empty where that is not known."""
+    if "Mechanism" in names:
+        return _mechanism(given)
+    function = next((_SOLVING[each] for each in reversed(names) if each in _SOLVING), "")
+    name = type(given).__name__
+    source = name.lower() if name in ("Mechanism", "Motion") else _mechanism(given)
+    return source and function and f"lw.{function}({source})"
+
+
+def _mechanism(given: object) -> str:
+    """How what was given becomes a mechanism; empty where that is not known."""
+    if isinstance(given, str | PathLike):
+        text = str(given)
+        return "lw.loads(text)" if "\n" in text else f'lw.load("{text}")'
+    name = type(given).__name__
+    if name == "Model":
+        return "model.build()"
+    own = getattr(given, "mechanism", None)
+    return f"{name.lower()}.mechanism{'()' if callable(own) else ''}" if own is not None else ""

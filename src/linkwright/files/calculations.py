@@ -1,0 +1,29 @@
+"""Kinds of files that hold no machine, and the commands that take them."""
+
+from __future__ import annotations
+
+from linkwright.fields.nodes import Scalar
+from linkwright.files.node_reader import PlainReader
+from linkwright.registry import listed
+
+#: The kinds of files that each command takes, and the command of each kind.
+TAKES = {
+    "beam": ("beam", "link_bending"),
+    "statics": ("forces", "rigid_body", "belt", "wedge", "rotor"),
+    "cam": ("cam",),
+    "vibration": ("vibration", "follower", "mounts"),
+    "statistics": ("statistics",),
+    "program": ("program",),
+    "tolerance": ("tolerance",),
+    "trajectory": ("trajectory", "throw"),
+}
+COMMANDS = {kind: command for command, kinds in TAKES.items() for kind in kinds}
+
+
+def refuse_kind(reader: PlainReader, node: Scalar) -> None:
+    """The finding about a file of a kind where another one is needed, with the command that takes it."""
+    kind = node.text
+    if kind in COMMANDS:
+        reader.finding(node, "kind", "calculation", "kind", kind=kind, command=COMMANDS[kind])
+    else:
+        reader.finding(node, "kind", "unknown_kind", "kind", kind=kind, hint=listed(kind, COMMANDS, "one_of"))

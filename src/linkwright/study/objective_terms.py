@@ -1,0 +1,64 @@
+"""What an objective is made of: numbers and path errors with their weights, checked."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from linkwright.core.arrays import Floats
+from linkwright.core.dataclass import dataclass
+from linkwright.core.given import real
+from linkwright.errors import RequestError
+
+
+@dataclass(frozen=True, eq=False)
+class PathError:
+    """Mean square distance, m², of a point from target points (n, 2), m, position by position.
+
+    ``point``: ``C`` or ``coupler.P``. There are as many positions as targets: over the cycle, or at the inputs that
+    the objective is given.
+    """
+
+    point: str
+    target: ArrayLike
+
+
+Terms = str | PathError | Mapping[str | PathError, float] | Sequence[str | PathError]
+
+
+def weighted(terms: Terms) -> dict[str | PathError, float]:
+    """The terms with their weights, 1 where none is given; raises RequestError where there is none, or no number."""
+    if isinstance(terms, Mapping):
+        found = {term: real(f"weights[{term!r}]", weight) for term, weight in terms.items()}
+    elif isinstance(terms, Sequence) and not isinstance(terms, str):
+        found = dict.fromkeys(terms, 1.0)
+    else:
+        found = {terms: 1.0}
+    if not found:
+        raise RequestError("study.no_outputs")
+    for term in found:
+        if not isinstance(term, str | PathError):
+            raise RequestError("study.no_output_name", given=repr(term)[:60])
+    return found
+
+
+def number_of_points(terms: Iterable[str | PathError]) -> int | None:
+    """How many points the targets of all path errors have, None without any; raises RequestError where they differ or
+    are none."""
+    targets = [_points(term.target) for term in terms if isinstance(term, PathError)]
+    if any(target.ndim != 2 or target.shape[1] != 2 or not len(target) for target in targets):
+        raise RequestError("study.objective_target")
+    if len({len(target) for target in targets}) > 1:
+        raise RequestError("study.objective_target")
+    if not all(np.isfinite(target).all() for target in targets):
+        raise RequestError("study.objective_gaps")
+    return len(targets[0]) if targets else None
+
+
+def _points(target: ArrayLike) -> Floats:
+    try:
+        return np.asarray(target, dtype=float)
+    except (TypeError, ValueError):
+        raise RequestError("study.objective_target") from None
