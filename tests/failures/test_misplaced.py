@@ -61,6 +61,53 @@ def test_a_section_within_another_one_is_one_finding(section: str) -> None:
     assert any(f'the section "{section}" stands within "links"' in each.message for each in told)
 
 
+@pytest.mark.parametrize("indent", [None, "", "  ", "    "])
+@pytest.mark.parametrize(
+    ("section", "within"), [("links", "frame"), ("joints", "links"), ("loads", "driver")]
+)
+def test_the_line_of_a_section_that_is_missing_or_indented_is_one_finding(
+    section: str, within: str, indent: str | None
+) -> None:
+    """What stood below it is read where it belongs."""
+    text = MODEL.replace("driver: {turn", "driver:\n  motor: {turn").replace("driver:", "drivers:")
+    text = text.replace("frame: {points: {A", "frame:\n  points: {A").replace("1 m]}}", "1 m]}")
+    line = "" if indent is None else f"{indent}{section}:\n"
+    broken = text.replace(f"{section}:\n", line)
+    if indent == "":
+        lw.loads(broken)
+    elif indent == "    ":
+        assert len(findings(broken)) <= 2
+    else:
+        (found,) = findings(broken)
+        assert found.code == "misplaced" and f"{section}:" in found.remedy
+        assert f'"{within}' in found.message or f"{within}." in found.key
+
+
+def test_elements_in_each_other_s_sections_are_told_with_their_names() -> None:
+    """Joints, loads and drivers tell by their kinds and keys what they are."""
+    model = changed(
+        ("  C: {kind: revolute, friction: 0.1, pin_radius: 5 mm}\n", ""),
+        (
+            "assembly",
+            "  push: {kind: force, on: rocker, at: C, magnitude: 3 kN, direction: 180 deg}\nassembly",
+        ),
+        ("loads:\n  push", "loads:\n  C: {kind: revolute, friction: 0.1, pin_radius: 5 mm}\n  pull"),
+    )
+    told = findings(model)
+    assert [(each.key, each.code) for each in told] == [
+        ("joints.push", "misplaced"),
+        ("loads.C", "misplaced"),
+    ]
+    assert 'belongs in "loads": push' in told[0].message
+
+
+@pytest.mark.parametrize("section", ["links", "joints", "loads", "frame"])
+def test_a_line_of_a_section_twice_is_one_finding(section: str) -> None:
+    model = MODEL.replace("frame: {points", "frame:\n  points").replace("1 m]}}", "1 m]}")
+    (found,) = findings(model.replace(f"{section}:\n", f"{section}:\n{section}:\n"))
+    assert found.code == "duplicate-key"
+
+
 def test_elements_may_have_names_of_sections() -> None:
     model = lw.loads(
         changed(("  coupler: {points", "  drawing: {points"), ("driver: {turn", "drivers: {driver: {turn"))

@@ -166,7 +166,7 @@ class _Composer:
     def mapping(self, event: Any, depth: int) -> Mapping:
         start = event.start_mark
         found = Mapping(start.line, start.column, start.index, start.index, [], event.flow_style)
-        seen: dict[str, Scalar] = {}
+        seen: dict[str, Entry] = {}
         merged: list[Node] = []
         while type(inner := self.next()) is not MappingEndEvent:
             key = self.node(inner, depth + 1)
@@ -182,18 +182,21 @@ class _Composer:
             self.merge(found, value)
         return found
 
-    def entry(self, found: Mapping, key: Node, value: Node, seen: dict[str, Scalar]) -> None:
+    def entry(self, found: Mapping, key: Node, value: Node, seen: dict[str, Entry]) -> None:
         nothing = isinstance(value, Scalar) and value.empty
         if isinstance(key, Scalar) and key.plain and key.text.endswith(":") and nothing:
             key.text = key.text.rstrip(":")
         if not isinstance(key, Scalar):
             self.remark(key, "key", "key")
-        elif key.text in seen:
-            self.remark(key, "twice", "duplicate-key", text=key.text, line=seen[key.text].line + 1)
-            found.repeated.append(Entry(key, value))
+        elif first := seen.get(key.text):
+            self.remark(key, "twice", "duplicate-key", text=key.text, line=first.key.line + 1)
+            if isinstance(first.value, Scalar) and first.value.empty:
+                first.value = value
+            else:
+                found.repeated.append(Entry(key, value))
         else:
-            seen[key.text] = key
-            found.entries.append(Entry(key, value))
+            seen[key.text] = Entry(key, value)
+            found.entries.append(seen[key.text])
 
     def merge(self, found: Mapping, value: Node) -> None:
         have = {entry.key.text for entry in found.entries}

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Set
 from dataclasses import replace
+from functools import partial
+from itertools import groupby
 
 from linkwright.fields.nodes import Entry, Node, Scalar, Sequence
 from linkwright.fields.nodes import Mapping as MappingNode
@@ -54,12 +56,14 @@ SECTIONS: Mapping[str, Callable[[Node], bool]] = {
 }
 OUTER = ("frame", "links", "joints", "loads", "assembly", "drawing")
 ELEMENTS = ("links", "joints", "loads", "drivers")
+#: Sections whose elements have kinds.
+KINDS: Mapping[str, Mapping[str, object]] = {"joints": JOINTS, "loads": LOADS}
 
 
 def in_place(reader: PlainReader, root: MappingNode, known: tuple[str, ...]) -> MappingNode:
     """The root of a model with sections and elements where they belong; ``known`` are the sections."""
-    root = _indented(reader, _named(reader, _raised(reader, root)))
-    return _lowered(reader, root, known)
+    root = _sorted(reader, _named(reader, _raised(reader, root)))
+    return _lowered(reader, _indented(reader, root), known)
 
 
 def _raised(reader: PlainReader, root: MappingNode) -> MappingNode:
@@ -105,6 +109,58 @@ def _named(reader: PlainReader, root: MappingNode) -> MappingNode:
                 entry = Entry(entry.key, table)
         entries.append(entry)
     return replace(root, entries=entries)
+
+
+def _sorted(reader: PlainReader, root: MappingNode) -> MappingNode:
+    """With the elements that stand in the section before their own, the line of which is missing or indented."""
+    entries, moved, present = list[Entry](), dict[str, list[Entry]](), {key for key, _ in root}
+    for entry in root.entries:
+        table = entry.value
+        if entry.key.text in ("frame", *ELEMENTS) and isinstance(table, MappingNode):
+            kept = list[Entry]()
+            for section, run in groupby(
+                table.entries, partial(_belongs, within=entry.key.text, there=present)
+            ):
+                found = [*run]
+                if section:
+                    moved.setdefault(section, []).extend(_told(reader, found, section, entry.key.text))
+                else:
+                    kept += found
+            entry = (
+                Entry(entry.key, replace(table, entries=kept)) if len(kept) < len(table.entries) else entry
+            )
+        entries.append(entry)
+    for section, more in moved.items():
+        entries = _within(entries, section, more)
+    return replace(root, entries=entries) if moved else root
+
+
+def _belongs(entry: Entry, *, within: str, there: Set[str]) -> str:
+    """The section in which an entry of another one belongs; empty where it may be in place."""
+    name, value = entry.key.text, entry.value
+    if name in ELEMENTS and name not in there and isinstance(value, Scalar) and value.empty:
+        return name
+    if name in OWN or not isinstance(value, MappingNode):
+        return ""
+    if kind := value.get("kind"):
+        kinds = {name for name, known in KINDS.items() if meant_kind(kind, known) is not None}
+        return "" if within in kinds else min(kinds, default="")
+    section = "drivers" if _driver(value) else "links" if value.get("points") is not None else ""
+    return "" if section == within else section
+
+
+def _told(reader: PlainReader, found: list[Entry], section: str, within: str) -> list[Entry]:
+    """Elements out of place after each other, told once; without the line of their section itself."""
+    first, elements = found[0].key, [each for each in found if isinstance(each.value, MappingNode)]
+    key = f"{within}.{first.text}"
+    if len(elements) < len(found):
+        reader.finding(first, key, "section_within", "misplaced", section=section, within=within)
+    else:
+        names = tuple(each.key.text for each in elements)
+        reader.finding(
+            first, key, "of_another_section", "misplaced", names=names, section=section, within=within
+        )
+    return elements
 
 
 def _indented(reader: PlainReader, root: MappingNode) -> MappingNode:
@@ -168,7 +224,7 @@ def _lowered(reader: PlainReader, root: MappingNode, known: tuple[str, ...]) -> 
     entries = list[Entry]()
     for entry in root.entries:
         section = _section_of(entry, known)
-        if section is None:
+        if not section:
             entries.append(entry)
             continue
         name = entry.key.text
@@ -179,18 +235,17 @@ def _lowered(reader: PlainReader, root: MappingNode, known: tuple[str, ...]) -> 
     return replace(root, entries=entries) if lowered else root
 
 
-def _section_of(entry: Entry, known: tuple[str, ...]) -> str | None:
-    """The section of an element that is no section itself."""
-    name, value = entry.key.text, entry.value
-    if name in known or not isinstance(value, MappingNode) or nearest(name[:100], known, PROBABLE) == "frame":
-        return None
-    if value.get("points") is not None:
-        return "links"
-    kind = value.get("kind")
-    for section, kinds in (("joints", JOINTS), ("loads", LOADS)):
-        if meant_kind(kind, kinds) is not None:
-            return section
-    return None
+def _section_of(entry: Entry, known: tuple[str, ...]) -> str:
+    """The section of an element that is no section itself; empty where it is none, or a driver by another word."""
+    name, section = entry.key.text, _belongs(entry, within="", there={*known})
+    if (
+        not section
+        or section == "drivers"
+        or name in known
+        or nearest(name[:100], known, PROBABLE) == "frame"
+    ):
+        return ""
+    return section
 
 
 def _within(entries: list[Entry], section: str, more: list[Entry]) -> list[Entry]:

@@ -148,6 +148,8 @@ WORDS = {
     "section_within_do": 'begin the line "{section}:" where "{within}:" begins',
     "beside_element": '"{key_}" stands beside "{name}", not in it',
     "beside_element_do": 'indent it further than "{name}:"',
+    "of_another_section": 'in "{within}" stands what belongs in "{section}": {names}',
+    "of_another_section_do": 'write the line "{section}:" above the first of them, or move them there',
     "beside_section": '"{name}" stands beside the section "{section}", not in it',
     "beside_section_do": 'indent it below "{section}:"',
     "list_of_elements": '"{section}" holds a list, where each entry stands under its name',

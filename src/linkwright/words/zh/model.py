@@ -147,6 +147,8 @@ WORDS = {
     "section_within_do": "请让“{section}:”一行与“{within}:”左对齐",
     "beside_element": "“{key_}”与“{name}”并列，而不在其中",
     "beside_element_do": "请让它比“{name}:”缩进得更多",
+    "of_another_section": "“{within}”中写有属于“{section}”一节的内容：{names}",
+    "of_another_section_do": "请在其第一项之前写上“{section}:”一行，或把它们移到该节",
     "beside_section": "“{name}”与“{section}”一节并列，而不在其中",
     "beside_section_do": "请把它缩进到“{section}:”之下",
     "list_of_elements": "“{section}”是列表，而各项应写在自己的名称之下",
