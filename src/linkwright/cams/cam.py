@@ -153,6 +153,8 @@ class Cam(Problem):
             found.append(fault("cams.conjugate", "closure"))
         if self.base_radius is None and self.barrel_radius is None and self.limits == CamLimits():
             found.append(fault("cams.no_base", "base_radius"))
+        elif self.base_radius is None and self.barrel_radius is None and not np.ptp(self.program.lifts):
+            found.append(fault("cams.nothing_moves", "program"))
         return found
 
     def misfit(self) -> Finding | None:

@@ -18,6 +18,8 @@ from linkwright.worked.page import Step
 if TYPE_CHECKING:
     from linkwright.cams.result import CamDesign
 
+#: Places that a remark lists at most.
+MANY = 12
 #: Dimensions of lift and its derivatives over time, by what the lift is.
 RATES = {
     "length": ("length", "velocity", "acceleration", "jerk"),
@@ -93,9 +95,9 @@ def _remarks(design: CamDesign, say: Say) -> list[str]:
     words = ("cams.acceleration_jumps", "cams.jerk_jumps")
     found = []
     for order, key in zip((2, 3), words, strict=True):
-        places = [f"{math.degrees(each.place):.6g}°" for each in program.junctions if each.jumps[order]]
+        places = [f"{math.degrees(each):.6g}°" for each in program.places_of_jumps(order)]
         if places:
-            found.append(say(key, places=", ".join(places)))
+            found.append(say(key, places=", ".join([*places[:MANY], *(["…"] if len(places) > MANY else [])])))
     return found
 
 
@@ -143,7 +145,7 @@ def _forces(design: CamDesign, say: Say) -> Block | None:
     if not design.loaded or design.cam.barrel_radius is not None:
         return None
     turning = design.cam.follower.oscillating
-    rows, remarks = [], []
+    rows, remarks = [], _weak_spring(design, say)
     spring = design.loading.spring
     if spring.preload is not None or spring.stiffness is not None:
         rows.append(
@@ -168,6 +170,22 @@ def _forces(design: CamDesign, say: Say) -> Block | None:
             places = ", ".join(f"{math.degrees(design.angles[k]):.4g}°" for k in flips)
             remarks.append(say("cams.wall_changes", places=places))
     return Block("forces", say("cams.forces"), rows, remarks)
+
+
+def _weak_spring(design: CamDesign, say: Say) -> list[str]:
+    """Where a given spring leaves less than the least effort that is asked for."""
+    limit, lowest = design.cam.limits.contact_force, design.loading.least_effort(design.cam.program)
+    if design.cam.closure != "force" or lowest.value >= limit * (1 - 1e-6):
+        return []
+    kind = "torque" if design.cam.follower.oscillating else "force"
+    return [
+        say(
+            "cams.effort_under",
+            effort=shown(lowest.value, kind),
+            limit=shown(limit, kind),
+            at=at(lowest.place, say),
+        )
+    ]
 
 
 def _vibration(design: CamDesign, say: Say) -> Block | None:

@@ -30,6 +30,8 @@ if TYPE_CHECKING:
 
 #: Places of the curves.
 POINTS = 1440
+#: Share of the largest contact force that is none.
+ROUNDING = 1e-12
 _FEWEST, _MOST = 36, 100_000
 
 
@@ -181,7 +183,9 @@ class CamDesign(Result):
 
     def extreme_force(self, kind: str) -> Extreme:
         """The largest (``max``) or smallest (``min``) contact force, N, found between the places of the curves."""
-        return self._extreme(self._contact_force, kind)
+        found = self._extreme(self._contact_force, kind)
+        nothing = abs(found.value) <= ROUNDING * float(np.abs(self.contact_force).max())
+        return Extreme(0.0, found.place) if nothing else found
 
     def extreme_torque(self, kind: str) -> Extreme:
         """The same of the torque, N·m."""
