@@ -37,6 +37,8 @@ free, or its pin follows the joint's own reaction.""",
     "at": "at {place}",
     "formula": "σ² = Σ (∂y/∂p)²·σ_p², derivatives exact at the nominal mechanism (SI)",
     "pressed": "Pin {pin} pressed by its own reaction",
+    "at_positions": "{name} is that of {count} positions of the cycle; design numbers (`swing_angle`, `stroke`, "
+    "`peak_…`) are exact between them as well.",
     "agree": "{name}: linear and Monte Carlo agree within 0.5 %.",
     "differ": "{name}: Monte Carlo gives {ratio} times the linear spread, because the number is not linear in the "
     "tolerances: over ±2σ of {dimension} it bends by {bend} of its change.",

@@ -33,6 +33,8 @@ WORDS = {
     "at": "在 {place}",
     "formula": "σ² = Σ (∂y/∂p)²·σ_p²，导数为名义机构处的精确值（SI）",
     "pressed": "销 {pin} 被自身反力压向孔壁",
+    "at_positions": "{name} 取自循环的 {count} 个位置；"
+    "设计参数（`swing_angle`、`stroke`、`peak_…`）在位置之间也是精确的。",
     "agree": "{name}：线性法与蒙特卡洛法相差不超过 0.5 %。",
     "differ": "{name}：蒙特卡洛法的分散是线性法的 {ratio} 倍，因为该指标对公差不是线性的："
     "在 {dimension} 的 ±2σ 内它的弯曲达变化量的 {bend}。",
