@@ -168,3 +168,14 @@ def test_a_rotor_that_cannot_be_balanced_so_is_refused(old: str, new: str, key: 
         parts.loads(ROTOR.replace(old, new)).solve()
     (finding,) = caught.value.findings
     assert finding.key == key and said in str(finding) and finding.remedy
+
+
+def test_a_rotor_in_balance_has_no_direction_of_its_unbalance() -> None:
+    text = """
+format: 1
+kind: rotor
+masses: {a: {mass: 2 kg, radius: 100 mm, angle: 0 deg}, b: {mass: 4 kg, radius: 50 mm, angle: 180 deg}}
+planes: {P: {radius: 50 mm}}
+"""
+    found = parts.loads(text).solve()
+    assert found.unbalances["P"] == 0 and "°" not in found.text() + found.worked()
