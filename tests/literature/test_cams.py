@@ -303,6 +303,34 @@ def test_residual_vibration_of_the_cam_is_that_of_its_rises() -> None:
     assert design.residual_vibration(speeds)[:, 0] == pytest.approx(exact, rel=1e-8)
 
 
+@pytest.mark.parametrize("turn", [1.0, -1.0])
+@pytest.mark.parametrize("offset", [0.01, -0.01])
+def test_the_worked_pressure_angle_is_what_its_numbers_give(turn: float, offset: float) -> None:
+    """tan α = (s' - e)/(d + s) counter-clockwise, (s' + e)/(d + s) clockwise: the formula on the page, read back."""
+    follower = lw.Follower(roller_radius=0.008, offset=offset)
+    design = lw.Cam(program(0.02, "cycloidal", 90.0), follower, 0.04, turn=turn).solve()
+    (line,) = [each for each in design.worked().splitlines() if "arctan((s′" in each]
+    _, formula, numbers, value = line.split(" = ")
+    assert formula == f"arctan((s′ {'−' if turn > 0 else '+'} e)/(d + s))"
+    read = eval(numbers.replace("−", "-"), {"arctan": math.atan})
+    assert math.degrees(read) == pytest.approx(float(value.rstrip("°")), rel=1e-5)
+    phi = np.linspace(0, 2 * math.pi, 360_001)
+    s, rate = (np.asarray(each) for each in design.cam.program.curves(phi)[:2])
+    angle = np.arctan((rate - turn * offset) / (math.sqrt(0.048**2 - offset**2) + s))
+    assert abs(read) == pytest.approx(np.abs(angle).max(), rel=1e-5)
+
+
+def test_the_other_wall_is_pressed_from_where_the_acceleration_changes_its_sign() -> None:
+    """Without load the follower of a pair changes walls in the middle of rise and fall: 55° and 215°."""
+    design = parts.load("gallery:cam_oscillating").solve()
+    assert np.degrees(design.wall_changes) == pytest.approx([55.0, 215.0], abs=1e-6)
+    assert "changes its wall at 55°, 215°." in design.text()
+
+
+def test_a_barrel_is_worked_with_its_own_formula() -> None:
+    assert "arctan(s′/R) = arctan(23.8732/45) = 27.9467°" in parts.load("gallery:cam_barrel").solve().worked()
+
+
 def test_a_chosen_spring_leaves_just_the_effort_that_is_asked_for() -> None:
     """m ω² s'' + F_l + F_0 + k s at a hundred thousand places: never less, and no more than it takes."""
     for given in ("spring: {}", "spring: {preload: 30 N}", "spring: {stiffness: 12 N/mm}"):

@@ -163,11 +163,8 @@ def _forces(design: CamDesign, say: Say) -> Block | None:
         place = at(pressure.place, say)
         rows.append(Row("largest_contact_pressure", pressure.value, "pressure", note=place))
     if design.cam.closure != "force":
-        force = design.contact_force
-        pressed = np.flatnonzero(np.abs(force) > 1e-6 * np.abs(force).max())
-        flips = pressed[1:][np.diff(np.sign(force[pressed])) != 0]
-        if len(flips):
-            places = ", ".join(f"{math.degrees(design.angles[k]):.4g}°" for k in flips)
+        places = ", ".join(f"{math.degrees(each):.6g}°" for each in design.wall_changes)
+        if places:
             remarks.append(say("cams.wall_changes", places=places))
     return Block("forces", say("cams.forces"), rows, remarks)
 
@@ -221,10 +218,8 @@ def steps(design: CamDesign, say: Say) -> list[Step]:
         put(first, "d", "√((r_b + r_r)² − e²)", follower.start_height(base) or 0.0, "length", numbers=numbers)
     second = Step("2", say("cams.step_angle"))
     extreme = max((design.pressure_angle_rise, design.pressure_angle_fall), key=lambda each: abs(each.value))
-    formula = (
-        "arctan((s′ − e)/(d + s))" if not follower.oscillating and follower.kind != "flat" else "∠(n, v)"
-    )
-    put(second, f"α({math.degrees(extreme.place):.5g}°)", formula, extreme.value, "angle")
+    formula, numbers = _angle_formula(design, extreme.place)
+    put(second, f"α({math.degrees(extreme.place):.5g}°)", formula, extreme.value, "angle", numbers=numbers)
     third = Step("3", say("cams.step_radius"))
     radius = design.smallest_radius
     if radius is not None:
@@ -233,7 +228,31 @@ def steps(design: CamDesign, say: Say) -> list[Step]:
     if not design.loaded:
         return [first, second, third]
     fourth = Step("4", say("cams.step_force"))
-    fourth.say("  F = m·ω²·s″ + F₀ + k·s + F_l,  N = F/cos α,  T = F·s′")
+    fourth.say(f"  F = m·ω²·s″ + F₀ + k·s + F_l,  {_normal_force(design)},  T = F·s′")
     put(fourth, "N_max", "", design.extreme_force("max").value, "force")
     put(fourth, "T_max", "", design.extreme_torque("max").value, "torque")
     return [first, second, third, fourth]
+
+
+def _angle_formula(design: CamDesign, place: float) -> tuple[str, str]:
+    """The pressure angle's formula, and with its numbers at a place (rad)."""
+    cam, follower = design.cam, design.cam.follower
+    if follower.oscillating or follower.kind == "flat":
+        return "∠(n, v)", ""
+    lift, rate = (number(float(each[0]), "length") for each in cam.program.curves(np.array([place]))[:2])
+    if cam.barrel_radius is not None:
+        return "arctan(s′/R)", f"arctan({rate}/{number(cam.barrel_radius, 'length')})"
+    sign = "−" if cam.turn > 0 else "+"
+    offset = number(follower.offset, "length")
+    offset = f"({offset})" if offset.startswith("-") else offset
+    height = number(follower.start_height(cam.base_radius or 0.0) or 0.0, "length")
+    numbers = f"arctan(({rate} {sign} {offset})/({height} + {lift}))"
+    return f"arctan((s′ {sign} e)/(d + s))", numbers
+
+
+def _normal_force(design: CamDesign) -> str:
+    """The formula of the contact force from the effort F along the follower's coordinate (swinging: a moment)."""
+    follower = design.cam.follower
+    if not follower.oscillating:
+        return "N = F" if follower.kind == "flat" else "N = F/cos α"
+    return "N = F/x" if follower.kind == "flat" else "N = F/(l·cos α)"

@@ -16,6 +16,7 @@ from linkwright.cams.vibration import residual_amplitude, steady_deviation
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.piecewise import Piecewise
+from linkwright.core.search import ends
 from linkwright.errors import RequestError
 from linkwright.laws.program import MotionProgram
 from linkwright.parts.base import Block, Result
@@ -172,6 +173,17 @@ class CamDesign(Result):
     @property
     def _inside(self) -> Floats:
         return np.minimum(self.angles, np.nextafter(self.cam.program.period, 0.0))
+
+    @property
+    def wall_changes(self) -> tuple[float, ...]:
+        """Where the follower of a groove or a pair begins to press on its other wall, rad."""
+        force = self.contact_force
+        pressed = np.flatnonzero(np.abs(force) > 1e-6 * np.abs(force).max())
+        flips = np.flatnonzero(np.diff(np.sign(force[pressed])))
+        before, after = self._inside[pressed[flips]], self._inside[pressed[flips + 1]]
+        way = np.sign(force[pressed[flips + 1]])
+        program, loading = self.cam.program, self.loading
+        return tuple(ends(lambda phi: way * loading.effort(program, phi) > 0, after, before).tolist())
 
     @cached_property
     def torque(self) -> Floats:
