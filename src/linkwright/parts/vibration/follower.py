@@ -142,13 +142,13 @@ class FollowerVibration(Result):
     def _swing(self) -> tuple[Floats, Floats, Floats, Floats]:
         """Times (t,) over the rise and after it, lift of the cam, z = x − s and its rate; jumps stand twice."""
         own, span = self.problem, self.problem.rise_time
-        count = 8 * POINTS * max(1.0, self.ratio / 100)
+        count = 8 * POINTS * min(max(1.0, self.ratio / 100), 30.0)
         after = max(1.0, 1.0 / self.ratio)
         pieces = [
             np.linspace(a, b, max(2, math.ceil(count * (b - a))))
             for a, b in pairwise([0.0, *own.motion.breaks, 1.0])
         ]
-        later = np.linspace(1.0, 1.0 + after, math.ceil(count * after))
+        later = np.linspace(1.0, 1.0 + after, math.ceil(count))
         u = np.concatenate([*pieces, later])
         inner = np.concatenate([np.clip(each, each[0] + BESIDE, each[-1] - BESIDE) for each in pieces])
         pull = np.append(own.lift / span**2 * self._law(2, inner), np.zeros(len(later)))
