@@ -327,6 +327,19 @@ def test_the_other_wall_is_pressed_from_where_the_acceleration_changes_its_sign(
     assert "changes its wall at 55°, 215°." in design.text()
 
 
+@pytest.mark.parametrize(("radius", "words"), [("0.6 mm", "conjugate"), ("600 mm", "conjugate")])
+def test_a_second_cam_that_its_follower_does_not_reach_is_told(radius: str, words: str) -> None:
+    text = (Path(lw.__file__).parent / "gallery/parts/cam_oscillating.yaml").read_text("utf-8")
+    with pytest.raises(lw.ModelError, match=words):
+        parts.loads(text.replace("{base_radius: 60 mm}", f"{{base_radius: {radius}}}"), "cam.yaml").solve()
+
+
+def test_a_follower_without_stiffness_is_told() -> None:
+    text = (Path(lw.__file__).parent / "gallery/parts/cam_roller.yaml").read_text("utf-8")
+    with pytest.raises(lw.ModelError, match=r"elasticity\.stiffness"):
+        parts.loads(text.replace("stiffness: 2 MN/m", "stiffness: 0 MN/m"), "cam.yaml")
+
+
 def test_a_barrel_is_worked_with_its_own_formula() -> None:
     assert "arctan(s′/R) = arctan(23.8732/45) = 27.9467°" in parts.load("gallery:cam_barrel").solve().worked()
 

@@ -31,6 +31,14 @@ def test_fall_with_quadratic_drag() -> None:
     assert found.impact[0] == pytest.approx(end * math.tanh(G * time / end), rel=1e-9)
 
 
+def test_dust_sinks_at_its_final_speed() -> None:
+    """v∞ = √(mg/k): after some v∞/g it falls no faster, T = h/v∞ + v∞ ln 2/g."""
+    found = parts.Particle(0.0, 0.0, 1.8, mass=1.45e-9, quadratic=1e-3, gravity=G).solve()
+    end = math.sqrt(1.45e-9 * G / 1e-3)
+    assert found.impact[0] == pytest.approx(end, rel=1e-9)
+    assert found.duration == pytest.approx(1.8 / end + end * math.log(2) / G, rel=1e-9)
+
+
 def test_rise_with_quadratic_drag() -> None:
     """h = m/(2k) ln(1 + k v²/(m g))."""
     found = parts.Particle(30.0, math.pi / 2, mass=2.0, quadratic=0.01, gravity=G).solve()

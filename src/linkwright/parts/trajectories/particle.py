@@ -24,6 +24,8 @@ from linkwright.worked.page import Step
 GRAVITY = 9.80665
 #: Accuracy of the integration with quadratic drag, and points of the curve.
 ACCURACY, POINTS = 1e-11, 401
+#: Times in which drag stops the particle, within the flight, above which its equation is stiff.
+STIFF = 1e4
 
 
 @dataclass(frozen=True)
@@ -169,10 +171,11 @@ class Flight(Result):
         longest = 2 * (abs(self.first[1]) + math.sqrt(2 * p.gravity * p.height)) / p.gravity
         longest += p.height * math.sqrt(p.quadratic / (p.mass * p.gravity)) * 2
         start, end = [p.start, p.height, *self.first], max(longest, 1e-9)
+        fastest = max(math.hypot(*self.first), math.sqrt(p.mass * p.gravity / p.quadratic))
         while True:
-            found = solve_ivp(
-                rate, (0.0, end), start, "DOP853", rtol=ACCURACY, atol=ACCURACY, dense_output=True
-            )
+            stiff = p.quadratic / p.mass * fastest * end > STIFF
+            method, share = ("LSODA", 1e-13) if stiff else ("DOP853", ACCURACY)
+            found = solve_ivp(rate, (0.0, end), start, method, rtol=share, atol=share, dense_output=True)
             if found.y[1, -1] <= 0:
                 return found
             end *= 2
