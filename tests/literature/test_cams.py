@@ -340,6 +340,17 @@ def test_a_follower_without_stiffness_is_told() -> None:
         parts.loads(text.replace("stiffness: 2 MN/m", "stiffness: 0 MN/m"), "cam.yaml")
 
 
+@pytest.mark.parametrize("law", ["polynomial_345", "cycloidal", "modified_sine"])
+def test_the_smallest_base_circle_under_a_flat_face_without_undercut(law: str) -> None:
+    """r_b = max(-(s + s'')), which a limit of 0 on the radius of curvature asks for."""
+    motion = program(0.02, law, 120.0)
+    phi = np.linspace(0, 2 * math.pi, 2_000_001)[:-1]
+    s, _, bend, _ = motion.curves(phi)
+    design = lw.Cam(motion, lw.Follower("flat"), limits=lw.CamLimits(curvature_radius=0.0)).solve()
+    assert design.cam.base_radius == pytest.approx(-(s + bend).min(), rel=1e-7)
+    assert design.hollow_radius is None
+
+
 def test_a_barrel_is_worked_with_its_own_formula() -> None:
     assert "arctan(s′/R) = arctan(23.8732/45) = 27.9467°" in parts.load("gallery:cam_barrel").solve().worked()
 

@@ -126,9 +126,21 @@ class CamDesign(Result):
 
     @cached_property
     def hollow_radius(self) -> Extreme | None:
-        """The smallest radius where the first wall is hollow (m): no larger cutter fits; None where it is convex."""
+        """The smallest radius where the first wall is hollow (m): no larger cutter fits; None where it is convex.
+
+        A flat face touches convex profiles only.
+        """
+        if self.cam.follower.kind == "flat":
+            return None
         found = self._extreme(lambda phi: self.wall.contact(phi).bend, "min")
         return Extreme(-1.0 / found.value, found.place) if found.value < -1e-9 * abs(self.size) else None
+
+    @property
+    def least_growth(self) -> float:
+        """The smallest growth of the walls along the way, below zero where a profile folds back."""
+        return min(
+            self._extreme(lambda phi, w=wall: w.contact(phi).growth, "min").value for wall in self.cam.walls
+        )
 
     @property
     def size(self) -> float:
