@@ -171,8 +171,11 @@ def _forces(design: CamDesign, say: Say) -> Block | None:
 
 def _weak_spring(design: CamDesign, say: Say) -> list[str]:
     """Where a given spring leaves less than the least effort that is asked for."""
-    limit, lowest = design.cam.limits.contact_force, design.loading.least_effort(design.cam.program)
-    if design.cam.closure != "force" or lowest.value >= limit * (1 - 1e-6):
+    limit = design.cam.limits.contact_force
+    if not limit or design.cam.closure != "force":
+        return []
+    lowest = design.loading.least_effort(design.cam.program)
+    if lowest.value >= limit * (1 - 1e-6):
         return []
     kind = "torque" if design.cam.follower.oscillating else "force"
     return [

@@ -70,6 +70,9 @@ class Spread(Result):
         _ = self.derivatives
         if self.drawn:
             design_values(self.study.prepared, self.drawn)
+        unseen = self.drawn and self.study.curves and not self.curves
+        if unseen or (self.swept is not None and not self.swept.ok.any()):
+            raise ModelError([fault("tolerance.none_passes", "dimensions", count=self.study.samples)])
         if self.study.holes("pressed"):
             _ = self.forces
             if not all(is_position(self.study, output) for output in self._over_positions):

@@ -43,6 +43,8 @@ WORDS = {
     "dead_point": "循环接近死点（接近度在 {place} 为 {closeness}，死点处为 0）：此处导数无限增大，"
     "线性法只对越来越小的公差成立。",
     "failed": "{count} 台机器中有 {failed} 台不能走完循环；数值只统计其余机器。",
+    "none_passes": "在这些公差范围内，{count} 台机器没有一台能走完循环",
+    "none_passes_remedy": "请减小公差与间隙",
     "nothing_varies": "没有变化的量",
     "nothing_varies_remedy": "请写 dimensions: {{crank.length: 0.05 mm}}，或 clearances",
     "nothing_asked": "没有要求任何结果",
