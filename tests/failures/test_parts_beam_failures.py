@@ -117,7 +117,18 @@ def test_a_mechanism_whose_file_is_not_there_is_a_finding_of_the_calculation(tmp
     assert "nowhere.yaml: there is no such file" in str(missing)
 
 
-@pytest.mark.parametrize("shape", ["box: [120 mm, 0 mm, 12 mm]", "tube: [0 mm, 2 mm]", "circle: [0 mm]"])
+@pytest.mark.parametrize(
+    "shape",
+    [
+        "box: [120 mm, 0 mm, 12 mm]",
+        "tube: [0 mm, 2 mm]",
+        "circle: [0 mm]",
+        "tube: [40 mm, 25 mm]",
+        "box: [40 mm, 80 mm, 21 mm]",
+        "i_beam: [80 mm, 40 mm, 50 mm, 5 mm]",
+        "i_beam: [80 mm, 40 mm, 5 mm, 41 mm]",
+    ],
+)
 def test_a_section_without_height_is_a_finding(tmp_path: Path, shape: str) -> None:
     text = (files("linkwright.gallery") / "parts/pitman_bending.yaml").read_text("utf-8")
     file = tmp_path / "bending.yaml"

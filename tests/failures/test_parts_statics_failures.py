@@ -71,6 +71,7 @@ def test_files_say_where() -> None:
         ("format: 1\nkind: belts\n", 'did you mean "belt"'),
         ("format: 1\nkind: belt\nfriction: 0.3\nwrap: 180 deg\n", "0 of tight, slack and torque"),
         ("format: 1\nkind: belt\nfriction: 0.3\nwrap: 3 m\ntight: 1 N\n", "is a length, where an angle"),
+        ("format: 1\nkind: belt\nfriction: 0.5\nwrap: 800 rev\nslack: 1 N\n", "below 34377.5°"),
         ("format: 1\nkind: wedge\nload: 1 kN\nangle: 80 deg\nfriction: 0.3\n", "no push raises the load"),
     ],
 )

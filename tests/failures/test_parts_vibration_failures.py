@@ -19,6 +19,21 @@ HEAD += "springs: {k: {between: [ground, body], stiffness: 10 kN/m}}\n"
             HEAD + "excitation: {on: body, force: 0 N, frequency: 3 Hz}\n",
             "excitation.force: an amplitude of zero",
         ),
+        (
+            HEAD + "excitation: {on: body, force: 20 mm, frequency: 3 Hz}\n",
+            "excitation.force: .* a force is needed",
+        ),
+        (HEAD + "excitation: {base: 5 N, frequency: 3 Hz}\n", "excitation.base: .* a length is needed"),
+        (HEAD + "start: {body: {displacement: 10 deg}}\n", "start.body.displacement: .* a length is needed"),
+        (
+            HEAD + "excitation: {on: body, table: {time: [0 s, 1 s], force: [1 N, 1 N·m]}}\n",
+            "excitation.table.force.1: .* a force is needed",
+        ),
+        (
+            HEAD.replace("25 kg", "1 kg·m²").replace("kN/m", "kN·m/rad")
+            + "excitation: {on: body, unbalance: 1 kg·m, frequency: 3 Hz}\n",
+            "shakes masses, not discs",
+        ),
         (HEAD + "excitation: {base: 0 mm, frequency: 3 Hz}\n", "excitation.base: an amplitude of zero"),
         (HEAD.replace("[ground, body]", "[ground, bodi]"), 'no mass "bodi"'),
         (HEAD.replace("[ground, body]", "[body, body]"), "two different ends"),

@@ -15,6 +15,14 @@ HEAD = "format: 1\nkind: tolerance\nmechanism: gallery:crank_rocker\n"
         ("dimensions: {crank.length: 1 mm}", "nothing is asked"),
         ("dimensions: {crank.lenght: 1 mm}\nof: [rocker.angle range]", "the nearest is crank.length"),
         ("dimensions: {crank.length: 1 kg}\nof: [rocker.angle range]", "is a mass, where a length is needed"),
+        (
+            "clearances: {B: {clearance: 9 m, on: coupler}}\nof: [rocker.angle range]",
+            "none of the 8192 machines",
+        ),
+        (
+            "clearances: {B: {clearance: 9 m, on: coupler}}\ncurves: [rocker.angle]",
+            "none of the 8192 machines",
+        ),
         ("dimensions: {crank.length: 0 mm}\nof: [rocker.angle range]", "zero or less"),
         ("clearances: {C: {clearance: 1 mm, on: rocker}}\nof: [rocker.angle range]", 'no pin "C"'),
         ("clearances: {B: {clearance: 1 mm, on: crank}}\nof: [rocker.angle range]", "does not touch crank"),

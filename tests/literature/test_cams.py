@@ -303,10 +303,122 @@ def test_residual_vibration_of_the_cam_is_that_of_its_rises() -> None:
     assert design.residual_vibration(speeds)[:, 0] == pytest.approx(exact, rel=1e-8)
 
 
-def test_steady_deviation_against_integration() -> None:
+@pytest.mark.parametrize("turn", [1.0, -1.0])
+@pytest.mark.parametrize("offset", [0.01, -0.01])
+def test_the_worked_pressure_angle_is_what_its_numbers_give(turn: float, offset: float) -> None:
+    """tan α = (s' - e)/(d + s) counter-clockwise, (s' + e)/(d + s) clockwise: the formula on the page, read back."""
+    follower = lw.Follower(roller_radius=0.008, offset=offset)
+    design = lw.Cam(program(0.02, "cycloidal", 90.0), follower, 0.04, turn=turn).solve()
+    (line,) = [each for each in design.worked().splitlines() if "arctan((s′" in each]
+    _, formula, numbers, value = line.split(" = ")
+    assert formula == f"arctan((s′ {'−' if turn > 0 else '+'} e)/(d + s))"
+    read = eval(numbers.replace("−", "-"), {"arctan": math.atan})
+    assert math.degrees(read) == pytest.approx(float(value.rstrip("°")), rel=1e-5)
+    phi = np.linspace(0, 2 * math.pi, 360_001)
+    s, rate = (np.asarray(each) for each in design.cam.program.curves(phi)[:2])
+    angle = np.arctan((rate - turn * offset) / (math.sqrt(0.048**2 - offset**2) + s))
+    assert abs(read) == pytest.approx(np.abs(angle).max(), rel=1e-5)
+
+
+def test_the_other_wall_is_pressed_from_where_the_acceleration_changes_its_sign() -> None:
+    """Without load the follower of a pair changes walls in the middle of rise and fall: 55° and 215°."""
+    design = parts.load("gallery:cam_oscillating").solve()
+    assert np.degrees(design.wall_changes) == pytest.approx([55.0, 215.0], abs=1e-6)
+    assert "changes its wall at 55°, 215°." in design.text()
+
+
+@pytest.mark.parametrize(("radius", "words"), [("0.6 mm", "conjugate"), ("600 mm", "conjugate")])
+def test_a_second_cam_that_its_follower_does_not_reach_is_told(radius: str, words: str) -> None:
+    text = (Path(lw.__file__).parent / "gallery/parts/cam_oscillating.yaml").read_text("utf-8")
+    with pytest.raises(lw.ModelError, match=words):
+        parts.loads(text.replace("{base_radius: 60 mm}", f"{{base_radius: {radius}}}"), "cam.yaml").solve()
+
+
+def test_a_follower_without_stiffness_is_told() -> None:
+    text = (Path(lw.__file__).parent / "gallery/parts/cam_roller.yaml").read_text("utf-8")
+    with pytest.raises(lw.ModelError, match=r"elasticity\.stiffness"):
+        parts.loads(text.replace("stiffness: 2 MN/m", "stiffness: 0 MN/m"), "cam.yaml")
+
+
+@pytest.mark.parametrize("law", ["polynomial_345", "cycloidal", "modified_sine"])
+def test_the_smallest_base_circle_under_a_flat_face_without_undercut(law: str) -> None:
+    """r_b = max(-(s + s'')), which a limit of 0 on the radius of curvature asks for."""
+    motion = program(0.02, law, 120.0)
+    phi = np.linspace(0, 2 * math.pi, 2_000_001)[:-1]
+    s, _, bend, _ = motion.curves(phi)
+    design = lw.Cam(motion, lw.Follower("flat"), limits=lw.CamLimits(curvature_radius=0.0)).solve()
+    assert design.cam.base_radius == pytest.approx(-(s + bend).min(), rel=1e-7)
+    assert design.hollow_radius is None
+
+
+def test_a_barrel_is_worked_with_its_own_formula() -> None:
+    assert "arctan(s′/R) = arctan(23.8732/45) = 27.9467°" in parts.load("gallery:cam_barrel").solve().worked()
+
+
+def test_a_chosen_spring_leaves_just_the_effort_that_is_asked_for() -> None:
+    """m ω² s'' + F_l + F_0 + k s at a hundred thousand places: never less, and no more than it takes."""
+    for given in ("spring: {}", "spring: {preload: 30 N}", "spring: {stiffness: 12 N/mm}"):
+        text = f"""
+format: 1
+kind: cam
+follower: {{kind: roller, roller_radius: 8 mm}}
+program:
+  - {{rise: 20 mm, over: 95 deg, law: cycloidal}}
+  - {{fall: 20 mm, over: 83 deg, law: modified_sine}}
+  - {{dwell: 182 deg}}
+base_radius: 60 mm
+limits: {{contact_force: 20 N}}
+speed: 420 rpm
+mass: 1.3 kg
+load: 7 N
+{given}
+"""
+        design = parts.loads(text, "cam.yaml").solve()
+        phi = np.linspace(0, 2 * math.pi, 100_001)[:-1]
+        s, _, bend, _ = design.cam.program.curves(phi)
+        spring = design.loading.spring
+        effort = 1.3 * (420 * math.pi / 30) ** 2 * bend + 7 + spring.preload + spring.stiffness * s
+        assert 20 * (1 - 1e-12) <= effort.min() <= 20 * (1 + 1e-6)
+
+
+def test_a_spring_that_is_too_weak_for_the_effort_asked_for_is_told() -> None:
+    cam = lw.Cam(
+        program(0.02, "cycloidal", 90.0), lw.Follower(roller_radius=0.008), 0.06,
+        loading=lw.CamLoading(20.0, 0.5, 0.0, lw.CamSpring(2e3, 10.0)), limits=lw.CamLimits(contact_force=50.0),
+    )  # fmt: skip
+    assert "an effort of 10 N" in cam.solve().text() and "below its limit of 50 N" in cam.solve().text()
+
+
+def test_accelerations_that_jump_within_a_law_are_told() -> None:
+    """Constant acceleration up and down: +, -, -, +, so that it jumps in the middle of either and nowhere else."""
+    half = [lw.Segment(math.pi, rise=rise, law="constant_acceleration") for rise in (0.02, -0.02)]
+    motion = lw.MotionProgram(tuple(half))
+    assert motion.places_of_jumps(2) == pytest.approx((math.pi / 2, 3 * math.pi / 2))
+    assert motion.smoothness == 1
+    text = lw.Cam(motion, lw.Follower(roller_radius=0.008), 0.06).solve().text()
+    assert "The acceleration jumps at 90°, 270°." in text
+
+
+def test_a_cam_that_moves_nothing_is_a_circle_of_a_given_size_only() -> None:
+    rests = lw.MotionProgram((lw.Segment(2 * math.pi),))
+    with pytest.raises(lw.ModelError, match="moves nothing"):
+        lw.Cam(rests, lw.Follower(roller_radius=0.008), limits=lw.CamLimits(pressure_angle=0.5)).solve()
+    round_cam = lw.Cam(
+        rests,
+        lw.Follower(roller_radius=0.008),
+        0.06,
+        loading=lw.CamLoading(10.0, 1.0, 5.0),
+        spring_wanted=True,
+    ).solve()
+    assert np.hypot(*round_cam.profile(90).T) == pytest.approx(0.06)
+    assert round_cam.extreme_force("max").value == pytest.approx(5.0)
+
+
+@pytest.mark.parametrize("law", ["modified_sine", "simple_harmonic", "constant_acceleration"])
+def test_steady_deviation_against_integration(law: str) -> None:
     from scipy.integrate import solve_ivp
 
-    motion = program(0.02, "modified_sine", 90.0)
+    motion = program(0.02, law, 90.0)
     cam = lw.Cam(motion, lw.Follower(roller_radius=0.008), 0.06, loading=lw.CamLoading(60.0, 0.5),
                  elasticity=lw.CamElasticity(4e5, 0.2), spring_wanted=True)  # fmt: skip
     design = cam.solve()
@@ -318,10 +430,20 @@ def test_steady_deviation_against_integration() -> None:
 
     found = solve_ivp(
         lambda t, y: [y[1], -0.4 * w * y[1] - w * w * y[0] - speed**2 * bend(speed * t)],
-        (0.0, 4 * period), [0.0, 0.0], t_eval=np.linspace(3 * period, 4 * period, 2001), rtol=1e-7, atol=1e-10,
-        max_step=period / 60,
+        (0.0, 4 * period), [0.0, 0.0], t_eval=np.linspace(3 * period, 4 * period, 20001), rtol=1e-9, atol=1e-12,
+        max_step=period / 60, method="DOP853",
     )  # fmt: skip
-    assert design.steady_deviation(np.array([speed]))[0] == pytest.approx(np.abs(found.y[0]).max(), rel=1e-4)
+    assert design.steady_deviation(np.array([speed]))[0] == pytest.approx(np.abs(found.y[0]).max(), rel=2e-6)
+
+
+def test_an_undamped_follower_swings_without_end_where_a_harmonic_meets_it() -> None:
+    motion = program(0.02, "cycloidal", 90.0)
+    cam = lw.Cam(motion, lw.Follower(roller_radius=0.008), 0.06, loading=lw.CamLoading(60.0, 0.5),
+                 elasticity=lw.CamElasticity(4e5), spring_wanted=True)  # fmt: skip
+    design = cam.solve()
+    own = design.own_frequency
+    found = design.steady_deviation(np.array([own / 5, own / 5.01, 0.0]))
+    assert found[0] == math.inf and 0 < found[1] < 1 and found[2] == 0
 
 
 def test_profiles_are_written_for_drawing_and_mill(tmp_path: Path) -> None:

@@ -45,3 +45,38 @@ def test_involute_function_and_its_inverse(degrees: float) -> None:
 def test_inverse_of_small_and_large_involutes() -> None:
     for angle in (1e-9, 1e-5, 0.019, 0.021, 0.3, 1.0, 1.5, 1.57):
         assert angle_of_involute(involute(angle)) == pytest.approx(angle, rel=1e-11)
+
+
+def test_gears_that_are_too_far_apart_have_no_contact_ratio() -> None:
+    """Tips of 44 and 64 mm meet at 54 mm; the path of contact is gone before."""
+    for distance in (54.01e-3, 60e-3):
+        pair = lw.GearPair(lw.Gear(20, 2e-3), lw.Gear(30, 2e-3), distance)
+        assert pair.contact_ratio == 0 and "the gears do not touch" in pair.findings[0]
+
+
+def test_thickness_of_a_tooth_is_told_on_its_involute_only() -> None:
+    """s_y = d_y (s/d + inv α - inv α_y) (DIN 3960), from the form circle to the tip."""
+    gear = lw.Gear(20, 2e-3)
+    for radius in (0.0195, 0.02, 0.0219):
+        angle = math.acos(0.02 * math.cos(math.radians(20)) / radius)
+        exact = 2 * radius * (math.pi / 40 + involute(math.radians(20)) - involute(angle))
+        assert gear.thickness_at(radius) == pytest.approx(exact, rel=1e-12)
+    for radius in (0.001, 0.0188, 0.0221):
+        with pytest.raises(lw.LinkwrightError, match="the flank is no involute"):
+            gear.thickness_at(radius)
+
+
+@pytest.mark.parametrize(
+    ("numbers", "words"),
+    [
+        ({"teeth": 2.5}, "a whole number"),
+        ({"addendum": -1.0}, "addendum is -1"),
+        ({"dedendum": -1.0}, "dedendum is -1"),
+        ({"fillet": -1.0}, "fillet is -1"),
+        ({"dedendum": 2.5}, "spaces come to a point"),
+        ({"pressure_angle": 20.0}, "pressure_angle is 20 rad; give 0.08727 to 0.6981 rad"),
+    ],
+)
+def test_racks_that_cannot_be_say_why(numbers: dict[str, float], words: str) -> None:
+    with pytest.raises(lw.LinkwrightError, match=words):
+        lw.Rack(**{"teeth": 3, "module": 2e-3, **numbers})  # type: ignore[arg-type]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 import itertools
+import math
 import sys
 from pathlib import Path
 from types import ModuleType
@@ -17,6 +18,7 @@ from linkwright.laws.base import END_KINDS, MOTION_LAWS, Ends, MotionLaw
 from linkwright.laws.fitting import laws_for, motion_law
 from linkwright.laws.harmonics import HarmonicCombination
 from linkwright.laws.polynomial import Polynomial5, Polynomial7
+from linkwright.laws.residual import residual as left_over
 
 #: Values that laws without usual ones need.
 GIVEN = {
@@ -225,3 +227,18 @@ def test_an_installed_package_brings_a_law(tmp_path: Path, monkeypatch: pytest.M
         MOTION_LAWS._elements.pop("quartic", None)
         module: ModuleType | None = sys.modules.pop("swiftcams", None)
         assert module is not None
+
+
+@pytest.mark.parametrize(
+    "law", ["constant_velocity", "constant_acceleration", "simple_harmonic", "cycloidal"]
+)
+def test_residual_vibration_of_very_stiff_followers_in_closed_form(law: str) -> None:
+    """|∫ s̈ e^(iωt) dt|/(ωh), steps of the velocity included, over twelve thousand natural periods in a rise."""
+    n = np.array([12_345.3, 123_456.3])
+    exact = {
+        "constant_velocity": np.abs(np.sin(math.pi * n)) / (math.pi * n),
+        "constant_acceleration": 4 * np.sin(math.pi * n / 2) ** 2 / (math.pi * n) ** 2,
+        "simple_harmonic": np.abs(np.cos(math.pi * n)) / (4 * n**2 - 1),
+        "cycloidal": np.abs(np.sin(math.pi * n)) / (math.pi * n * (n**2 - 1)),
+    }
+    assert left_over(lw.motion_law(law), n) == pytest.approx(exact[law], rel=1e-6)

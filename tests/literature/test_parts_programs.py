@@ -131,3 +131,14 @@ def test_units_enter() -> None:
                                parameters={"b": "20 mm", "t": "5 mm"})  # fmt: skip
     assert program.solve().value == pytest.approx(10e3)
     assert program.solve().prices["s"] == pytest.approx(1e-4)
+
+
+def test_a_variable_without_an_upper_bound_is_written_without_one() -> None:
+    text = """
+format: 1
+kind: program
+variables: {x: {from: 0}, y: {from: 1, to: 4, integer: true}, z: {to: 3}}
+maximize: z - x - y
+"""
+    worked = parts.loads(text).solve().worked()
+    assert "  x ≥ 0\n" in worked and "  1 ≤ y ≤ 4 ∈ ℤ\n" in worked and "  z ≤ 3\n" in worked

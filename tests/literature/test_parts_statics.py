@@ -67,21 +67,31 @@ def test_wedge_without_friction_is_an_inclined_plane() -> None:
     assert found.efficiency == pytest.approx(1.0)
 
 
+@pytest.mark.parametrize("angle", [0.15, 0.3, 0.01, 0.6])
 @pytest.mark.parametrize("sense", [1, -1])
-def test_wedge_against_the_balance_of_forces(sense: int) -> None:
-    """Normal and friction forces on load and wedge as unknowns of one linear system."""
-    load, angle, slope, floor, wall = 800.0, 0.15, 0.2, 0.1, 0.25
+def test_wedge_against_the_balance_of_forces(sense: int, angle: float) -> None:
+    """Normal and friction forces on load and wedge as unknowns of one linear system, for either side of the guide.
+
+    The side is the one that presses; its friction is against the way of the load, up while it sinks.
+    """
+    load, slope, floor, wall = 800.0, 0.2, 0.1, 0.25
     s, c = math.sin(angle), math.cos(angle)
-    f1, f2, f3 = (sense * each for each in (slope, floor, wall))
-    # unknowns: normal on the slope, on the floor, on the wall, push on the wedge
-    balance = [
-        [-s - f1 * c, 0, 1, 0],
-        [c - f1 * s, 0, -f3, 0],
-        [s + f1 * c, f2, 0, -1],
-        [-c + f1 * s, 1, 0, 0],
-    ]
-    push = np.linalg.solve(balance, [0, load, 0, 0])[3]
-    assert parts.Wedge(load, angle, slope, floor, wall).push(sense) == pytest.approx(push, rel=1e-12)
+    f1, f2 = sense * slope, sense * floor
+    pushes = []
+    for side in (1, -1):
+        # unknowns: normal on the slope, on the floor, on this side of the guide, push on the wedge
+        balance = [
+            [-s - f1 * c, 0, side, 0],
+            [c - f1 * s, 0, -sense * wall, 0],
+            [s + f1 * c, f2, 0, -1],
+            [-c + f1 * s, 1, 0, 0],
+        ]
+        on_slope, on_floor, on_side, push = np.linalg.solve(balance, [0, load, 0, 0])
+        assert on_slope > 0 and on_floor > 0
+        if on_side > 0:
+            pushes.append(push)
+    assert len(pushes) == 1
+    assert parts.Wedge(load, angle, slope, floor, wall).push(sense) == pytest.approx(pushes[0], rel=1e-12)
 
 
 def test_wedge_locks_where_the_angle_is_below_both_friction_angles() -> None:
@@ -158,3 +168,14 @@ def test_a_rotor_that_cannot_be_balanced_so_is_refused(old: str, new: str, key: 
         parts.loads(ROTOR.replace(old, new)).solve()
     (finding,) = caught.value.findings
     assert finding.key == key and said in str(finding) and finding.remedy
+
+
+def test_a_rotor_in_balance_has_no_direction_of_its_unbalance() -> None:
+    text = """
+format: 1
+kind: rotor
+masses: {a: {mass: 2 kg, radius: 100 mm, angle: 0 deg}, b: {mass: 4 kg, radius: 50 mm, angle: 180 deg}}
+planes: {P: {radius: 50 mm}}
+"""
+    found = parts.loads(text).solve()
+    assert found.unbalances["P"] == 0 and "°" not in found.text() + found.worked()

@@ -69,10 +69,25 @@ def test_fits_by_closed_forms_of_maximum_likelihood() -> None:
     assert fitted(x, "exponential").parameters["mean"] == pytest.approx(x.mean(), rel=1e-6)
     normal, log = fitted(x, "normal").parameters, fitted(x, "lognormal").parameters
     assert (normal["μ"], normal["σ"]) == pytest.approx((x.mean(), x.std()), rel=1e-9)
-    assert (log["μ(ln)"], log["σ(ln)"]) == pytest.approx((np.log(x).mean(), np.log(x).std()), rel=1e-3)
+    assert (log["μ(ln)"], log["σ(ln)"]) == pytest.approx((np.log(x).mean(), np.log(x).std()), rel=1e-12)
     k, scale = fitted(x, "weibull").parameters.values()
-    assert scale == pytest.approx(float((x**k).mean() ** (1 / k)), rel=1e-3)
-    assert 1 / k == pytest.approx(float((x**k * np.log(x)).sum() / (x**k).sum() - np.log(x).mean()), rel=1e-3)
+    assert scale == pytest.approx(float((x**k).mean() ** (1 / k)), rel=1e-12)
+    assert 1 / k == pytest.approx(
+        float((x**k * np.log(x)).sum() / (x**k).sum() - np.log(x).mean()), rel=1e-12
+    )
+
+
+def test_a_lognormal_fit_is_said_for_values_in_the_unit_of_the_sample() -> None:
+    values = [20.012, 19.998, 20.005, 20.021, 19.991, 20.008, 20.003, 20.015]
+    text = f"format: 1\nkind: statistics\nfit: [lognormal]\nsamples: {{a: {{unit: mm, values: {values}}}}}\n"
+    assert f"μ(ln) = {np.log(values).mean():.6g}," in parts.loads(text).solve().text()
+
+
+def test_a_coefficient_whose_probability_is_below_rounding_is_not_said_to_be_impossible() -> None:
+    x = np.arange(12.0)
+    found = solved({"x": x, "y": 2 * x + 1e-4 * np.sin(x)}, regressions={"r": parts.Fitting("y", ("x",))})
+    assert found.regressions["r"].p[1] < 1e-12
+    assert "p < 1e-12" in found.text() and "p = 0\n" not in found.text()
 
 
 def test_capability_by_hand() -> None:

@@ -11,6 +11,7 @@ from linkwright.study.designs import sweep_curves
 from linkwright.tolerance import Clearance, Tolerance, ToleranceStudy
 from linkwright.tolerance.pressed_pins import exact, is_position
 from linkwright.tolerance.problem import Limit
+from linkwright.words import speaker
 
 FOURBAR = {"crank.length": 1.0, "coupler.length": 3.5, "rocker.length": 2.5, "frame.O2.x": 4.0}
 SLIDER = """
@@ -56,6 +57,19 @@ def test_linear_spread_is_that_of_the_closed_form() -> None:
     shares = {each.name: each.share for each in found.shares("rocker.angle range")}
     expected = dict(zip(FOURBAR, parts_ / parts_.sum(), strict=True))
     assert shares == pytest.approx(expected, abs=1e-3)
+
+
+def test_a_swing_angle_spreads_as_in_closed_form_and_a_range_says_that_it_is_of_positions() -> None:
+    found = study(of=("swing_angle rocker", "rocker.angle range")).solve()
+    sigma = np.array([0.001, 0.002, 0.002, 0.008 / 3])
+    assert found.nominal("swing_angle rocker") == pytest.approx(float(swing(*FOURBAR.values())), rel=1e-9)
+    assert found.linear("swing_angle rocker") == pytest.approx(
+        math.sqrt(float(((gradient() * sigma) ** 2).sum())), rel=1e-7
+    )
+    remarks = {block.key: " ".join(block.remarks) for block in found.blocks(speaker("en"))}
+    assert "of 360 positions" in remarks["rocker.angle range"]
+    assert "positions" not in remarks["swing_angle rocker"]
+    assert "rad/m" in found.text()
 
 
 def test_monte_carlo_agrees_with_linear_and_with_machines_in_closed_form() -> None:

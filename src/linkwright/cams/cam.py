@@ -115,10 +115,12 @@ class Cam(Problem):
     def _second(self, pair: CamConjugate) -> RollerCurve:
         """The wall of the second cam; of a translating pair in axes turned by half a turn."""
         mirrored = Mirrored(self.program, self.program.lifts[1])
-        other = replace(self.follower, offset=-pair.offset)
-        if self.follower.oscillating:
-            other = replace(self.follower, below=not self.follower.below, arm=pair.arm or self.follower.arm)
-        return RollerCurve(mirrored, other, pair.base_radius, self.turn)
+        return RollerCurve(mirrored, self._other_follower(pair), pair.base_radius, self.turn)
+
+    def _other_follower(self, pair: CamConjugate) -> Follower:
+        if not self.follower.oscillating:
+            return replace(self.follower, offset=-pair.offset)
+        return replace(self.follower, below=not self.follower.below, arm=pair.arm or self.follower.arm)
 
     # what can be wrong --------------------------------------------------------------------
     def findings(self) -> list[Finding]:
@@ -153,6 +155,8 @@ class Cam(Problem):
             found.append(fault("cams.conjugate", "closure"))
         if self.base_radius is None and self.barrel_radius is None and self.limits == CamLimits():
             found.append(fault("cams.no_base", "base_radius"))
+        elif self.base_radius is None and self.barrel_radius is None and not np.ptp(self.program.lifts):
+            found.append(fault("cams.nothing_moves", "program"))
         return found
 
     def misfit(self) -> Finding | None:
@@ -161,16 +165,23 @@ class Cam(Problem):
             return None
         assert self.base_radius is not None
         low, high = self.program.lifts
-        follower, radius = self.follower, self.base_radius
+        found = self._reach(self.follower, self.base_radius, low, high, "follower")
+        if found is None and self.conjugate is not None:
+            other, radius = self._other_follower(self.conjugate), self.conjugate.base_radius
+            found = self._reach(other, radius, 0.0, high - low, "conjugate")
+        return found
+
+    def _reach(self, follower: Follower, radius: float, low: float, high: float, key: str) -> Finding | None:
+        """Why a follower on a base circle cannot be at all lifts, None where it can."""
         if not follower.oscillating:
             height = follower.start_height(radius)
             if height is None or height + low <= 0:
-                return fault("cams.offset", "follower", offset=1e3 * follower.offset, radius=1e3 * radius)
+                return fault("cams.offset", key, offset=1e3 * follower.offset, radius=1e3 * radius)
             return None
         start = follower.start_angle(radius)
         largest = math.pi / 2 if follower.kind == "flat" else math.pi
         if start is None or start + low <= 0 or start + high >= largest:
-            return fault("cams.arm_reach", "follower", radius=1e3 * radius)
+            return fault("cams.arm_reach", key, radius=1e3 * radius)
         if follower.kind == "flat" and self.program.fastest >= 1:
             return fault("cams.too_fast", "program", rate=self.program.fastest)
         return None

@@ -32,7 +32,9 @@ def _settled(each: Field, lift: str) -> Field:
     """The field of a follower's own lift."""
     if isinstance(each, LiftQuantity):
         dimension = each.turning if lift == "angle" else each.straight
-        return Quantity(dimension, minimum=each.minimum, required=each.required, doc=each.doc)
+        return Quantity(
+            dimension, minimum=each.minimum, above=each.above, required=each.required, doc=each.doc
+        )
     if isinstance(each, Listed) and isinstance(each.item, Table):
         return Listed(
             Table({key: _settled(one, lift) for key, one in each.item.fields.items()}), doc=each.doc
@@ -110,7 +112,7 @@ class CamElasticity:
     """Stiffness (N/m or N·m/rad) between cam and the follower's mass, and its damping ratio."""
 
     stiffness: float = given(
-        LiftQuantity("stiffness", "torsional_stiffness", minimum=0.0, doc="stiffness between cam and mass")
+        LiftQuantity("stiffness", "torsional_stiffness", above=0.0, doc="stiffness between cam and mass")
     )
     damping_ratio: float = given(Quantity("dimensionless", minimum=0.0, doc="damping ratio, 0"), 0.0)
 

@@ -94,10 +94,11 @@ class LiftQuantity(Field):
     straight: str
     turning: str
     minimum: float | None = None
+    above: float | None = None
 
     def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
         dimension = self.turning if lift_of(given) == "angle" else self.straight
-        return Quantity(dimension, minimum=self.minimum).read(reader, node, place, given)
+        return Quantity(dimension, minimum=self.minimum, above=self.above).read(reader, node, place, given)
 
     def shape(self) -> Schema:
         return {"anyOf": [Quantity(each).shape() for each in (self.straight, self.turning)]}

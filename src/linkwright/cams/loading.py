@@ -11,6 +11,7 @@ from linkwright.cams.curves import Contact
 from linkwright.cams.follower import Follower, LiftQuantity
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.core.piecewise import Extreme, Piecewise
 from linkwright.fields.base import Quantity, given
 from linkwright.laws.program import Program
 
@@ -85,7 +86,34 @@ class CamLoading:
         if k is None:
             lifted = s > 1e-9 * max(float(np.ptp(s)), 1e-12)
             k = max(0.0, float(((need[lifted] - preload) / s[lifted]).max(initial=0.0)))
-        return replace(self, spring=CamSpring(k, preload))
+        return replace(self, spring=CamSpring(k, preload))._between_places(self.spring, program, least)
+
+    def _between_places(self, asked: CamSpring, program: Program, least: float) -> CamLoading:
+        """The loading with what was chosen of its spring made larger by what misses between the places of a look."""
+        found, half = self, 0.5 * program.lifts[1]
+        for _ in range(8):
+            lowest, spring = found.least_effort(program), found.spring
+            missing = least - lowest.value
+            height = float(program.curves(np.array([lowest.place]))[0][0])
+            high = height > (half if asked.preload is None else 0.0)
+            if missing <= 0.0:
+                break
+            if asked.stiffness is None and high:
+                spring = replace(spring, stiffness=(spring.stiffness or 0.0) + missing / height)
+            elif asked.preload is None:
+                spring = replace(spring, preload=(spring.preload or 0.0) + missing)
+            else:
+                break
+            found = replace(found, spring=spring)
+        return found
+
+    def least_effort(self, program: Program) -> Extreme:
+        """The smallest effort over the turn, N or N·m, with its place, found between all places."""
+        inner = program.breaks[(program.breaks > 0) & (program.breaks < program.period)]
+        effort = Piecewise.of(
+            lambda phi: self.effort(program, phi), 0.0, program.period, pieces=24, knots=inner
+        )
+        return effort.extreme("min")
 
 
 def _best_stiffness(s: Floats, need: Floats) -> float:
@@ -93,6 +121,8 @@ def _best_stiffness(s: Floats, need: Floats) -> float:
     from scipy.optimize import linprog
 
     height = float(s.max())
+    if not np.ptp(s):
+        return 0.0
     size = max(float(np.abs(need).max()), 1e-12)
     found = linprog(
         [1.0, float(s.mean()) / height],

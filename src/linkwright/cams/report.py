@@ -18,6 +18,8 @@ from linkwright.worked.page import Step
 if TYPE_CHECKING:
     from linkwright.cams.result import CamDesign
 
+#: Places that a remark lists at most.
+MANY = 12
 #: Dimensions of lift and its derivatives over time, by what the lift is.
 RATES = {
     "length": ("length", "velocity", "acceleration", "jerk"),
@@ -93,9 +95,9 @@ def _remarks(design: CamDesign, say: Say) -> list[str]:
     words = ("cams.acceleration_jumps", "cams.jerk_jumps")
     found = []
     for order, key in zip((2, 3), words, strict=True):
-        places = [f"{math.degrees(each.place):.6g}°" for each in program.junctions if each.jumps[order]]
+        places = [f"{math.degrees(each):.6g}°" for each in program.places_of_jumps(order)]
         if places:
-            found.append(say(key, places=", ".join(places)))
+            found.append(say(key, places=", ".join([*places[:MANY], *(["…"] if len(places) > MANY else [])])))
     return found
 
 
@@ -143,7 +145,7 @@ def _forces(design: CamDesign, say: Say) -> Block | None:
     if not design.loaded or design.cam.barrel_radius is not None:
         return None
     turning = design.cam.follower.oscillating
-    rows, remarks = [], []
+    rows, remarks = [], _weak_spring(design, say)
     spring = design.loading.spring
     if spring.preload is not None or spring.stiffness is not None:
         rows.append(
@@ -161,13 +163,29 @@ def _forces(design: CamDesign, say: Say) -> Block | None:
         place = at(pressure.place, say)
         rows.append(Row("largest_contact_pressure", pressure.value, "pressure", note=place))
     if design.cam.closure != "force":
-        force = design.contact_force
-        pressed = np.flatnonzero(np.abs(force) > 1e-6 * np.abs(force).max())
-        flips = pressed[1:][np.diff(np.sign(force[pressed])) != 0]
-        if len(flips):
-            places = ", ".join(f"{math.degrees(design.angles[k]):.4g}°" for k in flips)
+        places = ", ".join(f"{math.degrees(each):.6g}°" for each in design.wall_changes)
+        if places:
             remarks.append(say("cams.wall_changes", places=places))
     return Block("forces", say("cams.forces"), rows, remarks)
+
+
+def _weak_spring(design: CamDesign, say: Say) -> list[str]:
+    """Where a given spring leaves less than the least effort that is asked for."""
+    limit = design.cam.limits.contact_force
+    if not limit or design.cam.closure != "force":
+        return []
+    lowest = design.loading.least_effort(design.cam.program)
+    if lowest.value >= limit * (1 - 1e-6):
+        return []
+    kind = "torque" if design.cam.follower.oscillating else "force"
+    return [
+        say(
+            "cams.effort_under",
+            effort=shown(lowest.value, kind),
+            limit=shown(limit, kind),
+            at=at(lowest.place, say),
+        )
+    ]
 
 
 def _vibration(design: CamDesign, say: Say) -> Block | None:
@@ -203,10 +221,8 @@ def steps(design: CamDesign, say: Say) -> list[Step]:
         put(first, "d", "√((r_b + r_r)² − e²)", follower.start_height(base) or 0.0, "length", numbers=numbers)
     second = Step("2", say("cams.step_angle"))
     extreme = max((design.pressure_angle_rise, design.pressure_angle_fall), key=lambda each: abs(each.value))
-    formula = (
-        "arctan((s′ − e)/(d + s))" if not follower.oscillating and follower.kind != "flat" else "∠(n, v)"
-    )
-    put(second, f"α({math.degrees(extreme.place):.5g}°)", formula, extreme.value, "angle")
+    formula, numbers = _angle_formula(design, extreme.place)
+    put(second, f"α({math.degrees(extreme.place):.5g}°)", formula, extreme.value, "angle", numbers=numbers)
     third = Step("3", say("cams.step_radius"))
     radius = design.smallest_radius
     if radius is not None:
@@ -215,7 +231,31 @@ def steps(design: CamDesign, say: Say) -> list[Step]:
     if not design.loaded:
         return [first, second, third]
     fourth = Step("4", say("cams.step_force"))
-    fourth.say("  F = m·ω²·s″ + F₀ + k·s + F_l,  N = F/cos α,  T = F·s′")
+    fourth.say(f"  F = m·ω²·s″ + F₀ + k·s + F_l,  {_normal_force(design)},  T = F·s′")
     put(fourth, "N_max", "", design.extreme_force("max").value, "force")
     put(fourth, "T_max", "", design.extreme_torque("max").value, "torque")
     return [first, second, third, fourth]
+
+
+def _angle_formula(design: CamDesign, place: float) -> tuple[str, str]:
+    """The pressure angle's formula, and with its numbers at a place (rad)."""
+    cam, follower = design.cam, design.cam.follower
+    if follower.oscillating or follower.kind == "flat":
+        return "∠(n, v)", ""
+    lift, rate = (number(float(each[0]), "length") for each in cam.program.curves(np.array([place]))[:2])
+    if cam.barrel_radius is not None:
+        return "arctan(s′/R)", f"arctan({rate}/{number(cam.barrel_radius, 'length')})"
+    sign = "−" if cam.turn > 0 else "+"
+    offset = number(follower.offset, "length")
+    offset = f"({offset})" if offset.startswith("-") else offset
+    height = number(follower.start_height(cam.base_radius or 0.0) or 0.0, "length")
+    numbers = f"arctan(({rate} {sign} {offset})/({height} + {lift}))"
+    return f"arctan((s′ {sign} e)/(d + s))", numbers
+
+
+def _normal_force(design: CamDesign) -> str:
+    """The formula of the contact force from the effort F along the follower's coordinate (swinging: a moment)."""
+    follower = design.cam.follower
+    if not follower.oscillating:
+        return "N = F" if follower.kind == "flat" else "N = F/cos α"
+    return "N = F/x" if follower.kind == "flat" else "N = F/(l·cos α)"

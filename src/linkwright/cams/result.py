@@ -16,6 +16,7 @@ from linkwright.cams.vibration import residual_amplitude, steady_deviation
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.piecewise import Piecewise
+from linkwright.core.search import ends
 from linkwright.errors import RequestError
 from linkwright.laws.program import MotionProgram
 from linkwright.parts.base import Block, Result
@@ -30,6 +31,8 @@ if TYPE_CHECKING:
 
 #: Places of the curves.
 POINTS = 1440
+#: Share of the largest contact force that is none.
+ROUNDING = 1e-12
 _FEWEST, _MOST = 36, 100_000
 
 
@@ -123,9 +126,21 @@ class CamDesign(Result):
 
     @cached_property
     def hollow_radius(self) -> Extreme | None:
-        """The smallest radius where the first wall is hollow (m): no larger cutter fits; None where it is convex."""
+        """The smallest radius where the first wall is hollow (m): no larger cutter fits; None where it is convex.
+
+        A flat face touches convex profiles only.
+        """
+        if self.cam.follower.kind == "flat":
+            return None
         found = self._extreme(lambda phi: self.wall.contact(phi).bend, "min")
         return Extreme(-1.0 / found.value, found.place) if found.value < -1e-9 * abs(self.size) else None
+
+    @property
+    def least_growth(self) -> float:
+        """The smallest growth of the walls along the way, below zero where a profile folds back."""
+        return min(
+            self._extreme(lambda phi, w=wall: w.contact(phi).growth, "min").value for wall in self.cam.walls
+        )
 
     @property
     def size(self) -> float:
@@ -171,6 +186,17 @@ class CamDesign(Result):
     def _inside(self) -> Floats:
         return np.minimum(self.angles, np.nextafter(self.cam.program.period, 0.0))
 
+    @property
+    def wall_changes(self) -> tuple[float, ...]:
+        """Where the follower of a groove or a pair begins to press on its other wall, rad."""
+        force = self.contact_force
+        pressed = np.flatnonzero(np.abs(force) > 1e-6 * np.abs(force).max())
+        flips = np.flatnonzero(np.diff(np.sign(force[pressed])))
+        before, after = self._inside[pressed[flips]], self._inside[pressed[flips + 1]]
+        way = np.sign(force[pressed[flips + 1]])
+        program, loading = self.cam.program, self.loading
+        return tuple(ends(lambda phi: way * loading.effort(program, phi) > 0, after, before).tolist())
+
     @cached_property
     def torque(self) -> Floats:
         """Torque (n,) N·m with which the cam must be driven, positive in its sense of turning: effort times s'."""
@@ -181,7 +207,9 @@ class CamDesign(Result):
 
     def extreme_force(self, kind: str) -> Extreme:
         """The largest (``max``) or smallest (``min``) contact force, N, found between the places of the curves."""
-        return self._extreme(self._contact_force, kind)
+        found = self._extreme(self._contact_force, kind)
+        nothing = abs(found.value) <= ROUNDING * float(np.abs(self.contact_force).max())
+        return Extreme(0.0, found.place) if nothing else found
 
     def extreme_torque(self, kind: str) -> Extreme:
         """The same of the torque, N·m."""

@@ -113,7 +113,7 @@ def _keeps_exactly(cam: Cam, radius: float) -> bool:
     smallest = design.smallest_radius
     bends = smallest is None or smallest.value >= (cam.limits.curvature_radius or 0.0)
     steep = abs(design.pressure_angle_rise.value) <= rise and abs(design.pressure_angle_fall.value) <= fall
-    if not (bends and steep and all(wall.contact(design.angles).growth.min() > 0 for wall in there.walls)):
+    if not (bends and steep and design.least_growth > 0):
         return False
     most = cam.limits.contact_pressure
     return most is None or (largest := design.largest_pressure) is None or largest.value <= most

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -20,6 +21,11 @@ if TYPE_CHECKING:
 #: Fewest and most teeth, and the range of the pressure angle, rad.
 TEETH = (4, 2000)
 PRESSURE_ANGLES = (math.radians(5.0), math.radians(40.0))
+#: Ranges of what gears and racks have in common: m, rad, and in modules.
+TOOTH = {
+    "module": (1e-6, 10.0), "pressure_angle": PRESSURE_ANGLES, "addendum": (0.1, 3.0), "dedendum": (0.1, 3.0),
+    "fillet": (0.0, 1.0),
+}  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -48,20 +54,7 @@ class Gear:
     tip: float | None = None
 
     def __post_init__(self) -> None:
-        ranges = {
-            "teeth": (self.teeth, *TEETH),
-            "module": (self.module, 1e-6, 10.0),
-            "profile_shift": (self.profile_shift, -5.0, 5.0),
-            "pressure_angle": (self.pressure_angle, *PRESSURE_ANGLES),
-            "addendum": (self.addendum, 0.1, 3.0),
-            "dedendum": (self.dedendum, 0.1, 3.0),
-            "fillet": (self.fillet, 0.0, 1.0),
-        }
-        for name, (value, low, high) in ranges.items():
-            if not low <= real(name, value, finite=False) <= high:
-                raise RequestError("gears.out_of_range", name=name, value=value, low=low, high=high)
-        if int(self.teeth) != self.teeth:
-            raise RequestError("gears.whole_teeth", teeth=self.teeth)
+        require_ranges(self, {"teeth": TEETH, "profile_shift": (-5.0, 5.0), **TOOTH})
         self._check_tip()
         _ = self.space
 
@@ -73,7 +66,7 @@ class Gear:
                 )
         elif not self.root_diameter < self.tip_diameter or self.tip_diameter <= self.base_diameter:
             raise RequestError("gears.no_flank", tip=1e3 * self.tip_diameter)
-        if self.thickness_at(0.5 * self.tip_diameter) <= 0:
+        if self._thickness(0.5 * self.tip_diameter) <= 0:
             raise RequestError("gears.pointed", tip=1e3 * self.tip_diameter)
         if self.root_diameter <= 0:
             raise RequestError("gears.no_flank", tip=1e3 * self.tip_diameter)
@@ -119,7 +112,15 @@ class Gear:
         return np.asarray(start - involute_at(np.asarray(radii, dtype=float), 0.5 * self.base_diameter))
 
     def thickness_at(self, radius: float) -> float:
-        """Tooth thickness along the arc at a radius (m) where the flank is an involute, m."""
+        """Tooth thickness along the arc at a radius (m), m; raises RequestError where the flank is no involute."""
+        ends = sorted((self.form_diameter / 2, self.tip_diameter / 2))
+        if not ends[0] * (1 - 1e-9) <= radius <= ends[1] * (1 + 1e-9):
+            raise RequestError(
+                "gears.no_flank_there", radius=1e3 * radius, low=1e3 * ends[0], high=1e3 * ends[1]
+            )
+        return self._thickness(radius)
+
+    def _thickness(self, radius: float) -> float:
         half = float(self.half_angle(np.array([radius]))[0])
         return 2 * radius * (math.pi / self.teeth - half if self.internal else half)
 
@@ -166,3 +167,15 @@ class Gear:
         """The outline turned counter-clockwise about its centre by an angle (rad)."""
         c, s = math.cos(angle), math.sin(angle)
         return np.asarray(self.outline(points) @ np.array([[c, s], [-s, c]]))
+
+
+def require_ranges(teeth: Any, ranges: Mapping[str, tuple[float, float]]) -> None:
+    """Raises RequestError for a number of a gear or rack out of its range, and for teeth that are not whole."""
+    for name, (low, high) in ranges.items():
+        value = real(name, getattr(teeth, name), finite=False)
+        unit = {"pressure_angle": " rad", "module": " m"}.get(name, "")
+        if not low <= value <= high:
+            said = {"value": f"{value:.6g}{unit}", "low": f"{low:.4g}", "high": f"{high:.4g}{unit}"}
+            raise RequestError("gears.out_of_range", name=name, **said)
+    if int(teeth.teeth) != teeth.teeth:
+        raise RequestError("gears.whole_teeth", teeth=teeth.teeth)

@@ -150,9 +150,9 @@ class GearPair:
 
     @property
     def contact_ratio(self) -> float:
-        """ε_α: path of contact over the base pitch π m cos α."""
+        """ε_α: path of contact over the base pitch π m cos α; 0 where no flank reaches the other."""
         start, end = self.path_of_contact
-        return (end - start) / (math.pi * self.pinion.module * math.cos(self.pinion.pressure_angle))
+        return max(end - start, 0.0) / (math.pi * self.pinion.module * math.cos(self.pinion.pressure_angle))
 
     @property
     def tip_clearances(self) -> tuple[float, float]:
@@ -197,7 +197,9 @@ class GearPair:
         for gear in (self.pinion, self.wheel):
             if gear.undercut:
                 found.append(Sentence("gears.undercut", teeth=gear.teeth, least=gear.least_profile_shift))
-        if self.contact_ratio < 1:
+        if self.contact_ratio == 0:
+            found.append(Sentence("gears.no_contact"))
+        elif self.contact_ratio < 1:
             found.append(Sentence("gears.gap", ratio=self.contact_ratio))
         if min(self.tip_clearances) < 0:
             found.append(Sentence("gears.no_clearance", clearance=1e3 * min(self.tip_clearances)))

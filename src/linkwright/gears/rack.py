@@ -11,7 +11,7 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
-from linkwright.gears.gear import PRESSURE_ANGLES
+from linkwright.gears.gear import TOOTH, require_ranges
 
 if TYPE_CHECKING:
     from linkwright.plot.drawing.picture import Drawing
@@ -33,14 +33,9 @@ class Rack:
     fillet: float = 0.38
 
     def __post_init__(self) -> None:
-        ranges = {
-            "teeth": (self.teeth, 1, 10_000),
-            "module": (self.module, 1e-6, 10.0),
-            "pressure_angle": (self.pressure_angle, *PRESSURE_ANGLES),
-        }
-        for name, (value, low, high) in ranges.items():
-            if not low <= value <= high:
-                raise RequestError("gears.out_of_range", name=name, value=value, low=low, high=high)
+        require_ranges(self, {"teeth": (1, 10_000), **TOOTH})
+        if self.dedendum * math.tan(self.pressure_angle) >= math.pi / 4:
+            raise RequestError("gears.pointed_rack_space", dedendum=self.dedendum)
         if self.addendum * math.tan(self.pressure_angle) >= math.pi / 4:
             raise RequestError("gears.pointed_rack", addendum=self.addendum)
 

@@ -333,11 +333,22 @@ class MotionProgram(Program):
 
     @property
     def smoothness(self) -> int:
-        """Highest derivative that is continuous at all junctions (3: the jerk too)."""
+        """Highest derivative that is continuous (3: the jerk too), at junctions and within the laws."""
         for order in range(4):
-            if any(each.jumps[order] for each in self.junctions):
+            if self.places_of_jumps(order):
                 return order - 1
         return 3
+
+    def places_of_jumps(self, order: int) -> tuple[float, ...]:
+        """Where a derivative jumps: at junctions, and within the laws of segments; rad or s."""
+        found = [each.place for each in self.junctions if each.jumps[order]]
+        for low, width, piece in zip(self.edges, np.diff(self.edges), self._pieces, strict=False):
+            inner = np.array(piece.law.breaks if piece.law is not None else ())
+            if len(inner):
+                before, after = (piece.curves(inner + side, width)[order] for side in (-_BESIDE, _BESIDE))
+                jump = np.abs(np.asarray(after) - before) > _SAME * self._sizes[order]
+                found += (low + width * inner[jump]).tolist()
+        return tuple(sorted(found))
 
 
 def _at(piece: _Piece, u: float, width: float) -> tuple[float, float, float, float]:

@@ -41,9 +41,9 @@ if TYPE_CHECKING:
     from linkwright.parts.statistics.samples import Samples as Samples
     from linkwright.parts.trajectories.conveyor import Conveyor as Conveyor
     from linkwright.parts.trajectories.particle import Particle as Particle
+    from linkwright.parts.vibration.excitation import Excitation as Excitation
     from linkwright.parts.vibration.follower import FollowerSpring as FollowerSpring
     from linkwright.parts.vibration.mounts import Mounts as Mounts
-    from linkwright.parts.vibration.system import Excitation as Excitation
     from linkwright.parts.vibration.system import Start as Start
     from linkwright.parts.vibration.system import Tie as Tie
     from linkwright.parts.vibration.system import VibratingSystem as VibratingSystem

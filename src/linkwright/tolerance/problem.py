@@ -19,7 +19,7 @@ from linkwright.kinematics.names import output_meant
 from linkwright.mechanism.mechanism import Link, Mechanism
 from linkwright.metrics.base import METRICS
 from linkwright.metrics.summary import is_metric, wanted
-from linkwright.parts.base import fault
+from linkwright.parts.base import fault, si_unit
 from linkwright.parts.fields import AnyQuantity, ByAddress, Either, Listed, Named, Table, Whole
 from linkwright.parts.mechanism_field import MECHANISM, OfMechanism
 from linkwright.registry import PROBABLE, nearest
@@ -245,6 +245,14 @@ class ToleranceStudy(OfMechanism):
     def deviating(self) -> dict[str, Tolerance]:
         """Tolerances by address in the prepared mechanism."""
         return {self._alias(address): each for address, each in self.dimensions.items()}
+
+    def per_unit(self, kind: str, name: str) -> str:
+        """SI unit of the derivative of a quantity of a kind by what varies under this name: ``rad/m``."""
+        own: dict[str, units.Dimension | None] = dict.fromkeys(self.clearances, units.DIMENSIONS["length"])
+        for address, each in self.deviating.items():
+            own[self.written(address)] = each.dimension or dimension_of(self.mechanism, address)
+        above, below = si_unit(kind), units.si_symbol(own.get(name) or units.NONE)
+        return f"{above or 1}/{f'({below})' if '·' in below or '/' in below else below}" if below else above
 
     def written(self, address: str) -> str:
         """The address as the user wrote it."""

@@ -30,6 +30,8 @@ AGREE = 0.005
 SMALL = 0.1
 #: A cycle that comes nearer to a dead point than this (closeness, 0 at it) is near one.
 NEAR = 0.05
+#: Summaries that are values at one or two of the positions.
+EXTREMES = ("min", "max", "range", "peak", "argmin", "argmax")
 #: Shares of a normal distribution at ±3σ.
 QUANTILES = (0.00135, 0.99865)
 
@@ -68,6 +70,9 @@ class Spread(Result):
         _ = self.derivatives
         if self.drawn:
             design_values(self.study.prepared, self.drawn)
+        unseen = self.drawn and self.study.curves and not self.curves
+        if unseen or (self.swept is not None and not self.swept.ok.any()):
+            raise ModelError([fault("tolerance.none_passes", "dimensions", count=self.study.samples)])
         if self.study.holes("pressed"):
             _ = self.forces
             if not all(is_position(self.study, output) for output in self._over_positions):
@@ -389,18 +394,15 @@ class Spread(Result):
                 linear=f"{100 * linear:.3f}",
             )
             rows.append(Row("yield", f"{100 * share:.3f} %", "", "", note))
-        reason = self.reason(text, say)
-        parts = [
-            Row(
-                each.name,
-                f"{100 * each.share:.2f} %",
-                "",
-                each.name,
-                say("tolerance.part", slope=f"{each.slope:.5g}"),
-            )
-            for each in self.shares(text)
-        ]
-        found = [Block(text, text, rows, (reason,) if reason else ())]
+        parts = []
+        for each in self.shares(text):
+            slope = f"{each.slope:.5g} {self.study.per_unit(kind, each.name)}".rstrip()
+            note = say("tolerance.part", slope=slope)
+            parts.append(Row(each.name, f"{100 * each.share:.2f} %", "", each.name, note))
+        remarks = [self.reason(text, say)]
+        if self.summaries[text].kind in EXTREMES:
+            remarks.append(say("tolerance.at_positions", name=text, count=self.study.steps))
+        found = [Block(text, text, rows, tuple(filter(None, remarks)))]
         return (
             [*found, Block(f"{text}: contributions", say("tolerance.contributions"), parts)]
             if parts

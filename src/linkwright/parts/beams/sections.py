@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from linkwright.core.dataclass import dataclass
-from linkwright.errors import Finding
+from linkwright.errors import Finding, RequestError
 from linkwright.fields.base import Field, Place, Quantities, Quantity, Reader, Text
 from linkwright.fields.nodes import Node
 from linkwright.parts.base import fault
@@ -53,6 +53,7 @@ def circle(diameter: float) -> Section:
 
 def tube(diameter: float, wall: float) -> Section:
     """A round tube of outer diameter and wall: the difference of two circles."""
+    _require_room(diameter - 2 * wall)
     outer, inner = circle(diameter), circle(diameter - 2 * wall)
     second = outer.second_moment - inner.second_moment
     return Section(second, (outer.area or 0.0) - (inner.area or 0.0), 2 * second / diameter, "tube")
@@ -60,6 +61,7 @@ def tube(diameter: float, wall: float) -> Section:
 
 def box(width: float, height: float, wall: float) -> Section:
     """A rectangular tube: the difference of two rectangles."""
+    _require_room(width - 2 * wall, height - 2 * wall)
     outer, inner = rectangle(width, height), rectangle(width - 2 * wall, height - 2 * wall)
     second = outer.second_moment - inner.second_moment
     return Section(second, (outer.area or 0.0) - (inner.area or 0.0), 2 * second / height, "box")
@@ -67,9 +69,16 @@ def box(width: float, height: float, wall: float) -> Section:
 
 def i_beam(height: float, width: float, web: float, flange: float) -> Section:
     """Two flanges and a web, without fillets."""
+    _require_room(width - web, height - 2 * flange)
     outer, inner = rectangle(width, height), rectangle(width - web, height - 2 * flange)
     second = outer.second_moment - inner.second_moment
     return Section(second, (outer.area or 0.0) - (inner.area or 0.0), 2 * second / height, "i_beam")
+
+
+def _require_room(*inner: float) -> None:
+    """Raises RequestError where walls are thicker than what they surround."""
+    if min(inner) < 0:
+        raise RequestError("beam.no_section")
 
 
 def profile(name: str) -> Section:
@@ -120,7 +129,10 @@ def _shaped(reader: Reader, node: Node, place: Place, found: dict[str, Any]) -> 
     if not shapes:
         return Section(found["second_moment"], found.get("area"), found.get("modulus"))
     sizes = found[shapes[0]]
-    made = SHAPES[shapes[0]][0](*sizes) if min(sizes) > 0 else None
+    try:
+        made = SHAPES[shapes[0]][0](*sizes) if min(sizes) > 0 else None
+    except RequestError:
+        made = None
     if made is None or made.second_moment <= 0 or (made.area or 0.0) <= 0:
         reader.error(node, place, Sentence("beam.no_section"), Sentence("beam.no_section_remedy"), "range")
         return None

@@ -344,6 +344,22 @@ class Optimum(Result):
                 lines.append(say("program.price", name=c.name, unit=unit or "1", price=gain))
         return tuple(lines)
 
+    def _allowed(self, name: str, variable: Variable) -> str:
+        """The values that a variable may take: ``0 ≤ x ≤ 5 ∈ ℤ``, ``x ≥ 0 mm``, ``x ∈ {1 mm, 2 mm}``, ``x ∈ ℝ``."""
+        shown = self.program.shown
+        if variable.choices:
+            return f"{name} ∈ {{{', '.join(shown(name, c) for c in variable.choices)}}}"
+        below, above = math.isfinite(variable.low), math.isfinite(variable.high)
+        if not (below or above):
+            return f"{name} ∈ {'ℤ' if variable.integer else 'ℝ'}"
+        if below and above:
+            text = f"{shown(name, variable.low)} ≤ {name} ≤ {shown(name, variable.high)}"
+        else:
+            text = (
+                f"{name} ≥ {shown(name, variable.low)}" if below else f"{name} ≤ {shown(name, variable.high)}"
+            )
+        return f"{text} ∈ ℤ" if variable.integer else text
+
     def steps(self, say: Say) -> list[Step]:
         task, found, test = (Step(str(i + 1), say(f"program.step_{i + 1}")) for i in range(3))
         objective = self.program.model.objective
@@ -351,11 +367,7 @@ class Optimum(Result):
         for c in self.program.subject_to:
             task.say(f"  {c.name}:  {c.text}")
         for name, v in self.program.variables.items():
-            allowed = f"{{{', '.join(self.program.shown(name, c) for c in v.choices)}}}" if v.choices else (
-                f"{self.program.shown(name, v.low)} ≤ {name} ≤ {self.program.shown(name, v.high)}")  # fmt: skip
-            task.say(
-                f"  {allowed}{' ∈ ℤ' if v.integer else ''}" if not v.choices else f"  {name} ∈ {allowed}"
-            )
+            task.say(f"  {self._allowed(name, v)}")
         found.say(self._method(say))
         for name, value in self.x.items():
             found.say(f"  {name} = {self.program.shown(name, value)}")

@@ -15,6 +15,9 @@ from linkwright.parts.base import Block, Problem, Result, Row, fault, put
 from linkwright.words import Say
 from linkwright.worked.page import Step
 
+#: Largest μ θ: e^(μθ) stays a number, with all of its digits.
+GRIP = 300.0
+
 
 @dataclass(frozen=True)
 class Belt(Problem):
@@ -63,6 +66,10 @@ class Belt(Problem):
             found.append(fault("statics.belt_radius", "radius"))
         if self.groove is not None and self.groove >= math.pi:
             found.append(fault("statics.groove", "groove"))
+        if not found and self.effective_friction * self.wrap > GRIP:
+            found.append(
+                fault("statics.belt_grip", "wrap", most=math.degrees(GRIP / self.effective_friction))
+            )
         for side in ("tight", "slack"):
             tension = getattr(self, side)
             if tension is not None and tension <= self.centrifugal:
@@ -79,7 +86,8 @@ class Belt(Problem):
         if self.slack is not None:
             return BeltTensions(self, (self.slack - flung) * e + flung, self.slack)
         pull = (self.torque or 0.0) / (self.radius or 1.0)
-        return BeltTensions(self, pull * e / (e - 1) + flung, pull / (e - 1) + flung)
+        grip = self.effective_friction * self.wrap
+        return BeltTensions(self, flung - pull / math.expm1(-grip), flung + pull / math.expm1(grip))
 
 
 @dataclass(frozen=True, repr=False)

@@ -118,8 +118,13 @@ class RotorBalance(Result):
         blocks = []
         for name, unbalance in self.unbalances.items():
             weight = self.counterweights[name]
-            rows = [Row("unbalance", abs(unbalance), "mass_radius"), Row("direction", _angle(unbalance), "angle"),
-                    Row("counterweight", abs(weight), "mass"), Row("seat", _angle(weight), "angle")]  # fmt: skip
+            rows = [
+                Row("unbalance", abs(unbalance), "mass_radius"),
+                Row("counterweight", abs(weight), "mass"),
+            ]
+            if unbalance:
+                rows.insert(1, Row("direction", _angle(unbalance), "angle"))
+                rows.append(Row("seat", _angle(weight), "angle"))
             if self.rotor.speed:
                 rows.append(Row("rotating_force", abs(unbalance) * self.rotor.speed**2, "force"))
             blocks.append(Block(f"plane {name}", say("statics.balancing_plane", name=name), rows))
@@ -145,11 +150,12 @@ class RotorBalance(Result):
             radius = self.rotor.planes[name].radius
             numbers = f"{number(abs(unbalance), 'mass_radius')}/{radius:.6g}"
             put(step, "m_b", "U/r_b", abs(self.counterweights[name]), "mass", numbers=numbers)
-            put(step, "θ_b", "atan2(−Uy, −Ux)", _angle(self.counterweights[name]), "angle")
+            if unbalance:
+                put(step, "θ_b", "atan2(−Uy, −Ux)", _angle(self.counterweights[name]), "angle")
             found.append(step)
         return found
 
 
 def _angle(value: complex) -> float:
-    """Direction from 0 to a turn, rad; 0 of what is zero."""
-    return cmath.phase(value) % (2.0 * cmath.pi) if value else 0.0
+    """Direction from 0 to a turn, rad."""
+    return cmath.phase(value) % (2.0 * cmath.pi)

@@ -49,9 +49,11 @@ class Wedge(Problem):
         """Push on the wedge (N) while the load rises (``sense`` 1) or sinks (-1).
 
         R = Q cos ρw/cos(α + ρ + ρw), P = R sin(α + ρ + ρf)/cos ρf; for sinking the friction angles are
-        negative.
+        negative, and where α < ρ the wedge that is pulled out takes the load to the other side of its guide, whose
+        friction holds the load as well: R = Q cos ρw/cos(|α - ρ| - ρw).
         """
         slope, floor, wall = (sense * angle for angle in self.friction_angles)
+        wall = math.copysign(wall, sense * (self.angle + slope))
         between = (self.load if load is None else load) * math.cos(wall) / math.cos(self.angle + slope + wall)
         return between * math.sin(self.angle + slope + floor) / math.cos(floor)
 
@@ -121,7 +123,7 @@ class WedgeForces(Result):
         for name, angle in zip(("ρ", "ρf", "ρw"), self.wedge.friction_angles, strict=True):
             put(step, name, "arctan μ", angle, "angle")
         put(step, "P↑", "Q·cos ρw/cos(α + ρ + ρw)·sin(α + ρ + ρf)/cos ρf", self.raising, "force")
-        put(step, "P↓", "Q·cos ρw/cos(α − ρ − ρw)·sin(α − ρ − ρf)/cos ρf", self.lowering, "force")
+        put(step, "P↓", "Q·cos ρw/cos(|α − ρ| − ρw)·sin(α − ρ − ρf)/cos ρf", self.lowering, "force")
         put(step, "η", "Q·tan α/P↑", self.efficiency)
         step.say(say("statics.locks" if self.locks else "statics.runs_back"))
         return [step]

@@ -104,12 +104,32 @@ def fitted(values: Floats, name: str) -> Fit:
 
     scipy_name, held = DISTRIBUTIONS[name]
     family = getattr(stats, scipy_name)
-    found = family.fit(values, **held)
+    found = _weibull(values) if name == "weibull" else family.fit(values, **held)
     words = [*((family.shapes or "").split(", ") if family.shapes else []), "loc", "scale"]
     free = {w: float(v) for w, v in zip(words, found, strict=True) if f"f{w}" not in held}
     akaike = 2.0 * len(free) - 2.0 * float(family.logpdf(values, *found).sum())
     distance = float(stats.kstest(values, scipy_name, args=found).statistic)
     return Fit(name, _named(name, free), akaike, distance, tuple(float(v) for v in found))
+
+
+def _weibull(values: Floats) -> tuple[float, float, float]:
+    """Shape k, place 0 and scale of greatest likelihood: 1/k = Σ xᵏ ln x/Σ xᵏ − mean of ln x."""
+    from scipy.optimize import brentq
+
+    largest = float(values.max())
+    logs = np.log(values / largest)
+
+    def gap(k: float) -> float:
+        powers = np.exp(k * logs)
+        return float((powers * logs).sum() / powers.sum() - logs.mean() - 1.0 / k)
+
+    low = high = 1.0 / float(logs.std())
+    while gap(low) > 0:
+        low /= 2
+    while gap(high) < 0:
+        high *= 2
+    k = float(brentq(gap, low, high, xtol=1e-14 * high)) if low < high else low
+    return k, 0.0, largest * float(np.exp(k * logs).mean()) ** (1 / k)
 
 
 def _named(name: str, free: dict[str, float]) -> dict[str, float]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from functools import cached_property
 from typing import Any, ClassVar
@@ -353,9 +354,8 @@ class Statistics(Result):
     def _fit_rows(self, name: str, say: Say) -> list[Row]:
         rows = []
         for fit in self.fits[name]:
-            scaled = {k: v if k in ("shape", "σ(ln)", "μ(ln)") else v / self.scale(name).factor
-                      for k, v in fit.parameters.items()}  # fmt: skip
-            note = ", ".join(f"{k} = {number(v)}" for k, v in scaled.items())
+            factor = self.scale(name).factor
+            note = ", ".join(f"{k} = {number(_in_units(k, v, factor))}" for k, v in fit.parameters.items())
             distance = say("statistics.distance", distance=f"{fit.distance:.4f}")
             rows.append(Row(fit.name, fit.akaike, "", say(f"statistics.{fit.name}"), f"{note}; {distance}"))
         return rows
@@ -375,7 +375,7 @@ class Statistics(Result):
         r, rows = self.regressions[name], []
         for i, term in enumerate(r.terms):
             note = say("statistics.coefficient", error=number(float(r.errors[i])), low=number(float(r.low[i])),
-                       high=number(float(r.high[i])), p=number(float(r.p[i]), digits=3))  # fmt: skip
+                       high=number(float(r.high[i])), p=_probability(float(r.p[i])))  # fmt: skip
             rows.append(Row(f"b_{term}", float(r.coefficients[i]), "", f"b({term})", note))
         rows += [Row("determination", r.determination), Row("residual", r.deviation)]
         y = self.problem.regressions[name].y
@@ -410,7 +410,7 @@ class Statistics(Result):
                 str(len(found) + 1), f"{name}: {say(f'statistics.h_{self.problem.tests[name].kind}')}"
             )
             put(step, outcome.symbol, outcome.formula, outcome.statistic)
-            step.say(f"  p = {outcome.p:.3g}")
+            step.say(f"  p {_probability(outcome.p)}")
             step.say(self._test_rows(name, say)[1].note)
             found.append(step)
         for name, r in self.regressions.items():
@@ -431,3 +431,15 @@ class Statistics(Result):
             put(step, f"{mark}pk", "min(U − x̄, x̄ − L)/(3σ)", c.cpk)
             found.append(step)
         return found
+
+
+def _probability(p: float) -> str:
+    """``= 0.0123``, or ``< 1e-12`` of what is smaller than its rounding."""
+    return f"= {number(p, digits=3)}" if p >= TINY else f"< {TINY:g}"
+
+
+def _in_units(parameter: str, value: float, factor: float) -> float:
+    """A parameter of a distribution for values in a unit of ``factor`` in SI."""
+    if parameter == "μ(ln)":
+        return value - math.log(factor)
+    return value if parameter in ("shape", "σ(ln)") else value / factor

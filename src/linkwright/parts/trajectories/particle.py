@@ -24,6 +24,8 @@ from linkwright.worked.page import Step
 GRAVITY = 9.80665
 #: Accuracy of the integration with quadratic drag, and points of the curve.
 ACCURACY, POINTS = 1e-11, 401
+#: Times in which drag stops the particle, within the flight, above which its equation is stiff.
+STIFF = 1e4
 
 
 @dataclass(frozen=True)
@@ -113,6 +115,17 @@ class Particle(Problem):
         return Flight(self)
 
 
+def _decayed(x: Floats) -> tuple[Floats, Floats, Floats]:
+    """e^(−x), (1 − e^(−x))/x and (x − 1 + e^(−x))/x² at x (n,), by its series where x is small."""
+    small = np.abs(x) < 0.05
+    far = np.where(small, 1.0, x)
+    once, twice = np.ones_like(x), np.full_like(x, 0.5)
+    for k in range(12, 0, -1):
+        once, twice = 1 - x / (k + 1) * once, 0.5 - x / (k + 2) * twice
+    exact = -np.expm1(-far) / far
+    return np.exp(-x), np.where(small, once, exact), np.where(small, twice, (1 - exact) / far)
+
+
 @dataclass(frozen=True, repr=False)
 class Flight(Result):
     """A flight from the start to the ground, x from the start's, y from the ground; SI.
@@ -136,11 +149,10 @@ class Flight(Result):
         if p.quadratic:
             return np.asarray(self._integrated.sol(time))
         if p.linear:
-            decay = p.mass / p.linear
-            e, fall = np.exp(-time / decay), p.gravity * decay
+            e, once, twice = _decayed(p.linear / p.mass * time)
             return np.array([
-                p.start + u * decay * (1 - e), p.height + (v + fall) * decay * (1 - e) - fall * time,
-                u * e, (v + fall) * e - fall,
+                p.start + u * time * once, p.height + time * (v * once - p.gravity * time * twice),
+                u * e, v * e - p.gravity * time * once,
             ])  # fmt: skip
         return np.array([
             p.start + u * time, p.height + v * time - p.gravity * time**2 / 2, u + 0 * time, v - p.gravity * time,
@@ -156,12 +168,17 @@ class Flight(Result):
             drag = p.quadratic / p.mass * math.hypot(s[2], s[3])
             return [s[2], s[3], -drag * s[2], -p.gravity - drag * s[3]]
 
-        longest = 2 * (abs(self.first[1]) + math.sqrt(2 * p.gravity * p.height)) / p.gravity + 1.0
+        longest = 2 * (abs(self.first[1]) + math.sqrt(2 * p.gravity * p.height)) / p.gravity
         longest += p.height * math.sqrt(p.quadratic / (p.mass * p.gravity)) * 2
-        start = [p.start, p.height, *self.first]
-        return solve_ivp(
-            rate, (0.0, longest), start, "DOP853", rtol=ACCURACY, atol=ACCURACY, dense_output=True
-        )
+        start, end = [p.start, p.height, *self.first], max(longest, 1e-9)
+        fastest = max(math.hypot(*self.first), math.sqrt(p.mass * p.gravity / p.quadratic))
+        while True:
+            stiff = p.quadratic / p.mass * fastest * end > STIFF
+            method, share = ("LSODA", 1e-13) if stiff else ("DOP853", ACCURACY)
+            found = solve_ivp(rate, (0.0, end), start, method, rtol=share, atol=share, dense_output=True)
+            if found.y[1, -1] <= 0:
+                return found
+            end *= 2
 
     @cached_property
     def duration(self) -> float:
@@ -173,14 +190,19 @@ class Flight(Result):
             return (v + math.sqrt(v * v + 2 * p.gravity * p.height)) / p.gravity
         if p.height == 0.0 and v <= 0.0:
             return 0.0
-        top = self.top_time
-        free = (max(v, 0.0) + math.sqrt(v * v + 2 * p.gravity * p.height)) / p.gravity
-        end = max(2 * free, top + 1e-9)
-        while self.state(np.array([end]))[1, 0] > 0 and end < 1e6:
-            end *= 1.5
-        return float(
-            brentq(lambda t: float(self.state(np.array([t]))[1, 0]), top, end, xtol=1e-14, rtol=1e-14)
-        )
+        top, fall = self.top_time, math.sqrt(2 * self.top / p.gravity)
+        while self._height(min(top + fall, self._latest)) > 0:
+            fall *= 2
+        end = min(top + fall, self._latest)
+        return float(brentq(self._height, top, end, xtol=1e-14, rtol=1e-14))
+
+    @property
+    def _latest(self) -> float:
+        """A time by which it has landed, as far as it is integrated, s."""
+        return float(self._integrated.t[-1]) if self.particle.quadratic else math.inf
+
+    def _height(self, time: float) -> float:
+        return float(self.state(np.array([time]))[1, 0])
 
     @cached_property
     def top_time(self) -> float:

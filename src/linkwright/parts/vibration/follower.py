@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from functools import cached_property
+from itertools import pairwise
 from typing import Any, ClassVar
 
 import numpy as np
@@ -21,12 +22,12 @@ from linkwright.laws.fitting import motion_law
 from linkwright.laws.program_fields import LawField
 from linkwright.laws.residual import residual
 from linkwright.parts.base import Block, Problem, Result, Row, fault, number, put
-from linkwright.parts.vibration.linear import Linear
+from linkwright.parts.vibration.linear import Linear, largest_between
 from linkwright.words import Say
 from linkwright.worked.page import Step
 
-#: Points of curves.
-POINTS = 801
+#: Points of curves; distance from a break at which a law has the value of its side.
+POINTS, BESIDE = 801, 1e-13
 
 
 @dataclass(frozen=True)
@@ -138,30 +139,50 @@ class FollowerVibration(Result):
         return np.asarray(self.problem.motion.curves(u)[order], dtype=float)
 
     @cached_property
+    def _swing(self) -> tuple[Floats, Floats, Floats, Floats]:
+        """Times (t,) over the rise and after it, lift of the cam, z = x − s and its rate; jumps stand twice."""
+        own, span = self.problem, self.problem.rise_time
+        count = 8 * POINTS * min(max(1.0, self.ratio / 100), 30.0)
+        after = max(1.0, 1.0 / self.ratio)
+        pieces = [
+            np.linspace(a, b, max(2, math.ceil(count * (b - a))))
+            for a, b in pairwise([0.0, *own.motion.breaks, 1.0])
+        ]
+        later = np.linspace(1.0, 1.0 + after, math.ceil(count))
+        u = np.concatenate([*pieces, later])
+        inner = np.concatenate([np.clip(each, each[0] + BESIDE, each[-1] - BESIDE) for each in pieces])
+        pull = np.append(own.lift / span**2 * self._law(2, inner), np.zeros(len(later)))
+        first, last = (own.lift / span * self._law(1, np.array([0.0, 1.0]))).tolist()
+        w, zeta, one = self.frequency, own.damping_ratio, np.ones((1, 1))
+        blows = {0: np.array([-first]), len(inner): np.array([last])}
+        gap, rate = Linear(one, 2 * zeta * w * one, w * w * one).in_time(
+            span * u, -pull[:, None], np.zeros(1), np.zeros(1), blows
+        )
+        return span * u, own.lift * self._law(0, np.minimum(u, 1.0)), gap[:, 0], rate[:, 0]
+
+    @property
     def curves(self) -> tuple[Floats, Floats, Floats]:
-        """Times (t,) over the rise and as long after it, lift s of the cam and of the follower, m."""
-        time = np.linspace(0.0, 2.0 * self.problem.rise_time, 8 * POINTS + 1)
-        u = np.minimum(time / self.problem.rise_time, 1.0)
-        cam = self.problem.lift * self._law(0, u)
-        w, zeta, m = self.frequency, self.problem.damping_ratio, self.problem.mass
-        rate = np.where(time <= self.problem.rise_time, self._law(1, u), 0.0)
-        force = m * (w * w * cam + 2 * zeta * w * rate * self.problem.lift / self.problem.rise_time)
-        linear = Linear(np.array([[m]]), np.array([[2 * zeta * w * m]]), np.array([[w * w * m]]))
-        return time, cam, linear.in_time(time, force[:, None], np.zeros(1), np.zeros(1))[:, 0]
+        """Times (t,) over the rise and after it, lift s of the cam and of the follower, m."""
+        time, cam, gap, _ = self._swing
+        return time, cam, cam + gap
+
+    def _largest_gap(self, after: bool) -> float:
+        """Largest size of z during the rise or after it, m."""
+        time, _, gap, rate = self._swing
+        left = int(np.searchsorted(time, self.problem.rise_time, side="right")) - 1
+        part = slice(left, None) if after else slice(0, left)
+        return abs(largest_between(time[part], gap[part], rate[part])[1])
 
     def columns(self) -> dict[str, Floats]:
         time, cam, follower = self.curves
         return {"time [s]": time, "cam [m]": cam, "follower [m]": follower, "difference [m]": follower - cam}
 
     def blocks(self, say: Say) -> list[Block]:
-        time, cam, follower = self.curves
-        gap = np.abs(follower - cam)
-        rising = time <= self.problem.rise_time
         rows = [
             Row("own_frequency", self.frequency / (2 * math.pi), "frequency"),
             Row("ratio", self.ratio),
-            Row("largest_gap", float(gap[rising].max()), "length"),
-            Row("left_over", float(gap[~rising].max()), "length"),
+            Row("largest_gap", self._largest_gap(after=False), "length"),
+            Row("left_over", self._largest_gap(after=True), "length"),
             Row("residual", float(self.residual()[0]), "length"),
             Row("residual_share", float(self.residual()[0]) / self.problem.lift),
         ]

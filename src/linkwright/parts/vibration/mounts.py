@@ -18,6 +18,7 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.parts.base import Block, Result, Row, fault, number, put, shown
 from linkwright.parts.fields import Named, Table, Whole
 from linkwright.parts.mechanism_field import MECHANISM, OfMechanism
+from linkwright.parts.vibration.linear import largest_between
 from linkwright.words import Say
 from linkwright.worked.page import Step
 
@@ -235,6 +236,15 @@ class Shaken(Result):
         whole[0] *= 2
         return np.asarray(np.fft.irfft(whole, n, axis=0))
 
+    def _largest(self, amplitudes: Complexes) -> float:
+        """Largest size over the cycle of Σ Re A_k e^(ikωt), between its places as well; amplitudes (h,)."""
+        n = 16 * len(self.problem.forces.motion.time)
+        whole = amplitudes * n / 2
+        whole[0] *= 2
+        turn = np.linspace(0.0, 2 * math.pi, n + 1)
+        value, rate = (np.fft.irfft(each, n) for each in (whole, 1j * np.arange(len(whole)) * whole))
+        return abs(largest_between(turn, np.append(value, value[0]), np.append(rate, rate[0]))[1])
+
     def columns(self) -> dict[str, Floats]:
         """Over the cycle: shaking force, motion of the machine, force on the ground, by axis."""
         found = {"time [s]": self.problem.forces.motion.time}
@@ -262,10 +272,11 @@ class Shaken(Result):
         ]
 
     def blocks(self, say: Say) -> list[Block]:
-        columns, rows = self.columns(), self._own_rows(say)
-        for axis in self.axes:
-            for key, (title, dimension) in zip(("shaking", "machine", "ground"), TITLES[axis], strict=True):
-                largest = float(np.abs(columns[title]).max())
+        rows = self._own_rows(say)
+        curves = {"shaking": self.harmonics, "machine": self.moved, "ground": self.passed}
+        for i, axis in enumerate(self.axes):
+            for (key, amplitudes), (_, dimension) in zip(curves.items(), TITLES[axis], strict=True):
+                largest = self._largest(amplitudes[:, i])
                 label = say(f"vibration.{key}_turn") if axis == "turn" else say(f"vibration.{key}", axis=axis)
                 rows.append(Row(f"{key}_{axis}", largest, dimension, label))
         found = [Block("mounts", say("vibration.largest_values"), rows)]

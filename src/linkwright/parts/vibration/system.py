@@ -14,10 +14,11 @@ import numpy as np
 from linkwright.core.arrays import Complexes, Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, ModelError
-from linkwright.fields.base import GivenByFile, Quantities, Quantity, Text, given
+from linkwright.fields.base import GivenByFile, Quantity, Text, given
 from linkwright.parts.base import Block, Problem, Result, Row, fault, number, put
 from linkwright.parts.fields import AnyQuantity, Listed, Named, Table
-from linkwright.parts.vibration.linear import Linear, tuned
+from linkwright.parts.vibration.excitation import EXCITATION, Excitation, excitation_of, spread
+from linkwright.parts.vibration.linear import Linear, largest_between, tuned
 from linkwright.units import DIMENSIONS
 from linkwright.words import Say
 from linkwright.worked.page import Step
@@ -25,6 +26,8 @@ from linkwright.worked.page import Step
 GROUND = "ground"
 #: Curves of frequency and time have so many points.
 POINTS = 801
+#: Times of a response in a period of the fastest mode, and how many at most.
+PER_PERIOD, MOST = 64, 40_000
 #: A mode without damping this near to the excitation is in resonance, relative.
 RESONANCE = 1e-9
 
@@ -41,33 +44,8 @@ class Tie:
 class Start:
     """Displacement (m, rad) and velocity (m/s, rad/s) of a mass at the time zero."""
 
-    displacement: float = given(Quantity("length", doc="at the time zero"), 0.0)
-    velocity: float = given(Quantity("velocity", doc="at the time zero"), 0.0)
-
-
-@dataclass(frozen=True)
-class Excitation:
-    """What shakes the system: ``force`` (amplitude, N or N·m) or ``unbalance`` (kg·m) ``on`` a mass, or the motion
-    ``base`` of the ground (amplitude, m or rad), each with its ``frequency`` (rad/s); or forces at ``times``.
-    """
-
-    on: str = ""
-    force: float | None = None
-    base: float | None = None
-    unbalance: float | None = None
-    frequency: float | None = None
-    times: tuple[float, ...] = ()
-    forces: tuple[float, ...] = ()
-
-
-def _excitation(**given: Any) -> Excitation:
-    hertz, speed = given.pop("hertz", None), given.pop("speed", None)
-    table = given.pop("table", None) or {}
-    for name in ("force", "base"):
-        if name in given:
-            given[name] = given[name][0]
-    frequency = 2 * math.pi * hertz if hertz is not None else speed
-    return Excitation(**given, frequency=frequency, **table)
+    displacement: float = 0.0
+    velocity: float = 0.0
 
 
 def _tie(between: tuple[str, ...], rate: tuple[float, Any]) -> dict[str, Any]:
@@ -79,20 +57,9 @@ SPRING = Table(
     {**TIE, "rate": AnyQuantity(required=True, key="stiffness", doc="N/m, or N·m/rad of a shaft")}, _tie
 )
 DAMPER = Table({**TIE, "rate": AnyQuantity(required=True, key="damping", doc="N·s/m, or N·m·s/rad")}, _tie)
-EXCITATION = {
-    "on": Text(doc="the mass on which it acts"),
-    "force": AnyQuantity(doc="amplitude of a harmonic force (or torque)"),
-    "base": AnyQuantity(doc="amplitude of the motion of the ground"),
-    "unbalance": Quantity("mass_moment", above=0.0, doc="mass times eccentricity of a rotor"),
-    "hertz": Quantity("frequency", above=0.0, key="frequency", doc="frequency"),
-    "speed": Quantity("angular_velocity", above=0.0, doc="or speed of the rotor"),
-    "table": Table(
-        {
-            "times": Quantities("time", required=True, key="time", doc="increasing times"),
-            "forces": Quantities("force", required=True, key="force", doc="measured force at each time"),
-        },
-        doc="a measured force: {time: […], force: […]}",
-    ),
+START = {
+    "displacement": AnyQuantity(doc="at the time zero, m or rad"),
+    "velocity": AnyQuantity(doc="at the time zero, m/s or rad/s"),
 }
 
 
@@ -120,10 +87,10 @@ class VibratingSystem(Problem):
         Named(DAMPER, "damper", doc="dampers by name: {between: [ground, body], damping: 300 N·s/m}"), dict
     )
     excitation: Excitation | None = given(
-        Table(EXCITATION, _excitation, doc="what shakes it: force, unbalance, base or table"), None
+        Table(EXCITATION, doc="what shakes it: force, unbalance, base or table"), None
     )
     start: Mapping[str, Start] = given(
-        Named(Table.of(Start), "mass", doc="start of the free vibration by mass"), dict
+        Named(Table(START), "mass", doc="start of the free vibration by mass"), dict
     )
     duration: float | None = given(
         Quantity("time", above=0.0, doc="how long responses in time are shown"), None
@@ -143,6 +110,12 @@ class VibratingSystem(Problem):
         for what in ("springs", "dampers"):
             ties = given.get(what, {})
             given[what] = {name: Tie(tie["between"], tie["rate"][0]) for name, tie in ties.items()}
+        starts = given.get("start", {})
+        given["start"] = {
+            name: Start(**{word: value for word, (value, _) in each.items()}) for name, each in starts.items()
+        }
+        if given.get("excitation") is not None:
+            given["excitation"] = excitation_of(given["excitation"])
         absorber = given.pop("absorber", None)
         system = cls(**given, turning=turning)
         if absorber is None or system.findings():
@@ -241,18 +214,37 @@ class VibratingSystem(Problem):
         return Vibration(self)
 
 
+#: Dimensions of everything in straight and in turning motion.
+STRAIGHT = {
+    "mass": "mass", "stiffness": "stiffness", "damping": "damping", "force": "force", "base": "length",
+    "displacement": "length", "velocity": "velocity",
+}  # fmt: skip
+TURNING = {
+    "mass": "inertia", "stiffness": "torsional_stiffness", "damping": "torsional_damping", "force": "torque",
+    "base": "angle", "displacement": "angle", "velocity": "angular_velocity",
+}  # fmt: skip
+
+
 def _mixed(given: Mapping[str, Any], turning: bool) -> list[Finding]:
     """Findings where straight and turning motion, or wrong units, come together."""
-    kinds = ("inertia", "torsional_stiffness", "torsional_damping", "torque", "angle")
-    kinds = kinds if turning else ("mass", "stiffness", "damping", "force", "length")
-    values = {f"masses.{n}": (kind, kinds[0]) for n, (_, kind) in given["masses"].items()}
-    for what, key, expected in (("springs", "stiffness", kinds[1]), ("dampers", "damping", kinds[2])):
-        values |= {f"{what}.{n}.{key}": (t["rate"][1], expected) for n, t in given.get(what, {}).items()}
-    return [
-        fault("vibration.mixed", key, needed=expected.replace("_", " "))
-        for key, (kind, expected) in values.items()
-        if kind != DIMENSIONS[expected]
+    kinds = TURNING if turning else STRAIGHT
+    values = {f"masses.{n}": (kind, "mass") for n, (_, kind) in given["masses"].items()}
+    for what, key in (("springs", "stiffness"), ("dampers", "damping")):
+        values |= {f"{what}.{n}.{key}": (t["rate"][1], key) for n, t in given.get(what, {}).items()}
+    for name, start in given.get("start", {}).items():
+        values |= {f"start.{name}.{word}": (kind, word) for word, (_, kind) in start.items()}
+    shaken = given.get("excitation") or {}
+    values |= {f"excitation.{key}": (shaken[key][1], key) for key in ("force", "base") if key in shaken}
+    table = (shaken.get("table") or {}).get("forces", ())
+    values |= {f"excitation.table.force.{i}": (kind, "force") for i, (_, kind) in enumerate(table)}
+    found = [
+        fault("vibration.mixed", key, needed=kinds[word].replace("_", " "))
+        for key, (kind, word) in values.items()
+        if kind != DIMENSIONS[kinds[word]]
     ]
+    if turning and "unbalance" in shaken:
+        found.append(fault("vibration.turning_unbalance", "excitation.unbalance"))
+    return found
 
 
 @dataclass(frozen=True, repr=False)
@@ -336,31 +328,37 @@ class Vibration(Result):
 
     def response(self) -> tuple[Floats, Floats]:
         """Times (t,) and displacements (t, n) from the start, under a measured force where one is given."""
+        return self._response[:2]
+
+    @cached_property
+    def _response(self) -> tuple[Floats, Floats, Floats]:
+        """Times (t,), displacements and velocities (t, n); a time at which the force jumps stands twice."""
         system = self.system
         given = system.excitation
         last = given.times[-1] if given is not None and given.times else 0.0
         moving = self.frequencies[self.frequencies > 0]
         slow = 2 * math.pi / moving[0] if len(moving) else 1.0
-        time = np.linspace(0.0, system.duration or max(last, 6 * slow), 4 * POINTS)
+        end = system.duration or max(last, 6 * slow)
+        fine = min(float(moving[-1]) / (2 * math.pi) * end * PER_PERIOD, MOST) if len(moving) else 0.0
+        time, measured = spread(given, end, end / max(fine, 4.0 * POINTS))
         force = np.zeros((len(time), len(system.masses)))
         if given is not None and given.times:
-            column = list(system.masses).index(given.on)
-            force[:, column] = np.interp(time, given.times, given.forces, left=0.0, right=0.0)
+            force[:, list(system.masses).index(given.on)] = measured
         starts = [system.start.get(name, Start()) for name in system.masses]
         first = np.array([s.displacement for s in starts]), np.array([s.velocity for s in starts])
-        return time, self.linear.in_time(time, force, *first)
+        return time, *self.linear.in_time(time, force, *first)
 
     def columns(self) -> dict[str, Floats]:
-        names = list(self.system.masses)
+        names, unit = list(self.system.masses), "rad" if self.system.turning else "m"
         if self.in_time:
             time, shown = self.response()
-            return {"time [s]": time, **{f"{n} [m]": shown[:, i] for i, n in enumerate(names)}}
+            return {"time [s]": time, **{f"{n} [{unit}]": shown[:, i] for i, n in enumerate(names)}}
         if not self.harmonic:
             return {}
         frequency, moved = self.sweep()
         found = {"frequency [Hz]": frequency / (2 * math.pi)}
         for i, name in enumerate(names):
-            found[f"{name} amplitude [m]"] = np.abs(moved[:, i])
+            found[f"{name} amplitude [{unit}]"] = np.abs(moved[:, i])
             found[f"{name} phase [rad]"] = np.angle(moved[:, i])
         return found
 
@@ -416,15 +414,13 @@ class Vibration(Result):
         return Block("forced", say("vibration.forced", hertz=number(given.frequency / (2 * math.pi))), rows)
 
     def _timed(self, say: Say) -> Block:
-        time, moved = self.response()
+        time, moved, rate = self._response
         length = "angle" if self.system.turning else "length"
         rows = []
         for i, name in enumerate(self.system.masses):
-            k = int(np.abs(moved[:, i]).argmax())
-            note = say("vibration.at_time", time=number(float(time[k])))
-            rows.append(
-                Row(f"{name}.largest", float(moved[k, i]), length, say("vibration.largest", name=name), note)
-            )
+            place, value = largest_between(time, moved[:, i], rate[:, i])
+            note = say("vibration.at_time", time=number(place))
+            rows.append(Row(f"{name}.largest", value, length, say("vibration.largest", name=name), note))
         return Block("response", say("vibration.response"), rows)
 
     def steps(self, say: Say) -> list[Step]:

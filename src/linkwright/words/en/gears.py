@@ -24,6 +24,11 @@ WORDS = {
     "{touching:.9g} mm",
     "undercut": "the gear of {teeth} teeth is undercut; a profile shift of {least:.4g} or more avoids it",
     "gap": "the contact ratio is {ratio:.4g}, below 1: there are positions without contact",
+    "no_contact": "no flank reaches the other: the gears do not touch; bring them nearer or give longer "
+    "teeth",
+    "no_flank_there": "at a radius of {radius:.6g} mm the flank is no involute; give {low:.6g} to {high:.6g} mm",
+    "pointed_rack_space": "the rack's spaces come to a point above the dedendum of {dedendum} modules; give a "
+    "smaller one",
     "no_clearance": "a tip reaches {clearance:.4g} mm into a root: shorten the tips or deepen the roots",
     "fillet_touched": "the mating tip reaches below the involute of the gear of {teeth} teeth, into its fillet",
     "title": "Gear pair {first} : {second}",

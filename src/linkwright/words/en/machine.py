@@ -58,7 +58,7 @@ torque diagram can be given by its areas or a torque as an expression of theta."
     "mass": "  mass",
     "rim_speed": "  speed of the circumference (cast iron: up to about 30 m/s)",
     "after_area": "after area {number}",
-    "at_begin": "at the begin",
+    "at_begin": "at the beginning",
     "areas_title": "Torque diagram of {count} areas",
     "torque_title": "T = {torque}, against {load}",
     "its_mean": "its mean",

@@ -37,6 +37,8 @@ free, or its pin follows the joint's own reaction.""",
     "at": "at {place}",
     "formula": "σ² = Σ (∂y/∂p)²·σ_p², derivatives exact at the nominal mechanism (SI)",
     "pressed": "Pin {pin} pressed by its own reaction",
+    "at_positions": "{name} is that of {count} positions of the cycle; design numbers (`swing_angle`, `stroke`, "
+    "`peak_…`) are exact between them as well.",
     "agree": "{name}: linear and Monte Carlo agree within 0.5 %.",
     "differ": "{name}: Monte Carlo gives {ratio} times the linear spread, because the number is not linear in the "
     "tolerances: over ±2σ of {dimension} it bends by {bend} of its change.",
@@ -45,6 +47,8 @@ free, or its pin follows the joint's own reaction.""",
     "dead_point": "The cycle comes near a dead point (closeness {closeness} at {place}, 0 at a dead point): there "
     "the derivatives grow without bound, and the linear spread holds for ever smaller tolerances only.",
     "failed": "{failed} of {count} machines do not pass the cycle; the numbers are of the others.",
+    "none_passes": "none of the {count} machines within these tolerances passes its cycle",
+    "none_passes_remedy": "give smaller tolerances and clearances",
     "nothing_varies": "nothing varies",
     "nothing_varies_remedy": "write dimensions: {{crank.length: 0.05 mm}}, or clearances",
     "nothing_asked": "nothing is asked",

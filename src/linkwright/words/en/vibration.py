@@ -70,6 +70,8 @@ leaves behind in a follower; and what a mechanism's shaking force does on mounts
     "resonance_remedy": "change the frequency or a stiffness, or give damping",
     "mixed": "straight and turning motion, or units of another kind, stand together: a {needed} is needed here",
     "mixed_remedy": "give all masses in kg with N/m and N·s/m, or all in kg·m² with N·m/rad and N·m·s/rad",
+    "turning_unbalance": "a rotor's unbalance shakes masses, not discs",
+    "turning_unbalance_remedy": "give the torque on the disc",
     "absorber_alone": "the best absorber is known for one mass without dampers",
     "absorber_alone_remedy": "give one mass with springs to the ground, or write the absorber as a second mass",
     "law": 'the law "{law}" cannot be read: {why}',

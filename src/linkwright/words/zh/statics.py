@@ -62,6 +62,8 @@ WORDS = {
     "belt_choice_remedy": "请只给其中一个",
     "belt_radius": "只有转矩不能确定拉力",
     "belt_radius_remedy": "请给出带轮半径 radius",
+    "belt_grip": "包角过大，e^(μθ) 超出可计算的范围",
+    "belt_grip_remedy": "请给出小于 {most}° 的包角",
     "groove": "180° 或更大的槽不是槽",
     "groove_remedy": "平带请省略此项，V 带请给例如 38 deg 的槽角",
     "flung_off": "拉力 {tension} N 不大于离心拉力 m·v² = {flung} N",

@@ -38,7 +38,7 @@ WORDS = {
     "rejected": "拒绝：{hypothesis}",
     "kept": "不拒绝：{hypothesis}",
     "regression": "{y} 的回归 {name}",
-    "coefficient": "± {error}；{low} … {high}；p = {p}",
+    "coefficient": "± {error}；{low} … {high}；p {p}",
     "determination": "决定系数 R²",
     "residual": "残差标准差 s",
     "si": "系数以 SI 单位表示。",

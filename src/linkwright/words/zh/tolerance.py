@@ -33,6 +33,8 @@ WORDS = {
     "at": "在 {place}",
     "formula": "σ² = Σ (∂y/∂p)²·σ_p²，导数为名义机构处的精确值（SI）",
     "pressed": "销 {pin} 被自身反力压向孔壁",
+    "at_positions": "{name} 取自循环的 {count} 个位置；"
+    "设计参数（`swing_angle`、`stroke`、`peak_…`）在位置之间也是精确的。",
     "agree": "{name}：线性法与蒙特卡洛法相差不超过 0.5 %。",
     "differ": "{name}：蒙特卡洛法的分散是线性法的 {ratio} 倍，因为该指标对公差不是线性的："
     "在 {dimension} 的 ±2σ 内它的弯曲达变化量的 {bend}。",
@@ -41,6 +43,8 @@ WORDS = {
     "dead_point": "循环接近死点（接近度在 {place} 为 {closeness}，死点处为 0）：此处导数无限增大，"
     "线性法只对越来越小的公差成立。",
     "failed": "{count} 台机器中有 {failed} 台不能走完循环；数值只统计其余机器。",
+    "none_passes": "在这些公差范围内，{count} 台机器没有一台能走完循环",
+    "none_passes_remedy": "请减小公差与间隙",
     "nothing_varies": "没有变化的量",
     "nothing_varies_remedy": "请写 dimensions: {{crank.length: 0.05 mm}}，或 clearances",
     "nothing_asked": "没有要求任何结果",

@@ -67,6 +67,8 @@ WORDS = {
     "resonance_remedy": "请改变频率或刚度，或给出阻尼",
     "mixed": "移动与转动，或不同的单位混在一起：此处需要 {needed}",
     "mixed_remedy": "请全部用 kg、N/m、N·s/m，或全部用 kg·m²、N·m/rad、N·m·s/rad",
+    "turning_unbalance": "不平衡只能激励质量，不能激励圆盘",
+    "turning_unbalance_remedy": "请给出作用在圆盘上的转矩",
     "absorber_alone": "最优吸振器只适用于没有阻尼器的单个质量",
     "absorber_alone_remedy": "请给一个用弹簧接地的质量，或把吸振器写成第二个质量",
     "law": "运动规律“{law}”无法读取：{why}",
