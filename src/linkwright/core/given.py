@@ -1,4 +1,4 @@
-"""What was given in place of a mechanism or a result, and how it becomes what is needed."""
+"""Arguments of the library: what is needed, what was given instead, and what to write."""
 
 from __future__ import annotations
 

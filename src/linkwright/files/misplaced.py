@@ -143,8 +143,9 @@ def _belongs(entry: Entry, *, within: str, there: Set[str]) -> str:
     if name in OWN or not isinstance(value, MappingNode):
         return ""
     if kind := value.get("kind"):
-        kinds = {name for name, known in KINDS.items() if meant_kind(kind, known) is not None}
-        return "" if within in kinds else min(kinds, default="")
+        sections = (within, *KINDS) if within in KINDS else KINDS
+        found = next((name for name in sections if meant_kind(kind, KINDS[name]) is not None), "")
+        return "" if found == within else found
     section = "drivers" if _driver(value) else "links" if value.get("points") is not None else ""
     return "" if section == within else section
 

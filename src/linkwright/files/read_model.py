@@ -14,7 +14,6 @@ from linkwright.errors import Finding, QuantityError
 from linkwright.fields.base import Count, Field, Free, WordedText
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar, below
-from linkwright.files.calculations import refuse_kind
 from linkwright.files.check_mechanism import check_whole
 from linkwright.files.misplaced import in_place
 from linkwright.files.node_reader import MODES, Place, TooManyFindings
@@ -57,6 +56,8 @@ def read_model(root: Node, source: str, *, si: bool = False) -> tuple[Mechanism 
         return None, reader.findings
     kind = mapping.get("kind")
     if isinstance(kind, Scalar) and mapping.get("links") is None:
+        from linkwright.files.calculations import refuse_kind
+
         refuse_kind(reader, kind)
         return None, reader.findings
     task = mapping.get("synthesis")
