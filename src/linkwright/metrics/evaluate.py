@@ -14,18 +14,18 @@ from linkwright.kinematics.whole_turns import MOST
 from linkwright.kinetostatics.forces import ROUNDING, Forces
 from linkwright.loads.phases import NEAR
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.metrics.analysis import Analysis
+from linkwright.metrics.analysis import Analysis, Result
 from linkwright.metrics.base import METRICS, Metric, MetricValue
 from linkwright.metrics.quantities import NOTHING
 from linkwright.metrics.table import MetricsTable
 from linkwright.words.sentence import Sentence
 
 
-def metrics(result: Motion | Forces, names: Iterable[str] | str | None = None) -> MetricsTable:
+def metrics(result: Result, names: Iterable[str] | str | None = None) -> MetricsTable:
     """Design numbers of a motion, or of forces (which have those of the motion as well).
 
     Args:
-        result: from ``solve_motion`` or ``solve_forces``.
+        result: from ``solve_motion`` or ``solve_forces``, or its analysis.
         names: which ones; None for all that apply. Asked for by name, a number that does not apply is an error.
 
     Returns:
@@ -37,7 +37,8 @@ def metrics(result: Motion | Forces, names: Iterable[str] | str | None = None) -
         LinkwrightError: a number that was asked for by name does not apply, or the cycle is given more than 1000
             turns.
     """
-    require(result, Motion, Forces)
+    if not isinstance(result, Analysis):
+        require(result, Motion, Forces)
     analysis = Analysis.of(result)
     _countable(analysis.motion)
     asked = None if names is None else list(one_or_more(names))
@@ -58,7 +59,7 @@ def metrics(result: Motion | Forces, names: Iterable[str] | str | None = None) -
         else:
             raise RequestError(_refusal(name, analysis))
     shown = _without_rounding(rows, _roundings(analysis))
-    motion = result.motion if isinstance(result, Forces) else result
+    motion = result if isinstance(result, Motion) else result.motion
     notes = _notes(analysis, motion.ok)
     return MetricsTable(analysis.motion.mechanism.name, shown, skipped, notes)
 
