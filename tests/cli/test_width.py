@@ -24,7 +24,7 @@ CODES = re.compile("\x1b\\[[0-9;]*m")
         ["compare", "gallery:jaw_crusher_sixbar", "gallery:jaw_crusher_fourbar"],
         ["structure", "gallery:jaw_crusher_sixbar"],
         ["structure", "gallery:planetary_two_inputs"],
-        ["validate"],
+        ["validate", "--case", "crusher"],
         ["gallery", "list"],
         ["tolerance", "gallery:pressed_pins"],
         ["statistics", "gallery:shaft_diameters"],
