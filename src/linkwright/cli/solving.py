@@ -17,9 +17,8 @@ from linkwright.errors import Finding, LinkwrightError
 from linkwright.kinematics.cycle import rotary, time_span
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
-from linkwright.kinematics.table import motion_results
 from linkwright.kinetostatics.forces import Forces, solve_forces
-from linkwright.kinetostatics.table import force_results
+from linkwright.kinetostatics.table import results_of
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.cycle_grid import CycleGrid
@@ -78,7 +77,7 @@ class Solved:
 
     def results(self) -> dict[Output, Floats]:
         """All results at the shown rows, SI."""
-        found = motion_results(self.motion) if self.forces is None else force_results(self.forces)
+        found = results_of(self.motion, self.forces)
         return {output: values[self.rows] for output, values in found.items()}
 
 

@@ -15,9 +15,8 @@ from xml.sax.saxutils import escape, quoteattr
 
 from linkwright.course.mistakes import RPM, passed
 from linkwright.course.task import Question
-from linkwright.course.variants import MOST, Variant, Variants
+from linkwright.course.variants import Variant, Variants
 from linkwright.drivers.base import Law
-from linkwright.engine.recently_made import Recent
 from linkwright.errors import RequestError
 from linkwright.files.write import to_data
 from linkwright.plot.drawing.draw import draw
@@ -30,8 +29,6 @@ PICTURE = 640
 #: the width.
 TALLEST, LOWEST, ROOM, ROW, SHARE = 110.0, 30.0, 196.0, 5.0, 0.8
 Files = dict[str, bytes]
-#: Drawings, which several forms show.
-_DRAWN: Recent[Variant, str] = Recent(MOST)
 
 
 def files_of(found: Variants, forms: Sequence[str], language: str) -> Files:
@@ -49,12 +46,12 @@ def files_of(found: Variants, forms: Sequence[str], language: str) -> Files:
 # what every form says ---------------------------------------------------------------------------
 def drawing(found: Variants, each: Variant, language: str, diagonal: float = DIAGONAL) -> str:
     """The machine of a variant as SVG, without numbers that would give answers away."""
-
-    def drawn() -> str:
+    key = each.number, language, diagonal
+    if key not in found.drawings:
         motion, index = passed(each.mechanism, found.task.at)
-        return draw(motion, position=index, centres=True, language=language, diagonal=diagonal).svg
-
-    return _DRAWN.get(each, (found.task.at, language, diagonal), drawn)
+        drawn = draw(motion, position=index, centres=True, language=language, diagonal=diagonal)
+        found.drawings[key] = drawn.svg
+    return found.drawings[key]
 
 
 def data_rows(found: Variants, each: Variant, say: Say) -> list[tuple[str, str]]:

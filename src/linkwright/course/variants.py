@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import require, whole
 from linkwright.course.mistakes import Consequence, Sheet
@@ -64,6 +65,11 @@ class Variants:
     task: Task
     seed: int
     variants: tuple[Variant, ...]
+
+    @cached_property
+    def drawings(self) -> dict[tuple[int, str, float], str]:
+        """Drawings that were made, which several forms show, as SVG by number, language and diagonal."""
+        return {}
 
     @property
     def name(self) -> str:

@@ -11,8 +11,7 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import KINDS
 from linkwright.export.results import Results
-from linkwright.kinematics.table import motion_results
-from linkwright.kinetostatics.table import force_results
+from linkwright.kinetostatics.table import results_of
 from linkwright.units import SI_UNITS
 from linkwright.words import say
 
@@ -60,8 +59,7 @@ class Table:
 
 def tables(results: Results) -> list[Table]:
     """All tables that have columns; ``positions`` (time and inputs) is the first."""
-    forces = results.forces
-    named = motion_results(results.motion) if forces is None else force_results(forces)
+    named = results_of(results.motion, results.forces)
     found: dict[str, list[Column]] = {subject: [] for subject in SUBJECTS}
     for output, values in named.items():
         subject = OF_KIND.get(output.kind) or OF_OWNER.get(KINDS[output.kind].of)

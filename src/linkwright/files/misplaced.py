@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Set
 from dataclasses import replace
 from functools import partial
 from itertools import groupby
+from typing import Any
 
 from linkwright.fields.nodes import Entry, Node, Scalar, Sequence
 from linkwright.fields.nodes import Mapping as MappingNode
@@ -57,7 +58,7 @@ SECTIONS: Mapping[str, Callable[[Node], bool]] = {
 OUTER = ("frame", "links", "joints", "loads", "assembly", "drawing")
 ELEMENTS = ("links", "joints", "loads", "drivers")
 #: Sections whose elements have kinds.
-KINDS: Mapping[str, Mapping[str, object]] = {"joints": JOINTS, "loads": LOADS}
+KINDS: Mapping[str, Mapping[str, Any]] = {"joints": JOINTS, "loads": LOADS}
 
 
 def in_place(reader: PlainReader, root: MappingNode, known: tuple[str, ...]) -> MappingNode:
@@ -199,10 +200,9 @@ def _of_element(entry: Entry, section: str) -> bool:
     key, inner = entry.key.text, isinstance(entry.value, MappingNode)
     if section == "links":
         return key in LINK_FIELDS and (not inner or key in ("points", "also"))
-    if inner or section not in ("joints", "loads"):
+    if inner or section not in KINDS:
         return False
-    every = [kind.fields() for kind in (JOINTS if section == "joints" else LOADS).values()]
-    return key == "kind" or any(key in fields for fields in every)
+    return key == "kind" or any(key in kind.fields() for kind in KINDS[section].values())
 
 
 def _by_name(item: Node) -> Entry | None:

@@ -12,9 +12,15 @@ from linkwright.kinematics.table import directions, motion_results
 from linkwright.kinetostatics.link_balance import load_outputs, motion_outputs
 
 if TYPE_CHECKING:
+    from linkwright.kinematics.motion import Motion
     from linkwright.kinetostatics.forces import Forces
 
 _RESULTANTS = (*row_names("shaking_force"), *map(row_name, ("shaking_moment", "power_of_forces", "power")))
+
+
+def results_of(motion: Motion, forces: Forces | None) -> dict[Output, Floats]:
+    """All results of a motion, and of its forces where there are some, (n,) each, SI."""
+    return motion_results(motion) if forces is None else force_results(forces)
 
 
 def force_results(forces: Forces) -> dict[Output, Floats]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from functools import partial
-from math import ceil, isnan
+from math import isnan
 from typing import Any, Literal, TypeAlias, overload
 
 import numpy as np
@@ -17,15 +17,11 @@ from linkwright.core.outputs import Output
 from linkwright.core.piecewise import POINTS, Piecewise, largest, reach, sought
 from linkwright.core.search import lowest
 from linkwright.engine.recently_made import Recent
-from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinematics.limits import limit_positions
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import output_meant
-from linkwright.kinematics.solve import MotionRun
-from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinetostatics.forces import ROUNDING, Forces
 from linkwright.kinetostatics.programs import words_name
-from linkwright.kinetostatics.run import forces_of_motion
 from linkwright.kinetostatics.solver import ForceSolver
 from linkwright.loads.phases import outermost
 from linkwright.loads.signals import Limit
@@ -35,14 +31,11 @@ from linkwright.metrics.outputs import mechanism_outputs
 from linkwright.metrics.range_ends import RangeEnds
 from linkwright.metrics.reached_extremes import extreme_of_part, mean_of_part
 from linkwright.metrics.reached_ways import Ways
-from linkwright.metrics.solved_again import Resolver
+from linkwright.metrics.solved_again import Resolver, in_enough_positions
 from linkwright.metrics.summary import Summary, one
 
 Result: TypeAlias = "Motion | Forces | Analysis"
 Kind = Literal["max", "min"]
-#: Steps of a cycle from which its numbers are read; of fewer, whose positions tell too little of the motion between
-#: them, it is solved in more.
-FEWEST = 24
 #: By kind of summary values and times (s) of some outputs, and whether polynomials meet these.
 Columns: TypeAlias = dict[str, tuple[list[float], list[float], list[bool]]]
 #: Summaries that are found of all outputs at once.
@@ -97,13 +90,7 @@ class Analysis:
     @classmethod
     def _in_order(cls, result: Motion | Forces) -> Analysis:
         motion, forces = (result.motion, result) if isinstance(result, Forces) else (result, None)
-        positions = motion.positions
-        if not (positions.cycle and positions.steps < FEWEST and motion.inputs):
-            return cls(motion, forces)
-        steps = positions.steps * ceil(FEWEST / positions.steps)
-        over = over_cycle(motion.mechanism, steps, endpoint=positions.repeated)
-        closer = MotionRun(MotionSolver(motion.mechanism), over).solve("mark")
-        return cls(closer, forces and forces_of_motion(closer, forces.static))
+        return cls(*in_enough_positions(motion, forces))
 
     @cached_property
     def input_dimension(self) -> str:

@@ -1,8 +1,9 @@
-"""A motion and its forces solved again at other times of the same cycle."""
+"""A motion and its forces solved again at other times of the same cycle, or in more positions of it."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import ceil
 from typing import Any
 
 import numpy as np
@@ -12,13 +13,32 @@ from linkwright.core.cached_property import cached_property
 from linkwright.core.outputs import Output
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.between_positions import Between
+from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinematics.motion import Motion, Rows
 from linkwright.kinematics.reached_stretches import Reach
+from linkwright.kinematics.solve import MotionRun
+from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.loads.base import Load
 from linkwright.loads.over_cycle import activity
 from linkwright.loads.signals import Limit, Whole
+
+#: Steps of a cycle from which its numbers are read.
+FEWEST = 24
+
+
+def in_enough_positions(motion: Motion, forces: Forces | None) -> tuple[Motion, Forces | None]:
+    """A motion and its forces; of a cycle in so few positions that much can lie between them, in more."""
+    from linkwright.kinetostatics.run import forces_of_motion
+
+    positions = motion.positions
+    if not (positions.cycle and positions.steps < FEWEST and motion.inputs):
+        return motion, forces
+    steps = positions.steps * ceil(FEWEST / positions.steps)
+    over = over_cycle(motion.mechanism, steps, endpoint=positions.repeated)
+    closer = MotionRun(MotionSolver(motion.mechanism), over).solve("mark")
+    return closer, forces and forces_of_motion(closer, forces.static)
 
 
 class _SameCycle(MotionSignals):

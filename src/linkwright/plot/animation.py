@@ -17,8 +17,7 @@ from linkwright.errors import RequestError, require_language
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import point_key
 from linkwright.kinematics.solve import solve_motion
-from linkwright.kinematics.table import motion_results
-from linkwright.kinetostatics.table import force_results
+from linkwright.kinetostatics.table import results_of
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.plot.drawing.draw import Names, all_arrows, solved
 from linkwright.plot.drawing.frames import frame_indices, key_indices, usual_seconds
@@ -289,8 +288,7 @@ class Animation:
     @cached_property
     def results(self) -> Mapping[Output, Floats]:
         """What curves can show, (n,) each."""
-        motion, forces = self.scene.machine.motion, self.forces
-        return motion_results(motion) if forces is None else force_results(forces)
+        return results_of(self.scene.machine.motion, self.forces)
 
     @cached_property
     def _panel(self) -> Panel | None:

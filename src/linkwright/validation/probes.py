@@ -12,9 +12,8 @@ import numpy as np
 from linkwright.files.model_file import load
 from linkwright.kinematics.names import output_meant
 from linkwright.kinematics.solve import solve_motion
-from linkwright.kinematics.table import motion_results
 from linkwright.kinetostatics.forces import Forces, solve_forces
-from linkwright.kinetostatics.table import force_results
+from linkwright.kinetostatics.table import results_of
 from linkwright.units import parse
 
 Find = Callable[[str], float]
@@ -31,8 +30,7 @@ def machine(given: Mapping[str, Any]) -> Find:
     else:
         motion = solve_motion(mechanism)
     forces = _forces(motion)
-    results = motion_results(motion) if forces is None else force_results(forces)
-    values = {output.column: column[0] for output, column in results.items()}
+    values = {output.column: column[0] for output, column in results_of(motion, forces).items()}
 
     def find(what: str) -> float:
         if what.endswith(".direction"):

@@ -48,8 +48,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     from linkwright.cli.files import refuse_output
     from linkwright.cli.progress import progress
     from linkwright.cli.source import read_model
-    from linkwright.kinematics.table import motion_results
-    from linkwright.kinetostatics.table import force_results
+    from linkwright.kinetostatics.table import results_of
     from linkwright.plot.animation import animate
     from linkwright.plot.drawing.panel import named
 
@@ -59,7 +58,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     refuse_unknown_marks(mechanism, options)
     motion = cycle(mechanism, max(options.steps, options.frames), session)
     forces = _forces(motion, options)
-    results = motion_results(motion) if forces is None else force_results(forces)
+    results = results_of(motion, forces)
     refuse_unknown(lambda name: named(results, name), "--curves", names(options.curves))
     animation = animate(
         motion,
