@@ -123,15 +123,17 @@ def solved_at_once(
     ):
         return None
     ((motion, rows),) = found
+    solver.programs.checks.require(rows, motion)
     return Forces(motion, solver, fields, not solver.inertia, rows)
 
 
 def _evaluated(motion: Motion, solver: ForceSolver, fields: dict[str, Floats], static: bool) -> Forces:
-    names = solver.outputs.standard
-    values = solver.evaluate(names, motion, fields)
+    checks = solver.programs.checks
+    values = solver.evaluate(checks.names, motion, fields)
     if not motion.ok.all():
         values[:, ~motion.ok] = np.nan
-    rows = Rows(values, {name: i for i, name in enumerate(names)})
+    rows = Rows(values, {name: i for i, name in enumerate(checks.names)})
+    checks.require(rows, motion)
     return _with_notes(Forces(motion, solver, fields, static, rows))
 
 

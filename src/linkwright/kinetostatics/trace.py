@@ -54,7 +54,8 @@ class JointForce:
 @dataclass
 class ForceTrace:
     """Reactions and efforts as traced values; ``between``: the forces between teeth or in strands whose sizes press
-    on pins, by the names of the joints."""
+    on pins, by the names of the joints; ``left``: what a link's balance wants along the coordinate by which a joint
+    leaves it free, N or N·m, by joint and link: zero but for rounding, for no joint can supply it."""
 
     motion: MotionTrace
     joints: list[JointForce] = field(default_factory=list)
@@ -62,6 +63,7 @@ class ForceTrace:
     own: dict[str, Demand] = field(default_factory=dict)
     wrenches: dict[str, list[Wrench]] = field(default_factory=dict)
     between: dict[str, Scalar] = field(default_factory=dict)
+    left: dict[tuple[str, str], Scalar] = field(default_factory=dict)
 
     def reaction(self, joint: str, on: str) -> Vec:
         """Force that a joint exerts on a link."""
@@ -246,6 +248,9 @@ class _Reverse:
         passed = self._moved(demand, step, free_pin=pin and step.free)
         self.demands[step.parent] = self.demands[step.parent] + passed
         force, couple = demand.force, 0.0 if pin else self._couple(step, demand)
+        if step.free:
+            left = demand.moment if pin else self._along(step).dot(demand.force)
+            self.forces.left[step.joint, step.child] = left
         if step.driver is not None:
             force = force - self._drive(step, demand)
         place = self.motion.poses[step.child].place
