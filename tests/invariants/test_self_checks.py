@@ -16,6 +16,7 @@ from linkwright.kinematics.motion import Evaluate, Rows
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.self_check import SelfCheckError
 from linkwright.kinetostatics.trace import ForceTrace
+from linkwright.study.designs import sweep_curves
 
 MODEL = """
 format: 1
@@ -176,22 +177,44 @@ def solved(name: str, steps: int = 12) -> Forces:
     return lw.solve_forces(lw.solve_motion(lw.loads(FALSIFIED.replace("falsified", name)), steps=steps))
 
 
-def test_a_formula_that_leaves_a_link_out_of_balance_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A pin that gives one link 1 % more than it takes from the other."""
+def unbalance(patch: pytest.MonkeyPatch) -> None:
+    """Let a cut pin give one link 1 % more than it takes from the other."""
     right = PinCut.force_on
 
     def wrong(self: PinCut, end: str, multipliers: Any, poses: Any) -> tuple[Vec, Scalar]:
         force, couple = right(self, end, multipliers, poses)
         return (force * 1.01 if end == self.connection.a else force), couple
 
+    patch.setattr(PinCut, "force_on", wrong)
+
+
+def test_a_formula_that_leaves_a_link_out_of_balance_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
     with monkeypatch.context() as patch:
-        patch.setattr(PinCut, "force_on", wrong)
+        unbalance(patch)
         with pytest.raises(
             SelfCheckError, match=r"link 'unbalanced_\w+' is out of balance at joint '\w' by"
         ) as said:
             solved("unbalanced")
     assert "report it with the model file" in str(said.value) and "未通过自校核" in said.value.say("zh")
     assert np.isfinite(solved("balanced").input_torque).all()
+
+
+def test_in_sweeps_it_is_an_outcome(monkeypatch: pytest.MonkeyPatch) -> None:
+    swept = lw.loads(FALSIFIED.replace("falsified", "swept"))
+    vary = {"swept_rod.length": np.array([0.7, 0.75, 0.8, 0.85])}
+    with monkeypatch.context() as patch:
+        unbalance(patch)
+        found = lw.sweep(swept, vary, outputs=["reaction Q on swept_lever max"], backend="numpy")
+        with pytest.raises(SelfCheckError, match="out of balance"):
+            next(iter(sweep_curves(swept, vary, outputs=["driver.effort"], backend="numpy")))
+        prepared = lw.prepare(
+            lw.loads(FALSIFIED.replace("falsified", "prepared")), vary=["prepared_rod.length"]
+        )
+        with pytest.raises(SelfCheckError, match="out of balance"):
+            prepared.solve({"prepared_rod.length": 0.75})
+    assert not found.ok.any() and np.isnan(found["reaction Q on swept_lever max"]).all()
+    (failure,) = found.failures()
+    assert failure.count == 4 and "do not pass their own check" in failure.example
 
 
 def test_a_power_that_is_not_the_drivers_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
