@@ -11,10 +11,10 @@ import pytest
 import linkwright as lw
 from linkwright.engine.trace import Scalar
 from linkwright.engine.vector import Vec
+from linkwright.errors import SelfCheckError
 from linkwright.joints.revolute import PinCut
 from linkwright.kinematics.motion import Evaluate, Rows
 from linkwright.kinetostatics.forces import Forces
-from linkwright.kinetostatics.self_check import SelfCheckError
 from linkwright.kinetostatics.trace import ForceTrace
 from linkwright.study.designs import sweep_curves
 

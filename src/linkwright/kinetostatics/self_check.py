@@ -10,7 +10,7 @@ from linkwright.core.arrays import Floats
 from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output, kind_of
-from linkwright.errors import LinkwrightError
+from linkwright.errors import SelfCheckError
 from linkwright.kinematics.reach_sentences import input_at
 from linkwright.words.sentence import Sentence
 
@@ -26,10 +26,6 @@ if TYPE_CHECKING:
 LIMIT = 1e-9
 #: A share that is below the limit whatever the machine's size.
 PLAINLY = 1e-3 * LIMIT
-
-
-class SelfCheckError(LinkwrightError):
-    """Numbers that do not pass the check that the program makes of them."""
 
 
 @dataclass(frozen=True)
