@@ -192,7 +192,6 @@ def _of_loads(name: str, mechanism: Mechanism, loads: Sequence[str], varying: Se
     from linkwright.fields.signals import MovingPhase
     from linkwright.kinematics.solve import try_motion
     from linkwright.kinetostatics.signals import MotionSignals
-    from linkwright.loads.base import AT_REST
     from linkwright.loads.over_cycle import activity, magnitudes
 
     signals, found = MotionSignals(try_motion(mechanism, TRIED)), []
@@ -203,10 +202,7 @@ def _of_loads(name: str, mechanism: Mechanism, loads: Sequence[str], varying: Se
         except LinkwrightError as error:
             found.append(Finding("error", name, key, error.sentence, code="no-motion"))
             continue
-        if (
-            isinstance(phase, MovingPhase)
-            and not (acts & (abs(signals.output(phase.output)[1]) > AT_REST)).any()
-        ):
+        if isinstance(phase, MovingPhase) and not (acts & (signals.output(phase.output)[1] != 0.0)).any():
             told, remedy = (
                 Sentence(f"check.never_{phase.direction}", output=phase.output),
                 Sentence("check.never_do"),
