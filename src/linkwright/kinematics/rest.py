@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-import numpy as np
+from typing import TYPE_CHECKING
 
-from linkwright.core.arrays import Floats
 from linkwright.drivers.base import Driver
+from linkwright.engine.late_import import numpy as np
 from linkwright.engine.trace import Scalar, absolute, select
 from linkwright.errors import LinkwrightError
 from linkwright.mechanism.mechanism import Mechanism
+
+if TYPE_CHECKING:
+    from linkwright.core.arrays import Floats
 
 #: Share of the drivers' largest rate up to which a rate is rounding, where something reverses.
 ROUNDING = 1e-14
