@@ -9,6 +9,7 @@ import numpy as np
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
+from linkwright.core.search import first_largest
 from linkwright.engine.trace import Scalar, absolute, minimum, select
 from linkwright.errors import RequestError
 from linkwright.kinematics.names import find_point
@@ -180,9 +181,10 @@ def measured(name: str, analysis: Analysis) -> tuple[float, str] | None:
 
 def governing(found: Sequence[MetricValue], better: str | None) -> MetricValue:
     """Of several values the worst where a direction is better, else the first."""
-    if better == "higher":
-        return min(found, key=lambda value: value.value)
-    return max(found, key=lambda value: abs(value.value)) if better == "lower" else found[0]
+    if better is None:
+        return found[0]
+    values = np.array([value.value for value in found])
+    return found[first_largest(-values if better == "higher" else np.abs(values))]
 
 
 def _no_subject(name: str, subject: str, known: Iterable[str]) -> RequestError:

@@ -9,6 +9,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.outputs import Output, kind_of, row_name
+from linkwright.core.search import first_largest
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.cycle import Positions
 from linkwright.kinematics.design import Design
@@ -157,7 +158,7 @@ def _contacts_lost(forces: Forces) -> Iterable[Sentence]:
             for first, last in ends
         )
         sizes = np.linalg.norm(forces.reaction(name, on=joint.joined[-1]), axis=1)[at]
-        most, where = float(sizes.max()), float(motion.input[at[sizes.argmax()]])
+        most, where = float(sizes.max()), float(motion.input[at[first_largest(sizes)]])
         yield joint.said(
             "forces.contact_lost",
             name=name,
