@@ -146,6 +146,7 @@ def _summary(each: Alternative, name: str) -> Measured:
     summary = next(iter(found.summaries))
     if found.unloaded:
         raise LinkwrightError(found.unloaded[0])
+    each.notes += [Sentence("cli.about", name=each.label, cause=note) for note in found.notes]
     return Measured(float(found.summaries[summary][0]), found.dimension(summary))
 
 

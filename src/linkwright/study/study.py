@@ -283,7 +283,7 @@ class _Work:
         better = {each.name: each.better for each in self.asked}
         return Study(
             self.mechanism, ranges, self.columns, self.values, self.dimensions, better, ok, tuple(failures), sampling,
-            (*found.notes, *self.notes),
+            (*(found.notes if summaries else found.of_motion), *self.notes),
         )  # fmt: skip
 
     def found(
