@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any
 
 import numpy as np
 
@@ -17,7 +18,7 @@ from linkwright.metrics.summary import Summary
 from linkwright.words.sentence import Sentence
 
 #: What a summary is of the values at the positions.
-_OF = {
+_OF: Mapping[str, Callable[[Floats], Any]] = {
     "min": np.min,
     "max": np.max,
     "mean": np.mean,
