@@ -9,6 +9,7 @@ import numpy as np
 
 from linkwright.cli.machine_options import Wanted
 from linkwright.core.dataclass import dataclass
+from linkwright.core.search import first_largest
 from linkwright.errors import LinkwrightError
 from linkwright.machine.energy import EnergyFluctuation, energy_fluctuation
 from linkwright.machine.flywheel import flywheel_inertia, on_faster_shaft, speed_fluctuation
@@ -60,7 +61,7 @@ class Row:
 def of_running(running: SteadyRunning, wanted: Wanted) -> list[list[Row]]:
     """Rows of a mechanism: motor, energy and inertia, flywheel by the formula, exact flywheel, its dimensions."""
     reduced, energy, motor_found = running.equivalent, running.energy, running.motor
-    least, most = int(reduced.inertia.argmin()), int(reduced.inertia.argmax())
+    least, most = first_largest(-reduced.inertia), first_largest(reduced.inertia)
     inertia, angle, at = reduced.inertia, reduced.angle, reduced.input_at
     first = [
         Row("speed", reduced.speed, "angular_velocity"),

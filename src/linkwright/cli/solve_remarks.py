@@ -12,6 +12,7 @@ from linkwright.cli.columns import Column
 from linkwright.cli.solving import Solved
 from linkwright.core.arrays import Floats, largest
 from linkwright.core.dataclass import dataclass
+from linkwright.core.search import first_largest
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
@@ -81,7 +82,7 @@ def _places(solved: Solved, wanted: Sequence[Wanted], degrees: bool) -> list[Pla
     assert forces is not None
     if solved.grid is None:
         rows = [
-            int((np.nanargmax if kind == "max" else np.nanargmin)(signal(forces))) for signal, kind in wanted
+            first_largest(signal(forces) if kind == "max" else -signal(forces)) for signal, kind in wanted
         ]
         values = [float(signal(forces)[row]) for (signal, _), row in zip(wanted, rows, strict=True)]
     else:

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Floats
+from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import require, whole
 from linkwright.errors import RequestError
@@ -116,6 +117,13 @@ class SweepParts:
     def parts(self) -> int:
         """Number of parts."""
         return self.plan.parts
+
+    @cached_property
+    def notes(self) -> tuple[str, ...]:
+        """As :attr:`Sweep.notes`."""
+        plan = self.plan
+        first = {each.address: each.values[:1] for each in plan.ranges}
+        return sweep(plan.mechanism, first, outputs=plan.outputs, steps=plan.steps).notes
 
     def path(self, number: int) -> Path:
         """The file of a part."""

@@ -30,7 +30,7 @@ from linkwright.metrics.summary import is_summary
 from linkwright.registry import offered
 from linkwright.study.alternatives import Alternative, output_of_machine
 from linkwright.study.cluster import current, in_turn
-from linkwright.study.criteria import Criterion, NoSuchSubject, criteria
+from linkwright.study.criteria import Criterion, criteria
 from linkwright.study.design_numbers import side_by_side
 from linkwright.study.designs import sweep
 from linkwright.study.failures import Failure
@@ -283,7 +283,7 @@ class _Work:
         better = {each.name: each.better for each in self.asked}
         return Study(
             self.mechanism, ranges, self.columns, self.values, self.dimensions, better, ok, tuple(failures), sampling,
-            (*found.notes, *self.notes),
+            (*(found.notes if summaries else found.of_motion), *self.notes),
         )  # fmt: skip
 
     def found(
@@ -383,15 +383,16 @@ class _Work:
             "",
         )
         each = Alternative(design.name, design, self.output, self.steps, self.fluctuation)
-        try:
-            for criterion in asked:
+        for criterion in asked:
+            try:
                 found = criterion.measure(each)
-                if found is not None:
-                    numbers[criterion.name] = found.value, found.dimension
-        except NoSuchSubject:
-            raise
-        except LinkwrightError as error:
-            troubled = error.sentence
+            except RequestError:
+                raise
+            except LinkwrightError as error:
+                troubled = troubled or error.sentence
+                continue
+            if found is not None:
+                numbers[criterion.name] = found.value, found.dimension
         return numbers, troubled, [*each.notes]
 
     def _leave_out_idle(self, ok: Flags) -> None:

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from linkwright.core.arrays import Floats
+from linkwright.core.search import first_largest
 from linkwright.plot.diagrams.axes import Legend, Unit, equal, framed, unit_of
 from linkwright.plot.diagrams.base import DIAGRAMS, Kind, Request
 from linkwright.plot.diagrams.curve_marks import draw_curve, jumps, mark_inputs
@@ -95,7 +96,7 @@ def _curve(source: Source, what: tuple[str, str, str]) -> Floats:
 def _largest(axes: Axes, curve: Floats, unit: Unit, legend: Legend, request: Request) -> None:
     """The largest force as an arrow from the origin."""
     length = np.hypot(curve[:, 0], curve[:, 1])
-    index = int(np.nanargmax(length))
+    index = first_largest(length)
     x, y = curve[index] * unit.factor
     axes.annotate("", (x, y), (0, 0), arrowprops={"arrowstyle": "-|>", "color": FAINT, "linewidth": 1.1,
                   "mutation_scale": 11, "shrinkA": 0, "shrinkB": 0}, zorder=3)  # fmt: skip

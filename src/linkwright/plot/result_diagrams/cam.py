@@ -8,6 +8,7 @@ import numpy as np
 
 from linkwright.cams.report import RATES
 from linkwright.cams.result import CamDesign
+from linkwright.core.search import first_largest
 from linkwright.errors import RequestError
 from linkwright.plot.diagrams.base import Request, result_diagram
 from linkwright.plot.diagrams.picture import FAINT, INK, Figure
@@ -30,7 +31,7 @@ def draw_cam_motion(result: CamDesign, request: Request) -> Figure:
     given = []
     for order, symbol in enumerate("svaj"):
         values = result.motion[order] * (speed**order if speed else 1.0)
-        marks = tuple(sorted({int(values.argmax()), int(values.argmin())}))
+        marks = tuple(sorted({first_largest(values), first_largest(-values)}))
         title = request.say(f"cam_{symbol}")
         given.append(Pane(title, kinds[order], (Line(result.angles, values, marks=marks),)))
     return panes(result.title, (request.say("cam_angle"), "angle"), given, request)
