@@ -63,8 +63,9 @@ def test_a_number_that_differs_is_found(what: str, text: str, digits: float) -> 
 
 
 def test_an_angle_is_compared_over_full_turns_and_in_its_unit() -> None:
-    case = Published("conveyor", "report", "machine", {"model": "swing_conveyor", "at": "0 deg"},
-                     tuple(Reference("coupler.angle", text, printed=True) for text in ("347.053 deg", "-12.947 deg")))  # fmt: skip
+    angles = (Reference("coupler.angle", text, printed=True) for text in ("347.053 deg", "-12.947 deg"))
+    given = {"model": "swing_conveyor", "at": "0 deg"}
+    case = Published("conveyor", "report", "machine", given, tuple(angles))
     assert all(each.ok for each in check(case))
     wrong = replace(case, numbers=(Reference("coupler.angle", "347.055 deg", printed=True),))
     assert check(wrong)[0].digits == pytest.approx(-2.0, abs=0.5)

@@ -123,6 +123,8 @@ class Optimum(Plotted, Frozen):
             "name": self.problem.mechanism.name,
             "objectives": [{"number": each.text, "sign": each.sign} for each in self.problem.goals],
             "demands": {text: list(limits) for text, limits in self.limits.items()},
+            "units": {**{each.address: each.si for each in self.problem.variables},
+                      **{text: units.si_symbol(kind) for text, kind in self.kinds.items()}},
             "start": {"values": dict(zip(addresses, self.problem.start.tolist(), strict=True)),
                       "numbers": dict(self.start)},
             "designs": [{"values": dict(each.values), "numbers": dict(each.numbers), "missed": list(each.missed),

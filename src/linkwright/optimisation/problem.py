@@ -41,6 +41,11 @@ class Variable:
     choices: Floats | None = None
     unit: str = ""
 
+    @property
+    def si(self) -> str:
+        """The SI unit of its values."""
+        return units.si_symbol(units.unit(self.unit)[1]) if self.unit else ""
+
     def shown(self, value: float) -> str:
         """A value in the unit of the bounds."""
         factor = units.unit(self.unit)[0] if self.unit else 1.0

@@ -43,6 +43,11 @@ class Range:
         """Largest value."""
         return float(self.values.max())
 
+    @property
+    def si(self) -> str:
+        """The SI unit of its values."""
+        return units.si_symbol(units.unit(self.unit)[1]) if self.unit else ""
+
     def shown(self, value: float) -> str:
         """A value in the user's unit."""
         factor = units.unit(self.unit)[0] if self.unit else 1.0

@@ -88,7 +88,7 @@ def _reference(what: str, given: Any, *, printed: bool) -> Reference:
 def from_gallery(name: str) -> Iterator[Published]:
     """Numbers that a gallery file has as ``expected``.
 
-    Those of the source itself are named under ``printed``, of all states and limits or of one; the others are derived.
+    ``printed`` names those of the source itself, of all states or of one state or limit; the others are derived.
     """
     mechanism = load(f"gallery:{name}")
     expected, head = mechanism.expected, (mechanism.name, mechanism.source)

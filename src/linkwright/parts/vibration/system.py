@@ -379,9 +379,9 @@ class Vibration(Result):
                     say("vibration.shape", mode=mode),
                 )
             )
-            rows.append(Row(f"circular_{i + 1}", float(own), "angular_velocity", "  ω"))
+            rows.append(Row(f"circular_{i + 1}", float(own), "angular_velocity", f"  ω{i + 1}"))
             if self.linear.damping.any():
-                rows.append(Row(f"damping_{i + 1}", float(self.damping_ratios[i]), "", "  ζ"))
+                rows.append(Row(f"damping_{i + 1}", float(self.damping_ratios[i]), "", f"  ζ{i + 1}"))
         loose = int((self.frequencies == 0).sum())
         remarks = (say("vibration.loose", count=loose),) if loose else ()
         found = [Block("modes", say("vibration.modes"), rows, remarks)]

@@ -16,8 +16,8 @@ independent solution). Where a source is wrong, the right number and the reason 
     "from_source": "printed by the source",
     "agree": "agree",
     "worst": "largest difference, last digits",
-    "count": "{agree} of {all} numbers of {cases} cases agree to the digits given. {printed} are printed by their sources, "
-    "and {errata} of these are printed wrongly; the others are derived from what the sources give.",
+    "count": "{agree} of {all} numbers of {cases} cases agree to the digits given. {printed} are printed by their "
+    "sources, and {errata} of these are printed wrongly; the others are derived from what the sources give.",
     "printed": "printed {number}",
     "derived": "derived {number}",
     "trouble": "{case}: {what}: not found: {sentence}",

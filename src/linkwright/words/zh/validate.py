@@ -16,8 +16,8 @@ WORDS = {
     "from_source": "原资料所印",
     "agree": "一致",
     "worst": "最大差值（末位单位）",
-    "count": "{cases} 个算例的 {all} 个数据中，{agree} 个在给出的位数内一致。其中 {printed} 个由原资料印出，印错的有 {errata} 个；"
-    "其余由原资料给出的条件推导。",
+    "count": "{cases} 个算例的 {all} 个数据中，{agree} 个在给出的位数内一致。"
+    "其中 {printed} 个由原资料印出，印错的有 {errata} 个；其余由原资料给出的条件推导。",
     "printed": "所印 {number}",
     "derived": "推导值 {number}",
     "trouble": "{case}：{what}：未能求得：{sentence}",
