@@ -104,10 +104,14 @@ class Optimum(Plotted, Frozen):
         changed.set_all(texts)
         return changed.text
 
-    def write(self, path: str | Path, index: int = 0) -> Path:
-        """Writes the model file of one design, whole or not at all."""
-        from linkwright.whole_files import write_whole
+    def write(self, path: str | Path, index: int = 0, *, force: bool = False) -> Path:
+        """Writes the model file of one design, whole or not at all.
 
+        Raises LinkwrightError where it cannot be written, and for a file that is there already unless ``force``.
+        """
+        from linkwright.whole_files import refuse_target, write_whole
+
+        refuse_target(path, force=force)
         return write_whole(path, self.model_text(index).encode())
 
     def text(self, language: str = "en") -> str:

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.plot.svg.render import MOST_PIXELS
-from linkwright.whole_files import write_whole
+from linkwright.whole_files import refuse_target, write_whole
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
@@ -125,11 +125,13 @@ class Diagram:
     figure: Figure
     language: str = "en"
 
-    def save(self, path: str | Path, *, dpi: float = 200.0) -> Path:
+    def save(self, path: str | Path, *, dpi: float = 200.0, force: bool = False) -> Path:
         """Write it as .svg, .pdf or .png (``dpi`` dots per inch), whole or not at all.
 
-        Raises LinkwrightError for another ending, a folder that cannot be written, a text that no font can write.
+        Raises LinkwrightError for another ending, a folder that cannot be written, a text that no font can write, and
+        for a file that is there already unless ``force``.
         """
+        refuse_target(path, force=force)
         return write_whole(path, self.content(Path(path).suffix.lower(), dpi=dpi))
 
     def content(self, ending: str, *, dpi: float = 200.0) -> bytes:
