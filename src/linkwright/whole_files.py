@@ -11,7 +11,7 @@ from linkwright.errors import RequestError
 from linkwright.words.sentence import reason_of
 
 
-def refuse_target(path: str | Path, *, force: bool = True, remedy: str = "") -> None:
+def refuse_target(path: str | Path, *, force: bool = True, remedy: str = "force=True") -> None:
     """Raise RequestError where a file could not be written, before any work is done.
 
     A file that is there already is refused unless ``force``; ``remedy`` says how it may be replaced.

@@ -13,7 +13,7 @@ from linkwright.files.compose import compose
 from linkwright.files.write import flow
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
-from linkwright.whole_files import write_whole
+from linkwright.whole_files import refuse_target, write_whole
 from linkwright.words.sentence import Sentence
 
 _AXES = {"x": "0", "y": "1"}
@@ -114,8 +114,12 @@ class Document:
                 return node.start + offset, node.end + offset
         return None
 
-    def save(self, path: str | Path) -> None:
-        """Write the text to a file, whole or not at all; raises LinkwrightError where it cannot be written."""
+    def save(self, path: str | Path, *, force: bool = False) -> None:
+        """Write the text to a file, whole or not at all.
+
+        Raises LinkwrightError where it cannot be written, and for a file that is there already unless ``force``.
+        """
+        refuse_target(path, force=force)
         write_whole(path, self.text.encode())
 
     def _replaced(self, text: str, node: Node, value: str) -> _Edit:
@@ -208,7 +212,9 @@ def _follow(root: Mapping, path: list[str]) -> tuple[Node, list[str]]:
         elif isinstance(node, Sequence):
             position = _AXES.get(part, part)
             below = (
-                node.items[int(position)] if position.isdigit() and int(position) < len(node.items) else None
+                node.items[int(position)]
+                if position.isdecimal() and int(position) < len(node.items)
+                else None
             )
         if below is None:
             return node, path[index:]

@@ -7,6 +7,7 @@ from math import pi
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import real
 from linkwright.errors import LinkwrightError, RequestError
+from linkwright.units import SMALLEST
 from linkwright.words.sentence import Sentence
 
 
@@ -37,9 +38,9 @@ def speed_fluctuation(energy: float, speed: float, inertia: float) -> float:
 def on_faster_shaft(inertia: float, ratio: float) -> float:
     """The same flywheel on a shaft that runs ``ratio`` times as fast as the crank: J/ratio², kg·m².
 
-    Raises LinkwrightError for a ratio of zero.
+    Raises LinkwrightError for a ratio of zero, and for one so small that nothing but rounding is left of it.
     """
-    if not abs(ratio) > 0:
+    if not abs(ratio) > SMALLEST:
         raise RequestError("running.bad_ratio")
     return inertia / (ratio * ratio)
 

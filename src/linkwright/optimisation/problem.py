@@ -41,6 +41,11 @@ class Variable:
     choices: Floats | None = None
     unit: str = ""
 
+    @property
+    def si(self) -> str:
+        """The SI unit of its values."""
+        return units.si_symbol(units.unit(self.unit)[1]) if self.unit else ""
+
     def shown(self, value: float) -> str:
         """A value in the unit of the bounds."""
         factor = units.unit(self.unit)[0] if self.unit else 1.0
@@ -199,10 +204,10 @@ class _Reading:
         value = self.given.get(key, usual)
         try:
             found = float(value)
-        except (TypeError, ValueError):
+        except (TypeError, ValueError, OverflowError):
             found = float("nan")
         low = 0.0 if key in ("seed", "population") else 1.0 if key in ("steps", "evaluations") else 1e-12
-        high = 1.0 if key in ("yield", "fluctuation") else 1e9
+        high = 1.0 if key in ("yield", "fluctuation") else 1e6 if key in ("steps", "population") else 1e9
         if not low <= found <= high:
             self._wrong(key, Sentence("optimize.number", key_=key, given=str(value), low=low, high=high))
         return found

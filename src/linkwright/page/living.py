@@ -9,7 +9,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.files.document import Document
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.page.content import page, solved
-from linkwright.whole_files import write_whole
+from linkwright.whole_files import refuse_target, write_whole
 
 
 @dataclass(frozen=True)
@@ -19,8 +19,12 @@ class LivingPage:
     html: str
     height: int = 720
 
-    def save(self, path: str | Path) -> Path:
-        """Writes the file, whole or not at all; raises LinkwrightError where it cannot be written."""
+    def save(self, path: str | Path, *, force: bool = False) -> Path:
+        """Writes the file, whole or not at all.
+
+        Raises LinkwrightError where it cannot be written, and for a file that is there already unless ``force``.
+        """
+        refuse_target(path, force=force)
         return write_whole(path, self.html.encode())
 
     def _repr_html_(self) -> str:

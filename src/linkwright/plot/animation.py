@@ -32,7 +32,7 @@ from linkwright.plot.drawing.vectors import Arrows, scale_of
 from linkwright.plot.drawing.video import gif, mp4
 from linkwright.plot.svg.element import Element, circle, group
 from linkwright.plot.svg.render import png
-from linkwright.whole_files import write_whole
+from linkwright.whole_files import refuse_target, write_whole
 from linkwright.words import say
 from linkwright.words.sentence import in_language
 
@@ -193,13 +193,16 @@ class Animation:
         width: int = 640,
         fonts: Sequence[str | Path] = (),
         progress: Progress | None = None,
+        force: bool = False,
     ) -> Path:
         """Write it as .svg, .gif or .mp4, whole or not at all.
 
         ``width``: pixels across of GIF and MP4; ``progress`` is called with the frames done and their number.
         GIF needs ``linkwright[plot]``, MP4 ``linkwright[video]``. Raises LinkwrightError for another suffix, a
-        missing package or font, a folder that cannot be written.
+        missing package or font, a folder that cannot be written, and for a file that is there already unless
+        ``force``.
         """
+        refuse_target(path, force=force)
         suffix = Path(path).suffix.lower()
         if suffix != ".svg" and not WIDTHS[0] <= whole("width", width) <= WIDTHS[1]:
             raise RequestError("picture.bad_film_width", width=width, least=WIDTHS[0], most=WIDTHS[1])

@@ -142,6 +142,7 @@ class Study(Plotted, Frozen):
             "designs": self.designs,
             "movable": int(self.ok.sum()),
             "varied": {address: values.tolist() for address, values in self.varied.items()},
+            "units": {each.address: each.si for each in self.ranges},
             "metrics": {
                 name: {
                     "unit": si_unit(self.dimensions[name]),

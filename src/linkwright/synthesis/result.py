@@ -154,15 +154,20 @@ class Synthesis(Plotted):
             "candidates": [each.data() for each in self.candidates],
         }
 
-    def write(self, folder: str | Path, name: str = "") -> list[Path]:
-        """Every candidate as a model file ``NAME_1.yaml`` … in a folder that exists; gives the paths."""
+    def write(self, folder: str | Path, name: str = "", *, force: bool = False) -> list[Path]:
+        """Every candidate as a model file ``NAME_1.yaml`` … in a folder that exists; gives the paths.
+
+        Raises LinkwrightError, and writes none, where one cannot be written or is there already unless ``force``.
+        """
+        from linkwright.whole_files import refuse_target, write_whole
+
         stem = name or self.task
-        found = []
-        for number in range(1, len(self) + 1):
-            path = Path(folder) / f"{stem}_{number}.yaml"
-            path.write_text(self.model_text(number - 1, f"{stem} {number}"), encoding="utf-8")
-            found.append(path)
-        return found
+        paths = [Path(folder) / f"{stem}_{number + 1}.yaml" for number in range(len(self))]
+        for path in paths:
+            refuse_target(path, force=force)
+        for number, path in enumerate(paths):
+            write_whole(path, self.model_text(number, f"{stem} {number + 1}").encode())
+        return paths
 
     def model_text(self, index: int = 0, name: str = "", *, language: str = "en") -> str:
         """The model file of one candidate, its purpose in a language."""

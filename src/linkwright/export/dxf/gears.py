@@ -24,7 +24,7 @@ def save_pair(pair: GearPair, path: Path, pinion_angle: float, points: int, *, f
 
     Raises LinkwrightError for a file that exists (without ``force``), a missing folder or package.
     """
-    refuse_target(path, force=force, remedy="force=True")
+    refuse_target(path, force=force)
     document = new_document(LAYERS)
     space = document.modelspace()
     for outline in pair.outlines(pinion_angle, points):
@@ -44,7 +44,7 @@ def save_rack(rack: Rack, path: Path, points: int, *, force: bool) -> Path:
 
     Raises LinkwrightError for a file that exists (without ``force``), a missing folder or package.
     """
-    refuse_target(path, force=force, remedy="force=True")
+    refuse_target(path, force=force)
     document = new_document(LAYERS)
     space = document.modelspace()
     outline = _MM * rack.outline(points)

@@ -332,8 +332,11 @@ class BeamLine(Result):
             at = shown(x, "length")
             left, right = float(self.moment(x, "left")[0]), float(self.moment(x)[0])
             jump = abs(right - left) > 1e-9 * max(abs(left), abs(right), 1e-300)
-            text = f" | {number(right, 'torque')}" if jump and 0 < x < self.beam.length else ""
-            rows.append(Row(f"moment_{x:g}", left if x else right, "torque", f"M({at})", text.strip()))
+            if jump and 0 < x < self.beam.length:
+                rows.append(Row(f"moment_before_{x:g}", left, "torque", f"M({at}⁻)"))
+                rows.append(Row(f"moment_behind_{x:g}", right, "torque", f"M({at}⁺)"))
+            else:
+                rows.append(Row(f"moment_{x:g}", left if x else right, "torque", f"M({at})"))
             rows.append(Row(f"slope_{x:g}", float(self.slope(x)[0]), "slope", f"θ({at})"))
             rows.append(Row(f"deflection_{x:g}", float(self.deflection(x)[0]), "length", f"w({at})"))
         return rows

@@ -78,7 +78,8 @@ torque diagram can be given by its areas or a torque as an expression of theta."
     '+390"',
     "no_number": '{option}: "{text}" is no number; write it with a point and without a unit, such as 0.9',
     "not_above_zero": '{option} is "{text}"; give a value above zero',
-    "not_finite": "{option}: {text} is not finite everywhere in the cycle; check divisions and roots",
+    "not_finite": "{option}: {text} is not finite somewhere in the cycle, or more than any machine has; check "
+    "numbers, divisions and roots",
     "mass_and_gyration": "--mass and --gyration belong together; give both, or --inertia",
     "bad_shape": '{option}: "{text}" says nothing about it; write KEY=VALUE with the keys {keys}',
     "no_mean_torque": "the mean of --torque over the cycle is {mean}, so it does no work that a motor or a "

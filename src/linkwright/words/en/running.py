@@ -15,7 +15,7 @@ WORDS = {
     "cycle of it repeats; give teeth or radii in a ratio of smaller whole numbers",
     "not_all_reached": "{name!r} does not reach all positions of its cycle, so it cannot run steadily",
     "bad_inertia": "the moment of inertia is {inertia:g} kg·m²; give a value above zero",
-    "bad_ratio": "the speed ratio of the flywheel's shaft to the crank is zero; give another number",
+    "bad_ratio": "the speed ratio of the flywheel's shaft to the crank is zero or nearly so; give another one",
     "bad_size": "the {name} of the flywheel is {value:g}; give a value above zero",
     "bad_rim": "a rim cannot be {thickness_ratio:g} of its diameter thick; give 0.5 (a disk) or less",
     "bad_coefficient": "the coefficient of speed fluctuation is {fluctuation:g}; give a value above zero, "

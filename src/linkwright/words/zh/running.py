@@ -12,7 +12,7 @@ WORDS = {
     "请使齿数或半径之比为较小整数之比",
     "not_all_reached": "“{name}”不能到达其循环的全部位置，因而不能稳定运转",
     "bad_inertia": "转动惯量为 {inertia:g} kg·m²；请给出大于零的值",
-    "bad_ratio": "飞轮轴与曲柄的转速比为零；请给出别的数",
+    "bad_ratio": "飞轮轴与曲柄的转速比为零或接近零；请给出别的数",
     "bad_size": "飞轮的{name}为 {value:g}；请给出大于零的值",
     "bad_rim": "轮缘厚度不能为直径的 {thickness_ratio:g}；请给出不大于 0.5（圆盘）的值",
     "bad_coefficient": "速度不均匀系数为 {fluctuation:g}；请给出大于零的值，如 0.02",
