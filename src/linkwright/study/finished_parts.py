@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 
 from linkwright.errors import RequestError
-from linkwright.whole_files import refuse_target, write_whole
+from linkwright.whole_files import refuse_target, write_new
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
@@ -175,7 +175,7 @@ class Kept:
         if self.path is None:
             stem = re.sub(r"[^\w-]+", "_", self.name).strip("_") or "machine"
             names = (Path(f"{stem}{'' if k == 1 else f'_{k}'}.state") for k in count(1))
-            self.path = write_whole(next(each for each in names if not each.exists()), self.parts.serialize())
+            self.path = write_new(names, self.parts.serialize())
         return self.path
 
     def close(self) -> None:

@@ -19,6 +19,7 @@ from linkwright.errors import LinkwrightError
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.synthesis.linkage import Linkage
 from linkwright.synthesis.merit import merit
+from linkwright.whole_files import write_whole
 from linkwright.words.sentence import Sentence
 
 #: Share of its size within which a linkage does what another one does.
@@ -159,9 +160,8 @@ class Synthesis(Plotted):
         stem = name or self.task
         found = []
         for number in range(1, len(self) + 1):
-            path = Path(folder) / f"{stem}_{number}.yaml"
-            path.write_text(self.model_text(number - 1, f"{stem} {number}"), encoding="utf-8")
-            found.append(path)
+            text = self.model_text(number - 1, f"{stem} {number}")
+            found.append(write_whole(Path(folder) / f"{stem}_{number}.yaml", text.encode()))
         return found
 
     def model_text(self, index: int = 0, name: str = "", *, language: str = "en") -> str:
