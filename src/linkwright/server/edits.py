@@ -36,9 +36,9 @@ def edited(text: str, action: Mapping[str, Any]) -> tuple[str, str]:
 
     ``do``: ``point`` (name, at, fixed), ``link`` (name, points), ``driver`` (link, about), ``guide`` (link, at,
     angle), ``slot`` (along, at), ``gear`` (links, teeth), ``cam`` (cam, at, lift), ``rack`` (pinion, rack), ``mass``
-    (link, mass), ``load`` (link, at, force, angle), ``optimize`` (section), ``remove`` (what: link, joint, load; name);
-    angles in degrees, ``places`` (m) of points that no drawing gives. Raises LinkwrightError for an action that the
-    text does not admit.
+    (link, mass), ``load`` (link, at, force, angle), ``optimize`` (section), ``remove`` (what, name): a link, joint or
+    load; angles in degrees, ``places`` (m) of points that no drawing gives. Raises LinkwrightError for an action
+    that the text does not admit.
     """
     draft = Draft(text, request.places(action, "places"))
     act = _ACTIONS.get(str(action.get("do")))

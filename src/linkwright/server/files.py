@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import os
 import threading
 import time
 from collections.abc import Iterator
@@ -163,7 +164,7 @@ class Files:
             yield
 
     def _taken(self, name: str) -> bool:
-        return self.path(name).exists() or self._draft(name) is not None or name in self._reserved
+        return os.path.exists(self.path(name)) or self._draft(name) is not None or name in self._reserved
 
     def _hidden(self, name: str, *shown: str) -> str | None:
         """The text of a draft that differs from all the shown ones."""

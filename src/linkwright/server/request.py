@@ -13,8 +13,8 @@ from linkwright.words.characters import one_line
 from linkwright.words.sentence import Sentence
 
 T = TypeVar("T")
-#: Largest coordinate that is drawn, m; most letters of a name.
-FARTHEST, LONGEST = 1e6, 200
+#: Largest coordinate that is drawn, m, and number at all; most letters of a name.
+FARTHEST, LARGEST, LONGEST = 1e6, 1e300, 200
 
 
 class BadRequest(LinkwrightError):
@@ -52,7 +52,7 @@ def names(asked: Mapping[str, Any], key: str) -> list[str]:
 
 def number(asked: Mapping[str, Any], key: str) -> float:
     """A finite number."""
-    return _number(asked.get(key), key, math.inf)
+    return _number(asked.get(key), key, LARGEST)
 
 
 def place(asked: Mapping[str, Any], key: str) -> list[float]:
@@ -67,7 +67,7 @@ def places(asked: Mapping[str, Any], key: str) -> dict[str, list[float]]:
 
 def numbers(asked: Mapping[str, Any], key: str) -> dict[str, float]:
     """Finite numbers by name."""
-    return _each(asked.get(key), key, lambda value, at: _number(value, at, math.inf))
+    return _each(asked.get(key), key, lambda value, at: _number(value, at, LARGEST))
 
 
 def mapping(asked: Mapping[str, Any], key: str) -> dict[str, Any]:

@@ -135,6 +135,7 @@ class _Handler(BaseHTTPRequestHandler):
 
     def send_error(self, code: int, message: str | None = None, explain: str | None = None) -> None:
         """A request that is not HTTP, or not one that is answered here."""
+        self.request_version = self.protocol_version  # whichever it asked for, the answer has a head
         too_long = code in (HTTPStatus.REQUEST_URI_TOO_LONG, HTTPStatus.REQUEST_HEADER_FIELDS_TOO_LARGE)
         no_method = code == HTTPStatus.NOT_IMPLEMENTED
         self._end(

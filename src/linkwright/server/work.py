@@ -68,11 +68,11 @@ class Work:
         """A file; without a name what was drawn last and never saved, or with ``fresh`` a new one."""
         window = text(asked, "window", "")
         if asked.get("gallery"):
-            name = text(asked, "gallery")
-            return {**self.files.open(self.files.fresh(name, window)), "text": self._read(asked)}
+            found = self._read(asked)
+            return {**self.files.open(self.files.fresh(text(asked, "gallery"), window)), "text": found}
         if asked.get("name"):
-            found = self.files.open(text(asked, "name"))
-            return found if found["version"] or found["recovered"] else {**found, "text": NEW}
+            opened = self.files.open(text(asked, "name"))
+            return opened if opened["version"] or opened["recovered"] else {**opened, "text": NEW}
         unsaved = [] if asked.get("fresh") else self.files.unsaved()
         if unsaved:
             return self.files.open(unsaved[0])
