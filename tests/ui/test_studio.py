@@ -31,7 +31,9 @@ from linkwright.server.address import recalled
 from linkwright.server.edits import with_values
 from linkwright.server.files import Files
 from linkwright.server.web import Studio
-from linkwright.server.work import NEW
+from linkwright.server.work import new_text
+
+NEW = new_text()
 
 
 def edited(text: str, action: dict[str, Any]) -> str:

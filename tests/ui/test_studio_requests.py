@@ -12,9 +12,9 @@ import pytest
 from tests.ui.studio import asked, serving
 
 from linkwright.server.web import Studio
-from linkwright.server.work import NEW
+from linkwright.server.work import new_text
 
-TEXT = NEW + (
+TEXT = new_text() + (
     "frame:\n  points: {O1: [0 mm, 0 mm], O2: [100 mm, 0 mm]}\ndrawing: {A: [20 mm, 30 mm], B: [90 mm, 60 mm]}\n"
     "links:\n  crank: {points: [O1, A]}\n  coupler: {points: [A, B]}\n  rocker: {points: [O2, B]}\n"
     "driver: {turn: crank, about: O1, speed: 60 rpm}\n"

@@ -55,15 +55,23 @@ def _joint(draft: Draft, point: str) -> str:
     for section in ("joints", "assembly"):
         if (found := draft.section(section)) is not None and found.get(point) is not None:
             draft.take_out(section, point)
+    driven = _remove_drives(draft, point)
+    named = {link: _renamed(draft, link, point) for link in joined[1:]}
+    apart = tuple(Sentence("studio.now_named", link=link, point=new) for link, new in named.items())
+    gone = Sentence("studio.pin_gone", point=point, links=tuple(joined), apart=apart)
+    return Sentence("studio.both", first=gone, second=Sentence("studio.drive_gone")) if driven else gone
+
+
+def _remove_drives(draft: Draft, point: str) -> bool:
+    """Takes the drives about a pin out; whether there were any."""
+    before = draft.text
     for name, driver in list(draft.section("drivers") or ()):
         if isinstance(driver, MappingNode) and word(driver, "about") == point:
             draft.take_out("drivers", name)
     alone = draft.section("driver")
     if alone is not None and word(alone, "about") == point:
         draft.cut_top("driver")
-    named = {link: _renamed(draft, link, point) for link in joined[1:]}
-    apart = tuple(Sentence("studio.now_named", link=link, point=new) for link, new in named.items())
-    return Sentence("studio.pin_gone", point=point, links=tuple(joined), apart=apart)
+    return draft.text != before
 
 
 def _point(draft: Draft, point: str, links: list[str]) -> str:

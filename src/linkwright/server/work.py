@@ -11,7 +11,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from linkwright.core.json_data import Plain
-from linkwright.errors import Finding, LinkwrightError, ModelError
+from linkwright.errors import Finding, LinkwrightError, ModelError, with_remedy
 from linkwright.files.document import Document
 from linkwright.files.model_file import gallery_names, read_text
 from linkwright.files.source import read_source
@@ -21,12 +21,12 @@ from linkwright.server.edits import edited, with_values
 from linkwright.server.files import Files
 from linkwright.server.request import mapping, number, numbers, text
 from linkwright.server.search import linkages
-from linkwright.words import LANGUAGES
+from linkwright.words import LANGUAGES, say
 from linkwright.words.sentence import in_language
 
 #: What the studio hands out, by the ending of the file.
 TAKEN = (".report.pdf", ".report.html", ".html", ".xlsx", ".csv", ".json", ".svg", ".pdf", ".png", ".dxf")
-NEW = "format: 1\nname: New mechanism\n"
+NEW = "format: 1\nname: {name}\n"
 
 
 class Work:
@@ -67,16 +67,17 @@ class Work:
     def _open(self, asked: Plain) -> Plain:
         """A file; without a name what was drawn last and never saved, or with ``fresh`` a new one."""
         window = text(asked, "window", "")
+        new = new_text(language_of(asked))
         if asked.get("gallery"):
             found = self._read(asked)
             return {**self.files.open(self.files.fresh(text(asked, "gallery"), window)), "text": found}
         if asked.get("name"):
             opened = self.files.open(text(asked, "name"))
-            return opened if opened["version"] or opened["recovered"] else {**opened, "text": NEW}
+            return opened if opened["version"] or opened["recovered"] else {**opened, "text": new}
         unsaved = [] if asked.get("fresh") else self.files.unsaved()
         if unsaved:
             return self.files.open(unsaved[0])
-        return {**self.files.open(self.files.fresh("machine", window)), "text": NEW}
+        return {**self.files.open(self.files.fresh("machine", window)), "text": new}
 
     def _edit(self, asked: Plain) -> Plain:
         """The text after an action of drawing, and what the user should know about it."""
@@ -143,6 +144,11 @@ class Work:
         return {"content": base64.b64encode(content).decode()}
 
 
+def new_text(language: str = "en") -> str:
+    """The text of a new file."""
+    return NEW.format(name=say("studio.new_name", language))
+
+
 def solved(text: str, language: str) -> Plain:
     """The model of a text for the page; what is in its way otherwise; in any case what can be drawn."""
     mechanism, findings = read_text(text, "model")
@@ -176,8 +182,7 @@ def _finding(found: Finding, language: str) -> Plain:
         "severity": found.severity,
         "line": int(place[1]) if len(place) > 1 and place[1].isdigit() else 0,
         "key": found.key,
-        "message": in_language(found.message, language),
-        "remedy": in_language(found.remedy, language) if found.remedy else "",
+        "sentence": in_language(with_remedy(found.message, found.remedy), language),
     }
 
 
