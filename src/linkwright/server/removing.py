@@ -58,7 +58,8 @@ def _joint(draft: Draft, point: str) -> str:
     driven = _remove_drives(draft, point)
     named = {link: _renamed(draft, link, point) for link in joined[1:]}
     apart = tuple(Sentence("studio.now_named", link=link, point=new) for link, new in named.items())
-    gone = Sentence("studio.pin_gone", point=point, links=tuple(joined), apart=apart)
+    named_links = tuple(Sentence("nouns.frame") if link == "frame" else link for link in joined)
+    gone = Sentence("studio.pin_gone", point=point, links=named_links, apart=apart)
     return Sentence("studio.both", first=gone, second=Sentence("studio.drive_gone")) if driven else gone
 
 
