@@ -6,6 +6,7 @@ import json
 import subprocess
 import sys
 import threading
+import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -17,6 +18,7 @@ from linkwright.errors import LinkwrightError, RequestError
 from linkwright.export.sweep_parts import sweep_parts
 from linkwright.server.address import Address, recalled, remember
 from linkwright.server.files import Files
+from linkwright.study.finished_parts import Kept
 from linkwright.whole_files import alone, write_new, write_whole
 
 ROUNDS, HANDS = 25, 4
@@ -139,6 +141,7 @@ def test_an_address_is_never_half_written(tmp_path: Path, monkeypatch: pytest.Mo
 COUNTS = """
 import sys
 from pathlib import Path
+from linkwright.study.finished_parts import Kept
 from linkwright.whole_files import alone
 path, times = Path(sys.argv[1]), int(sys.argv[2])
 for _ in range(times):
@@ -162,6 +165,24 @@ def test_processes_are_kept_apart_while_they_read_and_write(tmp_path: Path) -> N
     at_once(count, count)
     assert [process.wait() for process in processes] == [0, 0]
     assert path.read_text() == "400"
+
+
+def test_processes_that_share_finished_parts_do_not_wait_for_each_other(tmp_path: Path) -> None:
+    """One has found a part and goes on for long; the other one stores its own meanwhile, and both are there."""
+    first, second = (Kept(tmp_path / "parts.state", "machine", "work", None) for _ in range(2))
+    first.add("a", 1.0)
+    first.written = -1e9
+    first.add("b", 2.0)
+    first.add("c", 3.0)
+    begun = time.monotonic()
+    second.add("d", 4.0)
+    second.close()
+    assert time.monotonic() - begun < 2
+    assert first.part("c") == (3.0,)
+    first.close()
+    again = Kept(tmp_path / "parts.state", "machine", "work", None)
+    assert [again.part(key) for key in "abcd"] == [(1.0,), (2.0,), (3.0,), (4.0,)]
+    again.close()
 
 
 def test_a_drawing_under_another_name_is_never_lost(tmp_path: Path) -> None:

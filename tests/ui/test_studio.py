@@ -913,7 +913,7 @@ def test_saving_asks_before_it_overwrites_and_a_drag_that_the_file_refuses_goes_
         name, banner = tab.get_by_label("File name"), tab.locator(".banner")
         name.fill("b.yaml")
         tab.get_by_role("button", name="Save", exact=True).click()
-        banner.get_by_text("There is a file b.yaml already").wait_for()
+        banner.get_by_text("b.yaml is there already").wait_for()
         assert (tmp_path / "b.yaml").read_text() == "# another machine\n"
         name.fill("c")
         tab.get_by_role("button", name="Save", exact=True).click()
@@ -1058,7 +1058,7 @@ def test_a_page_that_is_loaded_again_shows_the_same_file_in_the_same_language(tm
                 tab.get_by_role("button", name="保存", exact=True).click()
                 tab.wait_for_function("() => /press/.test(location.search)")
             before = tab.locator("textarea").input_value()
-            tab.wait_for_function("() => desk.dirty.value === false || desk.serial > 0")
+            tab.wait_for_function("() => desk.dirty.value === false || desk.file.serial > 0")
             tab.reload()
             tab.wait_for_function("text => document.querySelector('textarea')?.value === text", arg=before)
             assert tab.get_by_role("button", name="English").is_visible()
