@@ -17,6 +17,7 @@ from tests.ui.test_studio_drawing import FOURBAR
 import linkwright as lw
 
 Place = tuple[float, float]
+NASTY = "<img src=x onerror=window.bad=1><script>window.bad=2</script>"
 
 
 class Hand:
@@ -230,3 +231,30 @@ def test_what_is_changed_just_before_another_file_is_opened_is_a_draft(chromium:
         drawn.tab.get_by_label("Open", exact=True).select_option("a.yaml")
         drawn.tab.wait_for_function("() => desk.name.value === 'a.yaml'")
         assert drawn.text == FOURBAR + "# two\n"
+
+
+@needs_chromium
+def test_names_and_sizes_of_loads_are_text_on_the_paper(chromium: Any, tmp_path: Path) -> None:
+    """Markup in a load's name, size or point, on the paper, in the list and in sentences, becomes no element."""
+    loads = (
+        f'loads:\n  "{NASTY}": {{kind: force, on: rocker, at: B, direction: 0 deg, magnitude: "{NASTY}"}}\n'
+    )
+    (tmp_path / "a.yaml").write_text(FOURBAR + loads)
+    with serving(tmp_path, "a.yaml") as studio:
+        found = Hand(
+            chromium.new_context(viewport={"width": 1360, "height": 900}, bypass_csp=True).new_page()
+        )
+        found.tab.set_default_timeout(20_000)
+        found.tab.goto(studio.url)
+        found.tab.locator("svg.drafting .load").wait_for()
+        found.tool("Move")
+        x, y = found.point("B")
+        found.tab.mouse.click(x + 35, y)
+        found.tells("window.bad=2</script>: ")
+        assert found.tab.locator(".loads li", has_text="window.bad=1").count() == 1
+        found.press("Run")
+        found.tells("It cannot run yet")
+        foreign = "() => [window.bad ?? 0, document.querySelectorAll('img, #page script').length]"
+        assert found.tab.evaluate(foreign) == [0, 0]
+        found.tab.close()
+    assert found.errors == []
