@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -13,10 +14,14 @@ from tests.ui.studio import asked, serving
 
 import linkwright as lw
 from linkwright.errors import LinkwrightError
+from linkwright.files.model_file import read_text
 from linkwright.server.draft import picture
 from linkwright.server.edits import edited
 from linkwright.server.files import Files
 
+#: Codes of findings about names that are not there, and texts that are no YAML.
+GONE = ("unknown-name", "duplicate", "yaml")
+REMOVED = ("chain_drive", "dyad_rpr", "geneva_wheel", "pinion_between_racks", "toggle_press")
 FOURBAR = """format: 1
 frame:
   points: {O1: [0 mm, 0 mm], O2: [200 mm, 0 mm]}  # on the base
@@ -143,6 +148,21 @@ def test_a_block_goes_with_its_guide_and_the_guide_s_point() -> None:
     slid = after(slid, do="guide", link="slider1", at="B", angle=0.0)
     assert lw.structure(lw.loads(slid)).mobility == 1
     assert after(slid, do="remove", what="joint", name="B").rstrip() == text.rstrip()
+
+
+@pytest.mark.parametrize("name", REMOVED)
+def test_whatever_is_removed_leaves_no_name_behind(name: str) -> None:
+    """Of every link, point and load of models of the gallery: the text names nothing that is gone."""
+    text = lw.read_document(f"gallery:{name}").text
+    shown = picture(text)
+    points = dict.fromkeys([*shown["fixed"], *(point for ends in shown["links"].values() for point in ends)])
+    parts = {"link": list(shown["links"]), "joint": list(points), "load": list(shown["loads"])}
+    for what, names in parts.items():
+        for each in names:
+            with suppress(LinkwrightError):
+                found = after(text, do="remove", what=what, name=each)
+                left = [str(finding) for finding in read_text(found, name)[1] if finding.code in GONE]
+                assert left == [], (what, each)
 
 
 def test_new_points_come_with_the_link_that_has_them() -> None:

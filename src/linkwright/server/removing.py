@@ -37,7 +37,7 @@ def _link(draft: Draft, name: str) -> str:
     """A link with its joints, loads and drivers, and the assembly of pins that are left with one link."""
     draft.link(name)
     draft.take_out("links", name)
-    _remove_what_names(draft, name)
+    _remove_what_names(draft, {name})
     _remove_unused(draft)
     return Sentence("studio.link_gone", name=name)
 
@@ -80,6 +80,8 @@ def _point(draft: Draft, point: str, links: list[str]) -> str:
     for link in links:
         _take_off(draft, point, link)
     if not links:
+        for _, name, _ in _references(draft, "frame", point):
+            raise LinkwrightError("studio.point_of", point=point, name=name)
         _take_fixed(draft, point)
     _remove_unused(draft)
     return Sentence("studio.point_gone", point=point)
@@ -89,16 +91,20 @@ def _take_off(draft: Draft, point: str, link: str) -> None:
     """A point off a link, with joints and loads there; raises LinkwrightError for one that gives it its lengths."""
     entry = draft.link(link)
     points, also = entry.get("points"), entry.get("also")
-    if isinstance(also, MappingNode) and also.get(point) is not None:
-        draft.cut(also, point)
+    places = also if isinstance(also, MappingNode) and also.get(point) is not None else points
+    if isinstance(places, MappingNode) and (places is also or len(places.entries) > 2):
+        if len(places.entries) == 1:
+            draft.write(places, "{}")
+        else:
+            draft.cut(places, point)
     elif isinstance(points, Sequence) and len(points.items) > 2 and _drawn(entry):
         draft.write(points, flow([each for each in texts(points) if each != point]))
     else:
         raise LinkwrightError("studio.end_of_link", point=point, link=link)
-    for section, name in dict.fromkeys(
-        (section, name) for section, name, _ in _references(draft, link, point)
-    ):
+    gone = dict.fromkeys((section, name) for section, name, _ in _references(draft, link, point))
+    for section, name in gone:
         draft.take_out(section, name)
+    _remove_what_names(draft, {name for section, name in gone if section == "joints"})
 
 
 def _renamed(draft: Draft, link: str, point: str) -> str:
@@ -154,10 +160,10 @@ def _references(draft: Draft, link: str, point: str) -> Iterator[tuple[str, str,
                         yield section, name, each
 
 
-def _remove_what_names(draft: Draft, link: str) -> None:
-    """Joints, loads and drivers of a link that is gone, words about their joints and pins of no two links, and points
-    of the frame for their guides alone."""
-    gone, guided = {link}, set()
+def _remove_what_names(draft: Draft, gone: set[str]) -> None:
+    """Joints, loads and drivers of links and joints that are gone, words about pins of no two links, and points of the
+    frame for their guides alone."""
+    guided = set()
     for section in ("joints", "loads", "drivers"):
         for key, node in list(draft.section(section) or ()):
             if gone & set(_named(node)):

@@ -160,6 +160,7 @@ WORDS = {
     "drive_gone": "The drive about it is gone as well.",
     "both": "{first} {second}",
     "now_named": "point {point} of {link}",
+    "point_of": "{name} needs the fixed point {point}; remove {name} first",
     "end_of_link": "{point} is an end that gives {link} its length; click the link itself to remove it",
     "new_name": "New mechanism",
     "semicolon": "; ",

@@ -146,6 +146,7 @@ WORDS = {
     "drive_gone": "绕它的驱动也已删除。",
     "both": "{first}{second}",
     "now_named": "{link} 上的点改名为 {point}",
+    "point_of": "{name} 要用固定点 {point}；请先删除 {name}",
     "end_of_link": "{point} 是决定构件 {link} 长度的端点；要删除构件请单击构件本身",
     "new_name": "新机构",
     "semicolon": "；",
