@@ -161,8 +161,8 @@ def _references(draft: Draft, link: str, point: str) -> Iterator[tuple[str, str,
 
 
 def _remove_what_names(draft: Draft, gone: set[str]) -> None:
-    """Joints, loads and drivers of links and joints that are gone, words about pins of no two links, and points of the
-    frame for their guides alone."""
+    """Joints, loads and drivers of links and joints that are gone, words about pins of no two links, and points of
+    the frame for their guides alone."""
     guided = set()
     for section in ("joints", "loads", "drivers"):
         for key, node in list(draft.section(section) or ()):
