@@ -99,9 +99,11 @@ def test_a_mass_brings_the_inertia_of_an_even_bar() -> None:
     heavier = lw.loads(after(own, do="mass", link="rocker", mass="3 kg")).link("rocker")
     assert (heavier.mass, heavier.inertia) == (3.0, 0.5)
     assert "stays" in said(own, do="mass", link="rocker", mass="3 kg")
-    lengths = lw.read_document("gallery:crank_rocker").text.replace("mass: ", "# mass: ")
+    lengths = FOURBAR.replace("coupler: {points: [A, B]", "coupler: {points: [A, B], length: 3.5 m")
+    lengths = lengths.replace("drawing:", "# drawing:")
     placed = {"A": [0.0, 0.0], "B": [3.5, 0.0]}
-    assert edited(lengths, {"do": "mass", "link": "coupler", "mass": "12 kg", "places": placed})[0] != lengths
+    heavy = edited(lengths, {"do": "mass", "link": "coupler", "mass": "12 kg", "places": placed})[0]
+    assert "coupler: {points: [A, B], length: 3.5 m, mass: 12 kg, inertia: 12.25 kg·m²}" in heavy
 
 
 def test_a_pin_that_is_removed_leaves_its_links_apart() -> None:
@@ -184,9 +186,8 @@ def test_a_new_file_and_the_notes_are_in_the_language_of_the_page(tmp_path: Path
         assert found["text"] == "format: 1\nname: 新机构\n"
         action = {"do": "remove", "what": "joint", "name": "O1"}
         note = asked(studio, "edit", {"text": FOURBAR, "action": action, "language": "zh"})[1]["note"]
-        assert (
-            note == "已删除铰链 O1：机架、crank 在此不再相连（crank 上的点改名为 P1）。绕它的驱动也已删除。"
-        )
+        assert note.startswith("已删除铰链 O1：机架、crank 在此不再相连（crank 上的点改名为 P1）")
+        assert note.endswith("绕它的驱动也已删除。")
 
 
 def test_drawings_that_were_never_saved_can_be_opened(tmp_path: Path) -> None:

@@ -15,6 +15,7 @@ from tests.ui.studio import serving
 from tests.ui.test_studio_drawing import FOURBAR
 
 import linkwright as lw
+from linkwright.server.files import Files
 
 Place = tuple[float, float]
 NASTY = "<img src=x onerror=window.bad=1><script>window.bad=2</script>"
@@ -231,6 +232,27 @@ def test_what_is_changed_just_before_another_file_is_opened_is_a_draft(chromium:
         drawn.tab.get_by_label("Open", exact=True).select_option("a.yaml")
         drawn.tab.wait_for_function("() => desk.name.value === 'a.yaml'")
         assert drawn.text == FOURBAR + "# two\n"
+
+
+@needs_chromium
+def test_a_file_that_two_windows_have_changed_is_not_left_before_one_text_is_chosen(
+    chromium: Any, tmp_path: Path
+) -> None:
+    """The other window's change came through another server of the folder; mine is stored once it is chosen."""
+    for name in ("a.yaml", "b.yaml"):
+        (tmp_path / name).write_text(FOURBAR)
+    with hand(chromium, tmp_path, "a.yaml") as drawn:
+        Files(tmp_path).keep("a.yaml", FOURBAR + "# theirs\n", "another window", 0)
+        drawn.tab.locator("textarea").fill(FOURBAR + "# mine\n")
+        drawn.tab.locator(".banner", has_text="Another window has changed this file").wait_for()
+        drawn.tab.get_by_label("Open", exact=True).select_option("b.yaml")
+        drawn.tab.wait_for_timeout(300)
+        assert drawn.text == FOURBAR + "# mine\n"
+        drawn.press("Keep mine")
+        drawn.tab.locator(".banner").wait_for(state="detached")
+        drawn.tab.get_by_label("Open", exact=True).select_option("b.yaml")
+        drawn.tab.wait_for_function("() => desk.name.value === 'b.yaml'")
+        assert Files(tmp_path).open("a.yaml")["text"] == FOURBAR + "# mine\n"
 
 
 @needs_chromium

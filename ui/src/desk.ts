@@ -97,6 +97,7 @@ export class Desk {
   constructor(readonly page: Page) {
     page.history = this.history;
     window.setInterval(() => void this.watch(), WATCH);
+    window.addEventListener("beforeunload", (event) => this.unkept && event.preventDefault());
   }
 
   say = (key: string, values: Record<string, string> = {}) => {
@@ -197,6 +198,7 @@ export class Desk {
 
   private async opened(asked: { name?: string; gallery?: string; fresh?: boolean }): Promise<void> {
     await this.queue;
+    if (this.elsewhere.value !== null || this.unkept) return; // what is not stored yet would be lost
     const opened = await this.ask<{ name: string; text: string; version: string; serial: number; recovered: boolean }>("open", { ...asked, window: this.window });
     if (!opened) return;
     this.name.value = opened.name;

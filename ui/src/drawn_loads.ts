@@ -1,5 +1,4 @@
 // Loads on the drawing paper: forces as arrows from their points, torques around their links, springs between points.
-import { distance } from "./paper";
 import type { Vec } from "./shapes";
 import { arrow, element, line } from "./strokes";
 
@@ -14,8 +13,7 @@ export interface Load {
 }
 
 // Lengths in pixels: of a force's arrow and of what of it is left to its point, radius of a torque's arc.
-export const LONG = 52;
-const FREE = 14, ROUND = 19;
+const LONG = 52, FREE = 14, ROUND = 19;
 
 /** The places of a load on the screen: its beginning and its end, the same where it has no direction. */
 export function reach(load: Load, place: (point: string) => Vec | null, middle: (link: string) => Vec | null): [Vec, Vec] | null {
@@ -48,4 +46,11 @@ export function drawLoad(host: SVGElement, name: string, load: Load, [from, to]:
   } else arrow(path("lw-load-line"), path("lw-load-head"), from, to);
   element("text", { class: "size", x: label[0] + 6, y: label[1] - 4 }, group).textContent = load.size || load.kind;
   return [from, to];
+}
+
+/** How far a place is from a line between two others. */
+export function distance(p: Vec, a: Vec, b: Vec): number {
+  const [dx, dy] = [b[0] - a[0], b[1] - a[1]], square = dx * dx + dy * dy || 1;
+  const share = Math.min(1, Math.max(0, ((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / square));
+  return Math.hypot(p[0] - a[0] - share * dx, p[1] - a[1] - share * dy);
 }

@@ -1,5 +1,5 @@
 // Drawing paper: what of a text can be drawn before it is a machine, and the tools that draw on it.
-import { drawLoad, type Load, off, reach } from "./drawn_loads";
+import { distance, drawLoad, type Load, off, reach } from "./drawn_loads";
 import { Names } from "./names";
 import { Photo } from "./photo";
 import type { Vec } from "./shapes";
@@ -224,7 +224,7 @@ export class Paper {
       case "driver": return this.drive(this.link(at));
       case "mass": {
         const link = this.link(at);
-        if (link) this.act([{ do: "mass", link, mass: this.value }]);
+        if (link) this.act([{ do: "mass", link, mass: this.value, places: this.places() }]);
         return;
       }
       case "load": return this.push(at, near);
@@ -486,10 +486,4 @@ export class Paper {
 /** The nearest multiple of 15 degrees. */
 function fifteenth(angle: number): number {
   return Math.round(angle / 15) * 15;
-}
-
-export function distance(p: Vec, a: Vec, b: Vec): number {
-  const [dx, dy] = [b[0] - a[0], b[1] - a[1]], square = dx * dx + dy * dy || 1;
-  const share = Math.min(1, Math.max(0, ((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / square));
-  return Math.hypot(p[0] - a[0] - share * dx, p[1] - a[1] - share * dy);
 }

@@ -38,9 +38,8 @@ class Files:
     def path(self, name: str) -> Path:
         """The path of a file below the folder; raises LinkwrightError for any other."""
         path = self.folder
-        with suppress(
-            OSError, RuntimeError, ValueError
-        ):  # links that lead in a circle, names that none can have
+        # Links may lead in a circle, and some names no file can have.
+        with suppress(OSError, RuntimeError, ValueError):
             path = (self.folder / name).resolve()
         inner = path.relative_to(self.folder).parts if path.is_relative_to(self.folder) else (".",)
         hidden = any(part.startswith(".") for part in inner)

@@ -156,7 +156,7 @@ WORDS = {
     "load_gone": "Load {name} removed.",
     "link_gone": "{name} removed, with the joints, loads and drives on it.",
     "point_gone": "Point {point} removed.",
-    "pin_gone": "Pin {point} removed: {links} are no longer joined there ({apart}).",
+    "pin_gone": "Pin {point} removed: {links} are no longer joined there ({apart}); drag them apart with Move.",
     "drive_gone": "The drive about it is gone as well.",
     "both": "{first} {second}",
     "now_named": "point {point} of {link}",

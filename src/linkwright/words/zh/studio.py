@@ -142,7 +142,7 @@ WORDS = {
     "load_gone": "已删除载荷 {name}。",
     "link_gone": "已删除构件 {name} 及其上的运动副、载荷和驱动。",
     "point_gone": "已删除点 {point}。",
-    "pin_gone": "已删除铰链 {point}：{links} 在此不再相连（{apart}）。",
+    "pin_gone": "已删除铰链 {point}：{links} 在此不再相连（{apart}）；可用“移动”将其拖开。",
     "drive_gone": "绕它的驱动也已删除。",
     "both": "{first}{second}",
     "now_named": "{link} 上的点改名为 {point}",
