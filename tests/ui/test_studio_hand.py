@@ -131,8 +131,14 @@ def test_a_stray_click_leaves_nothing_and_run_says_what_is_missing(chromium: Any
         drawn.press("Run")
         drawn.tells("nothing determines the motion of 'bar1', 'arm2'")
         assert drawn.tab.locator("svg.drafting").is_visible()
-        drawn.press("Undo")
-        drawn.settle()
+        for left in (["O1", "O2"], ["O1"]):
+            drawn.tool("Remove")
+            drawn.click((0.65, 0.7))
+            drawn.settle()
+            assert list(yaml.safe_load(drawn.text)["frame"]["points"]) == left
+        for _ in range(3):
+            drawn.press("Undo")
+            drawn.settle()
         drawn.press("Run")
         drawn.tab.wait_for_selector(".plot")
 

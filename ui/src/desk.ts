@@ -4,7 +4,7 @@ import { bytes, type ModelData } from "./data";
 import { History } from "./history";
 import { save, type Page } from "./living";
 import { code, type Values } from "./solver";
-import type { Action, Picture } from "./paper";
+import type { Action, Picture } from "./picture";
 import { Session } from "./session";
 
 export interface Found {

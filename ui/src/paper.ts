@@ -2,22 +2,9 @@
 import { distance, drawLoad, type Load, off, reach } from "./drawn_loads";
 import { Names } from "./names";
 import { Photo } from "./photo";
+import type { Action, Picture, Tool } from "./picture";
 import type { Vec } from "./shapes";
 import { element } from "./strokes";
-
-export interface Picture {
-  points: Record<string, [number, number]>;
-  fixed: string[];
-  links: Record<string, string[]>;
-  driver: string | null;
-  guided: string[];
-  loads: Record<string, Load>;
-  /** Points that are where the solved machine has them, by its dimensions. */
-  placed?: string[];
-}
-
-export type Tool = "select" | "fixed" | "link" | "driver" | "guide" | "slot" | "gear" | "rack" | "cam" | "mass" | "load" | "curve" | "photo" | "remove";
-export type Action = Record<string, unknown> & { do: string };
 
 const SNAP = 12;
 const STEPS = [0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1];
@@ -245,11 +232,27 @@ export class Paper {
       }
       case "remove": {
         const load = near ? null : this.loadAt(at), link = this.link(at);
-        if (near) this.remove("joint", near);
+        if (near) this.remove("joint", this.loose(near) ?? near);
         else if (load) this.remove("load", load);
         else if (link) this.remove("link", link);
       }
     }
+  }
+
+  /** Whether a fixed point is under a block that it guides. */
+  private covered(name: string): boolean {
+    const { fixed, guided } = this.picture;
+    return fixed.includes(name) && guided.some((block) => block in this.picture.points && this.together(block, name));
+  }
+
+  private together(a: string, b: string): boolean {
+    const [[ax, ay], [bx, by]] = [a, b].map((name) => this.screen(this.picture.points[name]));
+    return Math.hypot(ax - bx, ay - by) < 1;
+  }
+
+  /** A point of no link where another one is. */
+  private loose(point: string): string | undefined {
+    return Object.keys(this.picture.points).find((name) => this.together(name, point) && !this.covered(name) && !this.linksOf(name).length);
   }
 
   private remove(what: string, name: string): void {
@@ -457,10 +460,9 @@ export class Paper {
       const ends = reach(load, this.placed, this.middle);
       if (ends) inked(drawLoad(this.front, name, load, ends, name === (this.load ?? "")));
     }
-    const blocks = guided.filter((name) => name in points).map((name) => this.screen(points[name]));
     for (const name in points) {
       const [x, y] = this.screen(points[name]);
-      if (fixed.includes(name) && blocks.some(([a, b]) => Math.hypot(a - x, b - y) < 1)) continue;
+      if (this.covered(name)) continue;
       if (fixed.includes(name)) {
         element("path", { class: "lw-support", d: `M${x} ${y}l-9 16h18Z` }, this.front);
         element("path", { class: "lw-ground", d: `M${x - 15} ${y + 16}h30` }, this.front);
