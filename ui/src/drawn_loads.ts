@@ -1,4 +1,5 @@
-// Loads on the drawing paper: forces as arrows from their points, torques around their links, springs between points.
+// Loads on the drawing paper: forces as arrows from their points (as circles where they turn with the machine), torques as
+// arcs on their links, springs and dampers as lines between their points.
 import type { Vec } from "./shapes";
 import { arrow, element, line } from "./strokes";
 
@@ -38,7 +39,8 @@ export function drawLoad(host: SVGElement, name: string, load: Load, [from, to]:
   let label = to;
   if (from === to) {
     const [x, y] = from;
-    path("lw-load-line", `M${x + ROUND} ${y}A${ROUND} ${ROUND} 0 1 0 ${x} ${y + ROUND}`);
+    if (load.kind === "force") element("circle", { class: "lw-load-line dashed", cx: x, cy: y, r: ROUND }, group);
+    else path("lw-load-line", `M${x + ROUND} ${y}A${ROUND} ${ROUND} 0 1 0 ${x} ${y + ROUND}`);
     label = [x + ROUND, y - ROUND];
   } else if (load.angle === null) {
     path("lw-load-line dashed", line([from, to]));
