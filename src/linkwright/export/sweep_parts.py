@@ -248,16 +248,18 @@ def _missing(found: SweepParts) -> list[int]:
     _, parquet = _arrow()
     make_folder(found.folder)
     note, digest = found.folder / "sweep.json", found.plan.digest
-    if note.exists():
-        try:
-            same = json.loads(note.read_text(encoding="utf-8")).get("plan") == digest
-        except (OSError, ValueError, AttributeError):
-            same = False
-        if not same:
-            raise RequestError("study.other_sweep", folder=found.folder)
-    else:
-        said = {"plan": digest, "designs": found.designs, "parts": found.parts, "outputs": found.plan.outputs}
-        write_whole(note, json.dumps(said, indent=1).encode())
+    said = {"plan": digest, "designs": found.designs, "parts": found.parts, "outputs": found.plan.outputs}
+    try:
+        write_whole(note, json.dumps(said, indent=1).encode(), force=False)
+    except RequestError:
+        if not note.exists():
+            raise
+    try:
+        same = json.loads(note.read_text(encoding="utf-8")).get("plan") == digest
+    except (OSError, ValueError, AttributeError):
+        same = False
+    if not same:
+        raise RequestError("study.other_sweep", folder=found.folder)
 
     def there(number: int) -> bool:
         try:

@@ -13,7 +13,7 @@ from linkwright.files.compose import compose
 from linkwright.files.write import flow
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
-from linkwright.whole_files import refuse_target, write_whole
+from linkwright.whole_files import write_whole
 from linkwright.words.sentence import Sentence
 
 _AXES = {"x": "0", "y": "1"}
@@ -119,8 +119,7 @@ class Document:
 
         Raises LinkwrightError where it cannot be written, and for a file that is there already unless ``force``.
         """
-        refuse_target(path, force=force)
-        write_whole(path, self.text.encode())
+        write_whole(path, self.text.encode(), force=force)
 
     def _replaced(self, text: str, node: Node, value: str) -> _Edit:
         offset = 1 if text.startswith("\ufeff") else 0

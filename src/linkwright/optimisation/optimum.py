@@ -109,10 +109,9 @@ class Optimum(Plotted, Frozen):
 
         Raises LinkwrightError where it cannot be written, and for a file that is there already unless ``force``.
         """
-        from linkwright.whole_files import refuse_target, write_whole
+        from linkwright.whole_files import write_whole
 
-        refuse_target(path, force=force)
-        return write_whole(path, self.model_text(index).encode())
+        return write_whole(path, self.model_text(index).encode(), force=force)
 
     def text(self, language: str = "en") -> str:
         """Variables and numbers beside the start, and what to know about them."""

@@ -9,7 +9,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.files.document import Document
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.page.content import page, solved
-from linkwright.whole_files import refuse_target, write_whole
+from linkwright.whole_files import write_whole
 
 
 @dataclass(frozen=True)
@@ -24,8 +24,7 @@ class LivingPage:
 
         Raises LinkwrightError where it cannot be written, and for a file that is there already unless ``force``.
         """
-        refuse_target(path, force=force)
-        return write_whole(path, self.html.encode())
+        return write_whole(path, self.html.encode(), force=force)
 
     def _repr_html_(self) -> str:
         return (

@@ -94,7 +94,7 @@ class Report:
         unless ``force``.
         """
         refuse_target(path, force=force)
-        return write_whole(path, self.content(Path(path).suffix.lower()))
+        return write_whole(path, self.content(Path(path).suffix.lower()), force=force)
 
     def __repr__(self) -> str:
         return f"Report({self.document.title!r}: {len(self.document.blocks)} blocks)"

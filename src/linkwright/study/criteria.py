@@ -17,7 +17,7 @@ from linkwright.metrics.summary import is_summary, wanted
 from linkwright.registry import offered
 from linkwright.study.alternatives import Alternative
 from linkwright.words import say
-from linkwright.words.sentence import Sentence
+from linkwright.words.sentence import Sentence, in_words
 
 
 @dataclass(frozen=True)
@@ -48,7 +48,7 @@ class Criterion:
         if (found := metric_of(self.name)) is None:
             return self.name
         title = found[0]().label_in(language, dimension)
-        return f"{title}, {found[1]}" if found[1] else title
+        return f"{title}, {in_words(found[1], language)}" if found[1] else title
 
 
 def criteria(names: Iterable[str] | str) -> list[Criterion]:

@@ -19,6 +19,7 @@ from linkwright.errors import LinkwrightError
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.synthesis.linkage import Linkage
 from linkwright.synthesis.merit import merit
+from linkwright.whole_files import refuse_target, write_whole
 from linkwright.words.sentence import Sentence
 
 #: Share of its size within which a linkage does what another one does.
@@ -159,14 +160,12 @@ class Synthesis(Plotted):
 
         Raises LinkwrightError, and writes none, where one cannot be written or is there already unless ``force``.
         """
-        from linkwright.whole_files import refuse_target, write_whole
-
         stem = name or self.task
         paths = [Path(folder) / f"{stem}_{number + 1}.yaml" for number in range(len(self))]
         for path in paths:
             refuse_target(path, force=force)
         for number, path in enumerate(paths):
-            write_whole(path, self.model_text(number, f"{stem} {number + 1}").encode())
+            write_whole(path, self.model_text(number, f"{stem} {number + 1}").encode(), force=force)
         return paths
 
     def model_text(self, index: int = 0, name: str = "", *, language: str = "en") -> str:

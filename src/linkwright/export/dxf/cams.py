@@ -26,9 +26,9 @@ def save_profile(design: CamDesign, path: Path, points: int, *, force: bool) -> 
         raise RequestError("cams.profile_ending", path=path, endings=tuple(ENDINGS))
     refuse_target(path, force=force)
     if path.suffix.lower() == ".dxf":
-        return write_whole(path, _drawing(design, points))
+        return write_whole(path, _drawing(design, points), force=force)
     text = _table(design, points) if path.suffix.lower() == ".csv" else _mill(design, points)
-    return write_whole(path, text.encode("utf-8"))
+    return write_whole(path, text.encode("utf-8"), force=force)
 
 
 def _drawing(design: CamDesign, points: int) -> bytes:

@@ -158,6 +158,8 @@ WORDS = {
     "no_frame_do": "add frame: {{points: {{O1: [0 m, 0 m]}}}}",
     "frame_no_coordinates": "the frame's points have no coordinates",
     "frame_no_coordinates_do": "write points: {{O1: [0 m, 0 m], …}}",
+    "in_no_link": 'no link has the drawn point "{name}"',
+    "in_no_link_do": "add it to the points of a link, or remove it from the drawing",
     "frame_elsewhere": '"{name}" is a point of the frame and stands elsewhere there',
     "frame_elsewhere_do": "leave it out of the drawing",
     "no_links": "the model has no links",

@@ -157,6 +157,8 @@ WORDS = {
     "no_frame_do": "请加上 frame: {{points: {{O1: [0 m, 0 m]}}}}",
     "frame_no_coordinates": "机架的点没有坐标",
     "frame_no_coordinates_do": "请写 points: {{O1: [0 m, 0 m], …}}",
+    "in_no_link": "没有构件含有图中的点“{name}”",
+    "in_no_link_do": "请将它加入某构件的 points，或从图中删去",
     "frame_elsewhere": "“{name}”是机架上的点，而机架中的位置与此不同",
     "frame_elsewhere_do": "请从图中删去",
     "no_links": "模型没有构件",
