@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from linkwright.errors import Finding as Finding
     from linkwright.errors import LinkwrightError as LinkwrightError
     from linkwright.errors import ModelError as ModelError
+    from linkwright.errors import SelfCheckError as SelfCheckError
     from linkwright.export.export import export as export
     from linkwright.export.sweep_parts import SweepParts as SweepParts
     from linkwright.export.sweep_parts import sweep_parts as sweep_parts

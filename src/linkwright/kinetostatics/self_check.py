@@ -70,11 +70,11 @@ class ForceChecks:
     def require(self, rows: Rows, motion: Motion) -> None:
         """Raises SelfCheckError at the position where a check is off most, if one is by more than rounding."""
         forces, left, (driving, needed) = self._parts(rows)
-        apart = np.abs(driving - needed)
-        balanced = _squares(left) <= PLAINLY**2 * _squares(forces)
-        if balanced.all() and (apart <= LIMIT * np.abs(needed)).all():
-            return
-        with np.errstate(invalid="ignore"):
+        with np.errstate(all="ignore"):
+            apart = np.abs(driving - needed)
+            balanced = _squares(left) <= PLAINLY**2 * _squares(forces)
+            if balanced.all() and (apart <= LIMIT * np.abs(needed)).all():
+                return
             largest = self._largest(forces)
             left = np.abs(left) * self._measures[len(forces) :]
             if (left > LIMIT * largest).any():
@@ -87,7 +87,7 @@ class ForceChecks:
     def require_balance(self, forces: Forces) -> None:
         """Raises SelfCheckError where the links are out of balance under what is told of the forces."""
         gap, largest = forces.balance_residual, self._largest(self._parts(forces.rows)[0])
-        with np.errstate(invalid="ignore"):
+        with np.errstate(all="ignore"):
             if (gap > LIMIT * largest).any():
                 _differ("forces.results_unbalanced", "N", gap, largest, forces.motion)
 

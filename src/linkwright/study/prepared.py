@@ -138,9 +138,7 @@ class Prepared:
         values = self._values(changes) if self._at_once else None
         if values is None or is_near(values[-2]):
             return self._solve_alone(design, failures)
-        if (
-            not self._checked
-        ):  # what is compiled has the formulas of the machine by itself, which checks its numbers
+        if not self._checked:  # compiled formulas are those of a machine alone, which checks its numbers
             self._solve_alone(design, failures)
             self._checked = True
         motion = Motion(self.solver, design, self.positions, {}, {}, Rows(values, self._index))

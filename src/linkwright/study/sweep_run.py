@@ -54,7 +54,8 @@ class Manner:
     progress: Progress | None = None
 
 
-_failing: Recent[Mechanism, dict[int, str]] = Recent(64)
+#: Sentences of those of the first few designs of a mechanism that do not pass, by number.
+_few: Recent[Mechanism, dict[int, str]] = Recent(64)
 
 
 class SweepRun:
@@ -133,7 +134,7 @@ class SweepRun:
         if all(each.output.of_motion for each in self.quantities.values()):
             return {}
         few = np.unique(np.linspace(0, self.designs - 1, CHECKED).astype(np.intp))
-        failing = _failing.get(self.mechanism, None, lambda: self._failing(few))
+        failing = _few.get(self.mechanism, None, lambda: self._failing(few))
         return failing and self._failing(np.arange(self.designs))
 
     def _failing(self, designs: Indices) -> dict[int, str]:
