@@ -398,8 +398,8 @@ class Spread(Result):
         for each in self.shares(text):
             slope = f"{each.slope:.5g} {self.study.per_unit(kind, each.name)}".rstrip()
             note = say("tolerance.part", slope=slope)
-            share = f"{100 * each.share:.2f} %"
-            parts.append(Row(each.name, each.share, label=each.name, note=note, text=share))
+            percent = f"{100 * each.share:.2f} %"
+            parts.append(Row(each.name, each.share, label=each.name, note=note, text=percent))
         remarks = [self.reason(text, say)]
         if self.summaries[text].kind in EXTREMES:
             remarks.append(say("tolerance.at_positions", name=text, count=self.study.steps))
