@@ -154,22 +154,28 @@ class Synthesis(Plotted):
             "candidates": [each.data() for each in self.candidates],
         }
 
-    def write(self, folder: str | Path, name: str = "") -> list[Path]:
-        """Every candidate as a model file ``NAME_1.yaml`` … in a folder that exists; gives the paths."""
+    def write(self, folder: str | Path, name: str = "", *, speed: str | float = "60 rpm") -> list[Path]:
+        """Every candidate as a model file ``NAME_1.yaml`` … in a folder that exists; gives the paths.
+
+        ``speed``: that of the input link, a text or rad/s.
+        """
         stem = name or self.task
         found = []
         for number in range(1, len(self) + 1):
             path = Path(folder) / f"{stem}_{number}.yaml"
-            path.write_text(self.model_text(number - 1, f"{stem} {number}"), encoding="utf-8")
+            path.write_text(self.model_text(number - 1, f"{stem} {number}", speed=speed), encoding="utf-8")
             found.append(path)
         return found
 
-    def model_text(self, index: int = 0, name: str = "", *, language: str = "en") -> str:
-        """The model file of one candidate, its purpose in a language."""
+    def model_text(
+        self, index: int = 0, name: str = "", *, language: str = "en", speed: str | float = "60 rpm"
+    ) -> str:
+        """The model file of one candidate: its purpose in a language, its input's speed a text or rad/s."""
         from linkwright.synthesis.report import purpose
 
         each = self.candidates[index]
-        return each.linkage.text(name or f"{self.task} {index + 1}", purpose=purpose(self, each, language))
+        said = purpose(self, each, language)
+        return each.linkage.text(name or f"{self.task} {index + 1}", purpose=said, speed=speed)
 
 
 class SynthesisError(LinkwrightError):
