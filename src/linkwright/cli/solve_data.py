@@ -27,6 +27,7 @@ def data(solved: Solved, options: argparse.Namespace) -> dict[str, object]:
         "ok": motion.whole and solved.trouble is None,
         "name": motion.mechanism.name,
         "mobility": motion.structure.mobility,
+        "turned": motion.structure.data()["turned"],
         "positions": len(solved.rows),
         "columns": {f"{column.name} [{column.unit}]": column.values for column in chosen(solved, options)},
         "reached": motion.ok[solved.rows],
