@@ -10,6 +10,9 @@ from linkwright.errors import LinkwrightError, RequestError
 from linkwright.units import SMALLEST
 from linkwright.words.sentence import Sentence
 
+#: Coefficient of speed fluctuation δ for which flywheels are laid out where none is asked for.
+FLUCTUATION = 0.02
+
 
 def flywheel_inertia(energy: float, speed: float, fluctuation: float, *, present: float = 0.0) -> float:
     """Moment of inertia J = ΔE/(δ ω²) - J_present, kg·m², on the shaft that runs at ``speed``; not below zero.

@@ -14,6 +14,7 @@ from linkwright import units
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, LinkwrightError, ModelError, RequestError
+from linkwright.machine.flywheel import FLUCTUATION
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.optimisation.paths import path_error
 from linkwright.registry import offered
@@ -93,7 +94,7 @@ class Problem:
     tolerances: Mapping[str, float] = field(default_factory=dict)
     robust: Robust = ""
     least_yield: float = 0.99
-    fluctuation: float = 0.02
+    fluctuation: float = FLUCTUATION
     steps: int = 360
     evaluations: int = 4000
     population: int = 0
@@ -290,7 +291,14 @@ def _rising(found: Range) -> None:
         raise RequestError("optimize.falling", address=found.address, **said)
 
 
-_USUAL = {"yield": 0.99, "fluctuation": 0.02, "steps": 360, "evaluations": 4000, "population": 0, "seed": 0}
+_USUAL = {
+    "yield": 0.99,
+    "fluctuation": FLUCTUATION,
+    "steps": 360,
+    "evaluations": 4000,
+    "population": 0,
+    "seed": 0,
+}
 
 
 def _demand(text: str, value: Any) -> Demand | None:

@@ -19,6 +19,7 @@ from linkwright.kinematics.names import point_key
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.table import results_of
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.plot.diagrams.source import Source
 from linkwright.plot.drawing.draw import Names, all_arrows, solved
 from linkwright.plot.drawing.frames import frame_indices, key_indices, usual_seconds
 from linkwright.plot.drawing.labels import Label, Obstacles, place_moving, point_labels, written
@@ -298,7 +299,25 @@ class Animation:
         if not self.curves:
             return None
         alone = len(self.scene.machine.motion.mechanism.drivers) == 1
-        return panel(self.results, self.curves, self._drawn_box, self.language, alone=alone)
+        return panel(self.results, self.curves, self._drawn_box, self.language, alone=alone, ends=self._ends)
+
+    def _ends(self, output: Output) -> tuple[float, float]:
+        """Smallest and largest value of a result: between the positions where it is found there."""
+        motion, values = self.scene.machine.motion, self.results[output]
+        source = Source(motion if self.forces is None else self.forces)
+        of = "motion" if self.forces is None else "forces"
+
+        def signal(solved: Motion | Forces) -> Floats:
+            parts = (solved, None) if isinstance(solved, Motion) else (solved.motion, solved)
+            return results_of(*parts)[output]
+
+        exact = (
+            source.angle_extremes(signal, values) if output.kind == "angle" else source.extremes(signal, of)
+        )
+        found = [exact(kind) if exact is not None else None for kind in ("min", "max")]
+        samples = float(np.nanmin(values)), float(np.nanmax(values))
+        low, high = (s if e is None else e.value for s, e in zip(samples, found, strict=True))
+        return low, high
 
     @cached_property
     def _legend(self) -> Legend:

@@ -20,6 +20,7 @@ def describe(structure: Structure, language: str = "en") -> str:
         "",
         say("structure_text.groups"),
         *_table(structure, say),
+        *turned_against(structure, say),
         "",
         say("structure_text.chain", chain=structure.chain),
         say("structure_text.class", level=level),
@@ -32,6 +33,15 @@ def describe(structure: Structure, language: str = "en") -> str:
     for train in structure.trains:
         lines += ["", *_train(train, say)]
     return "\n".join(lines)
+
+
+def turned_against(structure: Structure, say: Say) -> list[str]:
+    """The drivers that turn a link against another one than the frame, a sentence each."""
+    return [
+        say("structure_text.turned_against", driver=name, link=link, pin=pin, other=other)
+        for name, (link, pin, other) in structure.turned.items()
+        if other != "frame"
+    ]
 
 
 def numeral(number: int, say: Say) -> str:
@@ -137,6 +147,10 @@ def as_data(structure: Structure) -> dict[str, object]:
         "redundant": list(structure.redundant),
         "counts": dict(structure.counts),
         "drivers": list(structure.drivers),
+        "turned": {
+            name: {"link": link, "about": pin, "relative_to": other}
+            for name, (link, pin, other) in structure.turned.items()
+        },
         "trains": [
             {"carrier": t.carrier, "pairs": list(t.pairs), "ratios": dict(t.ratios)} for t in structure.trains
         ],

@@ -14,6 +14,7 @@ from linkwright.core.plot_method import Plotted
 from linkwright.core.read_only import Frozen
 from linkwright.errors import LinkwrightError, RequestError, with_remedy
 from linkwright.kinematics.outcome import PositionError
+from linkwright.machine.flywheel import FLUCTUATION
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.quantities import si_unit
 from linkwright.registry import offered
@@ -225,7 +226,7 @@ def compare(
     metrics: Iterable[str] | str | None = None,
     weights: Mapping[str, float] | None = None,
     output: str | Mapping[str, str] | Sequence[str] | None = None,
-    fluctuation: float = 0.02,
+    fluctuation: float = FLUCTUATION,
     steps: int = 360,
 ) -> Comparison:
     """Compares alternative machines by the motion of an output that they share and by their design numbers.

@@ -21,7 +21,7 @@ from linkwright.engine.machine_code import available
 from linkwright.engine.threads import chunks
 from linkwright.errors import LinkwrightError, RequestError, with_remedy
 from linkwright.files.write import dump
-from linkwright.machine import flywheel_inertia
+from linkwright.machine.flywheel import FLUCTUATION, flywheel_inertia
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.evaluate import unloaded
 from linkwright.metrics.outputs import usual_output
@@ -194,7 +194,7 @@ def study(
     samples: int = 64,
     seed: int = 0,
     output: str | None = None,
-    fluctuation: float = 0.02,
+    fluctuation: float = FLUCTUATION,
     steps: int = 360,
     progress: Progress | None = None,
 ) -> Study:

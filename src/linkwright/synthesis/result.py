@@ -155,9 +155,12 @@ class Synthesis(Plotted):
             "candidates": [each.data() for each in self.candidates],
         }
 
-    def write(self, folder: str | Path, name: str = "", *, force: bool = False) -> list[Path]:
+    def write(
+        self, folder: str | Path, name: str = "", *, speed: str | float = "60 rpm", force: bool = False
+    ) -> list[Path]:
         """Every candidate as a model file ``NAME_1.yaml`` … in a folder that exists; gives the paths.
 
+        ``speed``: that of the input link, a text or rad/s.
         Raises LinkwrightError, and writes none, where one cannot be written or is there already unless ``force``.
         """
         stem = name or self.task
@@ -165,15 +168,20 @@ class Synthesis(Plotted):
         for path in paths:
             refuse_target(path, force=force)
         for number, path in enumerate(paths):
-            write_whole(path, self.model_text(number, f"{stem} {number + 1}").encode(), force=force)
+            write_whole(
+                path, self.model_text(number, f"{stem} {number + 1}", speed=speed).encode(), force=force
+            )
         return paths
 
-    def model_text(self, index: int = 0, name: str = "", *, language: str = "en") -> str:
-        """The model file of one candidate, its purpose in a language."""
+    def model_text(
+        self, index: int = 0, name: str = "", *, language: str = "en", speed: str | float = "60 rpm"
+    ) -> str:
+        """The model file of one candidate: its purpose in a language, its input's speed a text or rad/s."""
         from linkwright.synthesis.report import purpose
 
         each = self.candidates[index]
-        return each.linkage.text(name or f"{self.task} {index + 1}", purpose=purpose(self, each, language))
+        said = purpose(self, each, language)
+        return each.linkage.text(name or f"{self.task} {index + 1}", purpose=said, speed=speed)
 
 
 class SynthesisError(LinkwrightError):

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from linkwright.core.arrays import largest
+from linkwright.core.arrays import Floats, largest
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.core.search import first_largest
@@ -129,6 +129,19 @@ def _peaks(curve: Curve, axis: InputAxis) -> list[tuple[float, float, bool]]:
         first, last = sorted([(*high, True), (*low, False)])
         return [(first, last)[first_largest(np.abs([first[1], last[1]]))]]
     return [(*high, True)] if curve.peak == "max" else [(*high, True), (*low, False)]
+
+
+def through_peaks(curve: Curve, axis: InputAxis) -> tuple[Floats, Floats]:
+    """Places and values of a curve with the extremes that are marked on it, so that the line passes them."""
+    x, values = (axis.values if curve.x is None else curve.x), curve.values
+    if not curve.peak or not np.isfinite(values).any():
+        return x, values
+    way = -1.0 if x[-1] < x[0] else 1.0
+    for place, value, _ in _peaks(curve, axis):
+        if np.isfinite(value):
+            at = int(np.searchsorted(way * x, way * place))
+            x, values = np.insert(x, at, place), np.insert(values, at, value)
+    return x, values
 
 
 def _extreme(curve: Curve, axis: InputAxis, kind: Kind) -> tuple[float, float]:

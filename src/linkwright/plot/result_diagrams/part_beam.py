@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from linkwright.core.search import first_largest
 from linkwright.parts.beams.beam import BeamLine
 from linkwright.parts.beams.link import LinkStress
 from linkwright.plot.diagrams.base import Request, result_diagram
@@ -23,7 +22,7 @@ def draw_beam_line(result: BeamLine, request: Request) -> Figure:
     given = []
     for symbol, name, dimension in PANES:
         y = columns[name]
-        line = Line(x, y, marks=tuple({first_largest(-y), first_largest(y)}))
+        line = Line(x, y, peaks=tuple(dict.fromkeys(result.extremes(name.split(" ")[0]))))
         given.append(Pane(symbol, dimension, (line,), fill=symbol in "VM"))
     return panes(result.title, ("x", "length"), given, request)
 

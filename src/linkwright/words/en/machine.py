@@ -33,6 +33,7 @@ torque diagram can be given by its areas or a torque as an expression of theta."
     "mean_torque": "mean torque",
     "mean_power": "mean power",
     "motor_power": "power of the motor, with efficiency and margin",
+    "motor_power_without_flywheel": "power of the motor without a flywheel, at constant speed",
     "energy_fluctuation": "energy fluctuation",
     "energy_lowest_at": "slowest running, approximately, at input",
     "energy_lowest": "  lowest energy, slowest running (approximately)",

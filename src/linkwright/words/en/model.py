@@ -241,7 +241,8 @@ WORDS = {
     "unconnected_do": "share a point with the frame or with a link that is connected",
     "driven_against": 'the pin "{pin}" joins "{link}" to "{other}", not to the frame, so its angle against '
     '"{other}" is driven',
-    "driven_against_do": "write relative_to: {other} if that is meant, else about: {held}",
+    "driven_against_do": "write relative_to: {other} to say so",
+    "driven_against_or": "write relative_to: {other} if that is meant, else about: {held}",
     "over_angle": '"{link}" is the angle of that link, and x are lengths',
     "over_guide": "for the way of the link write the name of its guide: over: {guide}",
     "over_point": "name a guide or a point's coordinate, such as C.x",

@@ -27,6 +27,10 @@ WORDS = {
     "choose and no flywheel to lay out; give the machine a load that does work over a cycle (loads: …)",
     "driven": "the loads drive {name!r}, as the gas does an engine: a constant torque against them takes up their "
     "work; of a machine that should need a drive, check the direction of the loads",
+    "needs_flywheel": "The motor of {power} is sized by the mean power: it suffices only with the flywheel of "
+    "{inertia}. Without a flywheel, at constant speed, it must have {peak}.",
+    "evened_by_itself": "The motor of {power} is sized by the mean power: the machine's own inertia carries the "
+    "peaks. To hold the speed constant it must have {peak}.",
     "bad_speed": "the mean speed is {speed:g} rad/s; give a value above zero",
     "no_inertia": "the total moment of inertia is zero somewhere in the cycle; give masses or a flywheel",
     "no_flywheel": "no flywheel was found with which the speed fluctuates by just {fluctuation:g}; ask for another "

@@ -32,6 +32,7 @@ WORDS = {
     "mean_torque": "平均力矩",
     "mean_power": "平均功率",
     "motor_power": "电动机功率（计入效率和裕量）",
+    "motor_power_without_flywheel": "不装飞轮、匀速运转时的电动机功率",
     "energy_fluctuation": "最大盈亏功",
     "energy_lowest_at": "最慢处的输入位置（近似）",
     "energy_lowest": "  能量最低，转速最慢处（近似）",
