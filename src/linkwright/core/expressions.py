@@ -331,13 +331,15 @@ class _Parser:
             return self._number(token, column)
         if kind == "name":
             return self._name(token, column)
-        if token in ("-", "+"):
+        if token in ("-", "+") and self.tokens[self.at][1] not in ("-", "+"):
             inner = self._binary(_NEGATIVE_BINDING)
             return Negative(inner, column) if token == "-" else inner
         if token == "(":
             inner = self._binary(0)
             self._close(column)
             return inner
+        if token in ("-", "+"):
+            _, token, column = self.tokens[self.at]
         what, needed = "ends_early" if kind == "end" else "unexpected", Sentence("model.operand_needed")
         raise self._fault(what, column, remedy=needed, token=token)
 

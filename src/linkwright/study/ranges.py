@@ -104,7 +104,7 @@ def _quantity(part: str, unit: str, address: str, text: str) -> tuple[float, str
 def _count(text: str | None, address: str, whole: str) -> int:
     if text is None:
         return USUAL_COUNT
-    if not text.strip().isdigit() or int(text) < 1:
+    if not text.strip().isdecimal() or int(text) < 1:
         raise RequestError("study.no_count", address=address, whole=whole, text=text.strip())
     if int(text) > 1_000_000:
         raise RequestError("study.count_large", address=address, whole=whole, count=text)
