@@ -350,6 +350,8 @@ def parse(text: str, dimension: str) -> float:
         )
     if not rest and value == 0:
         return 0.0
+    if dimension == "frequency" and kind == DIMENSIONS["angular_velocity"]:
+        return value / _TURN
     require(kind, dimension, plain, bare=not rest)
     return value
 

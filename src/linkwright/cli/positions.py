@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from linkwright import units
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import did_you_mean
+from linkwright.core.expressions import amount
 from linkwright.errors import about
 from linkwright.words.sentence import Sentence
 
@@ -75,4 +76,4 @@ def _value(text: str, unit: str, dimension: str, option: str) -> float:
     if unit and _NUMBER.fullmatch(own):
         own = f"{own} {unit}"
     with about(option, UsageError):
-        return units.parse(own, dimension)
+        return amount(own, dimension)

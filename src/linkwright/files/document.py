@@ -208,7 +208,9 @@ def _follow(root: Mapping, path: list[str]) -> tuple[Node, list[str]]:
         elif isinstance(node, Sequence):
             position = _AXES.get(part, part)
             below = (
-                node.items[int(position)] if position.isdecimal() and int(position) < len(node.items) else None
+                node.items[int(position)]
+                if position.isdecimal() and int(position) < len(node.items)
+                else None
             )
         if below is None:
             return node, path[index:]

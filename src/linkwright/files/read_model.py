@@ -169,7 +169,7 @@ def _parameter(
 ) -> float | None:
     """The value of a parameter; ``told`` are the names in this one and in those below it."""
     name = place.address
-    reserved = {*expressions.CONSTANTS, *expressions.FUNCTIONS, "t", "input"}
+    reserved = {*expressions.OWN_NAMES, "t", "input"}
     if not re.fullmatch(r"[^\W\d]\w*", name) or name in reserved:
         what, remedy = Sentence("model.no_word"), Sentence("model.rename_l")
         if name in reserved:

@@ -12,6 +12,7 @@ from typing import Any
 
 from linkwright import units
 from linkwright.core.dataclass import dataclass
+from linkwright.core.expressions import amount
 from linkwright.core.given import told
 from linkwright.errors import Finding, ModelError, QuantityError, with_remedy
 from linkwright.fields.nodes import Mapping as MappingNode
@@ -268,7 +269,7 @@ class _Reader:
         if dimension in self.units and _bare(text):
             text = f"{text} {self.units[dimension]}"
         try:
-            return units.parse(text, dimension)
+            return amount(text, dimension)
         except QuantityError as error:
             if error.code == "missing-unit" and SHAPES[form][1] and dimension in UNIT_KEYS:
                 self._bare(node, key, dimension, error.message)
