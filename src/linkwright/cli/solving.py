@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Iterable
+from contextlib import suppress
 from functools import cached_property
 from math import ceil
 
@@ -13,9 +15,10 @@ from linkwright.cli.positions import MOST, inputs, quantities
 from linkwright.core.arrays import Floats, Indices, largest
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
-from linkwright.errors import Finding, LinkwrightError
+from linkwright.errors import Finding, LinkwrightError, RequestError
 from linkwright.kinematics.cycle import rotary, time_span
 from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.names import output_meant
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.kinetostatics.table import results_of
@@ -81,10 +84,21 @@ class Solved:
         return {output: values[self.rows] for output, values in found.items()}
 
 
+def _of_forces(mechanism: Mechanism, names: Iterable[str]) -> bool:
+    """Whether one of some names means a result of the forces."""
+    for name in names:
+        with suppress(RequestError):
+            if not output_meant(mechanism, name).of_motion:
+                return True
+    return False
+
+
 def solve(mechanism: Mechanism, warnings: list[Finding], options: argparse.Namespace) -> Solved:
     """Solves as the options say; raises LinkwrightError."""
     motion, rows, turns = _motion(mechanism, options)
-    wanted = options.forces if options.forces is not None else mechanism.has_loads or options.static
+    wanted = options.forces
+    if wanted is None:
+        wanted = mechanism.has_loads or options.static or _of_forces(mechanism, options.columns or ())
     forces, trouble = None, None
     if wanted:
         try:

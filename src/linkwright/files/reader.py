@@ -212,10 +212,13 @@ class Reader(PlainReader):
         taken = {*self.kinds, *units.UNITS, *expressions.OWN_NAMES}
         found = {link: angle for link in self.names.links if link != "frame" and link not in taken}
         found |= {name: length for name in self.names.sliding if name not in taken}
-        for link, points in self.names.links.items():
-            for point in points:
-                for axis in ("x", "y"):
-                    found[f"{point}.{axis}"] = found[f"{link}.{point}.{axis}"] = length
+        found |= {f"{link}.angle": angle for link in self.names.links if link != "frame"}
+        found |= {f"{name}.displacement": length for name in self.names.sliding}
+        owned = {(link, point) for link, points in self.names.links.items() for point in points}
+        places = {*(point for _, point in owned), *(f"{link}.{point}" for link, point in owned)}
+        found |= {
+            f"{each}{way}.{axis}": length for each in places for way in ("", ".position") for axis in "xy"
+        }
         found |= {"t": units.DIMENSIONS["time"], "input": angle if self.input_rotary else length}
         self._variables = found
         return found

@@ -8,7 +8,9 @@ from operator import methodcaller
 
 import numpy as np
 
-from linkwright.core.outputs import Output
+from linkwright.core.outputs import PLACES, Output
+from linkwright.kinematics.names import result_meant
+from linkwright.kinetostatics.table import results_of
 from linkwright.plot.diagrams.base import DIAGRAMS, Request
 from linkwright.plot.diagrams.outputs import main_output, output_named
 from linkwright.plot.diagrams.panels import DASHES, Curve, OverInput, Panel
@@ -27,13 +29,15 @@ STRAIGHT = (
 
 @DIAGRAMS.register("sva")
 class Sva(OverInput):
-    """Three panels: angle or displacement, velocity, acceleration of an output; x and y of a point."""
+    """Three panels: angle or displacement, velocity, acceleration of an output; x and y of a point; one panel of a
+    force or of a rate that is named."""
 
     options = ("of",)
 
     def output(self, source: Source, request: Request) -> Output | str | None:
-        asked = _asked(source, request)
-        return asked[0] if len(asked) == 1 else None
+        first, *more = _asked(source, request)
+        marked = not isinstance(first, Output) or first.kind in PLACES
+        return first if marked and not more else None
 
     def subject(self, sources: Sequence[Source], request: Request) -> str:
         return request.say("motion_of", output=", ".join(map(str, _asked(sources[0], request))))
@@ -72,6 +76,8 @@ def _together(parts: list[tuple[str, list[Panel]]]) -> list[Panel]:
 
 
 def _of_output(source: Source, output: Output, say: Say) -> list[Panel]:
+    if output.kind not in PLACES:
+        return [_of_result(source, output)]
     named = ANGULAR if output.kind == "angle" else STRAIGHT
     found = []
     for (word, symbol, dimension), each in zip(named, output.course, strict=True):
@@ -79,6 +85,13 @@ def _of_output(source: Source, output: Output, say: Say) -> list[Panel]:
         exact = None if word == "angle" else source.extremes(methodcaller("read", each))
         found.append(Panel(f"{say(word)} {symbol}", dimension, (Curve("", shown, extremes=exact),)))
     return found
+
+
+def _of_result(source: Source, output: Output) -> Panel:
+    """A force, or a rate that is named alone."""
+    results = results_of(source.motion, None if output.of_motion else source.forces)
+    found = result_meant(source.mechanism, output.name, results)
+    return Panel(found.name, found.dimension, (Curve("", source.closed(results[found]), "max"),))
 
 
 def _of_point(source: Source, key: str, say: Say) -> list[Panel]:
