@@ -177,7 +177,10 @@ def parse_quantity(
 
 def amount(text: str, dimension: str) -> float:
     """SI value of a quantity without names; raises QuantityError."""
-    return parse_as(text, dimension, {}).evaluate({})
+    try:
+        return parse_as(text, dimension, {}).evaluate({})
+    except ExpressionError:
+        return units.parse(text, dimension)  # says what a quantity is
 
 
 def parse_as(text: str, dimension: str, kinds: Mapping[str, units.Dimension]) -> Expression:

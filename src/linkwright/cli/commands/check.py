@@ -254,7 +254,7 @@ def _of_settings(name: str, mechanism: Mechanism, *, moves: bool) -> list[Findin
 def _report(mechanism: Mechanism) -> None:
     from linkwright.report.settings import settings
 
-    settings(mechanism.report)
+    settings(mechanism.report, mechanism=mechanism)
 
 
 def _course(mechanism: Mechanism) -> None:
