@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from linkwright import units
 from linkwright.cli.errors import UsageError
@@ -37,6 +37,11 @@ def quantities(text: str, dimension: str, option: str) -> list[float]:
         else:
             found.append(_value(part, "", dimension, option))
     return found
+
+
+def joined(words: Sequence[str]) -> str:
+    """Words that follow an option, each with values, as the one list that they are."""
+    return ("; " if any("=" in word for word in words) else ", ").join(words)
 
 
 def inputs(text: str, rotary: Mapping[str, bool]) -> dict[str, list[float]]:

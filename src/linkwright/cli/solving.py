@@ -11,7 +11,7 @@ from math import ceil
 import numpy as np
 
 from linkwright.cli.errors import UsageError
-from linkwright.cli.positions import MOST, inputs, quantities
+from linkwright.cli.positions import MOST, inputs, joined, quantities
 from linkwright.core.arrays import Floats, Indices, largest
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
@@ -124,10 +124,10 @@ def _motion(mechanism: Mechanism, options: argparse.Namespace) -> tuple[Motion, 
     if options.at is not None:
         if not mechanism.drivers:
             raise UsageError("cli.about", name="--at", cause=Sentence("solve.no_input"))
-        given = inputs(options.at, rotary(mechanism))
+        given = inputs(joined(options.at), rotary(mechanism))
         motion = solve_motion(mechanism, at=given, failures=failures)  # type: ignore[arg-type]
     elif options.times is not None:
-        times = quantities(options.times, "time", "--times")
+        times = quantities(joined(options.times), "time", "--times")
         motion = solve_motion(mechanism, times=times, failures=failures)  # type: ignore[arg-type]
     else:
         turns = 0 if options.steps else _turns(mechanism)

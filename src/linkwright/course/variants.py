@@ -34,8 +34,8 @@ MOST = 1000
 GOOD, SLACK = math.radians(40), math.radians(5)
 #: An answer may be so many times as large or as small as the model's.
 SPREAD = 4.0
-#: Why a design is no variant: it does not pass its cycle, transmits worse than the model, has answers of another sign or
-#: size, shows other mistakes, or has the answers of another variant.
+#: Why a design is no variant: it does not pass its cycle, transmits worse than the model, has answers of another sign
+#: or size, shows other mistakes, or has the answers of another variant.
 Failing = Literal["stuck", "flat", "unlike", "mistakes", "same"]
 #: Mistakes lead to answers that are so many tolerances apart, from the right ones and from each other.
 APART = 3.0

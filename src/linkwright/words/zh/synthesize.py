@@ -171,7 +171,7 @@ Grashof 类型、整个范围内的缺陷、最小传动角、最长与最短杆
     "free_curve.error": "未求得误差在 {given} 以内的机构；最小为 {least}（已列出）；请允许更多运动副或更多秒数",
     "task": '没有任务 "{task}"；已知：{known}',
     "task.missing": '任务 "{task}" 需要 "{demand}"：{form}',
-    "task.unknown": '"{demand}" 不是任务 "{task}" 的要求；已知：{known}',
+    "task.unknown": '"{demand}" 不是任务 "{task}" 的要求；{hint}',
     "task.unit_of_all": "请写单位，或在任务旁写“{line}”，作为所有不带单位的数的单位",
     "task.value": "{demand}：应为{form}；所给：{given}",
     "task.section": '文件没有 "synthesis" 一节；请加上这一节，写明 task 及其要求',
