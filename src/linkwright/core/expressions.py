@@ -41,6 +41,8 @@ MAX_LENGTH = 1000
 #: Names of the language itself.
 OWN_NAMES = frozenset((*CONSTANTS, *ARITY))
 NUMBER_AND_UNIT = re.compile(r"^([+-]?\s*(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)(.*)$")
+#: Units that stand behind others so often that they are meant wherever they fit: ``N/m``, ``m/s``.
+_BASE = ("m", "s")
 #: Factors with a unit behind all of them; a quotient with one behind it; the last number of a text with its unit.
 _FACTORS = re.compile(r"(?P<factors>.*(?:[\d.)]|\b[^\W\d]\w*(?= )))\s*(?P<unit>(?:[^\W\d_]|[°%])[^()+,]*)")
 _QUOTIENT = re.compile(r"((?:\d+\.?\d*|\.\d+|\bpi)/(?:\d+\.?\d*|\.\d+)) ?([^\W\d]+|[°%])")
@@ -248,7 +250,10 @@ def _meant_parameter(
 ) -> str:
     """The name of a parameter that the text has as a unit in ``found``, where it is the quantity that is needed with
     the parameter as well; empty where there is none."""
-    names = [each for each in re.findall(r"[^\W\d]\w*", plain) if each in units.UNITS and each in kinds]
+    words = re.findall(r"[^\W\d]\w*", plain)
+    names = [
+        each for each in words if each in units.UNITS and each in kinds and not (found and each in _BASE)
+    ]
     if names:
         with suppress(QuantityError):
             prefer: Preferred = "variables" if found is None else "variables behind units"
