@@ -137,6 +137,10 @@ def dimension_of(node: Node, kinds: Mapping[str, units.Dimension]) -> units.Dime
     return _common_dimension((node.left, node.right), kinds, node.column, word)
 
 
+class Derived(tuple[float, float, float, float]):
+    """The dimension of a name whose value is a product of several quantities, see :func:`derived`."""
+
+
 def derived(node: Node, kinds: Mapping[str, units.Dimension]) -> bool:
     """Whether a radian may be left out of a tree's dimension or be added to it: in a product of several quantities
     (``r*phi``, ``P/omega``, ``sqrt(k/m)``), and where pi says that radians are meant (``2*pi*f``); not in one
@@ -144,6 +148,8 @@ def derived(node: Node, kinds: Mapping[str, units.Dimension]) -> bool:
     match node:
         case Number(value):
             return value == math.pi
+        case Variable(name):
+            return isinstance(kinds[name], Derived)
         case Negative(operand) | Binary("^", operand):
             return derived(operand, kinds)
         case Call("sqrt" | "abs" | "min" | "max", arguments):
