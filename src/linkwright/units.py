@@ -350,6 +350,8 @@ def parse(text: str, dimension: str) -> float:
         )
     if not rest and value == 0:
         return 0.0
+    if dimension == "frequency" and kind == DIMENSIONS["angular_velocity"]:
+        return value / _TURN
     require(kind, dimension, plain, bare=not rest)
     return value
 
@@ -477,12 +479,11 @@ def si_symbol(kind: Dimension) -> str:
     for name, dimension in DIMENSIONS.items():
         if dimension == kind:
             return SI_UNITS[name]
-    parts = [
+    return "·".join(
         f"{symbol}^{power:g}" if power != 1 else symbol
         for symbol, power in zip(("m", "kg", "s", "rad"), kind, strict=True)
         if power
-    ]
-    return "·".join(parts)
+    )
 
 
 def format(value: float, dimension: str, unit: str | None = None) -> str:
@@ -501,5 +502,4 @@ def number(value: float, digits: int | None = None) -> str:
     """Shortest text of a float, without a trailing ``.0``; ``digits`` limits the significant digits."""
     if digits is not None:
         return f"{value:.{digits}g}"
-    text = repr(float(value))
-    return text.removesuffix(".0")
+    return repr(float(value)).removesuffix(".0")

@@ -9,7 +9,7 @@ import pytest
 
 import linkwright as lw
 from linkwright import gallery
-from linkwright.core.expressions import FUNCTIONS
+from linkwright.core.expression_tree import ARITY
 from linkwright.metrics import METRICS
 from linkwright.units import UNITS
 
@@ -79,7 +79,7 @@ def test_every_design_number_is_named_with_how_it_is_had(language: str) -> None:
 def test_every_unit_and_every_function_of_expressions_is_named(language: str) -> None:
     text = (DOCS / language / "how-to/model.md").read_text("utf-8")
     told = {word for words in re.findall(r"`([^`\n]+)`", text) for word in words.split()}
-    assert set(FUNCTIONS) <= told
+    assert set(ARITY) <= told
     assert {"µm" if unit in ("um", "μm") else unit for unit in UNITS} <= told
 
 

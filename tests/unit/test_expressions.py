@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from linkwright import units
-from linkwright.core.expressions import parse, parse_quantity
-from linkwright.errors import QuantityError
+from linkwright.core.expressions import parse, parse_any, parse_quantity
+from linkwright.errors import ModelError, QuantityError
+from linkwright.files.model_file import loads
 
 LENGTH, TIME, NONE = units.DIMENSIONS["length"], units.DIMENSIONS["time"], units.NONE
 KINDS = {"l2": LENGTH, "t": TIME, "k": NONE, "m": LENGTH, "g": units.DIMENSIONS["acceleration"]}
@@ -67,6 +68,154 @@ def test_a_wrong_expression_is_refused_with_its_column(
         parse_quantity(text, dimension, KINDS)
     assert words in f"{caught.value.message} {caught.value.remedy}"
     assert caught.value.column == column
+
+
+D = units.DIMENSIONS
+#: Parameters by name: what they are, and their values in SI.
+PARAMETERS = {
+    "r": ("length", 2.0), "phi": ("angle", 3.0), "w": ("angular_velocity", 5.0), "f": ("frequency", 7.0),
+    "T": ("time", 11.0), "M": ("torque", 13.0), "k": ("torsional_stiffness", 17.0), "c": ("stiffness", 19.0),
+    "mass": ("mass", 23.0), "v": ("velocity", 29.0), "G": ("pressure", 31.0), "J": ("second_moment_of_area", 37.0),
+    "g": ("acceleration", 9.81), "n": ("dimensionless", 41.0), "t": ("time", 47.0), "h": ("time", 53.0),
+}  # fmt: skip
+TURN = 2 * math.pi
+
+
+def read(text: str, dimension: str) -> float:
+    found = parse_quantity(text, dimension, {name: D[kind] for name, (kind, _) in PARAMETERS.items()})
+    if isinstance(found, float):
+        return found
+    return found.evaluate({name: value for name, (_, value) in PARAMETERS.items()})
+
+
+@pytest.mark.parametrize(
+    ("text", "dimension", "value"),
+    [
+        ("3 kW/(90 rpm)", "torque", 3000 / (90 * TURN / 60)),
+        ("1.5 rad*40 mm", "length", 0.06),
+        ("84 GPa*1e-6 m^4/(1.5 m)", "torsional_stiffness", 56e3),
+        ("G*J/r", "torsional_stiffness", 31 * 37 / 2),
+        ("r*phi + 3 mm", "length", 6.003),
+        ("k*phi + M", "torque", 64.0),
+        ("v/r", "angular_velocity", 14.5),
+        ("v/r + w", "angular_velocity", 19.5),
+        ("sqrt(c/mass)", "angular_velocity", math.sqrt(19 / 23)),
+        ("2*pi*f", "angular_velocity", TURN * 7),
+        ("2*pi/T", "angular_velocity", TURN / 11),
+        ("f*rev", "angular_velocity", TURN * 7),
+        ("(10 Hz)*rev", "angular_velocity", TURN * 10),
+        ("13 rad/s", "frequency", 13 / TURN),
+        ("90 rpm", "frequency", 1.5),
+        ("2*w", "frequency", 10 / TURN),
+        ("sqrt(c/mass)*rad", "frequency", math.sqrt(19 / 23) / TURN),
+        ("v/r*rev", "frequency", 14.5),
+        ("1/T", "frequency", 1 / 11),
+        ("2*f", "frequency", 14.0),
+    ],
+)
+def test_a_radian_is_no_unit_of_a_product_and_cycles_are_turns(
+    text: str, dimension: str, value: float
+) -> None:
+    assert read(text, dimension) == pytest.approx(value, rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("text", "dimension", "words"),
+    [
+        ("f", "angular_velocity", '"(f)*rev"'),
+        ("2*f", "angular_velocity", '"(2*f)*rev"'),
+        ("1/T", "angular_velocity", '"(1/T)*rad"'),
+        ("10 Hz", "angular_velocity", "170 rpm"),
+        ("sqrt(c/mass)", "frequency", '"(sqrt(c/mass))*rad"'),
+        ("2*pi*f", "frequency", '"(2*pi*f)*rev"'),
+        ("f + w", "angular_velocity", "cannot be added"),
+        ("M", "torsional_stiffness", "a torque"),
+        ("2*k", "torque", "a torsional stiffness"),
+        ("k + M", "torque", "cannot be added"),
+        ("5 N·m", "torsional_stiffness", "a torque"),
+        ("5 N·m/rad", "torque", "a torsional stiffness"),
+    ],
+)
+def test_where_a_radian_may_be_a_slip_the_text_has_to_say_it(text: str, dimension: str, words: str) -> None:
+    with pytest.raises(QuantityError) as caught:
+        read(text, dimension)
+    assert words in f"{caught.value.message} {caught.value.remedy}"
+
+
+@pytest.mark.parametrize(
+    ("text", "dimension", "value"),
+    [
+        ("pi/6 rad", "angle", math.pi / 6),
+        ("-pi/2 rad", "angle", -math.pi / 2),
+        ("2*pi rad", "angle", TURN),
+        ("2*pi rad/s", "angular_velocity", TURN),
+        ("sqrt(2) m", "length", math.sqrt(2)),
+        ("(1 + sqrt(5))/2 mm", "length", (1 + math.sqrt(5)) / 2000),
+        ("1/3 rad", "angle", 1 / 3),
+        ("1/3 rad", "per_angle", 1 / 3),
+        ("2/3 m", "length", 2 / 3),
+        ("n/3 deg", "angle", math.radians(41 / 3)),
+        ("2^3 mm", "length", 0.008),
+        ("1/2 s", "time", 0.5),
+        ("1/4 s", "frequency", 0.25),
+    ],
+)
+def test_a_unit_behind_factors_is_that_of_all_where_it_fits(text: str, dimension: str, value: float) -> None:
+    assert read(text, dimension) == pytest.approx(value, rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("parameters", "speed", "torque"),
+    [
+        ("{P: 3 kW, n: 90 rpm, M: P/n}", "n", "M"),
+        ("{v: 3 m/s, r: 0.5 m, w: v/r, c: 20 N·m·s/rad}", "w", "c*w"),
+        ("{f: 2 Hz, w: 2*pi*f, k: 30 N·m/rad}", "w", "k*(1 rad)"),
+    ],
+)
+def test_a_parameter_that_is_a_product_is_one_where_it_is_used(
+    parameters: str, speed: str, torque: str
+) -> None:
+    text = (
+        f"format: 1\nparameters: {parameters}\nframe: {{points: {{O: [0 m, 0 m]}}}}\n"
+        "links: {drum: {points: [O, K], length: 80 mm, mass: 3 kg, inertia: 0.02 kg·m²}}\n"
+        f"driver: {{turn: drum, about: O, speed: {speed}}}\n"
+        f"loads: {{brake: {{kind: torque, on: drum, opposes: velocity, magnitude: {torque}}}}}\n"
+    )
+    size = loads(text).dimensions()
+    wanted = {
+        "n": (3 * math.pi, 1000 / math.pi), "w": (6.0, 120.0) if "v" in parameters else (4 * math.pi, 30.0),
+    }[speed]  # fmt: skip
+    assert (size["driver.speed"], size["loads.brake.magnitude"]) == pytest.approx(wanted, rel=1e-14)
+    with pytest.raises(ModelError, match=r"\*rev"):
+        loads(text.replace(f"speed: {speed}", "speed: q").replace("parameters: {", "parameters: {q: 2 Hz, "))
+
+
+@pytest.mark.parametrize("text", ["1/2 m", "pi/6 rad", "n/3 s"])
+def test_a_parameter_that_can_be_read_in_two_ways_is_refused_with_both(text: str) -> None:
+    number, unit = text.split()
+    first, last = number.split("/")
+    with pytest.raises(QuantityError) as caught:
+        parse_any(text, {"n": NONE})
+    assert f'"({number})*{unit}" or "{first}/({last} {unit})"' in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("text", "dimension", "name"),
+    [("30 N/g", "mass", "g"), ("3 m/h", "velocity", "h"), ("2*30 N/g", "mass", "g"), ("3 t", "time", "t")],
+)
+def test_a_name_that_is_a_unit_and_a_parameter_is_not_guessed(text: str, dimension: str, name: str) -> None:
+    with pytest.raises(QuantityError) as caught:
+        read(text, dimension)
+    assert f'"{name}" is a unit and a parameter' in str(caught.value)
+
+
+def test_a_unit_of_the_name_of_a_parameter_is_one_where_only_it_fits() -> None:
+    """And in parentheses, or before an operator, the name is the parameter."""
+    assert read("5 g", "mass") == 0.005
+    assert read("30 N/(1 g)", "acceleration") == pytest.approx(30e3)
+    assert read("30 N/(g)", "mass") == pytest.approx(30 / 9.81)
+    assert read("t*3", "time") == 141.0
+    assert read("3 t", "mass") == 3000.0
 
 
 def test_the_text_of_an_error_has_a_caret_under_the_place() -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import fnmatch
 import math
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from functools import cached_property
 
@@ -15,6 +16,9 @@ from linkwright.cli.parser import did_you_mean
 from linkwright.core.arrays import Floats, largest
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
+from linkwright.errors import RequestError
+from linkwright.kinematics.names import output_meant
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.units import SI_UNITS
 from linkwright.words import Say
 from linkwright.words.characters import GAP, cells, padded
@@ -80,21 +84,29 @@ class Column:
         return next(exact, most)
 
 
-def pick(columns: Mapping[str, Column], patterns: Sequence[str]) -> list[Column]:
-    """The columns that any pattern names: a name, the beginning of names up to a dot, or with ``*`` and ``?``."""
+def pick(mechanism: Mechanism, columns: Mapping[str, Column], patterns: Sequence[str]) -> list[Column]:
+    """The columns that any pattern names: a name, the beginning of names up to a dot, with ``*`` and ``?``, or an
+    output in the user's words."""
     found: dict[str, Column] = {}
     for pattern in patterns:
-        hits = [
-            column
-            for name, column in columns.items()
-            if name == pattern or name.startswith(f"{pattern}.") or fnmatch.fnmatchcase(name, pattern)
-        ]
+        hits = _hits(columns, pattern)
+        if not hits:
+            with suppress(RequestError):
+                hits = _hits(columns, output_meant(mechanism, pattern).column)
         if not hits:
             owners = dict.fromkeys(column.owner for column in columns.values() if column.owner)
             said = Sentence("solve.no_column", pattern=pattern, owners=tuple(owners))
             raise UsageError(did_you_mean(said, pattern, [*columns, *owners]))
         found.update((column.name, column) for column in hits)
     return list(found.values())
+
+
+def _hits(columns: Mapping[str, Column], pattern: str) -> list[Column]:
+    return [
+        column
+        for name, column in columns.items()
+        if name == pattern or name.startswith(f"{pattern}.") or fnmatch.fnmatchcase(name, pattern)
+    ]
 
 
 def fitting(

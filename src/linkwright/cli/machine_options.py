@@ -12,6 +12,7 @@ from linkwright import units
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import did_you_mean, number_of
 from linkwright.core.dataclass import dataclass
+from linkwright.core.expressions import amount
 from linkwright.errors import LinkwrightError, about
 from linkwright.machine.flywheel import FlywheelSize, disk, flywheel_inertia, on_faster_shaft, rim
 from linkwright.machine.motor import motor
@@ -72,7 +73,7 @@ def wanted(options: argparse.Namespace) -> Wanted:
 def quantity(option: str, text: str, dimension: str) -> float:
     """SI value above zero of an option; raises UsageError."""
     with about(option, UsageError):
-        value = units.parse(text, dimension)
+        value = amount(text, dimension)
     if not value > 0:
         raise UsageError("machine.not_above_zero", option=option, text=text)
     return value

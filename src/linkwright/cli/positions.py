@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from linkwright import units
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import did_you_mean
+from linkwright.core.expressions import amount
 from linkwright.errors import about
 from linkwright.words.sentence import Sentence
 
@@ -36,6 +37,11 @@ def quantities(text: str, dimension: str, option: str) -> list[float]:
         else:
             found.append(_value(part, "", dimension, option))
     return found
+
+
+def joined(words: Sequence[str]) -> str:
+    """Words that follow an option, each with values, as the one list that they are."""
+    return ("; " if any("=" in word for word in words) else ", ").join(words)
 
 
 def inputs(text: str, rotary: Mapping[str, bool]) -> dict[str, list[float]]:
@@ -75,4 +81,4 @@ def _value(text: str, unit: str, dimension: str, option: str) -> float:
     if unit and _NUMBER.fullmatch(own):
         own = f"{own} {unit}"
     with about(option, UsageError):
-        return units.parse(own, dimension)
+        return amount(own, dimension)

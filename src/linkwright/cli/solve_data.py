@@ -59,4 +59,9 @@ def chosen(solved: Solved, options: argparse.Namespace) -> list[Column]:
     if not patterns:
         return list(columns.values())
     first = {column.name: column for column in [columns["time"], *leading(solved, columns)]}
-    return list({**first, **{column.name: column for column in pick(columns, patterns)}}.values())
+    return list(
+        {
+            **first,
+            **{column.name: column for column in pick(solved.motion.mechanism, columns, patterns)},
+        }.values()
+    )

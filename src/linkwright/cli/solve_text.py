@@ -55,7 +55,7 @@ def _chosen(solved: Solved, options: argparse.Namespace, session: Session) -> tu
     first = leading(solved, columns)
     if options.columns:
         points = point_keys(solved.motion, options.points)
-        picked = pick(columns, [*options.columns, *points])
+        picked = pick(solved.motion.mechanism, columns, [*options.columns, *points])
         names = {column.name for column in picked}
         return [*(column for column in first if column.name not in names), *picked], ""
     return _fitted(solved, columns, first, options, session)

@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Iterable
+from contextlib import suppress
 from functools import cached_property
 from math import ceil
 
 import numpy as np
 
 from linkwright.cli.errors import UsageError
-from linkwright.cli.positions import MOST, inputs, quantities
+from linkwright.cli.positions import MOST, inputs, joined, quantities
 from linkwright.core.arrays import Floats, Indices, largest
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
-from linkwright.errors import Finding, LinkwrightError
+from linkwright.errors import Finding, LinkwrightError, RequestError
 from linkwright.kinematics.cycle import rotary, time_span
 from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.names import output_meant
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.kinetostatics.table import results_of
@@ -81,10 +84,21 @@ class Solved:
         return {output: values[self.rows] for output, values in found.items()}
 
 
+def _of_forces(mechanism: Mechanism, names: Iterable[str]) -> bool:
+    """Whether one of some names means a result of the forces."""
+    for name in names:
+        with suppress(RequestError):
+            if not output_meant(mechanism, name).of_motion:
+                return True
+    return False
+
+
 def solve(mechanism: Mechanism, warnings: list[Finding], options: argparse.Namespace) -> Solved:
     """Solves as the options say; raises LinkwrightError."""
     motion, rows, turns = _motion(mechanism, options)
-    wanted = options.forces if options.forces is not None else mechanism.has_loads or options.static
+    wanted = options.forces
+    if wanted is None:
+        wanted = mechanism.has_loads or options.static or _of_forces(mechanism, options.columns or ())
     forces, trouble = None, None
     if wanted:
         try:
@@ -110,10 +124,10 @@ def _motion(mechanism: Mechanism, options: argparse.Namespace) -> tuple[Motion, 
     if options.at is not None:
         if not mechanism.drivers:
             raise UsageError("cli.about", name="--at", cause=Sentence("solve.no_input"))
-        given = inputs(options.at, rotary(mechanism))
+        given = inputs(joined(options.at), rotary(mechanism))
         motion = solve_motion(mechanism, at=given, failures=failures)  # type: ignore[arg-type]
     elif options.times is not None:
-        times = quantities(options.times, "time", "--times")
+        times = quantities(joined(options.times), "time", "--times")
         motion = solve_motion(mechanism, times=times, failures=failures)  # type: ignore[arg-type]
     else:
         turns = 0 if options.steps else _turns(mechanism)

@@ -137,6 +137,31 @@ def dimension_of(node: Node, kinds: Mapping[str, units.Dimension]) -> units.Dime
     return _common_dimension((node.left, node.right), kinds, node.column, word)
 
 
+class Derived(tuple[float, float, float, float]):
+    """The dimension of a name whose value is a product of several quantities, see :func:`derived`."""
+
+
+def derived(node: Node, kinds: Mapping[str, units.Dimension]) -> bool:
+    """Whether a radian may be left out of a tree's dimension or be added to it: in a product of several quantities
+    (``r*phi``, ``P/omega``, ``sqrt(k/m)``), and where pi says that radians are meant (``2*pi*f``); not in one
+    quantity or a multiple of it (``2*f``, ``1/T``)."""
+    match node:
+        case Number(value):
+            return value == math.pi
+        case Variable(name):
+            return isinstance(kinds[name], Derived)
+        case Negative(operand) | Binary("^", operand):
+            return derived(operand, kinds)
+        case Call("sqrt" | "abs" | "min" | "max", arguments):
+            return all(derived(each, kinds) for each in arguments)
+        case Binary("+" | "-", left, right):
+            return derived(left, kinds) and derived(right, kinds)
+        case Binary("*" | "/", left, right):
+            both = units.NONE not in (dimension_of(left, kinds), dimension_of(right, kinds))
+            return both or derived(left, kinds) or derived(right, kinds)
+    return False
+
+
 def _common_dimension(
     nodes: tuple[Node, ...], kinds: Mapping[str, units.Dimension], column: int, word: str
 ) -> units.Dimension:
@@ -144,8 +169,12 @@ def _common_dimension(
     for node, other in zip(nodes, (right, left), strict=True):
         if isinstance(node, Number) and node.value == 0 and node.dimension == units.NONE:
             return other
-    if left == right or left[:3] == right[:3] != (0, 0, 0):
+    if left == right:
         return left
+    if left[:3] == right[:3] != (0, 0, 0):
+        loose = [derived(node, kinds) for node in nodes]
+        if any(loose):
+            return left if loose[1] else right
     bare = any(isinstance(node, Number) and node.dimension == units.NONE for node in nodes)
     if {left, right} == {units.NONE, _ANGLE} and not bare:
         return _ANGLE

@@ -1,7 +1,7 @@
 """Expressions in model files: ``l2/2 + 3 mm``, ``30 deg*sin(2*pi*t/(2 s))``.
 
-A small language of its own, read by a tokenizer and a precedence (Pratt) parser: numbers with adjacent
-units, names, ``+ - * / ^``, parentheses and the functions of FUNCTIONS. Nothing is ever executed as Python.
+A small language of its own: numbers with adjacent
+units, names, ``+ - * / ^``, parentheses and the functions of ARITY. Nothing is ever executed as Python.
 Dimensions are checked; values may be floats, NumPy arrays, or anything else that knows arithmetic.
 """
 
@@ -16,14 +16,13 @@ from typing import TYPE_CHECKING, Any
 
 from linkwright import units
 from linkwright.core.dataclass import dataclass
+from linkwright.core.expression_parser import CONSTANTS, ExpressionError, Parser, Preferred
 from linkwright.core.expression_tree import (
     ARITY,
     Binary,
-    Call,
-    Negative,
     Node,
     Number,
-    Variable,
+    derived,
     dimension_of,
     evaluate,
     functions_of,
@@ -33,41 +32,21 @@ from linkwright.engine import trace
 from linkwright.engine.late_import import numpy as np
 from linkwright.engine.recently_made import Recent
 from linkwright.errors import QuantityError
-from linkwright.registry import nearest, offered
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.engine.numpy_backend import NumpyProgram
 
-MAX_LENGTH, MAX_DEPTH = 1000, 40
-CONSTANTS: Mapping[str, float] = {"pi": math.pi}
-FUNCTIONS = tuple(ARITY)
-#: Words that are written where a direction is asked for, and are angles.
-DIRECTIONS = frozenset(
-    ("right", "up", "left", "down", "upwards", "downwards", "horizontal", "vertical", "上", "下", "左", "右")
-)
-_TOKEN = re.compile(
-    r"\s*(?:(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)"
-    r"|(?P<power>⁻?[⁰¹²³⁴⁵⁶⁷⁸⁹]+)"
-    r"|(?P<name>(?:(?![⁰¹²³⁴⁵⁶⁷⁸⁹])[^\W\d]|[°%])(?:(?![⁰¹²³⁴⁵⁶⁷⁸⁹])\w|\.(?=[^\W\d]))*)"
-    r"|(?P<sign>\*\*|[-+*/^(),·⋅]))"
-)
+MAX_LENGTH = 1000
+#: Names of the language itself.
+OWN_NAMES = frozenset((*CONSTANTS, *ARITY))
 NUMBER_AND_UNIT = re.compile(r"^([+-]?\s*(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)(.*)$")
-_BINDING = {"+": 10, "-": 10, "*": 20, "/": 20, "^": 40}
-_NEGATIVE_BINDING = 30
-_SAME = {"**": "^", "·": "*", "⋅": "*"}
-
-
-class ExpressionError(QuantityError):
-    """A text that is no expression; its string shows the text with a caret under the place."""
-
-    def __init__(self, message: str, remedy: str, text: str, column: int, code: str = "expression") -> None:
-        self.text = text
-        super().__init__(message, remedy, column=column, code=code)
-
-    def say(self, language: str = "en") -> str:
-        """The message in a language, the text, and a caret under the place."""
-        return f"{super().say(language)}\n  {self.text}\n  {' ' * self.column}^"
+#: Units that stand behind others so often that they are meant wherever they fit: ``N/m``, ``m/s``.
+_BASE = ("m", "s")
+#: Factors with a unit behind all of them; a quotient with one behind it; the last number of a text with its unit.
+_FACTORS = re.compile(r"(?P<factors>.*(?:[\d.)]|\b[^\W\d]\w*(?= )))\s*(?P<unit>(?:[^\W\d_]|[°%])[^()+,]*)")
+_QUOTIENT = re.compile(r"((?:\d+\.?\d*|\.\d+|\bpi)/(?:\d+\.?\d*|\.\d+)) ?([^\W\d]+|[°%])")
+_TIGHT = re.compile(r"((?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?\s*(?:[^\W\d_]|[°%])[^()+,]*)$")
 
 
 @dataclass(frozen=True)
@@ -161,9 +140,11 @@ class Expression:
         return self.text
 
 
-def parse(text: str, variables: Collection[str] = ()) -> Expression:
+def parse(text: str, variables: Collection[str] = (), *, prefer: Preferred = "units") -> Expression:
     """Read an expression in which the names ``variables`` may occur.
 
+    A name that is a unit and a variable is the unit behind a number, and behind another unit unless ``prefer`` says
+    otherwise: then it is the variable behind units, or wherever it stands.
     Raises ExpressionError with the column for anything that is not an expression or an unknown name.
     """
     plain = text.replace("−", "-").strip()
@@ -174,7 +155,7 @@ def parse(text: str, variables: Collection[str] = ()) -> Expression:
             plain[:60] + "…",
             0,
         )
-    parser = _Parser(plain, variables)
+    parser = Parser(plain, variables, prefer)
     tree = parser.whole()
     return Expression(plain, tree, frozenset(parser.used))
 
@@ -187,13 +168,53 @@ def parse_quantity(
 
     An expression without names is evaluated at once. Raises QuantityError.
     """
-    value = units.plain_quantity(text, dimension)
+    value = (
+        units.plain_quantity(text, dimension) if not kinds or kinds.keys().isdisjoint(units.UNITS) else None
+    )
     if value is not None:
         return value
-    kinds = kinds or {}
+    expression = parse_as(text, dimension, kinds or {})
+    return expression if expression.names else expression.evaluate({})
+
+
+def amount(text: str, dimension: str) -> float:
+    """SI value of a quantity without names; raises QuantityError."""
+    try:
+        return parse_as(text, dimension, {}).evaluate({})
+    except ExpressionError:
+        return units.parse(text, dimension)  # says what a quantity is
+
+
+def parse_as(text: str, dimension: str, kinds: Mapping[str, units.Dimension]) -> Expression:
+    """A number with its unit, or an expression of the names in ``kinds``, of a dimension that is known.
+
+    ``pi/6 rad`` and ``sqrt(2) m`` are numbers with a unit behind them. Raises QuantityError, also where a name is a
+    unit and a parameter and the text may mean either.
+    """
     plain = units.tidy(text)
+    try:
+        found = _with_units(plain, dimension, kinds)
+    except QuantityError as error:
+        whole = _number_and_unit(plain, kinds)
+        if whole is not None and whole.dimension(kinds) == units.DIMENSIONS[dimension]:
+            return whole
+        if error.code != "ambiguous" and (name := _meant_parameter(plain, dimension, kinds)):
+            raise _ambiguous(name) from None
+        if error.code == "wrong-dimension" and (right := _quotient(plain, dimension, kinds)):
+            raise QuantityError(
+                error.message, Sentence("model.write_so", right=right), code=error.code
+            ) from None
+        raise
+    if name := _meant_parameter(plain, dimension, kinds, found):
+        raise _ambiguous(name)
+    return found
+
+
+def _with_units(plain: str, dimension: str, kinds: Mapping[str, units.Dimension]) -> Expression:
+    """The quantity of a text in which a unit is a unit wherever one can stand."""
     if is_literal(plain, kinds):
-        return units.parse(plain, dimension)
+        value = units.parse(plain, dimension)
+        return Expression(plain, Number(value, units.DIMENSIONS[dimension]), frozenset())
     if re.search(r"\d,\d", plain) and "(" not in plain:
         raise units.decimal_comma(plain)
     if (
@@ -202,13 +223,69 @@ def parse_quantity(
         or re.match(r"^[+-]?\.?(inf|infinity|nan)\b", plain, re.IGNORECASE)
     ):
         raise units.not_a_number(plain, dimension)
-    expression = parse(plain, kinds)
-    require(expression, dimension, kinds)
-    return expression if expression.names else expression.evaluate({})
+    return fitted(parse(plain, kinds), dimension, kinds)
+
+
+def _number_and_unit(plain: str, kinds: Mapping[str, units.Dimension]) -> Expression | None:
+    """A product or quotient without units with one unit behind all of it: ``pi/6 rad``, ``(1 + sqrt(5))/2 m``; None
+    where the text is none."""
+    found = _FACTORS.fullmatch(plain)
+    if found is None or not kinds.keys().isdisjoint(re.findall(r"[^\W\d]+", found["unit"])):
+        return None
+    inner, inside = units.NUMBER.sub("0", found["factors"]).lstrip("+-"), ""
+    while inner != inside:
+        inner, inside = re.sub(r"\([^()]*\)", "0", inner), inner
+    try:
+        number, (factor, kind) = parse(found["factors"], kinds), units.unit(found["unit"])
+        if re.search(r"[+-]", inner) or number.dimension(kinds) != units.NONE:
+            return None
+    except QuantityError:
+        return None
+    text = f"({number.text})*{found['unit']}"
+    return Expression(text, Binary("*", number.tree, Number(factor, kind)), number.names)
+
+
+def _meant_parameter(
+    plain: str, dimension: str, kinds: Mapping[str, units.Dimension], found: Expression | None = None
+) -> str:
+    """The name of a parameter that the text has as a unit in ``found``, where it is the quantity that is needed with
+    the parameter as well; empty where there is none."""
+    words = re.findall(r"[^\W\d]\w*", plain)
+    names = [
+        each for each in words if each in units.UNITS and each in kinds and not (found and each in _BASE)
+    ]
+    if names:
+        with suppress(QuantityError):
+            prefer: Preferred = "variables" if found is None else "variables behind units"
+            other = fitted(parse(plain, kinds, prefer=prefer), dimension, kinds)
+            return next(
+                (each for each in names if each in other.names - (found.names if found else set())), ""
+            )
+    return ""
+
+
+def _ambiguous(name: str) -> QuantityError:
+    told, remedy = (
+        Sentence(f"model.{key}", name=name) for key in ("unit_and_parameter", "unit_and_parameter_do")
+    )
+    return QuantityError(told, remedy, code="ambiguous")
+
+
+def _quotient(plain: str, dimension: str, kinds: Mapping[str, units.Dimension]) -> str:
+    """The text with its quotients of numbers in parentheses, a unit behind them, where that is what is needed."""
+    right = _QUOTIENT.sub(r"(\1)*\2", plain)
+    if right != plain:
+        with suppress(QuantityError):
+            fitted(parse(right, kinds), dimension, kinds)
+            return right
+    return ""
 
 
 def parse_any(text: str, kinds: Mapping[str, units.Dimension]) -> Expression:
-    """A quantity of any dimension, or a bare number, as an expression of the names in ``kinds``."""
+    """A quantity of any dimension, or a bare number, as an expression of the names in ``kinds``.
+
+    ``1/2 m`` may be half a metre or one over two metres, and is refused.
+    """
     plain = units.tidy(text)
     if is_literal(plain, kinds):
         found = re.match(NUMBER_AND_UNIT, plain)
@@ -220,19 +297,43 @@ def parse_any(text: str, kinds: Mapping[str, units.Dimension]) -> Expression:
             return Expression(plain, Number(value, dimension), frozenset())
     elif not plain or (plain in units.UNITS and plain not in kinds):
         raise units.not_a_number(plain, "length")
-    return parse(plain, kinds)
+    whole = _number_and_unit(plain, kinds)
+    if whole is None:
+        return parse(plain, kinds)
+    try:
+        tight = parse(plain, kinds)
+        if tight.dimension(kinds) == whole.dimension(kinds):
+            return tight
+    except QuantityError:
+        return whole
+    remedy = Sentence("model.two_readings_do", whole=whole.text, tight=_TIGHT.sub(r"(\1)", plain))
+    raise QuantityError(Sentence("model.two_readings", text=plain), remedy, code="ambiguous")
 
 
-def require(expression: Expression, dimension: str, kinds: Mapping[str, units.Dimension]) -> None:
-    """Raise QuantityError unless the expression has the dimension.
+def fitted(expression: Expression, dimension: str, kinds: Mapping[str, units.Dimension]) -> Expression:
+    """The expression as a quantity of a dimension; raises QuantityError where it is none.
 
-    With names in it, an angle may stand for its arc (``r*phi`` is a length); a pure angle stays an angle.
+    A radian is no unit in a product of several quantities: ``r*phi`` is a length, ``P/omega`` a torque. One
+    quantity or a multiple of it must have the very dimension, and an angle stays an angle. A frequency counts
+    cycles: an angular velocity is divided by 2π, and where cycles or radians may be meant, as in ``sqrt(k/m)``, the
+    text has to say which.
     """
     kind, needed = expression.dimension(kinds), units.DIMENSIONS[dimension]
-    if kind == needed or (expression.names and kind[:3] == needed[:3] != (0, 0, 0)):
-        return
+    if dimension == "frequency" and kind == units.DIMENSIONS["angular_velocity"]:
+        return Expression(
+            expression.text, Binary("/", expression.tree, Number(2 * math.pi)), expression.names
+        )
+    near = kind[:3] == needed[:3] != (0, 0, 0)
+    product = near and derived(expression.tree, kinds)
+    if (product and dimension != "frequency") or (kind == needed and not product):
+        return expression
+    if near and kind[:2] == (0, 0):
+        told, remedy = (
+            Sentence(f"units.{key}", text=expression.text) for key in ("cycles_or_radians", "rev_or_rad")
+        )
+        raise QuantityError(told, remedy, code="ambiguous")
     if kind == units.NONE and isinstance(expression.tree, Number) and expression.tree.value == 0:
-        return
+        return expression
     if kind == units.NONE and dimension == "angle":
         raise QuantityError(
             Sentence("units.no_unit", text=expression.text),
@@ -240,6 +341,7 @@ def require(expression: Expression, dimension: str, kinds: Mapping[str, units.Di
             code="missing-unit",
         )
     units.require(kind, dimension, expression.text)
+    return expression
 
 
 def is_literal(text: str, names: Collection[str] = ()) -> bool:
@@ -260,189 +362,6 @@ def _only_units(rest: str, known: Collection[str]) -> bool:
     if any(name in known for name in names):
         return re.fullmatch(r"[^\s*()]+", rest) is not None and all(name in units.UNITS for name in names)
     return len(names) < 2 or all(name in units.UNITS or units.suggestion(name) is not None for name in names)
-
-
-class _Parser:
-    """Precedence parser over the tokens of one text."""
-
-    def __init__(self, text: str, variables: Collection[str]) -> None:
-        self.text, self.variables = text, variables
-        self.used: set[str] = set()
-        self.depth = 0
-        self.tokens = self._tokens()
-        self.at = 0
-
-    def _tokens(self) -> list[tuple[str, str, int]]:
-        tokens, position = [], 0
-        while position < len(self.text):
-            found = _TOKEN.match(self.text, position)
-            if found is None or found.lastgroup is None:
-                column = position + len(self.text[position:]) - len(self.text[position:].lstrip())
-                raise self._fault("no_part", column, text=self.text[column])
-            token = found.group(found.lastgroup)
-            tokens.append((found.lastgroup, _SAME.get(token, token), found.start(found.lastgroup)))
-            position = found.end()
-        return [*tokens, ("end", "", len(self.text))]
-
-    def _fault(
-        self, key: str, column: int, code: str = "expression", remedy: str = "", **values: object
-    ) -> ExpressionError:
-        """The error ``model.KEY`` of the catalogue with its remedy, ``model.KEY_do`` where no other is given."""
-        told = remedy or Sentence(f"model.{key}_do", **values)
-        return ExpressionError(Sentence(f"model.{key}", **values), told, self.text, column, code)
-
-    def whole(self) -> Node:
-        tree = self._binary(0)
-        kind, token, column = self.tokens[self.at]
-        if kind != "end":
-            factor = kind in ("name", "number") or token == "("
-            remedy = Sentence("model.write_factor_sign" if factor else "model.remove_it")
-            if units.SENSE.fullmatch(token):
-                remedy = Sentence("units.sense")
-            raise self._fault("unexpected", column, remedy=remedy, token=token)
-        return tree
-
-    def _binary(self, binding: int) -> Node:
-        self.depth += 1
-        if self.depth > MAX_DEPTH:
-            raise self._fault("too_deep", 0)
-        left = self._powers(self._prefix())
-        while True:
-            kind, token, column = self.tokens[self.at]
-            strength = _BINDING.get(token, 0) if kind == "sign" else 0
-            if strength <= binding:
-                self.depth -= 1
-                return left
-            self.at += 1
-            right = self._binary(strength - 1 if token == "^" else strength)
-            left = Binary(token, left, right, column)
-
-    def _powers(self, base: Node) -> Node:
-        kind, token, column = self.tokens[self.at]
-        if kind != "power":
-            return base
-        self.at += 1
-        return Binary("^", base, Number(float(units.exponent(token)), units.NONE, column), column)
-
-    def _prefix(self) -> Node:
-        kind, token, column = self.tokens[self.at]
-        self.at += 1
-        if kind == "number":
-            return self._number(token, column)
-        if kind == "name":
-            return self._name(token, column)
-        if token in ("-", "+"):
-            inner = self._binary(_NEGATIVE_BINDING)
-            return Negative(inner, column) if token == "-" else inner
-        if token == "(":
-            inner = self._binary(0)
-            self._close(column)
-            return inner
-        what, needed = "ends_early" if kind == "end" else "unexpected", Sentence("model.operand_needed")
-        raise self._fault(what, column, remedy=needed, token=token)
-
-    def _close(self, opened: int) -> None:
-        if self.tokens[self.at][1] != ")":
-            raise self._fault("open_parenthesis", opened)
-        self.at += 1
-
-    def _number(self, token: str, column: int) -> Node:
-        value = float(token)
-        if not math.isfinite(value):
-            raise ExpressionError(
-                Sentence("units.not_finite", text=token), "", self.text, column, "not-finite"
-            )
-        kind, name, place = self.tokens[self.at]
-        if kind != "name" or self.tokens[self.at + 1][1] == "(":
-            return Number(value, units.NONE, column)
-        turning = [entry[1] for entry in self.tokens[self.at : self.at + 3]] in (
-            ["r", "/", "min"],
-            ["r", "/", "s"],
-        )
-        if name not in units.UNITS and not turning:
-            if name in self.variables:
-                raise self._fault("no_sign", place, token=token, name=name)
-            error = units.unknown_unit(name)
-            raise ExpressionError(error.message, error.remedy, self.text, place, "unknown-unit")
-        factor, dimension = self._unit("rev" if turning else name)
-        while self._joined_unit():
-            sign = -1 if self.tokens[self.at][1] == "/" else 1
-            self.at += 1
-            size, extra = self._unit(self.tokens[self.at][1])
-            factor, dimension = factor * size**sign, units.times(dimension, extra, sign)
-        return Number(value * factor, dimension, column)
-
-    def _unit(self, name: str) -> tuple[float, units.Dimension]:
-        """The unit at the present token with its power, both consumed."""
-        self.at += 1
-        factor, dimension = units.UNITS[name]
-        kind, power, _ = self.tokens[self.at]
-        exponent = 1
-        if kind == "power":
-            self.at += 1
-            exponent = units.exponent(power)
-        elif (
-            power == "^" and self.tokens[self.at + 1][0] == "number" and self.tokens[self.at + 1][1].isdigit()
-        ):
-            exponent = units.exponent(self.tokens[self.at + 1][1])
-            self.at += 2
-        return factor**exponent, units.times(units.NONE, dimension, exponent)
-
-    def _joined_unit(self) -> bool:
-        """Whether a further unit follows, joined by ``/`` or ``·`` without spaces (``N/m``).
-
-        Joined by ``*`` a name may be a parameter; where it is a unit as well, that is an error.
-        """
-        _, sign, column = self.tokens[self.at]
-        if (
-            sign not in ("*", "/")
-            or self.tokens[self.at + 1][0] != "name"
-            or self.tokens[self.at + 2][1] == "("
-        ):
-            return False
-        _, name, place = self.tokens[self.at + 1]
-        if name not in units.UNITS:
-            return False
-        if self.text[column] == "*":
-            if name in self.variables and name != "t":
-                raise self._fault("unit_and_parameter", place, "ambiguous", name=name)
-            return False
-        tight = place == column + 1 and self.text[column - 1] != " "
-        return tight or name not in self.variables
-
-    def _name(self, name: str, column: int) -> Node:
-        if self.tokens[self.at][1] == "(" and name not in self.variables:
-            return self._call(name, column)
-        if name in self.variables:
-            self.used.add(name)
-            return Variable(name, column)
-        if name in CONSTANTS:
-            return Number(CONSTANTS[name], units.NONE, column)
-        if name in units.UNITS:
-            factor, dimension = units.UNITS[name]
-            return Number(factor, dimension, column)
-        offer = nearest(name, [*self.variables, *CONSTANTS])
-        known = tuple(sorted(self.variables, key=lambda each: (each.count("."), each))[:12])
-        remedy = Sentence("model.define_it", known=known) if known else Sentence("model.define_none")
-        if offer:
-            remedy = Sentence("names.did_you_mean", offer=offer)
-        if name.casefold() in DIRECTIONS:
-            remedy = Sentence("model.direction_word")
-        raise self._fault("unknown_name", column, "unknown-name", remedy, name=name)
-
-    def _call(self, name: str, column: int) -> Node:
-        if name not in ARITY:
-            raise self._fault("unknown_function", column, "unknown-name", offered(name, ARITY), name=name)
-        self.at += 1
-        arguments = [self._binary(0)]
-        while self.tokens[self.at][1] == ",":
-            self.at += 1
-            arguments.append(self._binary(0))
-        self._close(column)
-        if len(arguments) != ARITY[name]:
-            needed, given = ARITY[name], len(arguments)
-            raise self._fault("argument_count", column, name=name, needed=needed, given=given)
-        return Call(name, tuple(arguments), column)
 
 
 #: The functions of the language on arrays and traced values.

@@ -14,7 +14,7 @@ from linkwright.course.key import read_key
 from linkwright.course.variants import close
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.words import speaker
-from linkwright.words.sentence import lines, reason_of
+from linkwright.words.sentence import in_language, reason_of
 
 #: Letters of an answer that a sentence repeats.
 SHOWN = 60
@@ -25,7 +25,8 @@ class Grade:
     """One sheet: which answers are right (None: not answered), and the mistakes that explain all wrong ones.
 
     ``mistakes``: names, the likeliest first, more than one only where the numbers cannot tell them apart; ``where``:
-    the symbol, group or link of the first one.
+    the symbol, group or link of the first one; ``fault``: why the sheet cannot be graded, with its line: then nothing
+    is right or wrong.
     """
 
     student: str
@@ -33,11 +34,12 @@ class Grade:
     right: tuple[bool | None, ...]
     mistakes: tuple[str, ...] = ()
     where: str = ""
+    fault: str = ""
 
     @property
     def score(self) -> float:
-        """Share of right answers."""
-        return sum(each is True for each in self.right) / len(self.right)
+        """Share of right answers, NaN of a sheet that cannot be graded."""
+        return math.nan if self.fault else sum(each is True for each in self.right) / len(self.right)
 
 
 def grade(
@@ -50,37 +52,40 @@ def grade(
         answers: rows, or the path of a CSV file: columns ``student``, ``variant``, and one per question by its name.
 
     Returns:
-        One grade per row.
+        One grade per row; one whose variant does not exist, or with an answer that is no number, has its ``fault``.
 
     Raises:
-        LinkwrightError: a file that cannot be read, a column that does not exist; all rows whose variant does not
-            exist or with an answer that is no number.
+        LinkwrightError: a file that cannot be read, a column that does not exist.
     """
     held = read_key(key)
-    rows = _rows(answers, [each["name"] for each in held["questions"]])
-    found, faults = list[Grade](), list[str]()
-    for line, row in enumerate(rows, 2):
+    found = []
+    for line, row in _rows(answers, [each["name"] for each in held["questions"]]):
         try:
             found.append(_graded(held, row, line))
         except RequestError:
             raise
         except LinkwrightError as error:
-            faults.append(error.sentence)
-    if faults:
-        raise LinkwrightError(lines(faults))
+            found.append(Grade(_student(row, line), 0, (), fault=error.sentence))
     return found
 
 
-def _rows(given: str | Path | Sequence[Mapping[str, str]], names: Sequence[str]) -> list[Mapping[str, str]]:
+def _student(row: Mapping[str, str], line: int) -> str:
+    return row.get("student") or str(line - 1)
+
+
+def _rows(
+    given: str | Path | Sequence[Mapping[str, str]], names: Sequence[str]
+) -> list[tuple[int, Mapping[str, str]]]:
+    """Rows with the number of the line on which each ends."""
     if not isinstance(given, str | Path):
-        return list(given)
+        return list(enumerate(given, 2))
     try:
         text = Path(given).read_text("utf-8-sig")
         first = text.partition("\n")[0]
         separator = max(",;\t", key=first.count)
         found = csv.DictReader(io.StringIO(text), delimiter=separator)
         columns = list(found.fieldnames or ())
-        rows: list[Mapping[str, str]] = list(found)
+        rows: list[tuple[int, Mapping[str, str]]] = [(found.line_num, row) for row in found]
     except (OSError, ValueError, csv.Error) as error:
         raise RequestError("course.bad_answers", path=given, why=reason_of(error)) from None
     for name in ("variant", *names):
@@ -105,7 +110,7 @@ def _graded(key: Mapping[str, Any], row: Mapping[str, str], line: int) -> Grade:
         None if a is None else close(a, b, tolerance, u)
         for a, b, u in zip(given, variant["answers"], units, strict=True)
     )
-    student = row.get("student") or str(line - 1)
+    student = _student(row, line)
     if False not in right:
         return Grade(student, variant["number"], right)
     found = _explained(variant, given, units, tolerance)
@@ -178,6 +183,9 @@ def text(grades: Sequence[Grade], names: Sequence[str], language: str = "en") ->
     say = speaker(language)
     rows = [[say(f"course.{each}") for each in ("student", "variant", "score", "wrong", "mistake")]]
     for each in grades:
+        if each.fault:
+            rows.append([each.student, "–", "–", "", in_language(each.fault, language)])
+            continue
         wrong = [name for name, ok in zip(names, each.right, strict=True) if ok is False]
         open_ = [name for name, ok in zip(names, each.right, strict=True) if ok is None]
         said = say("course.or").join(say(f"course.mistake_{name}") for name in each.mistakes)

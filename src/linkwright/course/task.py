@@ -3,24 +3,32 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.expressions import amount
 from linkwright.core.outputs import Output
 from linkwright.course.calculation_chain import Line
 from linkwright.course.mistakes import Sheet
-from linkwright.errors import LinkwrightError, RequestError, about
+from linkwright.errors import Finding, LinkwrightError, ModelError, QuantityError
+from linkwright.files.write import flow
+from linkwright.kinematics.names import result_meant
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
 from linkwright.study.ranges import dimension_of
-from linkwright.units import DIMENSIONS, parse
+from linkwright.units import DIMENSIONS, not_a_number
+from linkwright.words.sentence import Sentence
 
 KEYS = ("vary", "ask", "at", "tolerance")
 #: By how much lengths change, and how far an answer may be off, where nobody says.
 SHARE, TOLERANCE = 0.08, 0.01
+#: The position at which numbers are asked for where nobody says which.
+USUAL_PLACE = {"angle": "60 deg", "length": "0.01 m"}
 #: Kinds of outputs that are asked for of the last group, and of all.
 PLACED, TURNING = ("angle", "displacement"), ("angular_velocity", "angular_acceleration")
+#: A coordinate below this is zero in the drawing that it follows from, m.
+ROUNDED = 1e-9
 #: What is smaller is not asked for.
 NOTHING = 1e-9
 
@@ -58,88 +66,143 @@ class Task:
 
 
 def task(mechanism: Mechanism) -> Task:
-    """The task of a model; raises LinkwrightError for settings that make no sense, and for a machine whose position
-    is not told by its input."""
-    try:
-        return _task(mechanism, mechanism.course)
-    except RequestError as error:
-        raise LinkwrightError(error.sentence) from None
-
-
-def _task(mechanism: Mechanism, given: Mapping[str, Any]) -> Task:
-    for key in given:
-        if key not in KEYS:
-            hint = offered(str(key), KEYS)
-            raise RequestError("course.unknown_key", place=f"course.{key}", name=key, hint=hint)
+    """The task of a model; raises ModelError with all findings about its settings, LinkwrightError for a machine
+    whose position is not told by its input."""
     if not mechanism.steady:
         raise LinkwrightError("course.no_input", name=mechanism.name)
-    driver = next(iter(mechanism.drivers.values()))
-    rotary = mechanism.joints[driver.joint].coordinate == "turn"
-    at = _quantity("at", given.get("at", "60 deg" if rotary else "0.01 m"), "angle" if rotary else "length")
-    sheet = Sheet(mechanism, at)
-    return Task(mechanism, _ranges(mechanism, given.get("vary")), _questions(sheet, given.get("ask")), at,
-                _tolerance(given.get("tolerance", TOLERANCE)))  # fmt: skip
+    return _Reading(mechanism, mechanism.course).task()
 
 
-def _quantity(place: str, given: Any, dimension: str) -> float:
-    with about(f"course.{place}", LinkwrightError):
-        return parse(str(given), dimension)
+class _Reading:
+    """Reads the settings and collects what is wrong with them."""
 
+    def __init__(self, mechanism: Mechanism, given: Mapping[str, Any]) -> None:
+        self.mechanism, self.given = mechanism, given
+        self.findings: list[Finding] = []
 
-def _tolerance(value: Any) -> float:
-    text = str(value).strip()
-    try:
-        found = float(text.removesuffix("%")) * (0.01 if text.endswith("%") else 1.0)
-    except ValueError:
-        found = math.nan
-    if not 0.0 < found <= 0.2:
-        raise RequestError("course.bad_tolerance", text=text)
-    return found
+    def task(self) -> Task:
+        for key in self.given:
+            if key not in KEYS:
+                self._wrong(key, "unknown_key", name=key, hint=offered(str(key), KEYS))
+        across = self.mechanism.across
+        at = self._quantity("at", self.given.get("at", USUAL_PLACE[across]), across)
+        ranges, tolerance = self._ranges(), self._tolerance(self.given.get("tolerance", TOLERANCE))
+        if at is None:
+            raise ModelError(self.findings)
+        try:
+            questions = self._questions(Sheet(self.mechanism, at))
+        except LinkwrightError as error:
+            self._note("at", error)
+        if self.findings:
+            raise ModelError(self.findings)
+        return Task(self.mechanism, ranges, questions, at, tolerance)
 
+    def _wrong(self, key: str, sentence: str, **values: object) -> None:
+        """Notes what is wrong with a setting: the sentence ``course.SENTENCE``."""
+        told = Sentence(f"course.{sentence}", **values)
+        self.findings.append(Finding("error", "", f"course.{key}", told, code="course"))
 
-def _ranges(mechanism: Mechanism, given: Any) -> dict[str, tuple[float, float]]:
-    """Limits of the dimensions that change; all lengths of links by a share where nothing is said."""
-    dimensions = mechanism.dimensions()
-    if given is None:
-        own = {name: value for name, value in dimensions.items() if name.endswith(".length") and value > 0.0}
-        return {name: ((1 - SHARE) * value, (1 + SHARE) * value) for name, value in own.items()}
-    if not isinstance(given, Mapping):
-        raise RequestError("course.bad_range", address="vary", text=str(given))
-    found = {}
-    for address, limits in given.items():
-        value = mechanism.dimension(str(address))
-        found[str(address)] = _limits(mechanism, str(address), value, limits)
-    return found
+    def _note(self, key: str, error: LinkwrightError) -> None:
+        """Notes an error that a setting makes."""
+        self.findings.append(Finding("error", "", f"course.{key}", error.sentence, code="course"))
 
+    def _quantity(self, key: str, given: Any, dimension: str) -> float | None:
+        try:
+            if isinstance(given, Mapping | list | tuple):
+                raise not_a_number(flow(given), dimension)
+            return amount(str(given), dimension)
+        except QuantityError as error:
+            self._note(key, error)
+            return None
 
-def _limits(mechanism: Mechanism, address: str, value: float, given: Any) -> tuple[float, float]:
-    kind = dimension_of(mechanism, address)
-    dimension = next((name for name, each in DIMENSIONS.items() if each == kind), "dimensionless")
-    try:
+    def _tolerance(self, value: Any) -> float:
+        found = _share(value)
+        if not 0.0 < found <= 0.2:
+            self._wrong("tolerance", "bad_tolerance", text=flow(value))
+        return found
+
+    def _ranges(self) -> dict[str, tuple[float, float]]:
+        """Limits of the dimensions that change; the sizes of all links by a share where nothing is said."""
+        given = self.given.get("vary")
+        if given is None:
+            sizes = {name: self.mechanism.dimension(name) for name in _usual_sizes(self.mechanism)}
+            return {name: _by(SHARE, value) for name, value in sizes.items()}
+        if not isinstance(given, Mapping):
+            self._wrong("vary", "bad_range", text=flow(given))
+            return {}
+        found = {}
+        for address, limits in given.items():
+            try:
+                value = self.mechanism.dimension(str(address))
+            except LinkwrightError as error:
+                self._note(f"vary.{address}", error)
+                continue
+            if (between := self._limits(str(address), value, limits)) is not None:
+                found[str(address)] = between
+        return found
+
+    def _limits(self, address: str, value: float, given: Any) -> tuple[float, float] | None:
+        key = f"vary.{address}"
         if isinstance(given, list | tuple) and len(given) == 2:
-            low, high = (_quantity(f"vary.{address}", each, dimension) for each in given)
+            kind = dimension_of(self.mechanism, address)
+            dimension = next((name for name, each in DIMENSIONS.items() if each == kind), "dimensionless")
+            low, high = (self._quantity(key, each, dimension) for each in given)
+            if low is None or high is None:
+                return None
         else:
-            share = float(str(given).strip().removesuffix("%")) / 100.0
-            low, high = sorted(((1 - share) * value, (1 + share) * value))
-    except ValueError:
-        raise RequestError("course.bad_range", address=address, text=str(given)) from None
-    if not -math.inf < low < high < math.inf:
-        raise RequestError("course.bad_range", address=address, text=str(given))
+            share = _share(given, bare=0.01)
+            low, high = _by(share, value)
+        if -math.inf < low < high < math.inf:
+            return low, high
+        self._wrong(key, "bad_range", text=flow(given))
+        return None
+
+    def _questions(self, sheet: Sheet) -> tuple[Question, ...]:
+        """The numbers asked for; those of the last group, and of what drives, where nothing is said."""
+        given = self.given.get("ask")
+        if given is None:
+            return _usual_questions(sheet)
+        names = {output.column: output for output in sheet.values}
+        if not isinstance(given, list | tuple) or not given:
+            self._wrong("ask", "no_list", given=flow(given), hint=offered("", names))
+            return ()
+        found = []
+        for i, name in enumerate(given):
+            try:
+                found.append(Question(result_meant(self.mechanism, str(name), sheet.values)))
+            except LinkwrightError:
+                self._wrong(f"ask.{i}", "no_number", name=str(name), hint=offered(str(name), names))
+        return tuple(dict.fromkeys(found))
+
+
+def _by(share: float, value: float) -> tuple[float, float]:
+    """The smallest and the largest value within a share of one."""
+    low, high = sorted(((1 - share) * value, (1 + share) * value))
     return low, high
 
 
-def _questions(sheet: Sheet, given: Any) -> tuple[Question, ...]:
-    """The numbers asked for; those of the last group, and of what drives, where nothing is said."""
-    if given is not None:
-        names = {output.column: output for output in sheet.values}
-        if not isinstance(given, list | tuple) or not given:
-            raise RequestError("course.no_list", given=str(given), hint=offered("", names))
-        found = []
-        for name in dict.fromkeys(given):
-            if str(name) not in names:
-                raise RequestError("course.no_number", name=str(name), hint=offered(str(name), names))
-            found.append(Question(names[str(name)]))
-        return tuple(found)
+def _usual_sizes(mechanism: Mechanism) -> Iterator[str]:
+    """Dimensions that say how large the links are, as each is given: its length, its two lengths, or the coordinates
+    of its points, those of a drawing among them."""
+    found = {name: value for name, value in mechanism.dimensions().items() if value}
+    for link in mechanism.links.values():
+        own = [name for name in found if name.startswith(f"{link.name}.")]
+        places = {f"{link.name}.{point}.{axis}" for point in link.points for axis in "xy"}
+        lengths = [name for name in own if name.startswith(f"{link.name}.length")]
+        yield from lengths or [name for name in own if name in places and abs(found[name]) > ROUNDED]
+
+
+def _share(given: Any, *, bare: float = 1.0) -> float:
+    """A share as ``8 %``, or a number times ``bare``; NaN for anything else."""
+    text = flow(given).strip('"').strip()
+    try:
+        return float(text.removesuffix("%")) * (0.01 if text.endswith("%") else bare)
+    except ValueError:
+        return math.nan
+
+
+def _usual_questions(sheet: Sheet) -> tuple[Question, ...]:
+    """The numbers of the last group, and of what drives."""
     asked = [(line.output, line.group) for line in sheet.lines if line.output and not _told(line)]
     asked = [(output, group) for output, group in asked if output.kind in (*PLACED, *TURNING)]
     last = asked[-1][1] if asked else ""

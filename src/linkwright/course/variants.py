@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import json
 import math
+from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from os import PathLike
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
@@ -22,6 +23,7 @@ from linkwright.files.model_file import load
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import metrics
+from linkwright.words.sentence import Sentence
 
 FORMAT = 1
 #: Designs that are tried per variant, at most; digits of a changed dimension; positions of the cycle.
@@ -32,6 +34,9 @@ MOST = 1000
 GOOD, SLACK = math.radians(40), math.radians(5)
 #: An answer may be so many times as large or as small as the model's.
 SPREAD = 4.0
+#: Why a design is no variant: it does not pass its cycle, transmits worse than the model, has answers of another sign
+#: or size, shows other mistakes, or has the answers of another variant.
+Failing = Literal["stuck", "flat", "unlike", "mistakes", "same"]
 #: Mistakes lead to answers that are so many tolerances apart, from the right ones and from each other.
 APART = 3.0
 
@@ -178,18 +183,38 @@ def variants(
     model = _solved(asked, 0, {}, asked.mechanism)
     bar = _transmission(asked.mechanism)
     found: list[Variant] = []
-    for _ in range(TRIES * count):
+    failed = Counter[str]()
+    for _ in range(TRIES * count if asked.ranges else 0):
         changes = {name: float(f"{rng.uniform(*limits):.{DIGITS}g}") for name, limits in asked.ranges.items()}
-        if any(dict(each.dimensions) == changes for each in found):
-            continue
         fresh = _sound(asked, len(found) + 1, changes, model, bar)
-        if fresh is not None:
-            found.append(fresh)
-            if told is not None:
-                told(len(found), count)
+        if isinstance(fresh, Variant) and any(_same(fresh, each) for each in found):
+            fresh = "same"
+        if isinstance(fresh, str):
+            failed[fresh] += 1
+            continue
+        found.append(fresh)
+        if told is not None:
+            told(len(found), count)
         if len(found) == count:
             return Variants(asked, seed, tuple(found))
-    raise LinkwrightError("course.too_few", found=len(found), count=count, tried=TRIES * count)
+    raise _too_few(asked, len(found), count, failed)
+
+
+def _too_few(asked: Task, found: int, count: int, failed: Counter[str]) -> LinkwrightError:
+    """The error where the limits give fewer variants than asked for, with what mostly stood in the way."""
+    if not asked.ranges:
+        known = [name for name, value in asked.mechanism.dimensions().items() if value]
+        return LinkwrightError("course.nothing_varies", known=tuple(known))
+    ((why, times),) = failed.most_common(1)
+    remedy = Sentence(f"course.too_few_{why}", vary=tuple(asked.ranges))
+    return LinkwrightError(
+        "course.too_few", found=found, count=count, tried=TRIES * count, times=times, remedy=remedy
+    )
+
+
+def _same(fresh: Variant, other: Variant) -> bool:
+    """Whether two variants have the same answers, so that one can be copied from the other."""
+    return all(math.isclose(a, b, rel_tol=1e-6) for a, b in zip(fresh.answers, other.answers, strict=True))
 
 
 def _transmission(mechanism: Mechanism) -> float | None:
@@ -207,21 +232,23 @@ def _transmits(motion: Any) -> bool:
 
 def _sound(
     asked: Task, number: int, changes: Mapping[str, float], model: Variant, bar: float | None
-) -> Variant | None:
-    """A variant, or None where it is not as sound or as hard as the model."""
+) -> Variant | Failing:
+    """A variant, or why it is not as sound or as hard as the model."""
     try:
         mechanism = asked.mechanism.with_dimensions(changes)
         angle = _transmission(mechanism)
     except LinkwrightError:
-        return None
+        return "stuck"
     if bar is not None and (angle is None or angle < min(bar, GOOD) - SLACK):
-        return None
+        return "flat"
     fresh = replace(_solved(asked, number, changes, mechanism), transmission_angle=angle)
     alike = all(
         _alike(a, b, q) for a, b, q in zip(fresh.answers, model.answers, asked.questions, strict=True)
     )
+    if not alike:
+        return "unlike"
     shown = {each.mistake for each, _ in fresh.mistakes}
-    return fresh if alike and shown == {each.mistake for each, _ in model.mistakes} else None
+    return fresh if shown == {each.mistake for each, _ in model.mistakes} else "mistakes"
 
 
 def _alike(a: float, b: float, question: Question) -> bool:

@@ -31,7 +31,7 @@ Limit = Literal["max", "min"]
 @dataclass(frozen=True)
 class OutputName(Field):
     """An output: a link's name (its angle), POINT.x or POINT.y, a prismatic joint's name (its
-    displacement)."""
+    displacement); or the same as results are named, ``jaw.angle``."""
 
     def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Output | None:
         text = reader.text(node, place)
@@ -274,17 +274,18 @@ def _phase(reader: Reader, node: Node, place: Place, values: Mapping[str, Any]) 
 
 
 def resolve_output(text: str, links: Mapping[str, Collection[str]], slides: Collection[str]) -> Output | None:
-    """The output that a text means, given each link's points and the joints with a displacement; None
-    where it means none."""
-    if text in links and text != "frame":
-        return Output("angle", text)
-    if text in slides:
-        return Output("displacement", text)
-    owner, _, axis = text.rpartition(".")
-    if axis not in ("x", "y"):
+    """The output that a text means, given each link's points and the joints with a displacement; None where it means
+    none. ``jaw`` or ``jaw.angle``, ``guide`` or ``guide.displacement``, ``C.x`` or ``C.position.x``."""
+    owner, _, part = text.rpartition(".")
+    for kind, owners in (("angle", links), ("displacement", slides)):
+        name = owner if part == kind else text
+        if name in owners and name != "frame":
+            return Output(kind, name)
+    if part not in ("x", "y"):
         return None
+    owner = owner.removesuffix(".position")
     link, _, point = owner.rpartition(".")
     if link:
-        return Output("position", owner, axis) if point in links.get(link, ()) else None
+        return Output("position", owner, part) if point in links.get(link, ()) else None
     having = [name for name, points in links.items() if point in points]
-    return Output("position", f"{having[0]}.{point}", axis, written=text) if having else None
+    return Output("position", f"{having[0]}.{point}", part, written=f"{point}.{part}") if having else None

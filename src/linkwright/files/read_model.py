@@ -10,6 +10,7 @@ from functools import partial
 
 from linkwright import units
 from linkwright.core import expressions
+from linkwright.core.expression_tree import Derived, derived
 from linkwright.errors import Finding, QuantityError
 from linkwright.fields.base import Count, Field, Free, WordedText
 from linkwright.fields.nodes import Mapping as MappingNode
@@ -169,7 +170,7 @@ def _parameter(
 ) -> float | None:
     """The value of a parameter; ``told`` are the names in this one and in those below it."""
     name = place.address
-    reserved = {*expressions.CONSTANTS, *expressions.FUNCTIONS, "t", "input"}
+    reserved = {*expressions.OWN_NAMES, "t", "input"}
     if not re.fullmatch(r"[^\W\d]\w*", name) or name in reserved:
         what, remedy = Sentence("model.no_word"), Sentence("model.rename_l")
         if name in reserved:
@@ -198,7 +199,8 @@ def _parameter(
         else:
             reader.finding(node, place, "defined_below", "unknown-name", name=later[0])
         return None
-    reader.kinds[name], reader.values[name] = kind, value
+    reader.kinds[name] = Derived(kind) if derived(expression.tree, reader.kinds) else kind
+    reader.values[name] = value
     if expression.names:
         reader.expressions[name] = expression
     return value

@@ -172,14 +172,11 @@ class Reader(PlainReader):
             return None
         kinds = ChainMap(variables, self.kinds)
         try:
-            if expressions.is_literal(units.tidy(text), kinds):
-                units.parse(text, dimension)
-            found = expressions.parse(text, kinds)
+            found = expressions.parse_as(text, dimension, kinds)
             self.used |= found.names
             if found.names & self.broken:
                 self.unread += 1
                 return None
-            expressions.require(found, dimension, kinds)
             return found
         except QuantityError as error:
             self.quantity_error(error, node, place, text)
@@ -192,7 +189,7 @@ class Reader(PlainReader):
         if self._follows(text, dimension, variables):
             return self.formula(node, place, dimension, variables)
         words = set(re.findall(_WORD, text))
-        own = {*self.kinds, *units.UNITS, *expressions.CONSTANTS, *expressions.FUNCTIONS}
+        own = {*self.kinds, *units.UNITS, *expressions.OWN_NAMES}
         if words <= own or expressions.is_literal(text, self.kinds):
             return self.quantity(node, place, dimension)
         return self.formula(node, place, dimension, variables)
@@ -213,13 +210,16 @@ class Reader(PlainReader):
         length, angle = units.DIMENSIONS["length"], units.DIMENSIONS["angle"]
         if self._variables:
             return self._variables
-        taken = {*self.kinds, *units.UNITS, *expressions.CONSTANTS, *expressions.FUNCTIONS}
+        taken = {*self.kinds, *units.UNITS, *expressions.OWN_NAMES}
         found = {link: angle for link in self.names.links if link != "frame" and link not in taken}
         found |= {name: length for name in self.names.sliding if name not in taken}
-        for link, points in self.names.links.items():
-            for point in points:
-                for axis in ("x", "y"):
-                    found[f"{point}.{axis}"] = found[f"{link}.{point}.{axis}"] = length
+        found |= {f"{link}.angle": angle for link in self.names.links if link != "frame"}
+        found |= {f"{name}.displacement": length for name in self.names.sliding}
+        owned = {(link, point) for link, points in self.names.links.items() for point in points}
+        places = {*(point for _, point in owned), *(f"{link}.{point}" for link, point in owned)}
+        found |= {
+            f"{each}{way}.{axis}": length for each in places for way in ("", ".position") for axis in "xy"
+        }
         found |= {"t": units.DIMENSIONS["time"], "input": angle if self.input_rotary else length}
         self._variables = found
         return found

@@ -57,18 +57,19 @@ _SLIPS = {
 
 def explain(error: Any, text: str) -> Remark:
     """The remark for an exception of the YAML reader."""
-    mark = getattr(error, "problem_mark", None) or getattr(error, "context_mark", None)
-    line, column = _within(text, mark.line, mark.column) if mark is not None else _place(error, text)
-    began = getattr(error, "context_mark", None)
-    slip = _slip(text, line if began is None else began.line, line)
+    context_mark = getattr(error, "context_mark", None)
+    mark = getattr(error, "problem_mark", None) or context_mark
+    line, column = _place(error, text) if mark is None else _within(text, mark)
+    began = None if context_mark is None else _within(text, context_mark)
+    slip = _slip(text, line if began is None else began[0], line)
     if slip is not None:
         return slip
     said = str(getattr(error, "problem", None) or getattr(error, "reason", None) or "the text is not YAML")
     key = next((key for sign, key in _MEANINGS if sign in said), None)
     ended = mark is not None and not text[mark.index :].strip()
     if began is not None and (ended or key in _AT_THE_BEGINNING):
-        line, column = began.line, began.column
-    since = Sentence("yaml.began", line=began.line + 1) if began is not None and began.line != line else ""
+        line, column = began
+    since = Sentence("yaml.began", line=began[0] + 1) if began is not None and began[0] != line else ""
     if key is not None:
         sign = text.split("\n")[line][column : column + 1]
         told = Sentence("yaml.unreadable", message=Sentence(f"yaml.{key}", sign=sign), since=since)
@@ -95,10 +96,11 @@ def _slip(text: str, began: int, line: int) -> Remark | None:
     return None
 
 
-def _within(text: str, line: int, column: int) -> tuple[int, int]:
-    """The place, or the end of the text where it is behind that."""
+def _within(text: str, mark: Any) -> tuple[int, int]:
+    """The line and column of a mark, or the end of the text where it is behind that: the reader ends every text with
+    a line of its own."""
     last = text.count("\n")
-    return (line, column) if line <= last else (last, len(text) - text.rfind("\n") - 1)
+    return (mark.line, mark.column) if mark.line <= last else (last, len(text) - text.rfind("\n") - 1)
 
 
 def _place(error: Any, text: str) -> tuple[int, int]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Hashable, Mapping
+from contextlib import suppress
 from dataclasses import replace
 from itertools import chain
 from math import cos, sin
@@ -14,11 +15,12 @@ from numpy.typing import ArrayLike
 from linkwright.core.arrays import Floats, Indices
 from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
+from linkwright.core.expressions import amount
 from linkwright.core.given import whole
 from linkwright.core.inputs import driven
 from linkwright.drivers.base import Driver, Law
 from linkwright.engine.recently_made import Recent
-from linkwright.errors import LinkwrightError
+from linkwright.errors import LinkwrightError, QuantityError
 from linkwright.kinematics.whole_turns import MOST, whole_turns
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import no_such
@@ -146,10 +148,25 @@ def _numbers(given: ArrayLike) -> Floats:
     try:
         found = np.atleast_1d(np.asarray(given, dtype=float))
     except (TypeError, ValueError):
+        texts = (
+            [given] if isinstance(given, str) else [each for each in np.ravel(given) if isinstance(each, str)]
+        )
+        if texts:
+            raise CycleError(
+                "motion.text_for_number", text=str(texts[0])[:60], right=_in_si(str(texts[0]))
+            ) from None
         raise CycleError("motion.no_numbers", given=repr(given)[:60]) from None
     if found.ndim > 1:
         raise CycleError("motion.no_row", shape=str(found.shape))
     return found
+
+
+def _in_si(text: str) -> str:
+    """The SI value of an angle, a length or a time, 0.5 for anything else."""
+    for dimension in ("angle", "length", "time"):
+        with suppress(QuantityError):
+            return f"{amount(text, dimension):.6g}"
+    return "0.5"
 
 
 def _driven(driver: Driver, time: Floats) -> tuple[Floats, Floats, Floats]:

@@ -20,17 +20,13 @@ from linkwright.core.given import require
 from linkwright.core.outputs import Output, kind_of, row_name
 from linkwright.core.search import ends, zero, zeros
 from linkwright.engine.recently_made import Recent
-from linkwright.errors import RequestError
-from linkwright.fields.signals import resolve_output
 from linkwright.kinematics.bends import FAR, one_formula, stretches, with_leaps
 from linkwright.kinematics.between_positions import Between
 from linkwright.kinematics.brackets import Bracket, Columns, part_of, places_of, which_dip, zero_between
 from linkwright.kinematics.motion import TURN, Motion
-from linkwright.kinematics.names import program_names
+from linkwright.kinematics.names import output_of, program_names
 from linkwright.kinematics.reached_stretches import Reach
 from linkwright.loads.signals import Limit
-from linkwright.mechanism.mechanism import Mechanism
-from linkwright.registry import offered
 
 #: Rates below this share of the output's largest one, or of that of the whole mechanism, are rounding errors of zero.
 STILL, STILL_BESIDE = 1e-12, 1e-15
@@ -109,18 +105,6 @@ class _Reversals:
     brackets: list[Bracket]
     shares: list[float]
     rows: list[list[float]]
-
-
-def output_of(mechanism: Mechanism, text: str) -> Output:
-    """The output that a text means. Raises LinkwrightError, with the nearest one, where it means none."""
-    links = {name: link.points for name, link in mechanism.links.items()}
-    guides = tuple(mechanism.guides)
-    found = resolve_output(text, links, guides)
-    if found is not None:
-        return found
-    points = [f"{point}.{axis}" for link in links.values() for point in link for axis in "xy"]
-    hint = offered(text, [*links, *guides, *points])
-    raise RequestError("motion.no_output", text=text, hint=hint)
 
 
 #: Numbers of the stored rows that are angular velocities, and velocities.

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from contextlib import suppress
 from dataclasses import replace
 from typing import NoReturn
 
 from linkwright.core.outputs import KINDS, SLIDE, Output, row_names
 from linkwright.errors import RequestError
+from linkwright.fields.signals import resolve_output
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import no_such, offered
 from linkwright.words.sentence import Sentence
@@ -81,15 +83,53 @@ def _unknown(noun: str, name: str, known: list[str]) -> RequestError:
     return RequestError(no_such(noun, name, known))
 
 
+def output_of(mechanism: Mechanism, text: str) -> Output:
+    """The place over the cycle that a text means: a link's angle, a guide's displacement, a point's coordinate.
+
+    Raises LinkwrightError, with the nearest one, where it means none.
+    """
+    links = {name: link.points for name, link in mechanism.links.items()}
+    guides = tuple(mechanism.guides)
+    found = resolve_output(text, links, guides)
+    if found is not None:
+        return found
+    points = [f"{point}.{axis}" for link in links.values() for point in link for axis in "xy"]
+    hint = offered(text, [*links, *guides, *points])
+    raise RequestError("motion.no_output", text=text, hint=hint)
+
+
 def output_meant(mechanism: Mechanism, text: str) -> Output:
-    """The output that the user's words mean: ``C.velocity.x``, ``jaw.angle``, ``reaction O5 on jaw``.
+    """The output that the user's words mean: ``C.velocity.x``, ``jaw.angle``, ``reaction O5 on jaw``; or its name
+    over a column, ``O5 on jaw.x``, and in a model file, ``jaw``.
 
     Raises RequestError with the nearest known names.
     """
     words = text.split()
-    phrased = bool(words) and words[0] in PHRASES
-    found = _phrase(mechanism, text, words[0], words[1:]) if phrased else _part(mechanism, text)
+    if words and words[0] in PHRASES:
+        found = _phrase(mechanism, text, words[0], words[1:])
+    elif len(words) == 3 and words[1] == "on":
+        found = _over_column(mechanism, text, *words[::2])
+    elif text in mechanism.links or text in mechanism.guides:
+        found = output_of(mechanism, text)
+    else:
+        found = _part(mechanism, text)
     return no_output(mechanism, text) if found is None else found
+
+
+def result_meant(mechanism: Mechanism, text: str, results: Iterable[Output]) -> Output:
+    """The one of some results that has a name, over its column with or without its unit, or in the user's words.
+
+    Raises RequestError with the nearest names.
+    """
+    known = {each.column: each for each in results}
+    headings = {each.heading: each for each in known.values()}
+    found = known.get(text) or headings.get(text)
+    if found is None:
+        with suppress(RequestError):
+            found = known.get(output_meant(mechanism, text).column)
+    if found is None:
+        raise RequestError("picture.no_result", name=text, hint=offered(text, known))
+    return found
 
 
 def no_output(mechanism: Mechanism, text: str) -> NoReturn:
@@ -138,6 +178,17 @@ def _phrase(mechanism: Mechanism, text: str, kind: str, rest: list[str]) -> Outp
     if len(rest) != 1 or (known is not None and rest[0] not in known):
         return None
     return Output(kind, point_key(mechanism, rest[0]) if KINDS[kind].of == "point" else rest[0])
+
+
+def _over_column(mechanism: Mechanism, text: str, joint: str, place: str) -> Output | None:
+    """``JOINT on LINK``, with ``.magnitude``, ``.x`` or ``.y`` of the force, or ``.couple``."""
+    link, _, part = place.partition(".")
+    axis = f".{part}" if part in ("x", "y") else ""
+    if not axis and part not in ("", "magnitude", "couple"):
+        return None
+    return _at_joint(
+        mechanism, text, "couple" if part == "couple" else "reaction", [joint, "on", link + axis]
+    )
 
 
 def _at_joint(mechanism: Mechanism, text: str, kind: str, rest: list[str]) -> Output | None:

@@ -64,6 +64,12 @@ def metrics(result: Result, names: Iterable[str] | str | None = None) -> Metrics
     return MetricsTable(analysis.motion.mechanism.name, shown, skipped, notes)
 
 
+def inapplicable(analysis: Analysis, names: Iterable[str]) -> dict[str, str]:
+    """Those of some numbers that do not apply, with why."""
+    chosen = {name: metric() for name, metric in _chosen(list(names)).items()}
+    return {name: _refusal(name, analysis) for name, metric in chosen.items() if not metric.applies(analysis)}
+
+
 def _countable(motion: Motion) -> None:
     """Refuses cycles that are given so many turns that their integrals and extremes would be made up, not found."""
     given = motion.positions.cycle and motion.mechanism.cycle is not None

@@ -8,11 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from linkwright import units
 from linkwright.core.arrays import Floats, Indices
+from linkwright.core.expressions import amount
 from linkwright.cycle_programs.path_curvature import path_curvature
 from linkwright.engine.stage import Backend
 from linkwright.errors import QuantityError
+from linkwright.files.write import flow
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.study.objective import Part, of_path
 from linkwright.study.objective_terms import PathError
@@ -33,10 +34,9 @@ def path_error(given: Any) -> PathError | None:
         return None
     rows = given["target"]
     if not isinstance(rows, Sequence) or not rows or any(not _is_pair(row) for row in rows):
-        raise QuantityError(Sentence("optimize.target", given=str(rows)[:40]))
+        raise QuantityError(Sentence("optimize.target", given=flow(rows)[:40]))
     places = [
-        [each if isinstance(each, float) else units.parse(str(each), "length") for each in row]
-        for row in rows
+        [each if isinstance(each, float) else amount(str(each), "length") for each in row] for row in rows
     ]
     return PathError(str(given["point"]), places)
 

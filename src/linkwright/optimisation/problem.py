@@ -14,6 +14,7 @@ from linkwright import units
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, LinkwrightError, ModelError, RequestError
+from linkwright.files.write import flow
 from linkwright.machine.flywheel import FLUCTUATION
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.optimisation.paths import path_error
@@ -179,7 +180,7 @@ class _Reading:
                 self._wrong(f"define.{name}", error.sentence)
                 continue
             if path is None:
-                texts[name] = str(value)
+                texts[name] = value if isinstance(value, str) else flow(value)
             else:
                 paths[name] = path
         return texts, paths
@@ -210,7 +211,7 @@ class _Reading:
         low = 0.0 if key in ("seed", "population") else 1.0 if key in ("steps", "evaluations") else 1e-12
         high = 1.0 if key in ("yield", "fluctuation") else 1e6 if key in ("steps", "population") else 1e9
         if not low <= found <= high:
-            self._wrong(key, Sentence("optimize.number", key_=key, given=str(value), low=low, high=high))
+            self._wrong(key, Sentence("optimize.number", key_=key, given=flow(value), low=low, high=high))
         return found
 
     def _variables(self) -> list[Variable]:
@@ -250,7 +251,7 @@ class _Reading:
             try:
                 value = np.array(value, float)
             except (TypeError, ValueError):
-                raise RequestError("optimize.no_bounds", address=address, given=str(value)) from None
+                raise RequestError("optimize.no_bounds", address=address, given=flow(value)) from None
         found = parse_range(self.mechanism, address, value)
         if len(found.values) > 2 and not (isinstance(value, str) and ".." in value):
             return Variable(address, found.low, found.high, np.unique(found.values), found.unit)
@@ -267,7 +268,7 @@ class _Reading:
         for text, value in self._mapping("keep").items():
             demand = _demand(text, value)
             if demand is None:
-                self._wrong(f"keep.{text}", Sentence("optimize.demand", given=str(value)))
+                self._wrong(f"keep.{text}", Sentence("optimize.demand", given=flow(value)))
             else:
                 found.append(demand)
         return found
@@ -277,7 +278,8 @@ class _Reading:
         for address, value in self._mapping("tolerance").items():
             try:
                 checked_addresses(self.mechanism, [address])
-                found[address] = abs(parse_range(self.mechanism, address, str(value).lstrip("±+- ")).high)
+                text = value if isinstance(value, str) else flow(value)
+                found[address] = abs(parse_range(self.mechanism, address, text.lstrip("±+- ")).high)
             except LinkwrightError as error:
                 self._wrong(f"tolerance.{address}", error.sentence)
         return found

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from typing import Any
 
 from linkwright import units
@@ -224,22 +225,39 @@ class Sample(Field):
 
 
 def _any(
-    reader: Reader, node: Node, place: Place, factor: float, kind: units.Dimension | None
+    reader: Reader,
+    node: Node,
+    place: Place,
+    factor: float,
+    kind: units.Dimension | None,
+    likely: Sequence[str] = (),
 ) -> tuple[float, units.Dimension] | None:
-    """SI value and dimension of one value; a bare number takes the unit of the whole list."""
+    """SI value and dimension of one value, of a ``likely`` dimension where it is of one; a bare number takes the unit
+    of the whole list."""
     text = reader.quantity_text(node, place, "20.1 mm")
     if text is None:
         return None
     try:
-        found = expressions.parse_any(text, reader.kinds)
+        found, own = _likely(text, likely, reader)
         reader.used |= found.names
-        value, own = float(found.evaluate(reader.values)), found.dimension(reader.kinds)
+        value = float(found.evaluate(reader.values))
     except QuantityError as error:
         reader.quantity_error(error, node, place, text)
         return None
     if kind is not None and own == units.NONE:
         value, own = value * factor, kind
     return None if reader.within(value, node, place, *units.most(own)) is None else (value, own)
+
+
+def _likely(
+    text: str, likely: Sequence[str], reader: Reader
+) -> tuple[expressions.Expression, units.Dimension]:
+    """The expression of a text and its dimension, the first of the ``likely`` ones that it can have."""
+    for dimension in likely:
+        with suppress(QuantityError):
+            return expressions.parse_as(text, dimension, reader.kinds), units.DIMENSIONS[dimension]
+    found = expressions.parse_any(text, reader.kinds)
+    return found, found.dimension(reader.kinds)
 
 
 def unknown_name(reader: Reader, node: Node, place: Place, code: str, name: str, known: list[str]) -> None:
@@ -256,12 +274,14 @@ def unknown_name(reader: Reader, node: Node, place: Place, code: str, name: str,
 
 @dataclass(frozen=True)
 class AnyQuantity(Field):
-    """One quantity of any dimension: its SI value and its dimension."""
+    """One quantity of any dimension, first of those named in ``likely``: its SI value and its dimension."""
+
+    likely: tuple[str, ...] = ()
 
     def read(
         self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]
     ) -> tuple[float, units.Dimension] | None:
-        return _any(reader, node, place, 1.0, None)
+        return _any(reader, node, place, 1.0, None, self.likely)
 
     def shape(self) -> Schema:
         return {"type": ["string", "number"]}

@@ -15,7 +15,7 @@ from linkwright.core.given import one_or_more, real, require, whole
 from linkwright.core.outputs import Output
 from linkwright.errors import RequestError, require_language
 from linkwright.kinematics.motion import Motion
-from linkwright.kinematics.names import point_key
+from linkwright.kinematics.names import point_key, result_meant
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.table import results_of
 from linkwright.mechanism.mechanism import Mechanism
@@ -26,7 +26,7 @@ from linkwright.plot.drawing.labels import Label, Obstacles, place_moving, point
 from linkwright.plot.drawing.legend import Legend
 from linkwright.plot.drawing.loads import load_marks, moving_springs
 from linkwright.plot.drawing.moving import moving_links, moving_torques, moving_vectors, shift_text, shifted
-from linkwright.plot.drawing.panel import Panel, named, panel
+from linkwright.plot.drawing.panel import Panel, panel
 from linkwright.plot.drawing.picture import Box, bounds, document
 from linkwright.plot.drawing.scene import Scene, laid_out
 from linkwright.plot.drawing.vectors import Arrows, scale_of
@@ -70,8 +70,8 @@ def animate(
         source: a motion, or a mechanism whose cycle is solved first.
         paths: points whose paths are shown, with a dot that runs along.
         velocities, accelerations, forces, reactions_of, centres, size, language: as for ``draw``.
-        curves: results drawn below with a cursor that runs with the drawing (``"jaw.angle"``, a column of
-            ``motion.columns()`` or of the forces').
+        curves: results drawn below with a cursor that runs with the drawing (``"jaw.angle"``, ``"driver.effort"``, a
+            column of ``motion.columns()`` or of the forces').
         seconds: time of one cycle on the screen; default that of the motion, within 2 to 6 s.
         frames: number of positions shown in one cycle; the moving SVG takes more where pins would part visibly
             between them.
@@ -98,22 +98,40 @@ def animate(
     scene = laid_out(motion, run[0], centres=centres)
     known = solved(motion, forces)
     arrows = all_arrows(motion, velocities, accelerations, known, reactions_of)
-    made = Animation(
+    shown, used = curves_named(scene.machine.motion, known, curves)
+    return Animation(
         scene=scene,
         run=tuple(run),
         keys=tuple(key_indices(scene.machine, frames)),
         seconds=seconds or usual_seconds(motion),
         paths=paths,
         arrows=tuple((each, scale_of(each.vectors, run)) for each in arrows),
-        curves=curves,
-        forces=known,
+        results=shown,
+        forces=used,
         labelled=labels,
         size=size,
         language=language,
     )
-    for name in curves:
-        named(made.results, name)
-    return made
+
+
+def curves_named(
+    motion: Motion, forces: Forces | None, names: Sequence[str]
+) -> tuple[dict[Output, Floats], Forces | None]:
+    """Results (n,) of a motion, and of its forces where one of them is among these, by their names; these forces.
+
+    Raises LinkwrightError for an unknown name, and where forces are asked for that cannot be found.
+    """
+    results = results_of(motion, forces) if names else {}
+    found = {}
+    for name in names:
+        try:
+            output = result_meant(motion.mechanism, name, results)
+        except RequestError:
+            if forces is not None:
+                raise
+            return curves_named(motion, solved(motion, True), names)
+        found[output] = results[output]
+    return found, forces
 
 
 @dataclass(frozen=True)
@@ -139,7 +157,7 @@ class Animation:
     seconds: float
     paths: tuple[str, ...]
     arrows: tuple[tuple[Arrows, float], ...]
-    curves: tuple[str, ...]
+    results: Mapping[Output, Floats]
     forces: Forces | None
     labelled: bool
     size: float | None
@@ -290,16 +308,11 @@ class Animation:
         return bounds([*self._ink, *(each.reshape(-1, 2) for each in names)])
 
     @cached_property
-    def results(self) -> Mapping[Output, Floats]:
-        """What curves can show, (n,) each."""
-        return results_of(self.scene.machine.motion, self.forces)
-
-    @cached_property
     def _panel(self) -> Panel | None:
-        if not self.curves:
+        if not self.results:
             return None
         alone = len(self.scene.machine.motion.mechanism.drivers) == 1
-        return panel(self.results, self.curves, self._drawn_box, self.language, alone=alone, ends=self._ends)
+        return panel(self.results, self._drawn_box, self.language, alone=alone, ends=self._ends)
 
     def _ends(self, output: Output) -> tuple[float, float]:
         """Smallest and largest value of a result: between the positions where it is found there."""

@@ -17,9 +17,8 @@ from linkwright.kinematics.solve import solve_motion, with_times
 from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.report.numbers import Heads
-from linkwright.report.settings import Settings
+from linkwright.report.settings import Settings, worked_place
 from linkwright.structure.group import Structure
-from linkwright.units import parse
 from linkwright.words import Say, speaker
 from linkwright.words.sentence import in_language, links_said
 
@@ -128,10 +127,7 @@ class Case:
     @cached_property
     def asked_place(self) -> float | None:
         """The input (rad or m) or time (s) that is asked for as worked position; raises QuantityError."""
-        given = self.settings.position
-        if not given or not self.mechanism.drivers:
-            return None
-        return parse(given, ("angle" if self.rotary else "length") if self.mechanism.steady else "time")
+        return worked_place(self.mechanism, self.settings.position)
 
     @cached_property
     def moment(self) -> float:

@@ -11,7 +11,7 @@ from pathlib import Path
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import require
 from linkwright.engine.cycle import Progress
-from linkwright.errors import LinkwrightError, QuantityError, RequestError, require_language
+from linkwright.errors import LinkwrightError, RequestError, about, require_language
 from linkwright.files.model_file import load
 from linkwright.files.source import GALLERY
 from linkwright.mechanism.mechanism import Mechanism
@@ -31,8 +31,8 @@ from linkwright.report.document import (
 from linkwright.report.machine_results import Case
 from linkwright.report.markdown import own_text, printable
 from linkwright.report.numbers import typeset
-from linkwright.report.section import SECTIONS, Section
-from linkwright.report.settings import settings
+from linkwright.report.section import SECTIONS, Section, section_names
+from linkwright.report.settings import settings, worked_place
 from linkwright.whole_files import refuse_target, write_whole
 from linkwright.words import speaker
 from linkwright.words.sentence import Sentence, in_language
@@ -203,16 +203,13 @@ def _cases(
         mechanism = mechanism.said_in(language)
         source = sources[index] if index < len(sources) else "" if isinstance(each, Mechanism) else str(each)
         own = dict(mechanism.report)
+        with about("position"):
+            worked_place(mechanism, position)
         if position:
             own["position"] = position
         if positions is not None:
             own["positions"] = positions
-        found.append(Case(mechanism, settings(own, language), language, source))
-        try:
-            _ = found[-1].asked_place
-        except QuantityError as error:
-            name = "position" if position else "report.position"
-            raise RequestError("cli.about", name=name, cause=error) from None
+        found.append(Case(mechanism, settings(own, language, mechanism), language, source))
     names = [case.mechanism.name for case in found]
     for number, case in enumerate(found, 1):
         if names.count(case.mechanism.name) > 1:
@@ -231,13 +228,10 @@ def _loaded(source: str, language: str) -> Mechanism:
 def _chosen(names: Iterable[str]) -> list[str]:
     """Names of sections in order; raises RequestError for one that does not exist, the nearest offered."""
     asked = list(names)
-    if not asked:
-        return sorted(SECTIONS, key=lambda name: SECTIONS[name].rank)
     for name in asked:
         if name not in SECTIONS:
-            ordered = sorted(SECTIONS, key=lambda each: SECTIONS[each].rank)
-            raise RequestError("report.no_section", name=name, hint=listed(name, ordered))
-    return asked
+            raise RequestError("report.no_section", name=name, hint=listed(name, section_names()))
+    return asked or section_names()
 
 
 Part = Section | str

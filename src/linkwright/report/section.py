@@ -44,3 +44,8 @@ def section(
         return blocks
 
     return registered
+
+
+def section_names() -> list[str]:
+    """Names of all sections in the order in which they stand."""
+    return sorted(SECTIONS, key=lambda name: SECTIONS[name].rank)

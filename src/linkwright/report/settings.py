@@ -7,10 +7,15 @@ from dataclasses import field
 from typing import Any
 
 from linkwright.core.dataclass import dataclass
-from linkwright.errors import RequestError
+from linkwright.core.expressions import amount
+from linkwright.errors import Finding, ModelError, QuantityError, RequestError
+from linkwright.files.write import flow
+from linkwright.kinematics.names import output_of
 from linkwright.machine.flywheel import FLUCTUATION
-from linkwright.registry import offered
+from linkwright.mechanism.mechanism import Mechanism
+from linkwright.registry import listed, offered
 from linkwright.words import LANGUAGES
+from linkwright.words.sentence import Sentence
 
 KEYS = (
     "title", "author", "course", "date", "sections", "position", "positions", "numbered_from", "fluctuation",
@@ -20,6 +25,8 @@ KEYS = (
 WORDS = ("title", "author", "course", "date", "position", "purpose", "source")
 OWN = (*WORDS, "text", "errata")
 ERRATUM = ("where", "printed", "right", "why")
+#: Limits of an output that numbers can begin at.
+LIMITS = ("min", "max")
 #: Most numbered positions.
 MOST = 10_000
 
@@ -57,75 +64,148 @@ class Settings:
     errata: tuple[Erratum, ...] = ()
 
 
-def settings(given: Mapping[str, Any], language: str = "en") -> Settings:
-    """The settings of a file's ``report``; raises RequestError for what they cannot be, with its key.
+def settings(given: Mapping[str, Any], language: str = "en", mechanism: Mechanism | None = None) -> Settings:
+    """The settings of a file's ``report``, of a ``mechanism`` where what they name can be looked for in it.
 
-    What stands under a language's own key (``zh: {title: …}``) goes before the rest in that language.
+    What stands under a language's own key (``zh: {title: …}``) goes before the rest in that language. Raises
+    ModelError with all findings.
     """
-    _known(given, KEYS, "report")
+    reading = _Reading(given, mechanism)
     for each in LANGUAGES:
-        _known(_mapping(given, each), OWN, f"report.{each}")
-    given = {**given, **_mapping(given, language)}
-    words = {key: str(given[key]) for key in WORDS if key in given}
-    return Settings(
-        **words,
-        sections=tuple(map(str, _sequence(given, "sections"))),
-        positions=_count(given["positions"]) if "positions" in given else None,
-        numbered_from=str(given.get("numbered_from", "")),
-        fluctuation=_fluctuation(given.get("fluctuation", FLUCTUATION)),
-        text={str(key): str(text) for key, text in _mapping(given, "text").items()},
-        errata=tuple(_erratum(each, i) for i, each in enumerate(_sequence(given, "errata"))),
-    )
-
-
-def _known(given: Mapping[str, Any], keys: tuple[str, ...], place: str) -> None:
-    for key in given:
-        if key not in keys:
-            raise RequestError(
-                "report.unknown_key", place=f"{place}.{key}", name=key, hint=offered(str(key), keys)
-            )
-
-
-def _sequence(given: Mapping[str, Any], key: str) -> list[Any]:
-    found = given.get(key) or []
-    if not isinstance(found, list | tuple):
-        raise RequestError("report.not_a_list", place=f"report.{key}")
-    return list(found)
-
-
-def _mapping(given: Mapping[str, Any], key: str) -> Mapping[str, Any]:
-    found = given.get(key) or {}
-    if not isinstance(found, Mapping):
-        raise RequestError("report.not_a_mapping", place=f"report.{key}")
+        if each != language:
+            reading.all_of({**given, **reading.mapping(given, each)}, each)
+    found = reading.all_of({**given, **reading.mapping(given, language)}, language)
+    if reading.findings:
+        raise ModelError([*reading.findings])
     return found
 
 
-def _count(value: Any) -> int:
-    try:
-        found = int(str(value))
-    except ValueError:
-        found = 0
-    if not 2 <= found <= MOST:
-        raise RequestError("report.bad_positions", text=str(value), most=MOST)
-    return found
+def worked_place(mechanism: Mechanism, position: str) -> float | None:
+    """The input (rad or m) or time (s) of a worked position, None where none is asked for; raises QuantityError."""
+    if not position or not mechanism.drivers:
+        return None
+    if not mechanism.steady:
+        return amount(position, "time")
+    return amount(position, mechanism.across)
 
 
-def _fluctuation(value: Any) -> float:
-    try:
-        found = float(value)
-    except (TypeError, ValueError):
-        found = 0.0
-    if not 0.0 < found < 1.0:
-        raise RequestError("report.bad_fluctuation", text=str(value))
-    return found
+class _Reading:
+    """Reads the settings and collects what is wrong with them, each once."""
 
+    def __init__(self, given: Mapping[str, Any], mechanism: Mechanism | None) -> None:
+        self.given, self.mechanism = given, mechanism
+        self.findings: dict[Finding, None] = {}
+        self.known(given, KEYS, "report")
+        for each in LANGUAGES:
+            self.known(self.mapping(given, each), OWN, f"report.{each}")
 
-def _erratum(each: Any, index: int) -> Erratum:
-    place = f"report.errata.{index}"
-    if not isinstance(each, Mapping):
-        raise RequestError("report.not_a_mapping", place=place)
-    _known(each, ERRATUM, place)
-    for key in ERRATUM[:3]:
-        if key not in each:
-            raise RequestError("report.lacks", place=place, name=key)
-    return Erratum(**{key: str(each[key]) for key in ERRATUM if key in each})
+    def all_of(self, given: Mapping[str, Any], language: str) -> Settings:
+        """The settings in a language; ``given``: with the texts of that language."""
+        own = self.mapping(self.given, language)
+        places = {key: f"report.{language}.{key}" if key in own else f"report.{key}" for key in KEYS}
+        words = {key: self.text(given[key], places[key]) for key in WORDS if key in given}
+        numbered_from = self.text(given.get("numbered_from", ""), "report.numbered_from")
+        sections = tuple(map(str, self.sequence(given, "sections")))
+        for i, name in enumerate(sections):
+            self.section(name, f"report.sections.{i}")
+        self.position(words.get("position", ""), places["position"])
+        self.numbered(numbered_from)
+        return Settings(
+            **words,
+            sections=sections,
+            positions=self.count(given["positions"]) if "positions" in given else None,
+            numbered_from=numbered_from,
+            fluctuation=self.fluctuation(given.get("fluctuation", FLUCTUATION)),
+            text=self.texts(given, places["text"]),
+            errata=tuple(
+                self.erratum(each, f"{places['errata']}.{i}")
+                for i, each in enumerate(self.sequence(given, "errata"))
+            ),
+        )
+
+    def wrong(self, place: str, key: str, **values: object) -> None:
+        """Notes what is wrong at a place: the sentence ``report.KEY``."""
+        self.findings[Finding("error", "", place, Sentence(f"report.{key}", **values), code="report")] = None
+
+    def known(self, given: Mapping[str, Any], keys: tuple[str, ...], place: str) -> None:
+        for key in given:
+            if key not in keys:
+                self.wrong(f"{place}.{key}", "unknown_key", name=key, hint=offered(str(key), keys))
+
+    def sequence(self, given: Mapping[str, Any], key: str) -> list[Any]:
+        found = given.get(key) or []
+        if isinstance(found, list | tuple):
+            return list(found)
+        self.wrong(f"report.{key}", "not_a_list")
+        return []
+
+    def mapping(self, given: Mapping[str, Any], key: str) -> Mapping[str, Any]:
+        found = given.get(key) or {}
+        if isinstance(found, Mapping):
+            return found
+        self.wrong(f"report.{key}", "not_a_mapping")
+        return {}
+
+    def text(self, value: Any, place: str) -> str:
+        if not isinstance(value, Mapping | list | tuple):
+            return str(value)
+        self.wrong(place, "not_a_text")
+        return ""
+
+    def texts(self, given: Mapping[str, Any], place: str) -> dict[str, str]:
+        """Own text by the name of a section."""
+        found = self.mapping(given, "text")
+        for name in found:
+            self.section(str(name), f"{place}.{name}")
+        return {str(name): self.text(text, f"{place}.{name}") for name, text in found.items()}
+
+    def section(self, name: str, place: str) -> None:
+        from linkwright.report.section import section_names
+
+        if name not in (known := section_names()):
+            self.wrong(place, "no_section", name=name, hint=listed(name, known))
+
+    def position(self, text: str, place: str) -> None:
+        try:
+            _ = self.mechanism and worked_place(self.mechanism, text)
+        except QuantityError as error:
+            self.findings[Finding("error", "", place, error.message, error.remedy, error.code)] = None
+
+    def numbered(self, text: str) -> None:
+        """An output with the limit at which the numbers begin."""
+        name, _, limit = text.partition(" ")
+        if limit not in ("", *LIMITS):
+            self.wrong("report.numbered_from", "no_limit", text=text, limit=limit, name=name)
+        elif name and self.mechanism is not None:
+            try:
+                output_of(self.mechanism, name)
+            except RequestError as error:
+                self.findings[Finding("error", "", "report.numbered_from", error.sentence, code="report")] = (
+                    None
+                )
+
+    def count(self, value: Any) -> int | None:
+        text = str(value).strip()
+        if text.isdecimal() and 2 <= int(text) <= MOST:
+            return int(text)
+        self.wrong("report.positions", "bad_positions", text=flow(value), most=MOST)
+        return None
+
+    def fluctuation(self, value: Any) -> float:
+        try:
+            found = float(value)
+        except (TypeError, ValueError):
+            found = 0.0
+        if not 0.0 < found < 1.0:
+            self.wrong("report.fluctuation", "bad_fluctuation", text=flow(value))
+        return found
+
+    def erratum(self, each: Any, place: str) -> Erratum:
+        if not isinstance(each, Mapping):
+            self.wrong(place, "not_a_mapping")
+            return Erratum("", "", "")
+        self.known(each, ERRATUM, place)
+        for key in ERRATUM[:3]:
+            if key not in each:
+                self.wrong(place, "lacks", name=key)
+        return Erratum(**{key: self.text(each.get(key, ""), f"{place}.{key}") for key in ERRATUM})

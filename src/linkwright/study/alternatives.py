@@ -207,7 +207,7 @@ def output_of_machine(machine: Mechanism, name: str) -> Output:
 
     Raises LinkwrightError with the nearest one.
     """
-    from linkwright.kinematics.limits import output_of
+    from linkwright.kinematics.names import output_of
 
     for joint_name, joint in machine.guides.items():
         if joint.guide == "frame" and joint.block == name:

@@ -94,16 +94,18 @@ def _listed(address: str, text: str) -> Range:
 
 
 def _quantity(part: str, unit: str, address: str, text: str) -> tuple[float, str]:
-    """A number in SI and its unit; without a unit of its own that of ``unit``."""
+    """A number in SI and its unit; without a unit of its own that of ``unit``, else one of the same dimension."""
     match = _QUANTITY.match(part.strip())
     if match is None:
         raise RequestError("study.no_quantity", address=address, text=text, part=part.strip())
-    number, unit = match[1], match[2].strip() or unit
-    factor = units.unit(unit)[0] if unit else 1.0
+    number, own = match[1], match[2].strip() or unit
+    factor, kind = units.unit(own) if own else (1.0, units.NONE)
+    if unit and kind != units.unit(unit)[1]:
+        raise RequestError("study.units_differ", address=address, text=text, first=own, second=unit)
     value = float(number) * factor
     if not math.isfinite(value):
         raise RequestError("study.value_not_finite", address=address, text=text)
-    return value, unit
+    return value, own
 
 
 def _count(text: str | None, address: str, whole: str) -> int:

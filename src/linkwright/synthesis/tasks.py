@@ -12,6 +12,7 @@ from typing import Any
 
 from linkwright import units
 from linkwright.core.dataclass import dataclass
+from linkwright.core.expressions import amount
 from linkwright.core.given import told
 from linkwright.errors import Finding, ModelError, QuantityError, with_remedy
 from linkwright.fields.nodes import Mapping as MappingNode
@@ -23,7 +24,7 @@ from linkwright.files.node_reader import Place
 from linkwright.files.read_model import TASK_KEYS
 from linkwright.files.reader import Reader
 from linkwright.files.source import read_source
-from linkwright.registry import nearest
+from linkwright.registry import listed, nearest
 from linkwright.synthesis.result import Synthesis, note, refuse
 from linkwright.words.sentence import Sentence
 
@@ -115,8 +116,8 @@ def synthesize(task: str | Path, **demands: Any) -> Synthesis:
     chosen = known[task]
     for key in demands:
         if key not in chosen.demands:
-            near = nearest(key, list(chosen.demands))
-            raise refuse("task.unknown", demand=key, task=task, known=near or tuple(chosen.demands))
+            hint = listed(key, chosen.demands)
+            raise refuse("task.unknown", demand=key, task=task, hint=hint)
     for key in chosen.needed:
         if key not in demands:
             raise refuse("task.missing", task=task, demand=key, form=_form(chosen.demands[key]))
@@ -158,20 +159,26 @@ def check_text(text: str, name: str) -> tuple[list[Finding], str] | None:
         return None
     reader = Reader(name)
     root, _ = reader.unknown_keys(root, Place("", ""), list(TASK_KEYS))
-    section = root.get("synthesis")
+    found, task = check_section(root.get("synthesis"), name)
+    return [*reader.findings, *found], task
+
+
+def check_section(section: Node | None, name: str) -> tuple[list[Finding], str]:
+    """Findings about the section of a task, and the task."""
     if not isinstance(section, MappingNode):
+        reader = Reader(name)
         reader.mapping(section, "synthesis")
         return reader.findings, ""
     try:
         task, demands = read_section(section, name)
     except ModelError as error:
-        return [*reader.findings, *error.findings], ""
+        return list(error.findings), ""
     own = _Reader(name)
     for key in tasks()[task].needed:
         if key not in demands:
             form = _form(tasks()[task].demands[key])
             own.add(section, "synthesis", note("task.missing", task=task, demand=key, form=form))
-    return [*reader.findings, *own.findings], task
+    return own.findings, task
 
 
 def read_section(section: MappingNode, name: str) -> tuple[str, dict[str, Any]]:
@@ -193,8 +200,7 @@ def read_section(section: MappingNode, name: str) -> tuple[str, dict[str, Any]]:
         if key in ("task", "unit", "angle_unit"):
             continue
         if key not in known[task].demands:
-            near = nearest(key, list(known[task].demands))
-            sentence = note("task.unknown", demand=key, task=task, known=near or tuple(known[task].demands))
+            sentence = note("task.unknown", demand=key, task=task, hint=listed(key, known[task].demands))
             reader.add(entry.key, f"synthesis.{key}", sentence)
             continue
         demands[key] = reader.value(entry.value, key, known[task].demands[key])
@@ -268,7 +274,7 @@ class _Reader:
         if dimension in self.units and _bare(text):
             text = f"{text} {self.units[dimension]}"
         try:
-            return units.parse(text, dimension)
+            return amount(text, dimension)
         except QuantityError as error:
             if error.code == "missing-unit" and SHAPES[form][1] and dimension in UNIT_KEYS:
                 self._bare(node, key, dimension, error.message)

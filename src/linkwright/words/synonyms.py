@@ -13,7 +13,8 @@ crank crankshaft handle eccentric 曲柄
 rocker lever arm beam oscillator 摇杆 摆杆
 coupler rod conrod connecting pitman 连杆
 frame ground base bed chassis fixed support 机架 机座
-guide guideway slideway rail slot track prismatic sliding slide cylinder 导路 导轨 滑道 滑槽 移动副 液压缸
+guide guideway slideway rail slot track prismatic sliding slide 导路 导轨 滑道 滑槽 移动副
+cylinder hydraulic_cylinder jack 液压缸 气缸
 pin hinge pivot revolute bearing turning 转动副 回转副 铰链 铰接 铰 销 销轴
 output driven follower 输出 从动件
 input driver driving drive motor actuator 输入 驱动 原动件
@@ -38,7 +39,7 @@ time duration period 时间 周期
 peak max maximum largest 最大 峰值
 least min minimum smallest 最小
 mean average 平均
-spring elastic 弹簧
+spring elastic gas_spring gas_strut air_spring 弹簧 气弹簧
 stiffness spring_rate spring_constant 刚度 弹簧刚度
 free_length l0 natural_length rest_length 原长 自由长度
 damper dashpot 阻尼器
@@ -52,6 +53,7 @@ path curve trajectory locus 轨迹 曲线
 point 点
 centre center centroid 质心 中心
 cam 凸轮 凸轮副
+program motion_program lifts lift_table 运动规律 升程表
 knife knife_edge pointed edge 尖顶 尖底
 roller 滚子
 flat flat_faced 平底
@@ -83,9 +85,10 @@ cycle 循环 工作循环
 toggle knee 肘板 肘杆
 """
 
-#: What a thing goes with, where nothing means just that thing: a slider runs in a guide, which is a joint; other
-#: things that the same letter stands for.
+#: What a thing goes with, where nothing means just that thing: a slider runs in a guide, which is a joint; a cylinder
+#: guides its rod and presses on it; other things that the same letter stands for.
 BESIDE = {
+    "cylinder": "guide pressure",
     "ram": "guide",
     "frame": "weld",
     "guide": "joint",
@@ -95,6 +98,7 @@ BESIDE = {
     "belt": "joint",
     "weld": "joint",
     "spring": "force",
+    "force": "preload",
     "damper": "force",
     "torque": "force",
     "pressure": "force",
@@ -135,5 +139,5 @@ def nearest_in_meaning(name: str, candidates: Iterable[str]) -> tuple[str, float
         best = max(shares, key=shares.__getitem__, default="")
         if best and shares[best]:
             return best, shares[best]
-        said = frozenset(BESIDE[word] for word in said if word in BESIDE)
+        said = frozenset(each for word in said if word in BESIDE for each in BESIDE[word].split())
     return "", 0.0

@@ -12,7 +12,6 @@ from linkwright.cli.pictures import (
     file_arguments,
     names,
     names_or_all,
-    refuse_unknown,
     refuse_unknown_marks,
     source_arguments,
     told,
@@ -48,9 +47,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     from linkwright.cli.files import refuse_output
     from linkwright.cli.progress import progress
     from linkwright.cli.source import read_model
-    from linkwright.kinetostatics.table import results_of
     from linkwright.plot.animation import animate
-    from linkwright.plot.drawing.panel import named
 
     refuse_output(options.output, ENDINGS, force=options.force)
     seconds = _seconds(options.seconds)
@@ -58,8 +55,6 @@ def run(options: argparse.Namespace, session: Session) -> int:
     refuse_unknown_marks(mechanism, options)
     motion = cycle(mechanism, max(options.steps, options.frames), session)
     forces = _forces(motion, options)
-    results = results_of(motion, forces)
-    refuse_unknown(lambda name: named(results, name), "--curves", names(options.curves))
     animation = animate(
         motion,
         paths=names(options.paths),
@@ -84,7 +79,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
 
 
 def _forces(motion: Motion, options: argparse.Namespace) -> Forces | None:
-    """Forces where arrows or curves need them."""
+    """Forces where arrows need them."""
     if options.forces is None:
         return None
     from linkwright.kinetostatics.forces import solve_forces

@@ -74,10 +74,10 @@ def _radius(text: str, mechanism: Mechanism) -> float | dict[str, float]:
 
 
 def _length(text: str) -> float:
-    from linkwright import units
+    from linkwright.core.expressions import amount
 
     with about("--radius", UsageError):
-        value = units.parse(text, "length")
+        value = amount(text, "length")
     if not value > 0:
         raise UsageError("balance.bad_radius", text=text)
     return value

@@ -52,7 +52,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
 
 def findings_of(name: str) -> tuple[list[Finding], dict[str, object]]:
     """What there is to say about a model file, and its structure in short where it has one."""
-    from linkwright.fields.nodes import located
+    from linkwright.fields.nodes import below, located
     from linkwright.files.model_file import declared_kind, read_root, read_tree
     from linkwright.files.source import GALLERY, read_source
     from linkwright.kinematics.assembly import AssemblyError
@@ -106,6 +106,10 @@ def findings_of(name: str) -> tuple[list[Finding], dict[str, object]]:
         *_of_settings(name, mechanism, moves=not turned),
         *notes,
     ]
+    if (section := below(root, "synthesis")) is not None:
+        from linkwright.synthesis.tasks import check_section
+
+        found = [*found, *check_section(section, place)[0]]
     return [*found, *(located(each, root, place) for each in mended)], fact
 
 
@@ -267,7 +271,7 @@ def _of_settings(name: str, mechanism: Mechanism, *, moves: bool) -> list[Findin
 def _report(mechanism: Mechanism) -> None:
     from linkwright.report.settings import settings
 
-    settings(mechanism.report)
+    settings(mechanism.report, mechanism=mechanism)
 
 
 def _course(mechanism: Mechanism) -> None:

@@ -134,8 +134,7 @@ def _dimensions(words: list[str] | None) -> list[Dimension] | bool:
 def _refuse_unknown_names(
     mechanism: Mechanism, options: argparse.Namespace, dimensions: list[Dimension] | bool
 ) -> None:
-    from linkwright.kinematics.limits import output_of
-    from linkwright.kinematics.names import find_point
+    from linkwright.kinematics.names import find_point, output_of
 
     refuse_unknown_marks(mechanism, options)
     named = [] if isinstance(dimensions, bool) else dimensions

@@ -20,14 +20,16 @@ def arguments(option: Options) -> None:
 
 
 def run(options: argparse.Namespace, session: Session) -> int:
-    """Grades, prints a row per sheet, writes them where asked."""
+    """Grades, prints a row per sheet, writes them where asked; 1 where a sheet cannot be graded."""
     from linkwright.cli.files import refuse_output, write_whole
     from linkwright.course.grade import grade, text
     from linkwright.course.questions import csv_bytes
     from linkwright.words.characters import aligned
+    from linkwright.words.sentence import in_language
 
     refuse_output(options.output, ENDINGS, force=options.force)
     grades = grade(options.key, options.answers)
+    faults = [each.fault for each in grades if each.fault]
     names = [each["name"] for each in json.loads(Path(options.key).read_text("utf-8"))["questions"]]
     rows = text(grades, names, session.language)
     if options.output is not None:
@@ -35,10 +37,14 @@ def run(options: argparse.Namespace, session: Session) -> int:
     if session.json:
         sheets = [
             {"student": g.student, "variant": g.variant, "right": list(g.right), "mistakes": list(g.mistakes),
-             "where": g.where} for g in grades
+             "where": g.where, **({"fault": g.fault} if g.fault else {})} for g in grades
         ]  # fmt: skip
-        session.show_data({"ok": True, "sheets": sheets})
-        return 0
+        session.show_data({"ok": not faults, "sheets": sheets})
+        return int(bool(faults))
     session.show("\n".join(session.table(aligned(rows, "<>><<"))))
     session.show_written(options.output, apart=True)
-    return 0
+    if faults:
+        session.tell_error(session.say("course.faulty_sheets", count=len(faults), of=len(grades)))
+        for fault in faults:
+            session.tell(f"  {in_language(fault, session.language)}")
+    return int(bool(faults))

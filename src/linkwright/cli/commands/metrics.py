@@ -10,8 +10,10 @@ from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
 from linkwright.errors import LinkwrightError, about
 from linkwright.words import say
+from linkwright.words.sentence import in_language
 
 if TYPE_CHECKING:
+    from linkwright.kinematics.motion import Motion
     from linkwright.mechanism.mechanism import Mechanism
     from linkwright.metrics.base import MetricValue
     from linkwright.metrics.table import MetricsTable
@@ -33,15 +35,18 @@ def arguments(option: Options) -> None:
 
 
 def run(options: argparse.Namespace, session: Session) -> int:
-    """Prints or writes the numbers; 1 where the joint forces failed that some of them need."""
+    """Prints or writes the numbers; 1 where the joint forces failed that some of them need, 2 where some of those
+    that are named do not apply."""
     from linkwright.cli.files import csv_of, refuse_output, write_table
     from linkwright.cli.source import read_model
 
     refuse_output(options.output, ENDINGS, force=options.force)
     names = _names(options.names)
     mechanism, _ = read_model(options.file, session)
-    table, trouble = _evaluated(mechanism, names, options)
-    data = _data(table, trouble, session.language)
+    table, refused, trouble = _evaluated(mechanism, names, options)
+    troubles = [in_language(each, session.language) for each in refused]
+    troubles += [] if trouble is None else [trouble.say(session.language)]
+    data = _data(table, troubles, session.language)
     rows = data["metrics"]
     columns = {name: [_cell(row[name]) for row in rows] for name in COLUMNS}
     write_table(options.output, lambda: csv_of(columns), lambda: data, force=options.force)
@@ -50,9 +55,9 @@ def run(options: argparse.Namespace, session: Session) -> int:
     else:
         session.show("\n".join(_report(table, session)))
         session.show_written(options.output, apart=True)
-    if trouble is not None:
-        session.tell_error(trouble.say(session.language))
-    return int(trouble is not None)
+    for each in troubles:
+        session.tell_error(each)
+    return 2 if refused else int(trouble is not None)
 
 
 def _names(texts: list[str] | None) -> list[str] | None:
@@ -72,26 +77,47 @@ def _names(texts: list[str] | None) -> list[str] | None:
 
 def _evaluated(
     mechanism: Mechanism, names: list[str] | None, options: argparse.Namespace
-) -> tuple[MetricsTable, LinkwrightError | None]:
-    """The numbers, and why there are no forces where they failed."""
+) -> tuple[MetricsTable, list[str], LinkwrightError | None]:
+    """The numbers, why some of the ``names`` do not apply, and why there are no forces where they failed.
+
+    Raises RequestError where none applies.
+    """
     from linkwright.errors import RequestError
     from linkwright.kinematics.solve import solve_motion
     from linkwright.kinetostatics.forces import solve_forces
-    from linkwright.metrics import metrics
-    from linkwright.metrics.evaluate import unloaded
+    from linkwright.metrics import Analysis, metrics
+    from linkwright.metrics.evaluate import inapplicable, unloaded
 
-    if options.forces is None and (missing := unloaded(mechanism, names or ())) is not None:
-        raise RequestError(missing)
+    idle = {name: unloaded(mechanism, [name]) for name in names or () if options.forces is None}
+    refused: dict[str, str] = {name: why for name, why in idle.items() if why is not None}
+    if names and len(refused) == len({*names}):
+        raise RequestError(unloaded(mechanism, names) or "")
     motion = solve_motion(mechanism, steps=options.steps, failures="mark" if options.mark else "raise")
-    if options.forces is False or not (options.forces or mechanism.has_loads):
-        return metrics(motion, names), None
+    if names is None:
+        return _all(motion, options)
+    loaded = options.forces is not False and (options.forces or mechanism.has_loads)
+    analysis = Analysis.of(solve_forces(motion) if loaded else motion)
+    refused = inapplicable(analysis, names) | refused
+    chosen = [name for name in names if name not in refused]
+    if not chosen:
+        raise RequestError(next(iter(refused.values())))
+    return metrics(analysis, chosen), list(refused.values()), None
+
+
+def _all(
+    motion: Motion, options: argparse.Namespace
+) -> tuple[MetricsTable, list[str], LinkwrightError | None]:
+    """All numbers that apply, those of the motion alone where the forces fail, and why they do."""
+    from linkwright.kinetostatics.forces import solve_forces
+    from linkwright.metrics import metrics
+
+    if options.forces is False or not (options.forces or motion.mechanism.has_loads):
+        return metrics(motion), [], None
     try:
         forces = solve_forces(motion)
     except LinkwrightError as error:
-        if names is None:
-            return metrics(motion), error
-        raise
-    return metrics(forces, names), None
+        return metrics(motion), [], error
+    return metrics(forces), [], None
 
 
 def _report(table: MetricsTable, session: Session) -> list[str]:
@@ -141,19 +167,19 @@ def _remarks(row: MetricValue | None, language: str) -> str:
     return f"{mark} {say('finding.semicolon', language).join(said)}".strip()
 
 
-def _data(table: MetricsTable, trouble: LinkwrightError | None, language: str) -> dict[str, Any]:
+def _data(table: MetricsTable, troubles: list[str], language: str) -> dict[str, Any]:
     rows = []
     for row, plain in zip(table, table.data(), strict=True):
         remark = say("finding.semicolon", language).join(remark.text(language) for remark in row.remarks)
         rows.append({**plain, "limit": row.limit, "remark": remark})
     found: dict[str, Any] = {
-        "ok": trouble is None,
+        "ok": not troubles,
         "name": table.title,
         "metrics": rows,
         "warnings": list(table.warnings_in(language)),
         "not_applicable": list(table.skipped),
     }
-    return found if trouble is None else {**found, "error": str(trouble)}
+    return {**found, "error": "\n".join(troubles)} if troubles else found
 
 
 def _cell(value: Any) -> str | float:

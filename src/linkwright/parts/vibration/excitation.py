@@ -37,10 +37,26 @@ def excitation_of(given: Mapping[str, Any]) -> Excitation:
     return Excitation(**own, **found, frequency=2 * math.pi * hertz if hertz is not None else speed)
 
 
+#: Dimensions of everything in straight and in turning motion.
+STRAIGHT = {
+    "mass": "mass", "stiffness": "stiffness", "damping": "damping", "force": "force", "base": "length",
+    "displacement": "length", "velocity": "velocity",
+}  # fmt: skip
+TURNING = {
+    "mass": "inertia", "stiffness": "torsional_stiffness", "damping": "torsional_damping", "force": "torque",
+    "base": "angle", "displacement": "angle", "velocity": "angular_velocity",
+}  # fmt: skip
+
+
+def either(word: str) -> tuple[str, str]:
+    """The dimensions of a value in straight and in turning motion."""
+    return STRAIGHT[word], TURNING[word]
+
+
 EXCITATION = {
     "on": Text(doc="the mass on which it acts"),
-    "force": AnyQuantity(doc="amplitude of a harmonic force (or torque)"),
-    "base": AnyQuantity(doc="amplitude of the motion of the ground"),
+    "force": AnyQuantity(either("force"), doc="amplitude of a harmonic force (or torque)"),
+    "base": AnyQuantity(either("base"), doc="amplitude of the motion of the ground"),
     "unbalance": Quantity("mass_moment", above=0.0, doc="mass times eccentricity of a rotor"),
     "hertz": Quantity("frequency", above=0.0, key="frequency", doc="frequency"),
     "speed": Quantity("angular_velocity", above=0.0, doc="or speed of the rotor"),
@@ -48,7 +64,7 @@ EXCITATION = {
         {
             "times": Quantities("time", required=True, key="time", doc="increasing times"),
             "forces": Listed(
-                AnyQuantity(),
+                AnyQuantity(either("force")),
                 "[0 N, 20 N]",
                 required=True,
                 key="force",

@@ -17,7 +17,15 @@ from linkwright.errors import Finding, ModelError
 from linkwright.fields.base import GivenByFile, Quantity, Text, given
 from linkwright.parts.base import Block, Problem, Result, Row, fault, number, put
 from linkwright.parts.fields import AnyQuantity, Listed, Named, Table
-from linkwright.parts.vibration.excitation import EXCITATION, Excitation, excitation_of, spread
+from linkwright.parts.vibration.excitation import (
+    EXCITATION,
+    STRAIGHT,
+    TURNING,
+    Excitation,
+    either,
+    excitation_of,
+    spread,
+)
 from linkwright.parts.vibration.linear import Linear, largest_between, tuned
 from linkwright.units import DIMENSIONS, SMALLEST
 from linkwright.words import Say
@@ -54,12 +62,21 @@ def _tie(between: tuple[str, ...], rate: tuple[float, Any]) -> dict[str, Any]:
 
 TIE = {"between": Listed(Text(), "[ground, body]", required=True, doc="two masses, or ground and a mass")}
 SPRING = Table(
-    {**TIE, "rate": AnyQuantity(required=True, key="stiffness", doc="N/m, or N·m/rad of a shaft")}, _tie
+    {
+        **TIE,
+        "rate": AnyQuantity(
+            either("stiffness"), required=True, key="stiffness", doc="N/m, or N·m/rad of a shaft"
+        ),
+    },
+    _tie,
 )
-DAMPER = Table({**TIE, "rate": AnyQuantity(required=True, key="damping", doc="N·s/m, or N·m·s/rad")}, _tie)
+DAMPER = Table(
+    {**TIE, "rate": AnyQuantity(either("damping"), required=True, key="damping", doc="N·s/m, or N·m·s/rad")},
+    _tie,
+)
 START = {
-    "displacement": AnyQuantity(doc="at the time zero, m or rad"),
-    "velocity": AnyQuantity(doc="at the time zero, m/s or rad/s"),
+    "displacement": AnyQuantity(either("displacement"), doc="at the time zero, m or rad"),
+    "velocity": AnyQuantity(either("velocity"), doc="at the time zero, m/s or rad/s"),
 }
 
 
@@ -78,7 +95,7 @@ class VibratingSystem(Problem):
         }, doc="adds the best damped absorber: {on: body, mass: 5 kg}"),
     })  # fmt: skip
     masses: Mapping[str, float] = given(
-        Named(AnyQuantity(), "mass", doc="masses (kg) or inertias (kg·m²) by name")
+        Named(AnyQuantity(either("mass")), "mass", doc="masses (kg) or inertias (kg·m²) by name")
     )
     springs: Mapping[str, Tie] = given(
         Named(SPRING, "spring", doc="springs by name: {between: [ground, body], stiffness: 20 kN/m}"), dict
@@ -214,17 +231,6 @@ class VibratingSystem(Problem):
         """Modes and responses. Raises ModelError with all findings."""
         self.require()
         return Vibration(self)
-
-
-#: Dimensions of everything in straight and in turning motion.
-STRAIGHT = {
-    "mass": "mass", "stiffness": "stiffness", "damping": "damping", "force": "force", "base": "length",
-    "displacement": "length", "velocity": "velocity",
-}  # fmt: skip
-TURNING = {
-    "mass": "inertia", "stiffness": "torsional_stiffness", "damping": "torsional_damping", "force": "torque",
-    "base": "angle", "displacement": "angle", "velocity": "angular_velocity",
-}  # fmt: skip
 
 
 def _mixed(given: Mapping[str, Any], turning: bool) -> list[Finding]:

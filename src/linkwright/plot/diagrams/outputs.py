@@ -5,12 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from linkwright.core.arrays import largest
-from linkwright.core.outputs import Output
+from linkwright.core.outputs import POINT, Output
 from linkwright.core.search import first_largest
 from linkwright.errors import RequestError
-from linkwright.kinematics.limits import output_of
 from linkwright.kinematics.motion import Motion
-from linkwright.kinematics.names import canonical, owners
+from linkwright.kinematics.names import canonical, output_meant, output_of, owners
 from linkwright.kinetostatics.forces import Forces
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.outputs import free_points, mechanism_outputs, output_link
@@ -18,7 +17,8 @@ from linkwright.plot.force_names import reaction_pairs
 
 
 def output_named(mechanism: Mechanism, name: str) -> Output | str:
-    """An output, or the key of a point; a link that slides in a guide of the frame means its displacement.
+    """An output, or the key of a point; a link that slides in a guide of the frame means its displacement, the
+    velocity of a point all of its motion.
 
     Raises LinkwrightError for an unknown name.
     """
@@ -34,7 +34,11 @@ def output_named(mechanism: Mechanism, name: str) -> Output | str:
     pin = name in mechanism.pins
     if found and (pin or len(found) == 1) and name not in mechanism.guides:
         return canonical(mechanism, found[0], name)
-    return output_of(mechanism, name)
+    try:
+        meant = output_meant(mechanism, name)
+    except RequestError:
+        return output_of(mechanism, name)  # raises, and offers the nearest
+    return meant.owner if meant.kind in POINT and not meant.component else meant
 
 
 def main_output(motion: Motion) -> Output | str:

@@ -10,8 +10,10 @@ from operator import methodcaller
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.core.outputs import Output
+from linkwright.core.outputs import PLACES, Output
 from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.names import result_meant
+from linkwright.kinetostatics.table import results_of
 from linkwright.plot.diagrams.base import DIAGRAMS, Request
 from linkwright.plot.diagrams.outputs import main_output, output_named
 from linkwright.plot.diagrams.panels import DASHES, Curve, OverInput, Panel
@@ -30,13 +32,15 @@ STRAIGHT = (
 
 @DIAGRAMS.register("sva")
 class Sva(OverInput):
-    """Three panels: angle or displacement, velocity, acceleration of an output; x and y of a point."""
+    """Three panels: angle or displacement, velocity, acceleration of an output; x and y of a point; one panel of a
+    force or of a rate that is named."""
 
     options = ("of",)
 
     def output(self, source: Source, request: Request) -> Output | str | None:
-        asked = _asked(source, request)
-        return asked[0] if len(asked) == 1 else None
+        first, *more = _asked(source, request)
+        marked = not isinstance(first, Output) or first.kind in PLACES
+        return first if marked and not more else None
 
     def subject(self, sources: Sequence[Source], request: Request) -> str:
         return request.say("motion_of", output=", ".join(map(str, _asked(sources[0], request))))
@@ -75,6 +79,8 @@ def _together(parts: list[tuple[str, list[Panel]]]) -> list[Panel]:
 
 
 def _of_output(source: Source, output: Output, say: Say) -> list[Panel]:
+    if output.kind not in PLACES:
+        return [_of_result(source, output)]
     named = ANGULAR if output.kind == "angle" else STRAIGHT
     found = []
     for (word, symbol, dimension), each in zip(named, output.course, strict=True):
@@ -88,6 +94,13 @@ def _of_output(source: Source, output: Output, say: Say) -> list[Panel]:
 def _size(motion: Motion, key: str, word: str) -> Floats:
     """Size of the velocity or acceleration of a point, (n,)."""
     return np.asarray(np.hypot(*getattr(motion.point_of(key), word).T))
+
+
+def _of_result(source: Source, output: Output) -> Panel:
+    """A force, or a rate that is named alone."""
+    results = results_of(source.motion, None if output.of_motion else source.forces)
+    found = result_meant(source.mechanism, output.name, results)
+    return Panel(found.name, found.dimension, (Curve("", source.closed(results[found]), "max"),))
 
 
 def _of_point(source: Source, key: str, say: Say) -> list[Panel]:

@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Mapping
 
 import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
-from linkwright.errors import RequestError
 from linkwright.plot.diagrams.axes import significant, unit_of
 from linkwright.plot.drawing.picture import Box
 from linkwright.plot.svg.element import Element, element, path
 from linkwright.plot.svg.text import text_element, width
 from linkwright.plot.symbols.base import points
-from linkwright.registry import offered
 from linkwright.words import has, say
 
 HEIGHT, GAP, SIZE = 78.0, 26.0, 12.0
@@ -45,23 +43,21 @@ class Panel:
 
 def panel(
     results: Mapping[Output, Floats],
-    wanted: Sequence[str],
     box: Box,
     language: str,
     *,
     alone: bool,
     ends: Callable[[Output], tuple[float, float]],
 ) -> Panel:
-    """Rows of curves under the box; ``wanted``: names of columns, with or without the unit; ``alone``: whether there
+    """Rows of curves under the box; ``alone``: whether there
     is one driver; ``ends``: smallest and largest value of a result."""
     left, span = box[0], max(box[2] - box[0], 260.0)
     y = box[3] + GAP
     elements: list[Element] = []
     right = left + span
-    for name in wanted:
-        output = named(results, name)
-        text = _caption(output, results[output], ends(output), language, alone=alone)
-        elements += _row(text, results[output], left, span, y)
+    for output, values in results.items():
+        text = _caption(output, values, ends(output), language, alone=alone)
+        elements += _row(text, values, left, span, y)
         right = max(right, left + 4.0 + width(text, SIZE))
         y += HEIGHT + GAP
     extent = points([(left, box[3] + GAP - 1.4 * SIZE), (right, y - GAP + SIZE)])
@@ -88,12 +84,3 @@ def _row(text: str, values: Floats, left: float, span: float, top: float) -> lis
         elements.append(path(points([(left, zero), (left + span, zero)]), "lw-leader"))
     elements.append(text_element(left + 4.0, top - 4.0, text, "lw-value", SIZE))
     return elements
-
-
-def named(results: Collection[Output], name: str) -> Output:
-    """The result whose column has a name, with or without its unit; raises LinkwrightError for an unknown one."""
-    for each in results:
-        if name in (each.column, each.heading):
-            return each
-    hint = offered(name, [each.column for each in results])
-    raise RequestError("picture.no_result", name=name, hint=hint)

@@ -15,6 +15,7 @@ WORDS = {
     "no_input_to_set": "{name!r} has no driver, so there is no input to set; leave the input out",
     "own_law": "driver {name!r} follows its own law in time; ask for positions by times instead of inputs",
     "bad_input": "an input of driver {name!r} is not a finite number",
+    "text_for_number": '"{text}" is a text; give the number in SI units (rad, m, s): {right}',
     "no_numbers": "{given} is no input and no time; give numbers in SI units (rad, m, s), such as 0.5 or [0.0, 0.5]",
     "no_failures": "failures is {given!r}; give 'raise' to refuse positions that cannot be reached, or 'mark' to "
     "mark them",

@@ -82,6 +82,7 @@ metrics of every design. Designs that cannot move are counted and explained.""",
     "no_dots": "a range has two dots between its ends; write {right}",
     "no_quantity": '{address}={text}: "{part}" is no quantity; write a range as 1.2..1.3 m:11, or values as '
     "1.2, 1.25, 1.3 m",
+    "units_differ": "{address}={text}: {first} and {second} are units of different dimensions; give both in one",
     "value_not_finite": "{address}={text}: a value is not finite",
     "whole_teeth": "{address} gives numbers of teeth, which are whole; write {address}={low}..{high}:{count}, every "
     "whole number of a grid",

@@ -24,6 +24,8 @@ WORDS = {
     "pound": 'lb is a unit of mass, lbf of force: write "{right}"',
     "mass": 'a mass times 9.81 m/s² is a weight: write "({text})*(9.81 m/s^2)"',
     "sense": "the sign says the sense: positive is counter-clockwise, negative (-120 rpm) clockwise",
+    "cycles_or_radians": '"{text}" counts turns, cycles or radians: it has to say which',
+    "rev_or_rad": 'write "({text})*rev" if it counts turns or cycles, "({text})*rad" if it counts radians',
     "as_in": 'write it as in "{example}"',
     "write_unit": "write a unit such as mm, deg, kg, N, N·m, rpm, kg·m²",
 }

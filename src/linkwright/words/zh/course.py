@@ -1,15 +1,22 @@
 """课程模式：变式题与批改。"""
 
 WORDS = {
-    "unknown_key": '{place}：course 一节中没有 "{name}"；{hint}',
+    "unknown_key": 'course 一节中没有 "{name}"；{hint}',
     "no_input": "变式题要求原动件匀速运动；{name!r} 的原动件按时间规律运动，或没有原动件",
-    "bad_tolerance": 'course.tolerance："{text}" 不是容许误差；请给出不超过 0.2 的相对值，例如 0.01 或 1 %',
-    "bad_range": 'course.vary：{address}："{text}" 不是范围；请给出百分数（8 %）或两个值（[0.3 m, 0.35 m]）',
-    "no_number": 'course.ask：该位置没有结果 "{name}"；{hint}',
-    "no_list": 'course.ask："{given}" 不是结果的列表；{hint}',
+    "bad_tolerance": '"{text}" 不是容许误差；请给出不超过 0.2 的相对值，例如 0.01 或 1 %',
+    "bad_range": '"{text}" 不是范围；请给出百分数（8 %）或两个值（[0.3 m, 0.35 m]）',
+    "no_number": '该位置没有结果 "{name}"；{hint}',
+    "no_list": '"{given}" 不是结果的列表；{hint}',
     "bad_count": "不能生成 {count} 个变式；请给出 1 至 1000",
-    "too_few": "试了 {tried} 次，只找到 {count} 个变式中的 {found} 个能走完循环、且与原题同样合理和同样难；"
-    "请放宽 course.vary 的范围，或使 course.at 远离奇异位置",
+    "nothing_varies": "没有可变的构件尺寸；请在 course.vary 中写明哪些尺寸变化（{known} 之一变 8 %）",
+    "too_few": "试了 {tried} 次，只找到 {count} 个变式中的 {found} 个；其中 {times} 次{remedy}",
+    "too_few_stuck": "不能走完循环：请缩小 course.vary 的范围（现在变化的是 {vary}），或只写少数几个"
+    "不必彼此配合的尺寸",
+    "too_few_flat": "传动角比原题差：请缩小 course.vary 的范围（现在变化的是 {vary}），或从传动角较大的机构出发",
+    "too_few_unlike": "答案的符号或大小与原题相差太多：请把 course.at 移到结果不接近零的位置，"
+    "或在 course.ask 中改问别的结果",
+    "too_few_mistakes": "能看出的错误与原题不同：请缩小 course.vary 的范围（现在变化的是 {vary}），或移动 course.at",
+    "too_few_same": "答案与别的变式相同：请在 course.vary 中写明答案所依赖的尺寸（现在变化的是 {vary}），或放宽范围",
     "no_form": '没有 "{name}" 这种形式；可选 {forms}',
     "bad_key": "{path}：不能读取答案：{why}",
     "no_key": "{path}：不是答案文件；请给出命令 variants 写出的 key.json",
@@ -20,6 +27,7 @@ WORDS = {
     "long_row": "第 {line} 行：值比列多：{text}；小数请用小数点，或给带逗号的数加引号",
     "no_variant": '第 {line} 行：没有变式 "{text}"；答案中有 1 至 {count}',
     "no_answer": '第 {line} 行：{name}："{text}" 不是数；请写数，如 12.5，或留空',
+    "faulty_sheets": "{of} 份答卷中有 {count} 份不能批改；其余已批改",
     "position": "位置：{link} 在 {input}。",
     "convention": "x 向右，y 向上；角度与力矩以逆时针为正；角度指构件 x 轴的方向，以度计。",
     "sheet_title": "习题：{name}",

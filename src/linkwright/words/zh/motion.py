@@ -14,6 +14,7 @@ WORDS = {
     "no_input_to_set": "“{name}”没有驱动，因此没有可设的输入；请去掉输入",
     "own_law": "驱动“{name}”按自己的时间规律运动；请按时刻而不是按输入求位置",
     "bad_input": "驱动“{name}”的一个输入不是有限的数",
+    "text_for_number": "“{text}”是文字；请给出以国际单位（rad、m、s）计的数：{right}",
     "no_numbers": "{given} 不是输入或时刻；请给出国际单位（rad、m、s）的数，如 0.5 或 [0.0, 0.5]",
     "no_failures": "failures 为 {given!r}；写 'raise' 时到不了的位置会报错，写 'mark' 时只作标记",
     "no_row": "输入或时刻应排成一列，而不是形状为 {shape} 的数组；请给每个位置一个数",

@@ -71,6 +71,7 @@ WORDS = {
     "no_dots": "范围的两端之间写两个点；请写 {right}",
     "no_quantity": "{address}={text}：“{part}”不是带单位的量；范围请写成 1.2..1.3 m:11，各值请写成 1.2, "
     "1.25, 1.3 m",
+    "units_differ": "{address}={text}：{first} 与 {second} 不是同一种量的单位；请用同一种单位",
     "value_not_finite": "{address}={text}：有一个值不是有限的数",
     "whole_teeth": "{address} 决定齿数，齿数须为整数；请写 {address}={low}..{high}:{count}，即网格取每个整数",
     "no_count": "{address}={whole}：“{text}”不是值的个数；范围请以整数结尾，如 :11",

@@ -181,7 +181,7 @@ Grashof 类型、整个范围内的缺陷、最小传动角、最长与最短杆
     "free_curve.error": "未求得误差在 {given} 以内的机构；最小为 {least}（已列出）；请允许更多运动副或更多秒数",
     "task": '没有任务 "{task}"；已知：{known}',
     "task.missing": '任务 "{task}" 需要 "{demand}"：{form}',
-    "task.unknown": '"{demand}" 不是任务 "{task}" 的要求；已知：{known}',
+    "task.unknown": '"{demand}" 不是任务 "{task}" 的要求；{hint}',
     "task.only_with": '"{demand}" 只与 "{needs}" 一起使用；请去掉它，或同时给出 {needs}',
     "task.not_with": '"{demand}" 不能与 {other} 同时使用；请去掉其中一个',
     "task.unit_of_all": "请写单位，或在任务旁写“{line}”，作为所有不带单位的数的单位",

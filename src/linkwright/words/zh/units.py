@@ -24,6 +24,8 @@ WORDS = {
     "pound": "lb 是质量单位，lbf 才是力的单位：请写“{right}”",
     "mass": "质量乘以 9.81 m/s² 才是重量：请写“({text})*(9.81 m/s^2)”",
     "sense": "转向由正负号表示：正为逆时针，负（如 -120 rpm）为顺时针",
+    "cycles_or_radians": "“{text}”应写明按转数、周数还是弧度计",
+    "rev_or_rad": "按转数或周数计请写“({text})*rev”，按弧度计请写“({text})*rad”",
     "as_in": "请写成如“{example}”",
     "write_unit": "请写单位，如 mm、deg、kg、N、N·m、rpm、kg·m²",
 }

@@ -1,0 +1,231 @@
+"""Reading of expressions: a tokenizer and a precedence (Pratt) parser, from a text to its tree."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Collection, Mapping
+from typing import Literal
+
+from linkwright import units
+from linkwright.core.expression_tree import ARITY, Binary, Call, Negative, Node, Number, Variable
+from linkwright.errors import QuantityError
+from linkwright.registry import nearest, offered
+from linkwright.words.sentence import Sentence
+
+MAX_DEPTH = 40
+CONSTANTS: Mapping[str, float] = {"pi": math.pi}
+#: What a name is that is a unit and a variable.
+Preferred = Literal["units", "variables behind units", "variables"]
+#: Words that are written where a direction is asked for, and are angles.
+DIRECTIONS = frozenset(
+    ("right", "up", "left", "down", "upwards", "downwards", "horizontal", "vertical", "上", "下", "左", "右")
+)
+_TOKEN = re.compile(
+    r"\s*(?:(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)"
+    r"|(?P<power>⁻?[⁰¹²³⁴⁵⁶⁷⁸⁹]+)"
+    r"|(?P<name>(?:(?![⁰¹²³⁴⁵⁶⁷⁸⁹])[^\W\d]|[°%])(?:(?![⁰¹²³⁴⁵⁶⁷⁸⁹])\w|\.(?=[^\W\d]))*)"
+    r"|(?P<sign>\*\*|[-+*/^(),·⋅]))"
+)
+_BINDING = {"+": 10, "-": 10, "*": 20, "/": 20, "^": 40}
+_NEGATIVE_BINDING = 30
+_SAME = {"**": "^", "·": "*", "⋅": "*"}
+
+
+class ExpressionError(QuantityError):
+    """A text that is no expression; its string shows the text with a caret under the place."""
+
+    def __init__(self, message: str, remedy: str, text: str, column: int, code: str = "expression") -> None:
+        self.text = text
+        super().__init__(message, remedy, column=column, code=code)
+
+    def say(self, language: str = "en") -> str:
+        """The message in a language, the text, and a caret under the place."""
+        return f"{super().say(language)}\n  {self.text}\n  {' ' * self.column}^"
+
+
+class Parser:
+    """Precedence parser over the tokens of one text."""
+
+    def __init__(self, text: str, variables: Collection[str], prefer: Preferred = "units") -> None:
+        self.text, self.variables, self.prefer = text, variables, prefer
+        self.used: set[str] = set()
+        self.depth = 0
+        self.tokens = self._tokens()
+        self.at = 0
+
+    def _tokens(self) -> list[tuple[str, str, int]]:
+        tokens, position = [], 0
+        while position < len(self.text):
+            found = _TOKEN.match(self.text, position)
+            if found is None or found.lastgroup is None:
+                column = position + len(self.text[position:]) - len(self.text[position:].lstrip())
+                raise self._fault("no_part", column, text=self.text[column])
+            token = found.group(found.lastgroup)
+            tokens.append((found.lastgroup, _SAME.get(token, token), found.start(found.lastgroup)))
+            position = found.end()
+        return [*tokens, ("end", "", len(self.text))]
+
+    def _fault(
+        self, key: str, column: int, code: str = "expression", remedy: str = "", **values: object
+    ) -> ExpressionError:
+        """The error ``model.KEY`` of the catalogue with its remedy, ``model.KEY_do`` where no other is given."""
+        told = remedy or Sentence(f"model.{key}_do", **values)
+        return ExpressionError(Sentence(f"model.{key}", **values), told, self.text, column, code)
+
+    def whole(self) -> Node:
+        tree = self._binary(0)
+        kind, token, column = self.tokens[self.at]
+        if kind != "end":
+            factor = kind in ("name", "number") or token == "("
+            remedy = Sentence("model.write_factor_sign" if factor else "model.remove_it")
+            if units.SENSE.fullmatch(token):
+                remedy = Sentence("units.sense")
+            raise self._fault("unexpected", column, remedy=remedy, token=token)
+        return tree
+
+    def _binary(self, binding: int) -> Node:
+        self.depth += 1
+        if self.depth > MAX_DEPTH:
+            raise self._fault("too_deep", 0)
+        left = self._powers(self._prefix())
+        while True:
+            kind, token, column = self.tokens[self.at]
+            strength = _BINDING.get(token, 0) if kind == "sign" else 0
+            if strength <= binding:
+                self.depth -= 1
+                return left
+            self.at += 1
+            right = self._binary(strength - 1 if token == "^" else strength)
+            left = Binary(token, left, right, column)
+
+    def _powers(self, base: Node) -> Node:
+        kind, token, column = self.tokens[self.at]
+        if kind != "power":
+            return base
+        self.at += 1
+        return Binary("^", base, Number(float(units.exponent(token)), units.NONE, column), column)
+
+    def _prefix(self) -> Node:
+        kind, token, column = self.tokens[self.at]
+        self.at += 1
+        if kind == "number":
+            return self._number(token, column)
+        if kind == "name":
+            return self._name(token, column)
+        if token in ("-", "+") and self.tokens[self.at][1] not in ("-", "+"):
+            inner = self._binary(_NEGATIVE_BINDING)
+            return Negative(inner, column) if token == "-" else inner
+        if token == "(":
+            inner = self._binary(0)
+            self._close(column)
+            return inner
+        if token in ("-", "+"):
+            _, token, column = self.tokens[self.at]
+        what, needed = "ends_early" if kind == "end" else "unexpected", Sentence("model.operand_needed")
+        raise self._fault(what, column, remedy=needed, token=token)
+
+    def _close(self, opened: int) -> None:
+        if self.tokens[self.at][1] != ")":
+            raise self._fault("open_parenthesis", opened)
+        self.at += 1
+
+    def _number(self, token: str, column: int) -> Node:
+        value = float(token)
+        if not math.isfinite(value):
+            raise ExpressionError(
+                Sentence("units.not_finite", text=token), "", self.text, column, "not-finite"
+            )
+        kind, name, place = self.tokens[self.at]
+        if kind != "name" or self.tokens[self.at + 1][1] == "(":
+            return Number(value, units.NONE, column)
+        if self.prefer == "variables" and name in self.variables:
+            return Binary("*", Number(value, units.NONE, column), self._prefix(), place)
+        turning = [entry[1] for entry in self.tokens[self.at : self.at + 3]] in (
+            ["r", "/", "min"],
+            ["r", "/", "s"],
+        )
+        if name not in units.UNITS and not turning:
+            if name in self.variables:
+                raise self._fault("no_sign", place, token=token, name=name)
+            error = units.unknown_unit(name)
+            raise ExpressionError(error.message, error.remedy, self.text, place, "unknown-unit")
+        factor, dimension = self._unit("rev" if turning else name)
+        while self._joined_unit():
+            sign = -1 if self.tokens[self.at][1] == "/" else 1
+            self.at += 1
+            size, extra = self._unit(self.tokens[self.at][1])
+            factor, dimension = factor * size**sign, units.times(dimension, extra, sign)
+        return Number(value * factor, dimension, column)
+
+    def _unit(self, name: str) -> tuple[float, units.Dimension]:
+        """The unit at the present token with its power, both consumed."""
+        self.at += 1
+        factor, dimension = units.UNITS[name]
+        kind, power, _ = self.tokens[self.at]
+        exponent = 1
+        if kind == "power":
+            self.at += 1
+            exponent = units.exponent(power)
+        elif (
+            power == "^" and self.tokens[self.at + 1][0] == "number" and self.tokens[self.at + 1][1].isdigit()
+        ):
+            exponent = units.exponent(self.tokens[self.at + 1][1])
+            self.at += 2
+        return factor**exponent, units.times(units.NONE, dimension, exponent)
+
+    def _joined_unit(self) -> bool:
+        """Whether a further unit follows, joined by ``/`` or ``·`` without spaces (``N/m``).
+
+        Joined by ``*`` a name may be a parameter; where it is a unit as well, that is an error.
+        """
+        _, sign, column = self.tokens[self.at]
+        if (
+            sign not in ("*", "/")
+            or self.tokens[self.at + 1][0] != "name"
+            or self.tokens[self.at + 2][1] == "("
+        ):
+            return False
+        _, name, place = self.tokens[self.at + 1]
+        if name not in units.UNITS or (self.prefer != "units" and name in self.variables):
+            return False
+        if self.text[column] == "*":
+            if name in self.variables and name != "t":
+                raise self._fault("unit_and_parameter", place, "ambiguous", name=name)
+            return False
+        tight = place == column + 1 and self.text[column - 1] != " "
+        return tight or name not in self.variables
+
+    def _name(self, name: str, column: int) -> Node:
+        if self.tokens[self.at][1] == "(" and name not in self.variables:
+            return self._call(name, column)
+        if name in self.variables:
+            self.used.add(name)
+            return Variable(name, column)
+        if name in CONSTANTS:
+            return Number(CONSTANTS[name], units.NONE, column)
+        if name in units.UNITS:
+            factor, dimension = units.UNITS[name]
+            return Number(factor, dimension, column)
+        offer = nearest(name, [*self.variables, *CONSTANTS])
+        known = tuple(sorted(self.variables, key=lambda each: (each.count("."), each))[:12])
+        remedy = Sentence("model.define_it", known=known) if known else Sentence("model.define_none")
+        if offer:
+            remedy = Sentence("names.did_you_mean", offer=offer)
+        if name.casefold() in DIRECTIONS:
+            remedy = Sentence("model.direction_word")
+        raise self._fault("unknown_name", column, "unknown-name", remedy, name=name)
+
+    def _call(self, name: str, column: int) -> Node:
+        if name not in ARITY:
+            raise self._fault("unknown_function", column, "unknown-name", offered(name, ARITY), name=name)
+        self.at += 1
+        arguments = [self._binary(0)]
+        while self.tokens[self.at][1] == ",":
+            self.at += 1
+            arguments.append(self._binary(0))
+        self._close(column)
+        if len(arguments) != ARITY[name]:
+            needed, given = ARITY[name], len(arguments)
+            raise self._fault("argument_count", column, name=name, needed=needed, given=given)
+        return Call(name, tuple(arguments), column)
