@@ -58,3 +58,19 @@ def test_a_barrel_cam_is_as_steep_both_ways_and_worked_where_it_is_first() -> No
     text = parts.load("gallery:cam_barrel").solve().worked()
     assert "= 27.9467°" in text
     assert "= -27.9467°" not in text
+
+
+@pytest.mark.parametrize("backend", ["numpy", "llvm"])
+@pytest.mark.parametrize("designs", [1, 11])
+def test_sweeps_name_the_first_of_equal_positions(backend: str, designs: int) -> None:
+    """A pin that goes round steadily is as fast everywhere: the first position counts, which is 37°."""
+    machine = lw.loads(CRANK.format(length=0.3, start=37.0))
+    found = lw.sweep(
+        machine,
+        {"crank.length": np.linspace(0.1, 0.7, designs)},
+        outputs=["A.acceleration argmax", "A.acceleration argmin", "A.velocity argmax"],
+        steps=360,
+        backend=backend,
+    )
+    for kind in ("A.acceleration argmax", "A.acceleration argmin", "A.velocity argmax"):
+        assert found[kind] == pytest.approx(np.radians(37.0), rel=1e-12)

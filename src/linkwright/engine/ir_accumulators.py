@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from linkwright.core.search import EQUAL
 from linkwright.engine.ir_functions import number
 from linkwright.engine.ir_lines import FAST, LineWriter
 from linkwright.engine.reductions import PLACE, Accumulation, Step
 
 _START = {"min": float("inf"), "max": float("-inf"), "at_min": float("nan"), "at_max": float("nan")}
 _BETTER = {"min": "olt", "max": "ogt"}
+#: Those that are better or as good, and which sign, times :data:`EQUAL`, makes a positive number worse.
+_AS_GOOD, _WORSE = {"min": "ole", "max": "oge"}, {"min": 1.0, "max": -1.0}
 #: The position number of an extreme that no number reached.
 NO_INDEX = 2**62
 
@@ -94,10 +97,11 @@ class AccumulatorWriter:
     def _first_index(self, k: int, step: Step) -> list[str]:
         side = self._column[Step(step.kind.removeprefix("arg"), step.output)]
         vector, mask = self.w.vector, self.w.mask
-        none = self.start(step.kind)
+        none, kind = self.start(step.kind), step.kind.removeprefix("arg")
         return [
             *self.w.spread(f"%r{side}", f"%best{k}", "double"),
-            f"%at{k} = fcmp oeq {vector} %b{side}, %best{k}",
+            *self._worse(f"%equal{k}", f"%best{k}", kind),
+            f"%at{k} = fcmp {_AS_GOOD[kind]} {vector} %b{side}, %equal{k}",
             f"%i{k} = select {mask} %at{k}, {self.w.integers} %b{k}, {self.w.integers} {none}",
             f"%q{k} = call i64 @llvm.vector.reduce.smin.v{self.w.width}i64({self.w.integers} %i{k})",
             f"%none{k} = icmp eq i64 %q{k}, {NO_INDEX}",
@@ -158,13 +162,17 @@ class AccumulatorWriter:
         vector, mask = self.w.vector, self.w.mask
         value = self._number(step.output, code)
         entering = self._entering(code, once=False)
-        code.append(f"%c{k} = fcmp {_BETTER[step.kind]} {vector} {value}, %a{k}")
         arg = self._column.get(Step(f"arg{step.kind}", step.output))
         there = [
             (place, other)
             for place, other in enumerate(self.steps)
             if (other.kind, other.of) == (f"at_{step.kind}", step.output)
         ]
+        compared = value
+        if arg is not None or there:
+            code += self._worse(f"%surely{k}", value, step.kind)
+            compared = f"%surely{k}"
+        code.append(f"%c{k} = fcmp {_BETTER[step.kind]} {vector} {compared}, %a{k}")
         better = f"%c{k}"
         if entering is not None and arg is None and not there:
             return [
@@ -183,6 +191,16 @@ class AccumulatorWriter:
             taken = self._number(other.output, code)
             code.append(f"%b{place} = select {mask} {better}, {vector} {taken}, {vector} %a{place}")
         return code
+
+    def _worse(self, name: str, value: str, kind: str) -> list[str]:
+        """The worst values that are equal to some but for rounding."""
+        vector, off = self.w.vector, _WORSE[kind] * EQUAL
+        above, below = (self.w.constant(1.0 + each, True) for each in (off, -off))
+        return [
+            f"{name}_up = fcmp ogt {vector} {value}, {self.w.constant(0.0, True)}",
+            f"{name}_by = select {self.w.mask} {name}_up, {vector} {above}, {vector} {below}",
+            f"{name} = fmul {vector} {value}, {name}_by",
+        ]
 
     def _count(self, k: int, output: str) -> list[str]:
         code: list[str] = []

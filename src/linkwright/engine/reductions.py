@@ -11,6 +11,7 @@ import numpy as np
 
 from linkwright.core.arrays import Flags, Floats, Whole
 from linkwright.core.dataclass import dataclass
+from linkwright.core.search import EQUAL
 from linkwright.engine.program import Program
 from linkwright.engine.replay import along_input, inlined
 from linkwright.engine.trace import Scalar, Trace
@@ -46,7 +47,7 @@ class Reduction:
     positions where a truth output holds, or a number is not zero), ``first`` and ``last`` (value at
     the first and last position), ``at_min`` and ``at_max`` (value at the first position where the
     output ``of`` has its extreme). The output :data:`PLACE` is the number of the position. Extremes
-    skip NaN; the other kinds pass it on.
+    skip NaN; the other kinds pass it on. Of values that are equal but for rounding the first position counts.
     """
 
     output: str
@@ -290,12 +291,24 @@ def _extreme(
     entering = np.where(np.isnan(values), np.inf, sign * values)
     if mask is not None:
         entering = np.where(mask, entering, np.inf)
+    arg, at = (f"arg{step.kind}", step.output, ""), (f"at_{step.kind}", step.output)
+    there = [
+        (column, other)
+        for column, other in enumerate(accumulation.steps)
+        if other == arg or (other.kind, other.of) == at
+    ]
     places = entering.argmin(axis=1)
     best = entering[np.arange(len(places)), places]
-    better = np.flatnonzero(best < sign * into)
+    if there:
+        places = (entering <= _worse(best)[:, None]).argmax(axis=1)
+        best = entering[np.arange(len(places)), places]
+    better = np.flatnonzero((_worse(best) if there else best) < sign * into)
     into[better] = sign * best[better]
-    for column, other in enumerate(accumulation.steps):
-        if other == (f"arg{step.kind}", step.output, ""):
-            table[better, column] = first + places[better]
-        elif (other.kind, other.of) == (f"at_{step.kind}", step.output):
-            table[better, column] = rows[other.output][better, places[better]]
+    for column, other in there:
+        taken = rows[other.output][better, places[better]]
+        table[better, column] = first + places[better] if other == arg else taken
+
+
+def _worse(values: Floats) -> Floats:
+    """The largest values that are equal to some but for rounding."""
+    return values * np.where(values > 0.0, 1.0 + EQUAL, 1.0 - EQUAL)

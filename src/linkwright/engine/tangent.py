@@ -24,17 +24,28 @@ def tangents(replay: Replay, name: str) -> dict[int, Scalar]:
 
 def slope_in_trace(value: Value, seeds: Mapping[Value, Scalar]) -> Scalar:
     """Derivative of a value along changes of earlier ones (see :func:`~linkwright.engine.trace.slope`)."""
-    t = value.trace
-    if any(seed.trace is not t for seed in seeds):
-        raise ValueError("a value and what it is differentiated by must be of one trace")
-    found: dict[int, Scalar] = {seed.index: rate for seed, rate in seeds.items()}
-    for index in t.needed([value.index], stop=found):
-        node = t.node(index)
-        if index in found or not any(a in found for a in node.args) or node.op in WITHOUT_SLOPE:
-            continue
-        args = [_line(t, a) for a in node.args]
-        found[index] = _tangent(t, node, args, Value(t, index), found)
-    return found.get(value.index, 0.0)
+    return Slopes(seeds)(value)
+
+
+class Slopes:
+    """Derivatives of values along the same changes of earlier ones, which share what they have in common."""
+
+    def __init__(self, seeds: Mapping[Value, Scalar]) -> None:
+        self.seeds = tuple(seeds)
+        self.found: dict[int, Scalar] = {seed.index: rate for seed, rate in seeds.items()}
+
+    def __call__(self, value: Value) -> Scalar:
+        t, found = value.trace, self.found
+        if any(seed.trace is not t for seed in self.seeds):
+            raise ValueError("a value and what it is differentiated by must be of one trace")
+        for index in t.needed([value.index], stop=found):
+            if index in found:
+                continue
+            node, slope = t.node(index), 0.0  # type: Node, Scalar
+            if node.op not in WITHOUT_SLOPE and not all(_is_zero(found.get(a, 0.0)) for a in node.args):
+                slope = _tangent(t, node, [_line(t, a) for a in node.args], Value(t, index), found)
+            found[index] = slope
+        return found.get(value.index, 0.0)
 
 
 def _line(t: Trace, index: int) -> Scalar:

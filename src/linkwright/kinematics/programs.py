@@ -68,9 +68,11 @@ class MotionPrograms:
         """The program for some outputs."""
         with self.lock:
             if names not in self._programs:
-                values = {name: self.outputs.value(name) for name in names}
-                self._programs[names] = NumpyProgram(Program.of(self.motion.trace, values))
+                self._programs[names] = NumpyProgram(self._plain(names))
             return self._programs[names]
+
+    def _plain(self, names: tuple[str, ...]) -> Program:
+        return Program.of(self.motion.trace, {name: self.outputs.value(name) for name in names})
 
     def places(self, names: tuple[str, ...]) -> Mapping[str, int]:
         """The row of every name among these."""
@@ -78,12 +80,12 @@ class MotionPrograms:
 
     def scalar_program(self, names: tuple[str, ...]) -> ScalarProgram:
         """The same for one position on plain numbers."""
-        program = self.program(names).program
-        return _scalars.get(program, None, lambda: ScalarProgram(program))
+        with self.lock:
+            return _scalars.get(self, names, lambda: ScalarProgram(self._plain(names)))
 
 
 _places: Recent[MotionPrograms, Mapping[str, int]] = Recent(64)
-_scalars: Recent[Program, ScalarProgram] = Recent(64)
+_scalars: Recent[MotionPrograms, ScalarProgram] = Recent(64)
 
 
 def motion_programs(mechanism: Mechanism, manner: Manner) -> MotionPrograms:

@@ -130,9 +130,8 @@ class TracedSite:
         velocity = self.velocity(link, point)
         local = self.motion.dimensions.point(link, point)
         seconds = self.motion.states[link].acceleration_of(local)
-        speed, second = sqrt(velocity.square), sqrt(seconds.square)
-        moves = self.motion.moving(speed, second, "length") > 0.0
-        return velocity * select(moves, 1.0 / select(moves, speed, 1.0), 0.0)
+        moves = self.motion.moving(sqrt(velocity.square), sqrt(seconds.square), "length") > 0.0
+        return velocity * select(moves, 1.0 / sqrt(select(moves, velocity.square, 1.0)), 0.0)
 
     def guide(self, joint: str) -> tuple[Vec, Vec, Scalar]:
         return guide_state(self.motion, joint)

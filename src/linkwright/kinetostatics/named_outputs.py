@@ -12,7 +12,8 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.inputs import Input
 from linkwright.core.outputs import Output
-from linkwright.engine.trace import Scalar, Value, absolute, atan, minimum, slope, sqrt
+from linkwright.engine.tangent import Slopes
+from linkwright.engine.trace import Scalar, Value, absolute, atan, minimum, sqrt
 from linkwright.engine.vector import Vec
 from linkwright.errors import RequestError
 from linkwright.joints.pose import Rotor
@@ -100,6 +101,7 @@ class Named:
         self.motion = forces.motion
         self.mechanism: Mechanism = forces.motion.mechanism
         self.middle = middle
+        self._slopes: Slopes | None = None
 
     def quantity(self, name: str) -> Quantity:
         """The output of that name; raises RequestError with the nearest known name."""
@@ -125,6 +127,11 @@ class Named:
 
     def _in_time(self, name: str, value: Scalar) -> Scalar:
         """Exact derivative in time at constant speed."""
+        if self._slopes is None:
+            self._slopes = Slopes(self._rates_of_inputs(name))
+        return self._slopes(value) if isinstance(value, Value) else 0.0
+
+    def _rates_of_inputs(self, name: str) -> dict[Value, Scalar]:
         trace = self.motion.motion.trace
         seeds: dict[Value, Scalar] = {}
         for driver in self.mechanism.drivers.values():
@@ -138,7 +145,7 @@ class Named:
                 seeds[trace.position(turn)] = given.rate
                 seeds[trace.position(cosine)] = -given.turn.y * given.rate
                 seeds[trace.position(sine)] = given.turn.x * given.rate
-        return slope(value, {**seeds, **self._iterated_rates()})
+        return {**seeds, **self._iterated_rates()}
 
     def _iterated_rates(self) -> dict[Value, Scalar]:
         """Coordinates of groups without closed form with their exact rates.

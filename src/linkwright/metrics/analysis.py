@@ -13,7 +13,7 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
-from linkwright.core.outputs import Output
+from linkwright.core.outputs import Output, row_names
 from linkwright.core.piecewise import POINTS, Piecewise, largest, reach, sought
 from linkwright.core.search import EQUAL, first_largest, lowest
 from linkwright.engine.recently_made import Recent
@@ -142,6 +142,8 @@ class Analysis:
     def limits(self, output: Output) -> tuple[Limit, ...]:
         """Limit positions of an output, by increasing time; none where the positions follow no law in time."""
         if output not in self._limits:
+            turning = (each.owner for each in self.outputs if each.kind == "angle")
+            self.motion.evaluate_together(each for link in turning for each in row_names("direction", link))
             found = limit_positions(self.motion, output) if self.resolver.possible else ()
             self._limits[output] = tuple(sorted(found, key=lambda each: each.time))
         return self._limits[output]

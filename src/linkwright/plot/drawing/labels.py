@@ -108,7 +108,7 @@ class Obstacles:
         share = np.clip(np.minimum(last, 1.0) - np.maximum(first, 0.0), 0.0, None)
         touched = share > 0
         length = share * np.hypot(way[:, 0], way[:, 1]) + 4.0 * touched
-        return np.bincount(rows, length, len(boxes)).astype(np.float64)
+        return np.asarray(np.bincount(rows, length, len(boxes)), dtype=float)
 
     def _beside(self, boxes: Floats) -> Flags:
         """Which segments (m,) may touch one of the boxes: those whose own boxes touch the box of all."""

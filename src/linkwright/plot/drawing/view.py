@@ -11,6 +11,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import row_names
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.names import canonical
 from linkwright.plot.symbols.base import Vec
 
 DIAGONAL = 620.0
@@ -36,12 +37,15 @@ def placements(motion: Motion) -> dict[str, Placement]:
     still = np.zeros((motion.steps, 2))
     found = {"frame": Placement(still, still + np.array([1.0, 0.0]))}
     links = motion.mechanism.links
-    motion.evaluate_together(each for name in links for each in row_names("direction", name))
+    first = {name: canonical(motion.mechanism, name, next(iter(link.points))) for name, link in links.items()}
+    wanted = [row_names("direction", name) for name in links]
+    wanted += [row_names("position", point) for point in first.values()]
+    motion.evaluate_together(each for pair in wanted for each in pair)
     for name, link in links.items():
         direction = motion.link(name).direction
-        point, (x, y) = next(iter(link.points.items()))
+        x, y = next(iter(link.points.values()))
         c, s = direction[:, 0], direction[:, 1]
-        at = motion.point(f"{name}.{point}").position
+        at = motion.point_of(first[name]).position
         found[name] = Placement(at - np.stack([c * x - s * y, s * x + c * y], axis=1), direction)
     return found
 
