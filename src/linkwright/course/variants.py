@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from os import PathLike
 from pathlib import Path
@@ -15,6 +15,7 @@ import numpy as np
 from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import require, whole
+from linkwright.core.progress import Progress, current_progress
 from linkwright.course.mistakes import Consequence, Sheet
 from linkwright.course.task import Question, Task, task
 from linkwright.errors import LinkwrightError, RequestError
@@ -146,7 +147,7 @@ def variants(
     count: int = 30,
     *,
     seed: int = 0,
-    told: Callable[[int, int], None] | None = None,
+    progress: Progress | None = None,
 ) -> Variants:
     """Variants of a machine for a course.
 
@@ -154,7 +155,7 @@ def variants(
         machine: a mechanism, path or gallery name; its section ``course`` says what changes and what is asked.
         count: how many.
         seed: of the random numbers; the same seed gives the same variants.
-        told: is told how many are found, and of how many.
+        progress: called with (variants found, variants).
 
     Returns:
         The variants. Each passes its cycle, has a transmission angle hardly below the model's and answers of the same
@@ -174,6 +175,7 @@ def variants(
     model = _solved(asked, 0, {}, asked.mechanism)
     bar = _transmission(asked.mechanism)
     found: list[Variant] = []
+    progress = progress or current_progress()
     for _ in range(TRIES * count):
         changes = {name: float(f"{rng.uniform(*limits):.{DIGITS}g}") for name, limits in asked.ranges.items()}
         if any(dict(each.dimensions) == changes for each in found):
@@ -181,8 +183,8 @@ def variants(
         fresh = _sound(asked, len(found) + 1, changes, model, bar)
         if fresh is not None:
             found.append(fresh)
-            if told is not None:
-                told(len(found), count)
+            if progress is not None:
+                progress(len(found), count)
         if len(found) == count:
             return Variants(asked, seed, tuple(found))
     raise LinkwrightError("course.too_few", found=len(found), count=count, tried=TRIES * count)
