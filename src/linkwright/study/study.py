@@ -315,7 +315,7 @@ class _Work:
         for done, (number, piece) in enumerate(in_turn(client, _piece, tasks, self._own), 1):
             pieces[number] = piece
             if self.progress is not None:
-                self.progress(done, len(parts))
+                self.progress(len(designs) * done // len(parts), len(designs))
         for number, part in enumerate(parts):
             values, dimensions, notes, troubled = pieces[number]
             for name in rest[0]:
