@@ -50,9 +50,8 @@ def test_a_sweep_tells_of_its_designs_and_finds_the_same_bits(
     found, calls = told(lambda: lw.sweep(mechanism, vary, outputs=outputs))
     alone = columns_of(lw.sweep(mechanism, vary, outputs=outputs))
     assert all(np.array_equal(alone[key], each, equal_nan=True) for key, each in columns_of(found).items())
-    assert len(calls) > 2 * (outputs != ["driver.effort rms"] or name == "kite") and {
-        total for _, total in calls
-    } == {count}
+    together = outputs == ["driver.effort rms"] and name != "kite"  # one piece of so few
+    assert len(calls) > (0 if together else 1) and {total for _, total in calls} == {count}
     assert [done for done, _ in calls] == sorted(done for done, _ in calls) and calls[-1][0] == count
 
 

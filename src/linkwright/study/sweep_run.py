@@ -66,6 +66,7 @@ class SweepRun:
         self.mechanism, self.columns, self.asked = mechanism, columns, asked
         self.positions, self.manner = positions, manner
         self.progress, self.backend = manner.progress or current_progress(), manner.backend
+        self._told = 0
         self.designs = len(next(iter(columns.values())))
         self.traced = Traced(mechanism, columns, positions)
         names = [summary.output for summary in asked]
@@ -113,8 +114,9 @@ class SweepRun:
             self.tell(end)
 
     def tell(self, done: int) -> None:
-        """Tells how many designs are done."""
-        if self.progress is not None:
+        """Tells how many designs are done, once each."""
+        if self.progress is not None and done > self._told:
+            self._told = done
             self.progress(done, self.designs)
 
     def _curves(self, names: Sequence[str], part: Mapping[str, Floats], first: int) -> dict[str, Floats]:
