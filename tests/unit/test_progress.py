@@ -130,7 +130,7 @@ def test_the_bar_tells_the_time_that_is_left(
     language: str, words: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A quarter after a minute: three minutes are left; nothing where nobody looks."""
-    terminal, clock = Terminal(), iter([0.0, 0.0, 0.5, 60.0])
+    terminal, clock = Terminal(), iter([0.0, 0.5, 60.0])
     monkeypatch.setattr(bars.sys, "stderr", terminal)
     monkeypatch.setattr(bars.time, "monotonic", lambda: next(clock))
     with bars.progress(speaker(language), "sweep.computing") as report:

@@ -39,7 +39,8 @@ def progress(say: Say, what: str) -> Iterator[Progress | None]:
         stream.flush()
 
     try:
-        report(0, 1)
+        stream.write(f"{CLEAR}{title} …")
+        stream.flush()
         with reporting(report):
             yield report
     finally:
