@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from linkwright.cams.loading import CamSpring as CamSpring
     from linkwright.cams.result import CamDesign as CamDesign
     from linkwright.cams.sizes import CamChoice as CamChoice
+    from linkwright.core.progress import reporting as reporting
     from linkwright.course.grade import Grade as Grade
     from linkwright.course.grade import grade as grade
     from linkwright.course.variants import Variants as Variants

@@ -8,6 +8,7 @@ import pytest
 
 from linkwright.cli import main
 from linkwright.cli.progress import progress
+from linkwright.words import speaker
 
 CRUSHER = "gallery:jaw_crusher_sixbar"
 STUCK = """\
@@ -138,12 +139,12 @@ def test_missing_package_is_named_with_its_remedy(
 def test_progress_shows_on_a_terminal_only(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    with progress("drawing") as report:
+    with progress(speaker("en"), "animate.drawing") as report:
         assert report is None
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True, raising=False)
 
     def interrupted() -> None:
-        with progress("drawing") as report:
+        with progress(speaker("en"), "animate.drawing") as report:
             assert report is not None
             report(5, 10)
             report(10, 10)

@@ -1,5 +1,6 @@
 """``linkwright plot``: files, defaults, refusals, progress."""
 
+import sys
 from pathlib import Path
 
 import pytest
@@ -66,13 +67,17 @@ def test_slips_are_refused_and_nothing_is_written(
     assert list(tmp_path.iterdir()) == []
 
 
-def test_several_models_are_compared_with_progress(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+def test_several_models_are_compared_with_progress_on_a_terminal(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     path = tmp_path / "c.svg"
     models = [CRUSHER, "gallery:jaw_crusher_sixbar_as_reported"]
-    assert main(["plot", *models, "--kind", "torque", "--steps", "72", "--output", str(path)]) == 0
-    assert "2 of 2" in capsys.readouterr().err and path.exists()
+    command = ["plot", *models, "--kind", "torque", "--steps", "72", "--output", str(path)]
+    assert main(command) == 0
+    assert not capsys.readouterr().err and path.exists()
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True, raising=False)
+    assert main([*command, "--force"]) == 0
+    assert "1/2" in capsys.readouterr().err
 
 
 def test_chinese_is_drawn_or_refused_with_a_remedy(

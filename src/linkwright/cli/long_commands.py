@@ -6,21 +6,24 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
-from linkwright.cli.progress import Report, progress
+from linkwright.cli.progress import progress
 from linkwright.cli.session import Session
+from linkwright.core.progress import Progress
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
 
 @contextmanager
-def kept(state: str | None, name: str, asked: Iterable[object], session: Session) -> Iterator[Report | None]:
+def kept(
+    state: str | None, name: str, asked: Iterable[object], session: Session
+) -> Iterator[Progress | None]:
     """``kept_in`` of a command, with a bar; an interruption names the file that is left."""
     from linkwright.study.finished_parts import Interrupted, kept_in
 
     try:
         with (
-            progress(session.say("study.computing")) as report,
+            progress(session.say, "study.computing") as report,
             kept_in(state, name, *asked, progress=report),
         ):
             yield report

@@ -3,17 +3,23 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterator
+import time
+from collections.abc import Iterator
 from contextlib import contextmanager
 
-Report = Callable[[int, int], None]
+from linkwright.core.progress import Progress, reporting
+from linkwright.words import Say
+
 BAR = 24
 CLEAR = "\r\x1b[K"
+#: Seconds of work after which the time that is left is estimated.
+KNOWN = 1.0
 
 
 @contextmanager
-def progress(what: str) -> Iterator[Report | None]:
-    """A function that is told (done, total) and shows a bar; None where nobody would see it.
+def progress(say: Say, what: str) -> Iterator[Progress | None]:
+    """A function that is told (done, total) and shows a bar with the time that is left; None where nobody would see
+    it. All long work within the block tells it as well. ``what``: a key of the catalogue.
 
     The bar is wiped when all is done, also where the work is interrupted.
     """
@@ -21,15 +27,30 @@ def progress(what: str) -> Iterator[Report | None]:
     if not stream.isatty():
         yield None
         return
+    begun, title = time.monotonic(), say(what)
 
     def report(done: int, total: int) -> None:
         full = BAR * done // max(total, 1)
-        bar = f"{what} [{'#' * full}{' ' * (BAR - full)}] {done}/{total}"
+        bar = f"{title} [{'#' * full}{' ' * (BAR - full)}] {done}/{total}"
+        spent = time.monotonic() - begun
+        if done and spent > KNOWN:
+            bar += f"  {say('cli.time_left', time=_time(spent * (total - done) / done))}"
         stream.write(CLEAR + (bar if done < total else ""))  # results may be shown at once
         stream.flush()
 
     try:
-        yield report
+        stream.write(f"{CLEAR}{title} …")
+        stream.flush()
+        with reporting(report):
+            yield report
     finally:
         stream.write(CLEAR)
         stream.flush()
+
+
+def _time(seconds: float) -> str:
+    """A time as it is estimated: seconds, minutes, hours."""
+    for unit, size in (("h", 3600.0), ("min", 60.0)):
+        if seconds >= 2 * size:
+            return f"{seconds / size:.0f} {unit}"
+    return f"{max(seconds, 1.0):.0f} s"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from os import PathLike
 from pathlib import Path
@@ -16,6 +16,7 @@ import numpy as np
 from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import require, whole
+from linkwright.core.progress import Progress, current_progress
 from linkwright.course.mistakes import Consequence, Sheet
 from linkwright.course.task import Question, Task, task
 from linkwright.errors import LinkwrightError, RequestError
@@ -155,7 +156,7 @@ def variants(
     count: int = 30,
     *,
     seed: int = 0,
-    told: Callable[[int, int], None] | None = None,
+    progress: Progress | None = None,
 ) -> Variants:
     """Variants of a machine for a course.
 
@@ -163,7 +164,7 @@ def variants(
         machine: a mechanism, path or gallery name; its section ``course`` says what changes and what is asked.
         count: how many.
         seed: of the random numbers; the same seed gives the same variants.
-        told: is told how many are found, and of how many.
+        progress: called with (variants found, variants).
 
     Returns:
         The variants. Each passes its cycle, has a transmission angle hardly below the model's and answers of the same
@@ -184,6 +185,7 @@ def variants(
     bar = _transmission(asked.mechanism)
     found: list[Variant] = []
     failed = Counter[str]()
+    progress = progress or current_progress()
     for _ in range(TRIES * count if asked.ranges else 0):
         changes = {name: float(f"{rng.uniform(*limits):.{DIGITS}g}") for name, limits in asked.ranges.items()}
         fresh = _sound(asked, len(found) + 1, changes, model, bar)
@@ -193,8 +195,8 @@ def variants(
             failed[fresh] += 1
             continue
         found.append(fresh)
-        if told is not None:
-            told(len(found), count)
+        if progress is not None:
+            progress(len(found), count)
         if len(found) == count:
             return Variants(asked, seed, tuple(found))
     raise _too_few(asked, len(found), count, failed)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import field
 from functools import cached_property
 
@@ -17,8 +17,6 @@ from linkwright.engine.reductions import VALID_COUNT, Reduction, Results
 from linkwright.engine.stage import BACKENDS, Arrays, Backend, Run, Stage, blank
 from linkwright.engine.table import Tables
 from linkwright.engine.threads import chunks, cores
-
-Progress = Callable[[int, int], None]
 
 #: Configurations of a block: of results alone, of what gradients are found from, and where stages keep fields.
 _RESULTS, _KNOWN, _WITH_FIELDS = 1 << 26, 1 << 23, 1 << 20

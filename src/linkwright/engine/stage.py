@@ -29,7 +29,7 @@ BACKENDS: tuple[Backend, ...] = ("auto", "numpy", "llvm")
 Arrays = Mapping[str, ArrayLike]
 
 #: Below this number of configurations NumPy has answered before a program is compiled.
-_WORTH_COMPILING = 20_000
+WORTH_COMPILING = 20_000
 #: As many configurations, or more, count the designs of a position where states go on to the next one.
 _IN_TURN = 64
 #: From this number of designs on, what is the same for all of them is found beforehand.
@@ -231,7 +231,7 @@ def code_for(
 ) -> CompiledProgram | None:
     """The compiled program; None where NumPy is asked for, is all there is, or has answered before."""
     count = max(designs, _IN_TURN) if program.states else designs
-    if run.backend == "numpy" or (run.backend == "auto" and count * run.length < _WORTH_COMPILING):
+    if run.backend == "numpy" or (run.backend == "auto" and count * run.length < WORTH_COMPILING):
         return None
     from linkwright.engine.llvm_backend import compile_program
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import io
 import json
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any, Literal
 
@@ -16,6 +16,7 @@ from linkwright.core.arrays import Floats
 from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import require, whole
+from linkwright.core.progress import Progress, current_progress, reporting
 from linkwright.errors import RequestError
 from linkwright.export.base import package
 from linkwright.mechanism.mechanism import Mechanism
@@ -191,7 +192,7 @@ def sweep_parts(
     part: int = PART,
     client: Any = None,
     threads: int | None = None,
-    progress: Callable[[int, int], None] | None = None,
+    progress: Progress | None = None,
 ) -> SweepParts:
     """A sweep of any size, part by part into a folder; a part that is there already is not computed again.
 
@@ -204,7 +205,7 @@ def sweep_parts(
         part: designs of a part, rounded up to a power of two.
         client: a Dask client or the address of a scheduler (extra ``cluster``), else ``threads`` of this machine.
             Parts are the same, to the bit, wherever they are computed; those of workers that die are given out again.
-        progress: called with (parts done, parts).
+        progress: called with (designs done, designs), those of parts that are there already among them.
 
     Raises:
         LinkwrightError: unknown names, a folder with another sweep, no pyarrow or distributed, no cluster.
@@ -216,12 +217,18 @@ def sweep_parts(
     found = SweepParts(Path(folder), plan)
     missing = _missing(found)
     found.skipped = plan.parts - len(missing)
-    done = found.skipped
-    for number, content in _made(plan, missing, client if client is not None else current(), threads):
-        write_whole(found.path(number), content)
-        done += 1
+    progress = progress or current_progress()
+    done = plan.designs - sum(plan.rows(number) for number in missing)
+
+    def within(share: int, whole: int) -> None:
         if progress is not None:
-            progress(done, plan.parts)
+            progress(min(done + plan.part * share // whole, plan.designs), plan.designs)
+
+    with reporting(None if progress is None else within):
+        for number, content in _made(plan, missing, client if client is not None else current(), threads):
+            write_whole(found.path(number), content)
+            done += plan.rows(number)
+            within(0, 1)
     return found
 
 

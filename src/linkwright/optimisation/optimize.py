@@ -14,7 +14,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.given import require
-from linkwright.engine.cycle import Progress
+from linkwright.core.progress import Progress, current_progress, reporting
 from linkwright.errors import LinkwrightError, ModelError, RequestError
 from linkwright.files.document import Document
 from linkwright.files.model_file import read_document
@@ -112,7 +112,8 @@ def optimize(
         asked = problem(mechanism, given, "" if document is None else document.name)
     machine = dump(replace(asked.mechanism, optimize={}))
     depends = {key: value for key, value in given.items() if key != "evaluations"}
-    with kept_in(state, asked.mechanism.name, machine, depends):
+    progress = progress or current_progress()
+    with kept_in(state, asked.mechanism.name, machine, depends), reporting(None):
         with _at_their_lines(document, settings):
             task = Task(asked)
         if not task.measures.side_by_side and "evaluations" not in given:

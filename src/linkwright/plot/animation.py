@@ -38,7 +38,7 @@ from linkwright.words import say
 from linkwright.words.sentence import in_language
 
 if TYPE_CHECKING:
-    from linkwright.engine.cycle import Progress
+    from linkwright.core.progress import Progress
     from linkwright.kinetostatics.forces import Forces
 
 FILM_RATE = 25

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import require
-from linkwright.engine.cycle import Progress
+from linkwright.core.progress import Progress, current_progress, reporting
 from linkwright.errors import LinkwrightError, RequestError, about, require_language
 from linkwright.files.model_file import load
 from linkwright.files.source import GALLERY
@@ -146,10 +146,12 @@ def report(
         tuple(filter(None, (own.course, own.author, own.date))),
     )
     parts = list(_parts(cases, chosen, document)) if cases else []
+    progress = progress or current_progress()
     for done, (case, part) in enumerate(parts):
         if progress is not None:
             progress(done, len(parts))
-        _add(document, case, part, asked=bool(sections))
+        with reporting(None):
+            _add(document, case, part, asked=bool(sections))
     for problem in problems:
         _add_calculation(document, problem)
     return Report(document)

@@ -11,6 +11,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.given import real, require
 from linkwright.core.html import html_table
 from linkwright.core.plot_method import Plotted
+from linkwright.core.progress import current_progress
 from linkwright.core.read_only import Frozen
 from linkwright.errors import LinkwrightError, RequestError, with_remedy
 from linkwright.kinematics.outcome import PositionError
@@ -259,7 +260,10 @@ def compare(
         wanted = (number for each in asked for number in numbers_of(alternative, each.name))
         alternative.analysis.ask(part for number in wanted for part in number.parts)
     rows = []
-    for each in asked:
+    progress = current_progress()
+    for done, each in enumerate(asked):
+        if progress is not None:
+            progress(done, len(asked))
         values = tuple(_measured(each, alternative) for alternative in found)
         if metrics is None and all(value is None for value in values):
             continue
@@ -267,6 +271,8 @@ def compare(
             known: object = [note for a in found for note in a.notes] or Sentence("study.leave_out")
             raise RequestError("study.applies_to_none", name=each.name, known=known)
         rows.append(Row(each, values, given.get(each.name, 1.0)))
+    if progress is not None:
+        progress(len(asked), len(asked))
     return Comparison(tuple(found), tuple(rows), fluctuation)
 
 

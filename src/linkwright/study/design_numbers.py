@@ -8,10 +8,12 @@ from typing import TypeAlias
 import numpy as np
 
 from linkwright.core.arrays import Floats, Indices
+from linkwright.core.progress import Progress, paced, part_of
 from linkwright.cycle_programs.metric_cycle import MetricCycle, metric_cycle
 from linkwright.cycle_programs.range_designs import RangeDesigns, range_designs
 from linkwright.cycle_programs.swept_designs import SweptDesigns, swept_designs
 from linkwright.cycle_programs.terms import Asked, Term, measured
+from linkwright.engine.machine_code import available
 from linkwright.engine.stage import Backend
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.solve import solve_motion
@@ -20,6 +22,8 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import Analysis
 from linkwright.metrics.evaluate import unloaded
 
+#: Designs up to which what finds their numbers together may choose to do so without a compiler.
+FEW = 512
 #: What finds design numbers of all designs at once.
 Numbers: TypeAlias = MetricCycle | SweptDesigns | RangeDesigns
 
@@ -52,6 +56,7 @@ def numbers_of(
     partial: bool = False,
     threads: int | None = None,
     backend: Backend = "auto",
+    progress: Progress | None = None,
 ) -> tuple[dict[str, Floats], dict[str, str], dict[int, str]]:
     """Metrics of the chosen ones of all designs, NaN for the others: values and dimensions by name, and sentences of
     designs for which they cannot be found. ``partial``: also of designs that reach a part of their cycle alone.
@@ -63,24 +68,36 @@ def numbers_of(
     values = {name: np.full(count, np.nan) for name in names}
     dimensions: dict[str, str] = {}
     cycles = side_by_side(mechanism, columns, names)
-    part = {address: column[designs] for address, column in columns.items()}
     certain = np.full(len(designs), bool(cycles))
-    for cycle in cycles:
-        known = cycle.evaluate(part, threads=threads, backend=backend)
-        certain &= known.certain
-        for each in cycle.terms:
-            values[each.name][designs[known.certain]] = known.values[each.name][known.certain]
-            dimensions[each.name] = each.dimension
+    compiled = backend == "auto" and available()
+    whole = progress is None or (compiled and len(designs) <= FEW)
+    serving: Backend = "llvm" if compiled and not whole else backend  # as it serves all together
+    for k, cycle in enumerate(cycles):
+        tell = part_of(progress, k, len(cycles) + 1)
+        for low, high in [(0, len(designs))] if whole else paced(len(designs)):
+            some = designs[low:high]
+            part = {address: column[some] for address, column in columns.items()}
+            known = cycle.evaluate(part, threads=threads, backend=serving)
+            certain[low:high] &= known.certain
+            for each in cycle.terms:
+                values[each.name][some[known.certain]] = known.values[each.name][known.certain]
+                dimensions[each.name] = each.dimension
+            if tell is not None:
+                tell(high, len(designs))
     sure = np.zeros(count, dtype=np.bool_)
     sure[designs] = certain
     rest = [name for name in names if name not in dimensions]
     failed: dict[int, str] = {}
-    for index in designs.tolist() if rest else designs[~sure[designs]].tolist():
+    left = designs.tolist() if rest else designs[~sure[designs]].tolist()
+    tell = part_of(progress, len(cycles), len(cycles) + 1)
+    for done, index in enumerate(left, 1):
         design = mechanism.with_dimensions({a: float(column[index]) for a, column in columns.items()})
         found_alone, why = _alone(design, rest if sure[index] else names, partial)
         failed |= {index: why} if why else {}
         for name, (value, dimension) in found_alone.items():
             values[name][index], dimensions[name] = value, dimension
+        if tell is not None:
+            tell(len(designs) * done // len(left), len(designs))
     idle = [name for name in names if name not in dimensions] if len(designs) > len(failed) else []
     if idle:
         if (missing := unloaded(mechanism, idle)) is not None:

@@ -15,8 +15,8 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.given import one_of, require, whole
 from linkwright.core.html import columns_html
 from linkwright.core.plot_method import Plotted
+from linkwright.core.progress import Progress, current_progress, part_of
 from linkwright.core.read_only import Frozen
-from linkwright.engine.cycle import Progress
 from linkwright.engine.machine_code import available
 from linkwright.engine.stage import BACKENDS, Backend
 from linkwright.engine.threads import chunks
@@ -180,7 +180,15 @@ def sweep(
     asked = wanted(outputs)
     client, backend = current(), _of_all(backend, columns)
     over_positions = tuple(each for each in asked if each.kind)
-    run = SweepRun(mechanism, columns, over_positions, positions, Manner(partial, threads, backend, progress))
+    progress = progress or current_progress()
+    stages = 1 + any(not each.kind for each in asked)
+    run = SweepRun(
+        mechanism,
+        columns,
+        over_positions,
+        positions,
+        Manner(partial, threads, backend, part_of(progress, 0, stages)),
+    )
     if client is not None and run.designs > SHARED:
         return _shared(client, run, asked, steps)
     assembled, passed, values = run.swept()
@@ -189,11 +197,14 @@ def sweep(
     if numbers:
         chosen = np.flatnonzero(assembled > 0 if partial else assembled == positions.count)
         found, dimensions, failed = numbers_of(
-            mechanism, columns, numbers, chosen, partial=partial, threads=threads, backend=backend
-        )
+            mechanism, columns, numbers, chosen, partial=partial, threads=threads, backend=backend,
+            progress=part_of(progress, 1, stages),
+        )  # fmt: skip
         values |= {Summary(name, ""): column for name, column in found.items()}
         run.unloaded |= failed
         passed[list(failed)] = False
+        if progress is not None:
+            progress(run.designs, run.designs)
     return Sweep(
         mechanism,
         columns,
@@ -220,7 +231,10 @@ def _shared(client: Any, run: SweepRun, asked: Sequence[Summary], steps: int) ->
     """The same sweep in pieces on a cluster."""
     names = [each.name.strip() for each in asked]
     places, tasks = _tasks(run, names, steps, run.manner.partial, run.manner.backend)
-    found: dict[int, _Piece] = dict(in_turn(client, _piece, tasks, run.own))
+    found: dict[int, _Piece] = {}
+    for number, piece in in_turn(client, _piece, tasks, run.own):
+        found[number] = piece
+        run.tell(run.designs * len(found) // len(tasks))
     assembled, passed, summaries, unloaded, margins, dimensions = zip(
         *map(found.get, range(len(tasks))), strict=True
     )

@@ -14,16 +14,14 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from itertools import count
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 
+from linkwright.core.progress import Progress, current_progress, reporting
 from linkwright.errors import RequestError
 from linkwright.whole_files import refuse_target, write_new
 from linkwright.words.sentence import Sentence
-
-if TYPE_CHECKING:
-    from linkwright.engine.cycle import Progress
 
 T = TypeVar("T")
 #: Seconds between two times that finished parts are written.
@@ -56,7 +54,7 @@ def kept_in(
         path: the file; None: one named after ``name`` in the working directory, where the work is interrupted.
         asked: what the file is for, such as the machine's text and the ranges; a file that was begun for something
             else is refused. Without it work of several kinds can share a file.
-        progress: called with (designs done, designs) of every sweep that the work consists of.
+        progress: as in :func:`reporting`.
 
     Raises:
         Interrupted: a KeyboardInterrupt, with the file that has all finished parts.
@@ -64,10 +62,11 @@ def kept_in(
     """
     from linkwright import __version__
 
-    kept = Kept(None if path is None else Path(path), name, identity(__version__, *asked), progress)
+    kept = Kept(None if path is None else Path(path), name, identity(__version__, *asked))
     token = _current.set(kept)
     try:
-        yield
+        with reporting(progress or current_progress()):
+            yield
     except KeyboardInterrupt:
         raise Interrupted(kept.left()) from None
     finally:
@@ -99,12 +98,6 @@ def surrounding() -> Kept | None:
     return _current.get()
 
 
-def reporting() -> Progress | None:
-    """What the surrounding ``kept_in`` tells progress to."""
-    kept = _current.get()
-    return None if kept is None else kept.progress
-
-
 def identity(*things: object) -> str:
     """A digest of values and arrays, the same in every process."""
     digest = hashlib.blake2b(digest_size=16)
@@ -122,8 +115,8 @@ def identity(*things: object) -> str:
 class Kept:
     """Parts by key in a database of one file, or of memory where there is none yet."""
 
-    def __init__(self, path: Path | None, name: str, digest: str, progress: Progress | None) -> None:
-        self.path, self.name, self.progress, self.written = path, name, progress, time.monotonic()
+    def __init__(self, path: Path | None, name: str, digest: str) -> None:
+        self.path, self.name, self.written = path, name, time.monotonic()
         self._unwritten: dict[str, str] = {}
         if path is not None:
             refuse_target(path)

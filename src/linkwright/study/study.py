@@ -15,6 +15,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.given import require
 from linkwright.core.html import columns_html
 from linkwright.core.plot_method import Plotted
+from linkwright.core.progress import Progress, current_progress, part_of
 from linkwright.core.read_only import Frozen
 from linkwright.cycle_programs.terms import Asked
 from linkwright.engine.machine_code import available
@@ -43,7 +44,6 @@ from linkwright.words.sentence import Sentence
 if TYPE_CHECKING:
     import pandas
 
-    from linkwright.engine.cycle import Progress
     from linkwright.engine.stage import Backend
     from linkwright.study.design_numbers import Numbers
 
@@ -249,7 +249,7 @@ class _Work:
         progress: Progress | None,
     ) -> None:
         self.mechanism, self.columns, self.asked = mechanism, columns, asked
-        self.fluctuation, self.steps, self.progress = fluctuation, steps, progress
+        self.fluctuation, self.steps, self.progress = fluctuation, steps, progress or current_progress()
         self.output = usual_output(mechanism) if output is None else output_of_machine(mechanism, output)
         self.count = len(next(iter(columns.values())))
         self.values = {each.name: np.full(self.count, np.nan) for each in asked}
@@ -260,7 +260,11 @@ class _Work:
     def study(self, ranges: tuple[Range, ...], sampling: str, *, usual: bool) -> Study:
         summaries = [each.name for each in self.asked if is_summary(each.name)]
         probe = summaries or ["closeness min" if self._closed() else self._any_output()]
-        found = sweep(self.mechanism, self.columns, outputs=probe, steps=self.steps)
+        numbers = [each for each in self.asked if not is_summary(each.name)]
+        parts = 1 + bool(numbers)
+        first = part_of(self.progress, 0, parts)
+        found = sweep(self.mechanism, self.columns, outputs=probe, steps=self.steps, progress=first)
+        self.progress = part_of(self.progress, parts - 1, parts)
         for name in summaries:
             summary = next(s for s in found.summaries if s.name == name or f"{s.output}.{s.kind}" == name)
             self.values[name] = found.summaries[summary]
@@ -268,7 +272,6 @@ class _Work:
         ok = found.ok.copy()
         if not ok.any():
             raise LinkwrightError(_none_moves(self.count, found.failures()))
-        numbers = [each for each in self.asked if not is_summary(each.name)]
         client, designs = current(), np.flatnonzero(ok)
         if client is not None and numbers and len(designs) > PIECE:
             self._shared(client, numbers, designs)
@@ -291,13 +294,17 @@ class _Work:
         self, asked: list[Criterion], designs: Indices, together: bool, backend: Backend = "auto"
     ) -> None:
         """Numbers of the designs, at once as far as they are certain so (``together``), the others one by one."""
-        certain = self._together(asked, designs, backend) if together else {}
+        parts = 1 + together
+        certain = (
+            self._together(asked, designs, backend, part_of(self.progress, 0, parts)) if together else {}
+        )
+        tell = part_of(self.progress, parts - 1, parts)
         for done, index in enumerate(designs.tolist(), 1):
             single = [each for each in asked if index not in certain.get(each.name, ())]
             if single:
                 self._measure(index, single)
-            if self.progress is not None:
-                self.progress(done, len(designs))
+            if tell is not None:
+                tell(done, len(designs))
 
     def _shared(self, client: Any, asked: list[Criterion], designs: Indices) -> None:
         """The same in pieces on a cluster."""
@@ -309,7 +316,7 @@ class _Work:
         for done, (number, piece) in enumerate(in_turn(client, _piece, tasks, self._own), 1):
             pieces[number] = piece
             if self.progress is not None:
-                self.progress(done, len(parts))
+                self.progress(len(designs) * done // len(parts), len(designs))
         for number, part in enumerate(parts):
             values, dimensions, notes, troubled = pieces[number]
             for name in rest[0]:
@@ -318,13 +325,17 @@ class _Work:
             self.notes |= notes
             self.troubled |= {int(part[index]): why for index, why in troubled.items()}
 
-    def _together(self, asked: list[Criterion], designs: Indices, backend: Backend) -> dict[str, set[int]]:
+    def _together(
+        self, asked: list[Criterion], designs: Indices, backend: Backend, progress: Progress | None
+    ) -> dict[str, set[int]]:
         """Numbers of many designs at once; which designs' they are certain of, by name."""
         wanted = Asked(self.output, self.fluctuation)
         sure: dict[str, set[int]] = {}
         if len(designs) > AT_ONCE and backend == "auto" and available():
             backend = "llvm"  # for the last of them as well, however few
-        for cycle in side_by_side(self.mechanism, self.columns, [each.name for each in asked], wanted):
+        cycles = side_by_side(self.mechanism, self.columns, [each.name for each in asked], wanted)
+        for k, cycle in enumerate(cycles):
+            tell = part_of(progress, k, len(cycles))
             for first, end in chunks(len(designs), AT_ONCE):
                 some = designs[first:end]
                 values, certain = self._at_once(cycle, some, backend)
@@ -332,6 +343,8 @@ class _Work:
                     self.values[term.name][some[certain]] = values[term.name][certain]
                     self.dimensions[term.name] = term.dimension
                     sure.setdefault(term.name, set()).update(some[certain].tolist())
+                if tell is not None:
+                    tell(end, len(designs))
         return sure
 
     def _at_once(self, cycle: Numbers, designs: Indices, backend: Backend) -> tuple[dict[str, Floats], Flags]:

@@ -11,18 +11,20 @@ import numpy as np
 from linkwright.core.arrays import Flags, Floats, Indices, Whole
 from linkwright.core.dataclass import dataclass
 from linkwright.core.inputs import Input, mode_groups
+from linkwright.core.progress import Progress, current_progress, paced
 from linkwright.cycle_programs.change_points import ChangePoints, near_enough
 from linkwright.cycle_programs.iterated_groups import MARGIN, following
 from linkwright.cycle_programs.loaded_cycle import LoadedCycle, loaded_cycle
 from linkwright.cycle_programs.one_by_one import OneByOne, changes_of
 from linkwright.cycle_programs.traced_outputs import NEAREST, VALID, Traced
-from linkwright.engine.cycle import Progress, summaries
+from linkwright.engine.cycle import summaries
 from linkwright.engine.llvm_backend import compile_program
+from linkwright.engine.machine_code import available
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
 from linkwright.engine.recently_made import Recent
 from linkwright.engine.reductions import Reduction, Results
-from linkwright.engine.stage import Backend
+from linkwright.engine.stage import WORTH_COMPILING, Backend
 from linkwright.engine.states import inputs_as_fields
 from linkwright.engine.threads import chunks, cores
 from linkwright.errors import LinkwrightError, SelfCheckError
@@ -32,12 +34,12 @@ from linkwright.kinetostatics.forces import solve_forces
 from linkwright.kinetostatics.named_outputs import Quantity
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.summary import Summary, finished, reductions
-from linkwright.study.finished_parts import identity, once, reporting
+from linkwright.study.finished_parts import identity, once
 
 #: The result that says whether a design passes its cycle.
 PASSED = "passed"
-#: Designs of one block, and of one whose inputs are found design by design.
-BLOCK, LOADED_BLOCK = 1 << 16, 1 << 9
+#: Designs of one block, of one whose loads are found together, and of one whose inputs are found design by design.
+BLOCK, TOGETHER_BLOCK, LOADED_BLOCK = 1 << 16, 1 << 13, 1 << 9
 #: Designs whose curves are held at a time.
 CURVE_BLOCK = 1 << 12
 #: Designs of a sweep whose forces are checked, and the positions in which they are.
@@ -72,7 +74,8 @@ class SweepRun:
     ) -> None:
         self.mechanism, self.columns, self.asked = mechanism, columns, asked
         self.positions, self.manner = positions, manner
-        self.progress = manner.progress or reporting()
+        self.progress, self.backend = manner.progress or current_progress(), manner.backend
+        self._told = 0
         self.designs = len(next(iter(columns.values())))
         self.traced = Traced(mechanism, columns, positions)
         names = [summary.output for summary in asked]
@@ -92,10 +95,9 @@ class SweepRun:
         """Assembled positions (designs,), whether each design passes its cycle, and every summary (designs,)."""
         assembled, passed = np.zeros(self.designs, dtype=np.int64), np.zeros(self.designs, dtype=np.bool_)
         values = {summary: np.empty(self.designs) for summary in self.asked}
-        for first, end in chunks(
-            self.designs,
-            LOADED_BLOCK if self.alone and self.follow is None and self._loaded is None else BLOCK,
-        ):
+        alone = self.alone and self.follow is None
+        size = (TOGETHER_BLOCK if self._together else LOADED_BLOCK) if alone else BLOCK
+        for first, end in chunks(self.designs, size):
             results = self._block(
                 {address: column[first:end] for address, column in self.columns.items()}, first
             )
@@ -107,8 +109,7 @@ class SweepRun:
                 if not self.manner.partial:
                     found[~passed[first:end]] = np.nan
                 into[first:end] = found
-            if self.progress is not None:
-                self.progress(end, self.designs)
+            self.tell(end)
         self.unloaded |= self._unsound()
         for into in values.values():
             into[list(self.unloaded)] = np.nan
@@ -122,8 +123,13 @@ class SweepRun:
         for first, end in chunks(self.designs, CURVE_BLOCK):
             part = {address: column[first:end] for address, column in self.columns.items()}
             yield slice(first, end), self._curves(names, part, first)
-            if self.progress is not None:
-                self.progress(end, self.designs)
+            self.tell(end)
+
+    def tell(self, done: int) -> None:
+        """Tells how many designs are done, once each."""
+        if self.progress is not None and done > self._told:
+            self._told = done
+            self.progress(done, self.designs)
 
     def _unsound(self) -> dict[int, str]:
         """Sentences of the designs whose forces do not pass their own check, by number.
@@ -206,7 +212,7 @@ class SweepRun:
 
         def found() -> tuple[Results, dict[int, str], list[int]]:
             unloaded, through = dict(self.unloaded), set(self.through)
-            results = self._computed(part, first)
+            results = self._in_pieces(part, first)
             new = {k - first: why for k, why in self.unloaded.items() if k not in unloaded}
             return results, new, [k - first for k in self.through - through]
 
@@ -215,15 +221,30 @@ class SweepRun:
         self.through |= {first + k for k in through}
         return results
 
+    def _in_pieces(self, part: Mapping[str, Floats], first: int) -> Results:
+        """The results of a block; in pieces of a short time each, where somebody asks how far it is. Loads that are
+        found for many designs at once are found so fast that a block is one piece."""
+        if self.progress is None or self._together:
+            return self._computed(part, first)
+        pieces, count = [], len(next(iter(part.values())))
+        self.backend = self.manner.backend
+        if self.backend == "auto" and count * self.positions.count >= WORTH_COMPILING and available():
+            self.backend = "llvm"  # as it serves the whole block
+        for low, high in paced(count):
+            pieces.append(self._computed({a: c[low:high] for a, c in part.items()}, first + low))
+            self.tell(first + high)
+        return {name: np.concatenate([each[name] for each in pieces]) for name in pieces[0]}
+
     def _computed(self, part: Mapping[str, Floats], first: int) -> Results:
         numbers = np.arange(first, first + len(next(iter(part.values()))))
         if self.follow is not None:
-            found = self.follow.block(part, self.reductions, self.manner.threads, self.manner.backend)
+            found = self.follow.block(part, self.reductions, self.manner.threads, self.backend)
             return self._noted(self._again(*found, part), numbers)
         if self.traced.nominal.modes:
             return self._noted(self._one_by_one(self._flipping, part), numbers)
-        if self.alone and self._loaded is not None:
-            found = self._loaded.evaluate(part, self.manner.threads, self.manner.backend)
+        if self._together:
+            assert self._loaded is not None
+            found = self._loaded.evaluate(part, self.manner.threads, self.backend)
             results = self._noted(self._again(*found, part), numbers)
         elif self.alone:
             results = self._noted(self._one_by_one(self._single, part), numbers)
@@ -239,6 +260,11 @@ class SweepRun:
         results = self._reduced(source.traced, program, part, rows)
         results[PASSED] = np.logical_and(results[PASSED], through)
         return results, failed
+
+    @property
+    def _together(self) -> bool:
+        """Whether the loads of the designs of a block are found at once."""
+        return self.alone and self.follow is None and self._loaded is not None
 
     @cached_property
     def _loaded(self) -> LoadedCycle | None:
@@ -267,7 +293,7 @@ class SweepRun:
 
     @cached_property
     def _touching(self) -> ChangePoints:
-        return ChangePoints(self.traced, self.manner.backend)
+        return ChangePoints(self.traced, self.backend)
 
     @cached_property
     def _single(self) -> OneByOne:
@@ -310,7 +336,7 @@ class SweepRun:
             self.positions.arrays,
             rows,
             threads=self.manner.threads,
-            backend=self.manner.backend,
+            backend=self.backend,
         )
         results[PASSED] = results["valid.count"] == self.positions.count
         return results

@@ -10,6 +10,7 @@ from collections.abc import Callable
 import numpy as np
 
 from linkwright.core.arrays import Floats, Whole
+from linkwright.core.progress import Progress
 
 #: Residuals (K, r) and their Jacobian (K, r, m) at parameters (K, m) of the starts numbered ``who`` (K,).
 System = Callable[[Floats, Whole], tuple[Floats, Floats]]
@@ -18,7 +19,13 @@ SHRINK, GROW, LARGEST, ENOUGH = 0.2, 6.0, 1e12, 1e-13
 
 
 def minimise(
-    system: System, start: Floats, *, steps: int = 80, keep: int = 6, halve: int = 8
+    system: System,
+    start: Floats,
+    *,
+    steps: int = 80,
+    keep: int = 6,
+    halve: int = 8,
+    progress: Progress | None = None,
 ) -> tuple[Floats, Floats, Whole]:
     """Local minima of Σ r² from the rows of ``start`` (K, m): parameters, sums (both best first) and start numbers.
 
@@ -39,6 +46,8 @@ def minimise(
         x, f = np.where(better[:, None], trial, x), np.where(better, f2, f)
         r, jacobian = np.where(better[:, None], r2, r), np.where(better[:, None, None], j2, jacobian)
         damping = np.where(better, np.maximum(damping * SHRINK, 1e-15), damping * GROW)
+        if progress is not None:
+            progress(step, steps)
         if done.all():
             break
         if step % halve == 0 and len(x) > keep:

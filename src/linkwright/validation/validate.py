@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable, Iterable
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.progress import Progress, current_progress, reporting
 from linkwright.errors import LinkwrightError
 from linkwright.units import unit
 from linkwright.validation.probes import PROBES
@@ -147,23 +148,24 @@ def line(each: Checked, language: str) -> str:
     )
 
 
-def validate(
-    cases: Iterable[Published] | None = None, told: Callable[[int], None] | None = None
-) -> Validation:
+def validate(cases: Iterable[Published] | None = None, progress: Progress | None = None) -> Validation:
     """Compares reference numbers, printed by their sources or derived from them, with those found here.
 
     Args:
         cases: which; by default all that the package holds.
-        told: is called with the count of cases that are done.
+        progress: called with (cases done, cases).
 
     Returns:
         The comparisons, one per number. What cannot be found here counts as a difference, with the reason.
     """
     checks: list[Checked] = []
-    for done, case in enumerate(published() if cases is None else cases, 1):
-        checks += check(case)
-        if told is not None:
-            told(done)
+    every = list(published() if cases is None else cases)
+    progress = progress or current_progress()
+    for done, case in enumerate(every, 1):
+        with reporting(None):
+            checks += check(case)
+        if progress is not None:
+            progress(done, len(every))
     return Validation(tuple(checks))
 
 

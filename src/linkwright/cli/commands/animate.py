@@ -70,7 +70,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
         size=options.width,
         language=session.language,
     )
-    with progress(session.say("animate.drawing")) as report:
+    with progress(session.say, "animate.drawing") as report:
         path = animation.save(
             options.output, width=options.width or WIDTH, fonts=options.fonts, progress=report, force=True
         )

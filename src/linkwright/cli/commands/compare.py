@@ -37,20 +37,23 @@ def run(options: argparse.Namespace, session: Session) -> int:
         raise UsageError("cli.about", name="linkwright compare", cause=Sentence("compare.too_few"))
     weights, fluctuation = _weights(options.weights or []), _fluctuation(options.fluctuation)
     from linkwright.cli.files import PICTURES, refuse_output
+    from linkwright.cli.progress import progress
     from linkwright.cli.source import read_model
     from linkwright.study.compare import compare
 
     for path in (options.output, options.curves):
         refuse_output(path, ENDINGS, force=options.force)
     refuse_output(options.plot, PICTURES, force=options.force)
-    found = compare(
-        [read_model(name, session)[0] for name in options.files],
-        metrics=options.metrics,
-        weights=weights,
-        output=_outputs(options),
-        fluctuation=fluctuation,
-        steps=options.steps,
-    )
+    machines = [read_model(name, session)[0] for name in options.files]
+    with progress(session.say, "study.computing"):
+        found = compare(
+            machines,
+            metrics=options.metrics,
+            weights=weights,
+            output=_outputs(options),
+            fluctuation=fluctuation,
+            steps=options.steps,
+        )
     _show(found, options, session)
     return 0
 

@@ -69,7 +69,7 @@ def _searched(options: argparse.Namespace, session: Session) -> int:
         "seed": options.seed,
     }
     try:
-        with on_cluster(options.cluster), progress(session.say("optimize.searching")) as report:
+        with on_cluster(options.cluster), progress(session.say, "optimize.searching") as report:
             found = optimize(options.file, state=options.state, progress=report, **settings)
     except OptimizeError as error:
         return _unmet(error, session)

@@ -80,22 +80,27 @@ def _path(options: argparse.Namespace) -> Path:
 
 def _solved(options: argparse.Namespace, session: Session) -> dict[str, Motion]:
     """The motion of every model by a name that tells it from the others; says how far the work is."""
+    from linkwright.cli.progress import progress
     from linkwright.cli.source import read_model
     from linkwright.kinematics.solve import solve_motion
 
     found: dict[str, Motion] = {}
-    for number, file in enumerate(options.files, 1):
-        if len(options.files) > 1:
-            session.tell(session.say("plot.solving", number=number, count=len(options.files), file=file))
-        mechanism, _ = read_model(file, session)
-        motion = solve_motion(mechanism, steps=options.steps, failures="mark")
-        failed = [outcome for outcome in motion.outcomes if not outcome.ok]
-        if len(failed) == motion.steps:
-            raise LinkwrightError("cli.about", name=file, cause=failed[0].sentence)
-        if failed:
-            session.tell(session.say("plot.not_reached", file=file, count=len(failed), of=motion.steps,
-                                     sentence=failed[0].sentence))  # fmt: skip
-        found[mechanism.name if mechanism.name not in found else f"{mechanism.name} ({file})"] = motion
+    notes = []
+    with progress(session.say, "plot.solving") as report:
+        for done, file in enumerate(options.files, 1):
+            mechanism, _ = read_model(file, session)
+            motion = solve_motion(mechanism, steps=options.steps, failures="mark")
+            failed = [outcome for outcome in motion.outcomes if not outcome.ok]
+            if len(failed) == motion.steps:
+                raise LinkwrightError("cli.about", name=file, cause=failed[0].sentence)
+            if failed:
+                notes.append(session.say("plot.not_reached", file=file, count=len(failed), of=motion.steps,
+                                         sentence=failed[0].sentence))  # fmt: skip
+            found[mechanism.name if mechanism.name not in found else f"{mechanism.name} ({file})"] = motion
+            if report is not None:
+                report(done, len(options.files))
+    for note in notes:
+        session.tell(note)
     return found
 
 

@@ -39,7 +39,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     path = _path(options)
     machines = [load(file) if kind_of(file) else read_model(file, session)[0] for file in options.files]
     sources = [file for file in options.files if not kind_of(file)]
-    with progress(session.say("report.working")) as told:
+    with progress(session.say, "report.working") as told:
         found = report(
             machines,
             sources=sources,

@@ -35,7 +35,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
 
     vary = ranges_of(options.vary)
     mechanism, _ = read_model(options.file, session)
-    with progress(session.say("sweep.computing")) as report:
+    with progress(session.say, "sweep.computing") as report:
         found = sweep_parts(
             mechanism, vary, options.folder, outputs=options.numbers, sampling=options.sampling,
             samples=options.samples, seed=options.seed, steps=options.steps, part=options.part,

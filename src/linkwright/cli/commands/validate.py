@@ -24,8 +24,8 @@ def run(options: argparse.Namespace, session: Session) -> int:
     cases = [each for each in published() if wanted in f"{each.case} {each.source}".casefold()]
     if not cases:
         raise UsageError("validate.no_case", text=options.case)
-    with progress(session.say("validate.working")) as told:
-        found = validate(cases, None if told is None else lambda done: told(done, len(cases)))
+    with progress(session.say, "validate.working") as told:
+        found = validate(cases, told)
     if session.json:
         session.show_data({"ok": found.ok, "numbers": found.data()})
     else:

@@ -38,8 +38,8 @@ def run(options: argparse.Namespace, session: Session) -> int:
     if os.path.exists(folder) and not options.force:
         raise UsageError("variants.folder_exists", path=folder)
     mechanism, _ = read_model(options.file, session)
-    with progress(say("variants.working")) as told:
-        found = variants(mechanism, options.count, seed=options.seed, told=told)
+    with progress(say, "variants.working") as told:
+        found = variants(mechanism, options.count, seed=options.seed, progress=told)
         files = found.save(folder, options.to, session.language, force=True)
     if session.json:
         session.show_data({"ok": True, "files": [str(path) for path in files], "key": found.key()})

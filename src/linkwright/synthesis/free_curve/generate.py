@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Complexes
+from linkwright.core.progress import Progress, current_progress
 from linkwright.engine.machine_code import available
-from linkwright.study.finished_parts import reporting, surrounding
+from linkwright.study.finished_parts import surrounding
 from linkwright.synthesis.free_curve.curve_file import read_curve
 from linkwright.synthesis.free_curve.drawing_order import drawing
 from linkwright.synthesis.free_curve.linkages import Placed, kind_of, linkage_of
@@ -45,7 +45,7 @@ def free_curve(
     seconds: float = 15.0,
     count: int = 6,
     seed: int = 0,
-    progress: Callable[[float, float], None] | None = None,
+    progress: Progress | None = None,
 ) -> Synthesis:
     """Linkages that draw a curve, best first.
 
@@ -66,7 +66,7 @@ def free_curve(
         seconds: time of the search on all cores; more time finds better linkages, as a rule: draws depend on it.
         count: candidates wanted; seed: of the search. Where the clock ends the search depends on the machine, so
             two runs may differ.
-        progress: called with the share of the time that is over and the least objective so far.
+        progress: called with the percents of the time that are over, and 100.
 
     Returns:
         Candidates none of which is beaten by another in error, number of links, transmission angle and size at
@@ -93,14 +93,8 @@ def free_curve(
     if not available():
         raise refuse("free_curve.compiler")
     target = Target(curve, closes, transmission_angle, size, turning)
-    search = Search(target, int(joints), seconds, int(seed), progress or _bar())
+    search = Search(target, int(joints), seconds, int(seed), progress or current_progress())
     return _ranked(target, search.run(), curve, error, int(count), search)
-
-
-def _bar() -> Callable[[float, float], None] | None:
-    """Tells the surrounding ``kept_in`` the percents of the time that are over."""
-    report = reporting()
-    return None if report is None else lambda share, _: report(round(100 * share), 100)
 
 
 def _curve(

@@ -25,6 +25,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats, Whole
 from linkwright.core.dataclass import dataclass
+from linkwright.core.progress import Progress
 from linkwright.engine.threads import chunks, cores
 from linkwright.study.cluster import current, hands, in_turn
 from linkwright.study.finished_parts import identity, once, surrounding
@@ -176,14 +177,14 @@ class Search:
         joints: most joints of a design.
         seconds: time for all of it.
         seed: of the random draws.
-        progress: called with the share of the time that is over and the least objective so far.
+        progress: called with the percents of the time that are over, and 100.
     """
 
     target: Target
     joints: int
     seconds: float
     seed: int
-    progress: Callable[[float, float], None] | None = None
+    progress: Progress | None = None
     attempts: int = 0
     stopped: bool = False
 
@@ -317,7 +318,7 @@ class Search:
             if time.perf_counter() - self.saved > SAVED:
                 self._keep()
             if self.progress is not None:
-                self.progress(min(self._over(), 1.0), pool.designs[0].value)
+                self.progress(round(100 * min(self._over(), 1.0)), 100)
 
     def _starts(self, stage: Stage) -> list[Design]:
         """The best starts of an atlas, after descents, for a part of the level's time."""

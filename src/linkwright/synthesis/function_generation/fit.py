@@ -11,6 +11,7 @@ import numpy as np
 
 from linkwright.core.arrays import Flags, Floats, Whole
 from linkwright.core.dataclass import dataclass
+from linkwright.core.progress import Progress
 from linkwright.synthesis.function_generation.generators import Generator, TurningFourBar
 from linkwright.synthesis.least_squares import minimise, with_differences
 from linkwright.synthesis.result import Candidate
@@ -110,7 +111,12 @@ def _square_sines(generator: Generator, x: Floats, signs: Floats, first: float, 
 
 
 def fit(
-    generator: Generator, demand: FunctionDemand, quality: Quality, hold: float, rng: np.random.Generator
+    generator: Generator,
+    demand: FunctionDemand,
+    quality: Quality,
+    hold: float,
+    rng: np.random.Generator,
+    progress: Progress | None = None,
 ) -> tuple[Floats, Floats, Floats]:
     """Free numbers (K, m), signs (K, modes) and sums of squares (K,) of local optima, best first."""
     angle = column_of_zero(generator)
@@ -137,7 +143,9 @@ def fit(
         values[:, free] = part
         return residual_of(values, signs[who])
 
-    found, f, who = minimise(with_differences(residual), x[:, free], steps=STEPS, keep=LEFT, halve=15)
+    found, f, who = minimise(
+        with_differences(residual), x[:, free], steps=STEPS, keep=LEFT, halve=15, progress=progress
+    )
     values = x[who].copy()
     values[:, free] = found
     return values, signs[who], f

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Complexes, Floats
 from linkwright.core.given import real
+from linkwright.core.progress import current_progress, part_of
 from linkwright.synthesis.assessment import assess_four_bars
 from linkwright.synthesis.build import four_bar_candidate
 from linkwright.synthesis.function_generation.exact import families, freudenstein
@@ -268,12 +269,14 @@ def _fitted(
     scale = frame if generator.output_is_angle else demand.size
     made: list[Candidate] = []
     good: list[Candidate] = []
-    for hold in HOLDS:
-        x, signs, _ = fit(generator, demand, quality, hold, np.random.default_rng(seed))
+    rounds = 1 if quality == Quality() else len(HOLDS)
+    for k, hold in enumerate(HOLDS[:rounds]):
+        tell = part_of(current_progress(), k, rounds)
+        x, signs, _ = fit(generator, demand, quality, hold, np.random.default_rng(seed), tell)
         found = [_candidate(generator, demand, x[i : i + 1], signs[i : i + 1], scale) for i in range(len(x))]
         made += [each for each in found if each is not None]
         good = [each for each in made if quality.of(each)[0]]
-        if good or quality == Quality():
+        if good:
             break
     if not made:
         raise refuse("function.none", linkage=note(f"type.{generator.name}"))

@@ -61,6 +61,7 @@ All commands: linkwright --help""",
     "llvmlite_missing": "llvmlite is not installed: everything works, sweeps of many designs are slower "
     "(pip install llvmlite)",
     "not_installed": "not installed",
+    "time_left": "about {time} left",
     "severity.error": "error",
     "severity.warning": "warning",
     "severity.note": "note",

@@ -59,6 +59,7 @@ Linkwright 读取描述平面机构的简短文本文件，回答设计者的问
     "llvmlite_there": "llvmlite {version}：大量方案的扫描经编译执行",
     "llvmlite_missing": "未安装 llvmlite：功能齐全，但大量方案的扫描较慢（pip install llvmlite）",
     "not_installed": "未安装",
+    "time_left": "约剩 {time}",
     "severity.error": "错误",
     "severity.warning": "警告",
     "severity.note": "提示",
