@@ -6,6 +6,7 @@ A problem is a frozen dataclass: ``findings`` lists what is wrong with it, ``sol
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
 from collections.abc import Container, Mapping, Sequence
 from dataclasses import fields
@@ -161,13 +162,14 @@ class Row:
         return [label, shown, unit(self.dimension), self.note]
 
     def data(self) -> dict[str, Any]:
-        """Value or both ends, SI, with their unit, and the note."""
+        """Value or both ends, SI, with their unit, and the note; what is no number with the text that says why."""
         value = self.value if self.end is None else [self.value, self.end]
         found: dict[str, Any] = {
             "value": value,
             "unit": self.scale.si if self.scale else si_unit(self.dimension),
         }
-        return {**found, "note": self.note} if self.note else found
+        note = self.text if math.isnan(self.value) else self.note
+        return {**found, "note": note} if note else found
 
 
 @dataclass(frozen=True)

@@ -92,9 +92,9 @@ class Sheet:
 
     def _value(self, measure: Dimensioned) -> Label:
         """The label of a dimension with the number that DXF shows, without a unit."""
-        if measure.ends is None:
+        if measure.line is None:
             return measure.label
-        length = math.dist(*measure.ends if measure.line is None else measure.line) * self.unit
+        length = math.dist(*measure.line) * self.unit
         return replace(measure.label, text=f"{length:.{decimals_for(self.factor)}f}".rstrip("0").rstrip("."))
 
     def _line(self, measure: Dimensioned, chosen: Candidate) -> None:

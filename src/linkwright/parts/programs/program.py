@@ -342,7 +342,7 @@ class Optimum(Result):
                 for key, side in sides.items()
             },
             "sense": c.sense,
-            "slack": _measured(self.slack(c), c.left.dimension),
+            "slack": _measured(self.slack(c), _limit_kind(c)),
             "active": self.active(c),
             "price": None if price is None else _measured(price, units.times(objective, _limit_kind(c), -1)),
         }
@@ -372,7 +372,7 @@ class Optimum(Result):
             else say("program.slack", slack=in_unit(self.slack(c), c.left.dimension, 4))
         )
         text = f"{left} {c.sense} {right}"
-        return Row(c.name, self.slack(c), label=c.name, note=state, scale=in_si(c.left.dimension), text=text)
+        return Row(c.name, self.slack(c), label=c.name, note=state, scale=in_si(_limit_kind(c)), text=text)
 
     def _explained(self, say: Say) -> tuple[str, ...]:
         """What one more unit of every active constraint is worth."""
