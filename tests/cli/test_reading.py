@@ -52,8 +52,8 @@ def test_a_list_keeps_what_is_no_file() -> None:
 
 
 def test_values_may_begin_with_a_minus() -> None:
-    assert options("solve", "m.yaml", "--at", "-30deg").at == "-30deg"
-    assert options("solve", "m.yaml", "--at=-30deg").at == "-30deg"
+    assert options("solve", "m.yaml", "--at", "-30deg").at == ["-30deg"]
+    assert options("solve", "m.yaml", "--at=-30deg").at == ["-30deg"]
     assert options("solve", "--at", "-.5 rad", "--", "-m.yaml").file == "-m.yaml"
 
 
