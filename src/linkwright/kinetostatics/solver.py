@@ -66,8 +66,7 @@ class ForceSolver:
 
     def fields_needed(self) -> tuple[str, ...]:
         """Inputs per position that are found from the motion: load magnitudes, angles, friction."""
-        names = self.outputs.standard
-        return self.program(names).program.fields
+        return self.program(self.programs.checks.names).program.fields
 
     def evaluate(
         self,

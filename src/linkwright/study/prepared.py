@@ -138,12 +138,16 @@ class Prepared:
         values = self._values(changes) if self._at_once else None
         if values is None or is_near(values[-2]):
             return self._solve_alone(design, failures)
-        if not self._checked:  # compiled formulas are those of a machine alone, which checks its numbers
-            self._solve_alone(design, failures)
-            self._checked = True
+        if not self._checked:
+            self._check(design)
         motion = Motion(self.solver, design, self.positions, {}, {}, Rows(values, self._index))
         fields = {name: values[self._index[name]] for name in self._loads.fields}
         return Forces(motion, self.force_solver, fields, False, motion.rows)
+
+    def _check(self, design: Design) -> None:
+        """Raises SelfCheckError where the forces of the design by itself, whose formulas were compiled, say so."""
+        forces_of_run(MotionRun(self.solver.for_design(design), self.positions), False, "mark")
+        self._checked = True
 
     def _values(self, changes: Mapping[str, float]) -> Floats | None:
         """Outputs (names, n); None where nothing is known of the loads' limit positions."""
