@@ -4,14 +4,32 @@ import type { Program, Stage } from "./engine";
 export type Language = "en" | "zh";
 export type Said = Record<Language, string>;
 
+/** How a text holds a number in a unit of `factor` SI: with `before` and `after` in place of what stands at `span`. */
+export interface Written {
+  span: [number, number];
+  before: string;
+  after: string;
+  factor: number;
+}
+
+/** `written`: how the text holds it, null: it does not, or, `drawn`, by its drawing; `moves`: it may move what is drawn. */
 export interface Dimension {
   address: string;
   value: number;
   unit: string;
   factor: number;
-  span: [number, number] | null;
+  written: Written | null;
   positive: boolean;
   geometry: boolean;
+  moves: boolean;
+  drawn: boolean;
+}
+
+/** The text's drawing: the input of a steady driver in it, or the nearest position, and how it holds coordinates. */
+export interface Drawing {
+  input: number | null;
+  at: number;
+  places: { row: string; written: Written }[];
 }
 
 export interface Signal {
@@ -163,6 +181,7 @@ export interface ModelData {
   tables: Record<string, number[]>;
   sizes: string;
   dimensions: Dimension[];
+  drawing: Drawing;
   positions: {
     count: number;
     closed: boolean;

@@ -29,7 +29,7 @@ from linkwright.joints.marks import RackWay, Wheels
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.page.dimensions import dimensions
+from linkwright.page.dimensions import dimensions, drawn
 from linkwright.page.glyphs import glyphs, undrawn
 from linkwright.page.loops import loops
 from linkwright.page.programs import PagePrograms
@@ -87,7 +87,8 @@ def _model(motion: Motion, text: str | None, number: int) -> tuple[Plain, str]:
     values = programs.values()
     known = signals(programs)
     machine = _machine(motion)
-    changeable = dimensions(Document(text, "model", read_text), set(values))
+    document = Document(text, "model", read_text)
+    changeable = dimensions(document, set(values))
     data = {
         **_said(motion.mechanism, text),
         "module": None if module is None else base64.b64encode(module).decode(),
@@ -98,6 +99,7 @@ def _model(motion: Motion, text: str | None, number: int) -> tuple[Plain, str]:
         "tables": {name: table.numbers.tolist() for name, table in programs.tables.items()},
         "sizes": SIZES,
         "dimensions": [each.data() for each in changeable],
+        "drawing": drawn(document, motion),
         "positions": _positions(programs),
         "fields": {name: _packed(row) for name, row in programs.fields().items()},
         "starts": programs.starts if programs.iterated else {},
