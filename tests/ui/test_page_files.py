@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import re
-import sys
-import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -116,23 +114,3 @@ def test_the_file_of_a_page_is_its_machine(opened: Opened, tmp_path: Path, name:
 
 def test_wheels_with_phases_from_the_drawing(opened: Opened, tmp_path: Path) -> None:
     assert handed_out_and_read(opened, tmp_path, GEARED) > 8
-
-
-def main() -> int:
-    """The same of every gallery file; 1 where one differs: ``python -m tests.ui.test_page_files``."""
-    failed = 0
-    with browser() as chromium, tempfile.TemporaryDirectory() as folder:
-        page = Opened(chromium.new_context(viewport={"width": 1280, "height": 900}, offline=True).new_page())
-        for name in lw.gallery_names():
-            try:
-                count = handed_out_and_read(page, Path(folder), lw.read_document(f"gallery:{name}").text)
-            except Exception as error:
-                failed += 1
-                print(f"{name}: {error}")
-            else:
-                print(f"{name}: {count} dimensions changed, read again as they were")
-    return 1 if failed else 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -4,13 +4,9 @@ import type { Program, Stage } from "./engine";
 export type Language = "en" | "zh";
 export type Said = Record<Language, string>;
 
-/** How a text holds a number in a unit of `factor` SI: with `before` and `after` in place of what stands at `span`. */
-export interface Written {
-  span: [number, number];
-  before: string;
-  after: string;
-  factor: number;
-}
+/** How a text holds a number: the first offset of what stands there, the one behind it, what is written before the number
+ *  and after it. */
+export type Written = [number, number, string, string];
 
 /** `written`: how the text holds it, null: it does not, or, `drawn`, by its drawing; `moves`: it may move what is drawn. */
 export interface Dimension {
@@ -25,11 +21,12 @@ export interface Dimension {
   drawn: boolean;
 }
 
-/** The text's drawing: the input of a steady driver in it, or the nearest position, and how it holds coordinates. */
+/** The text's drawing: the input of a steady driver in it, or the nearest position; of its coordinates the rows, how it
+ *  holds them, and the SI value of a unit. */
 export interface Drawing {
   input: number | null;
   at: number;
-  places: { row: string; written: Written }[];
+  places: [string, Written, number][];
 }
 
 export interface Signal {
@@ -188,6 +185,8 @@ export interface ModelData {
     period: number | null;
     steady: Steady | null;
     modes: Record<string, number>;
+    /** Places among the positions where laws that are not steady go over; null: nothing is known between the positions. */
+    breaks: number[] | null;
     time: string | null;
     arrays: Record<string, string>;
     inputs: { name: string; turns: boolean; values: string | null }[];

@@ -3,7 +3,7 @@ import type { Branch } from "./branch";
 import { floats, type ModelData, type Signal } from "./data";
 import type { Call, Code } from "./engine";
 import { unwrap } from "./loads";
-import { formed, isForce, number } from "./numbers";
+import { type Extreme, extreme, formed, isForce, number } from "./numbers";
 import { leastChange } from "./search";
 import { mixed, Solver, type Values, type Wall } from "./solver";
 
@@ -22,6 +22,7 @@ export class Model {
   readonly solver: Solver;
   private readonly branch: Branch | null;
   private certified: { values: Values; uncertain: number | null } | null = null;
+  private extremes: { values: Values; known: Record<string, Extreme> } | null = null;
   original: Design;
   readonly signals: Record<string, Signal>;
   /** What curves run over: the input where it goes one way, else the time; with the end of a closed cycle. */
@@ -185,6 +186,12 @@ export class Model {
     for (let i = 0; i < this.n; i++) out[i] = formed(signal, rows[0][i], rows[1]?.[i] ?? 0);
     if (signal.form === "angle") unwrap(out);
     return out;
+  }
+
+  /** The least (`sign` 1) or largest (-1) value of a signal with this row over the cycle. */
+  extreme(id: string, row: Float64Array, sign: 1 | -1): Extreme {
+    if (this.extremes?.values !== this.values) this.extremes = { values: this.values, known: {} };
+    return (this.extremes.known[`${sign} ${id}`] ??= extreme(this, id, row, sign));
   }
 
   design(): Design {

@@ -9,26 +9,25 @@ const FEWEST = 12, MOST = 17;
 /** The model's text with the changed numbers in their places, and the names of those that have none. */
 export function written(model: Model): { text: string; missing: string[] } {
   const { data } = model, changed = data.dimensions.filter(({ address, value }) => model.values[address] !== value);
-  const edits: [Written, number][] = [], missing: string[] = [];
-  for (const { address, written: how, drawn } of changed) {
-    if (how) edits.push([how, model.values[address]]);
+  const edits: [Written, string][] = [], missing: string[] = [];
+  for (const { address, written: how, factor, drawn } of changed) {
+    if (how) edits.push([how, digits(model.values[address], factor)]);
     else if (!drawn) missing.push(address);
   }
-  if (changed.some(({ moves }) => moves)) edits.push(...places(model));
+  if (changed.some(({ moves }) => moves)) edits.push(...drawing(model));
   // Offsets count characters beyond the basic plane as one, as Python does.
   const all = [...data.text];
-  edits.sort(([a], [b]) => b.span[0] - a.span[0] || b.span[1] - a.span[1]);
-  for (const [{ span: [start, end], before, after, factor }, value] of edits)
-    all.splice(start, end - start, before + digits(value, factor) + after);
+  edits.sort(([a], [b]) => b[0] - a[0] || b[1] - a[1]);
+  for (const [[start, end, before, after], number] of edits) all.splice(start, end - start, before + number + after);
   return { text: all.join(""), missing };
 }
 
 /** Where the points of the drawing are now, with its drivers where they stand in it. */
-function places({ data, solver }: Model): [Written, number][] {
-  const { input, at, places } = data.drawing, steady = input !== null && data.positions.steady !== null;
-  const all = (call: Call, i: number) => places.map(({ row, written: how }): [Written, number] => [how, call.row(row)[i]]);
+function drawing({ data, solver }: Model): [Written, string][] {
+  const { input, at, places } = data.drawing, { steady } = data.positions;
+  const all = (call: Call, i: number) => places.map(([row, how, factor]): [Written, string] => [how, digits(call.row(row)[i], factor)]);
   let found = all(solver.main, at);
-  if (steady) solver.valueAt(input, (call) => ((found = all(call, 0)), 0));
+  if (steady && input !== null) solver.valueAt((input - steady.start) / steady.step, (call) => ((found = all(call, 0)), 0));
   return found;
 }
 

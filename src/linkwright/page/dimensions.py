@@ -45,7 +45,12 @@ class Dimension:
 
     def data(self) -> dict[str, object]:
         """As plain data."""
-        return asdict(self)
+        return {**asdict(self), "written": None if self.written is None else _plain(self.written)}
+
+
+def _plain(how: Written) -> list[object]:
+    """Where it stands, what is before it and behind it."""
+    return [*how.span, how.before, how.after]
 
 
 def geometry_addresses(mechanism: Mechanism) -> list[str]:
@@ -78,7 +83,7 @@ def dimensions(document: Document, parameters: set[str]) -> list[Dimension]:
 
 def _refused(mechanism: Mechanism, address: str) -> bool:
     """Whether a page does not change it: the cycle, a ratio of wheels that changes it too, where a driver starts,
-    speeds of several drivers, numbers of teeth, angles of guides that other guides give."""
+    speeds of several drivers, numbers of teeth, angles of guides that other guides or racks give."""
     owner, _, last = address.rpartition(".")
     if owner in mechanism.drivers:
         return last != "speed" or len(mechanism.drivers) > 1 or mechanism.cycle is not None
@@ -87,9 +92,10 @@ def _refused(mechanism: Mechanism, address: str) -> bool:
         return address.startswith("cycle.")
     if isinstance(mechanism.declared(address), Numbers) or last == "teeth":
         return True
-    if joint.higher and last != "phase":
-        return time_span(_with(mechanism, address)) != time_span(mechanism)
-    return last in _ANGLES and any(guides_at_odds(_with(mechanism, address)))
+    if last in _ANGLES:
+        turned = _with(mechanism, address)
+        return any(guides_at_odds(turned)) or any(each.misfit(turned) for each in turned.joints.values())
+    return joint.higher and last != "phase" and time_span(_with(mechanism, address)) != time_span(mechanism)
 
 
 def _with(mechanism: Mechanism, address: str) -> Mechanism:
@@ -124,6 +130,5 @@ def drawn(document: Document, motion: Motion) -> Plain:
     return {
         "input": alone if len(positions.coordinates) == 1 else None,
         "at": int(np.argmin(away)),
-        "places": [{"row": f"p:{key}", "written": asdict(how)}
-                   for how, key in drawn_places(document).values()],
+        "places": [[f"p:{key}", _plain(how), how.factor] for how, key in drawn_places(document).values()],
     }  # fmt: skip
