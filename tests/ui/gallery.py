@@ -15,7 +15,7 @@ import linkwright as lw
 
 
 def main() -> int:
-    """Says of every file whether its page has the solver's numbers, and hands out its machine; 1 where one has not."""
+    """Says of every file whether its page has the solver's numbers and hands out its machine; 1 where not."""
     failed = 0
     with browser() as chromium, tempfile.TemporaryDirectory() as folder:
         for name in lw.gallery_names():

@@ -44,7 +44,7 @@ export class Drive {
 }
 
 /** Lagrange's weights at x of samples at 0, 1, 2, … */
-function through(x: number, count: number): number[] {
+export function through(x: number, count: number): number[] {
   return Array.from({ length: count }, (_, k) => {
     let weight = 1;
     for (let j = 0; j < count; j++) if (j !== k) weight *= (x - j) / (k - j);

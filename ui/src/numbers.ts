@@ -1,9 +1,11 @@
 // Design numbers of a machine over its cycle, between the positions as well.
 import type { Figure, Signal } from "./data";
+import { through } from "./drive";
 import type { Call } from "./engine";
 import type { Model } from "./model";
 import { nearest } from "./loads";
-import { root } from "./search";
+import { least, root } from "./search";
+import type { Solver } from "./solver";
 
 export const TURN = 2 * Math.PI;
 
@@ -11,7 +13,7 @@ export const TURN = 2 * Math.PI;
 export function number(model: Model, figure: Figure): number {
   const row = model.row(figure.signal), { signal } = figure;
   if (row.some(Number.isNaN)) return NaN;
-  if (isForce(signal) && largest(row) <= rounding(model, signal)) return 0;
+  if (largest(row) <= rounding(model, signal)) return 0;
   const lowest = () => model.extreme(signal, row, 1).value, highest = () => model.extreme(signal, row, -1).value;
   switch (figure.kind) {
     case "rms": return rms(model, signal, row);
@@ -39,12 +41,13 @@ export function extreme(model: Model, id: string, row: Float64Array, sign: 1 | -
   for (let i = 1; i < n; i++) if (f[i] < f[at]) at = i;
   const size = largest(row);
   let found: Extreme = { at, value: f[at] };
-  if (!(size > (isForce(id) ? rounding(model, id) : 0)) || n < 3 || searched(model, id) !== null) return { at, value: row[at] };
+  if (!(size > rounding(model, id)) || n < 3 || searched(model, id) !== null) return { at, value: row[at] };
   const better = (place: number, value: number) => {
     if (value < found.value - SAME * size) found = { at: place, value };
   };
   for (const i of brackets(f, model.data.positions.closed, f[at])) {
-    const lowest = solver.refined((place) => sign * between(model, id, place, row[i]), i, f[i]);
+    const value = (place: number) => sign * between(model, id, place, row[i]);
+    const lowest = smoothly(solver, f, i, size) ?? solver.refined(value, i, f[i]);
     better(lowest.at, lowest.value);
   }
   for (const i of jumps(f, model.data.positions.closed, size)) {
@@ -54,15 +57,34 @@ export function extreme(model: Model, id: string, row: Float64Array, sign: 1 | -
   return { at: found.at, value: sign * found.value };
 }
 
+// Positions on each side of one through which polynomials go, of a higher and of a lower degree; the share of a signal's
+// size up to which both may differ at its extreme, so that the higher one meets the signal.
+const [WIDE, NARROW] = [4, 3], MET = 1e-9;
+
+/** The least value near a position by a polynomial through the positions beside it; null where it may not meet the signal. */
+function smoothly(solver: Solver, f: Float64Array, i: number, size: number): Extreme | null {
+  const n = f.length, { closed } = solver.data.positions;
+  if (n < 2 * WIDE + 1 || (!closed && (i < WIDE || i + WIDE >= n))) return null;
+  const samples = Array.from({ length: 2 * WIDE + 1 }, (_, k) => f[(i - WIDE + k + n) % n]), inner = samples.slice(WIDE - NARROW, WIDE + NARROW + 1);
+  const at = (values: number[], x: number) => through(x + (values.length - 1) / 2, values.length).reduce((sum, w, k) => sum + w * values[k], 0);
+  const found = least((x) => at(samples, x), -1, 0, 1);
+  if (!(Math.abs(found.value - at(inner, found.at)) <= MET * size)) return null;
+  return found.value < f[i] ? { at: i + found.at, value: found.value } : { at: i, value: f[i] };
+}
+
 // Share of a signal's size within which values are equal; of the largest joint force, up to which others are rounding.
 const SAME = 1e-13, ROUNDING = 1e-12;
 
 const largest = (row: Float64Array) => row.reduce((most, x) => Math.max(most, Math.abs(x)), 0);
 
-/** Size up to which a force, or a torque, is but rounding. */
-function rounding({ main, size, signals }: Model, id: string): number {
-  const forces = main.program.outputs.filter((name) => name.startsWith("r:")).map((name) => largest(main.row(name)));
-  return ROUNDING * Math.max(0, ...forces) * (signals[id].kind === "torque" ? size : 1);
+/** Size up to which a force, N, is but rounding beside the largest joint force. */
+export function roundingOf({ main }: Model): number {
+  return ROUNDING * main.program.outputs.reduce((most, name) => (name.startsWith("r:") ? Math.max(most, largest(main.row(name))) : most), 0);
+}
+
+/** The same of a force or a torque; 0 of what is none. */
+function rounding({ rounding, size, signals }: Model, id: string): number {
+  return isForce(id) ? rounding * (signals[id].kind === "torque" ? size : 1) : 0;
 }
 
 /** A signal at any place among the positions; angles give or take turns near another one. */
@@ -105,32 +127,33 @@ function around(value: (place: number) => number, i: number, before: number, aft
   return [a, b];
 }
 
-// Third differences, as a share of the largest square, from which on a square is integrated by samples of its own; how
-// near they come, how often they halve a stretch, and how many there are at most.
-const ROUGH = 2e-5, NEAR = 1e-9, FINEST = 26, SAMPLES = 8000;
+// Samples that a polynomial goes through; their last difference, as a share of the largest square, up to which it meets the
+// square; how near integrals of other stretches come, how often these are halved, and how many samples they take at most.
+const SAMPLES = 6, ROUGH = 1e-5, NEAR = 1e-9, FINEST = 26, FURTHER = 4000;
+const GAUSS = [-1, 0, 1].map((side) => ({ at: 0.5 + 0.5 * side * Math.sqrt(0.6), weight: side ? 5 / 18 : 8 / 18 }));
+/** By the number of a step among the samples: weights of its integral. */
+const STEPS = Array.from({ length: SAMPLES - 1 }, (_, step) =>
+  GAUSS.map(({ at, weight }) => through(step + at, SAMPLES).map((x) => weight * x)).reduce((a, b) => a.map((x, k) => x + b[k])));
+const DIFFERENCE = [1, -5, 10, -10, 5, -1];
 
 /** Root of the mean square over the cycle: all samples alike of a smooth closed one, else the integral between them. */
 function rms(model: Model, id: string, row: Float64Array): number {
   const { closed } = model.data.positions, last = row.length - 1, f = row.map((x) => x * x);
-  if (last < 3) return Math.sqrt(f.reduce((sum, x) => sum + x, 0) / row.length);
-  const n = closed ? row.length : last, size = f.reduce((most, x) => Math.max(most, x), 0);
-  const at = (i: number) => f[closed ? (i + f.length) % f.length : i];
-  let left = SAMPLES;
+  const n = closed ? row.length : last, size = largest(f), mean = f.reduce((sum, x) => sum + x, 0) / row.length;
+  if (last < SAMPLES) return Math.sqrt(mean);
+  const at = (i: number) => f[(i + f.length) % f.length], dot = (weights: number[], from: number) => weights.reduce((sum, w, k) => sum + w * at(from + k), 0);
+  let left = FURTHER, even = closed, total = 0;
   const square = (place: number) => (left-- > 0 ? between(model, id, place, 0) ** 2 : NaN);
   const free = searched(model, id) === null;
-  let even = closed, total = 0;
   for (let i = 0; i < n; i++) {
-    const k = closed ? i : Math.min(Math.max(i, 1), last - 2), [a, b, c, d] = [at(k - 1), at(k), at(k + 1), at(k + 2)];
-    if (Math.abs(a - 3 * b + 3 * c - d) <= ROUGH * size) {
-      // The integral of the cubic through four samples over the middle step, the first one or the last one.
-      const [first, second, third, fourth] = i < k ? [9, 19, -5, 1] : i > k ? [1, -5, 19, 9] : [-1, 13, 13, -1];
-      total += (first * a + second * b + third * c + fourth * d) / 24;
-    } else {
+    const from = closed ? i - 2 : Math.min(Math.max(i - 2, 0), last - SAMPLES + 1);
+    if (Math.abs(dot(DIFFERENCE, from)) <= ROUGH * size) total += dot(STEPS[i - from], from);
+    else {
       even = false;
       total += free ? integral(square, i, i + 1, at(i), square(i + 0.5), at(i + 1), NEAR * size, FINEST) : 0.5 * (at(i) + at(i + 1));
     }
   }
-  return Math.sqrt(even ? f.reduce((sum, x) => sum + x, 0) / n : total / n);
+  return Math.sqrt(even ? mean : total / n);
 }
 
 /** The integral by Simpson's rule, halved where halves say something else. */
