@@ -6,9 +6,9 @@ import { digits } from "./words";
 
 // The picture in its own units, about pixels.
 const W = 360, H = 132, LEFT = 60, RIGHT = 8, TOP = 8, BOTTOM = 24;
-// How far a curve may leave its places, in these units; the least size of letters, in pixels and in these units, and the
-// largest for which there is room.
-const FLAT = 0.08, LEAST = 10.5, SMALL = 10, LARGE = 15;
+// Share of an axis up to which its end is zero; how far a curve may leave its places, in these units; the least size of
+// letters, in pixels and in these units, and the largest for which there is room.
+const ZERO = 1e-9, FLAT = 0.08, LEAST = 10.5, SMALL = 10, LARGE = 15;
 // Where the numbers at the axes stand, low, high, left and right, by which side, and what they may cover: x, y, width,
 // height. The curves and the dot keep off it.
 const FREE = 4.5, MIDDLE = (LEFT + W) / 2;
@@ -90,7 +90,8 @@ export class Chart {
       const before = this.written[k], same = before?.values === values && before.peaks === peaks;
       return same && before.low === low && before.high === high ? before : { values, peaks, low, high, path: this.path(values, peaks) };
     });
-    this.ticks = [digits(low / factor, 3), digits(high / factor, 3), ...ends];
+    const tick = (y: number) => digits(Math.abs(y) < ZERO * (high - low) ? 0 : y / factor, 3);
+    this.ticks = [tick(low), tick(high), ...ends];
   }
 
   cursor(i: number, value: number): void {

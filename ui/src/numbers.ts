@@ -41,7 +41,8 @@ export function extreme(model: Model, id: string, row: Float64Array, sign: 1 | -
   for (let i = 1; i < n; i++) if (f[i] < f[at]) at = i;
   const size = largest(row);
   let found: Extreme = { at, value: f[at] };
-  if (!(size > rounding(model, id)) || n < 3 || searched(model, id) !== null) return { at, value: row[at] };
+  const turns = model.signals[id].form === "angle" && model.data.positions.closed && Math.abs(row[n - 1] - row[0]) > Math.PI;
+  if (!(size > rounding(model, id)) || n < 3 || turns || searched(model, id) !== null) return { at, value: row[at] };
   const better = (place: number, value: number) => {
     if (value < found.value - SAME * size) found = { at: place, value };
   };
