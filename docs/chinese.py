@@ -291,8 +291,8 @@ NAMES = {
     "Synthesis": "综合结果：各候选机构",
     "SynthesisError": "综合要求不能满足，附最近的解",
     "synthesize": "由要求求机构尺寸",
-    "Validation": "与已发表数值的对照",
-    "validate": "与已发表的数值对照",
+    "Validation": "与参考数值的对照",
+    "validate": "与参考数值对照",
     "Worked": "一个位置的解题过程",
     "worked": "逐式代入数值的解题过程",
 }

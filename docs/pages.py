@@ -1,6 +1,8 @@
-"""Pages that are made when the documentation is built: gallery, model files, functions, API, published numbers.
+"""Generated pages of the documentation.
 
-They have the ending ``.markdown``, are no part of the repository, and stand in ``docs/made``.
+Gallery and reference numbers are made when the documentation is built; they have the ending ``.markdown`` and stand
+in ``docs/made``, outside the repository. The reference of keys and names (``model_file.md``, ``functions.md``,
+``api.md``) is part of the repository, so that a clone has it: ``python docs/pages.py`` writes it anew.
 """
 
 from __future__ import annotations
@@ -8,6 +10,7 @@ from __future__ import annotations
 import ast
 import hashlib
 import inspect
+import os
 import re
 import sys
 import textwrap
@@ -59,24 +62,34 @@ def make() -> None:
     """Writes all of them, those that are up to date left alone."""
     pictures()
     living_pages()
+    compared, made = validate(), {}
     for language in ("en", "zh"):
-        write(f"{language}/gallery/index", "\n".join(gallery_index(language)))
+        made[f"{language}/gallery/index"] = "\n".join(gallery_index(language))
         for name in gallery.names():
-            write(f"{language}/gallery/{name}", "\n".join(gallery_page(name, language)))
-        write(f"{language}/model_file", "\n".join(model_file(language)))
-        write(f"{language}/functions", "\n".join(functions(language)))
-    write("en/api", "\n".join(api()))
-    compared = validate()
+            made[f"{language}/gallery/{name}"] = "\n".join(gallery_page(name, language))
+        made[f"{language}/validation_table"] = f"{compared.markdown(language)}\n"
+    pages = {MADE / f"{name}.markdown": text for name, text in made.items()}
+    for path in set(MADE.rglob("*.markdown")) - set(pages):
+        path.unlink()  # of an earlier build
+    write(pages)
+
+
+@cache
+def reference() -> dict[Path, str]:
+    """The pages of keys and names that the repository holds."""
+    found = {ROOT / "en/api.md": api()}
     for language in ("en", "zh"):
-        write(f"{language}/validation_table", f"{compared.markdown(language)}\n")
+        found[ROOT / language / "model_file.md"] = model_file(language)
+        found[ROOT / language / "functions.md"] = functions(language)
+    return {path: "\n".join(lines).rstrip() + "\n" for path, lines in found.items()}
 
 
-def write(name: str, text: str) -> None:
-    """A page, unless it stands there already: then nothing is built anew."""
-    path = MADE / f"{name}.markdown"
-    path.parent.mkdir(parents=True, exist_ok=True)
-    if not path.exists() or path.read_text("utf-8") != text:
-        path.write_text(text, "utf-8")
+def write(pages: Mapping[Path, str]) -> None:
+    """Pages, but for those that are up to date: then nothing is built anew."""
+    for path, text in pages.items():
+        path.parent.mkdir(parents=True, exist_ok=True)
+        if not path.exists() or path.read_text("utf-8") != text:
+            path.write_text(text, "utf-8")
 
 
 # gallery ----------------------------------------------------------------------------------------
@@ -210,7 +223,7 @@ def model_file(language: str = "en") -> Iterator[str]:
         yield f"## `{name}`{words['required'] if name in schema.get('required', ()) else ''}\n"
         yield f"{sentence(section, language)}\n"
         if name in SECTIONS:
-            yield f"{words['see'].format(f'../../{language}/{SECTIONS[name]}.md')}\n"
+            yield f"{words['see'].format(f'{SECTIONS[name]}.md')}\n"
         yield from section_body(section, language)
 
 
@@ -296,8 +309,11 @@ def functions(language: str) -> Iterator[str]:
     for name in sorted((each for names in lw.PUBLIC.values() for each in names), key=str.lower):
         text = NAMES.get(name, "") if language == "zh" else plain(first_line(getattr(lw, name)))
         pages = (shown.get(name) or english[name])[:3]
-        links = ", ".join(f"[{heading(each)}](../../{each.relative_to(ROOT).as_posix()})" for each in pages)
-        yield f"| [`{name}`](../en/api.markdown#{name.lower()}) | {cell(text)} | {links} |"
+        links = ", ".join(
+            f"[{heading(each)}]({Path(os.path.relpath(each, ROOT / language)).as_posix()})" for each in pages
+        )
+        where = "api.md" if language == "en" else "../en/api.md"
+        yield f"| [`{name}`]({where}#{name.lower()}) | {cell(text)} | {links} |"
 
 
 def first_line(value: Any) -> str:
@@ -401,4 +417,4 @@ def members(value: type) -> Iterator[str]:
 
 
 if __name__ == "__main__":
-    make()
+    write(reference())

@@ -1,11 +1,15 @@
-"""Random mechanisms with gears, belts and racks, on moving carriers and in loops, against the independent reference.
+"""Random mechanisms with gears, belts, racks and cams, on moving carriers and in loops, against the reference.
 
     python -m tests.random_geared --count 500 --seed 1
+    python -m tests.random_geared --count 1000 --orders 6 --workers 2
 
 Each one is put down assembled, followed by both codes over five positions, and compared: positions, velocities,
-accelerations, all reactions with what presses teeth apart, the driver's torque; to 1e-9 of the largest number of its
-kind. Those that the reference does not reach, or whose equations are so badly conditioned that rounding would be
-judged, must not crash, and do not count. Model files of what fails are printed.
+accelerations, all reactions with what presses teeth apart, couples, the driver's torque; to 1e-9 of the largest of
+its kind; and powers and balances must be right to rounding. With ``--orders`` its file is read in so many orders of
+its links, joints and points, all of which must agree with the reference. Those that the reference does not reach, or
+whose equations are so badly conditioned that rounding would be judged, must not crash, and do not count; cams within
+groups that are followed are refused with their sentence, and do not count either. Model files of what fails are
+printed.
 
 Exit code: 0 nothing wrong, 1 something wrong, 2 wrong use.
 """
@@ -13,55 +17,106 @@ Exit code: 0 nothing wrong, 1 something wrong, 2 wrong use.
 from __future__ import annotations
 
 import argparse
+import signal
 import sys
 import time
 import traceback
 import warnings
 from collections import Counter
+from collections.abc import Iterator
 from contextlib import suppress
+from dataclasses import dataclass
+from functools import partial
+from itertools import count as from_here
+from multiprocessing import get_context
 
+import numpy as np
 from tests.reference.geared_judge import TIMES, disagreements, well_placed
+from tests.reference.geared_loops import looped_case, reordered
 from tests.reference.geared_mechanisms import GearedCase, geared_case
 
 import linkwright as lw
+from linkwright.joints.base import LackingError
 
 STRIDE = 1_000_000  # mechanisms of one seed
+AGREES, UNJUDGED, UNOFFERED = "agrees", "not judged", "not offered"
 
 
-def verdict(case: GearedCase) -> tuple[str, list[str]]:
-    """agrees, differs, refused, crash, or not judged; with what is wrong."""
-    try:
-        reference = well_placed(case)
-        if reference is not None:
-            found = disagreements(case, reference)
-            return ("differs", found) if found else ("agrees", [])
+@dataclass(frozen=True)
+class Verdict:
+    """``kind``: agrees, differs, refused, crash, not judged or not offered; ``lines``: what is wrong."""
+
+    number: int
+    kind: str
+    pieces: tuple[str, ...]
+    lines: tuple[str, ...] = ()
+    text: str = ""
+
+    @property
+    def counts(self) -> bool:
+        return self.kind not in (UNJUDGED, UNOFFERED)
+
+
+def case_of(number: int) -> GearedCase:
+    """In turn a mechanism of pieces one after the other, and one of loops."""
+    return looped_case(number) if number % 2 else geared_case(number)
+
+
+def verdict(number: int, orders: int) -> Verdict:
+    """On one mechanism in some orders of its file."""
+    case = case_of(number)
+    say = partial(Verdict, number)
+    reference = well_placed(case)
+    if reference is None:
         with suppress(lw.LinkwrightError):
             lw.solve_forces(lw.solve_motion(lw.loads(case.text), times=TIMES))
-        return "not judged", []
-    except lw.LinkwrightError as error:
-        return "refused", [str(error)]
-    except Exception:
-        return "crash", traceback.format_exc().splitlines()[-6:]
+        return say(UNJUDGED, case.kinds)
+    for order in range(orders):
+        text = reordered(case.text, np.random.default_rng([number, order])) if order else case.text
+        kind, lines = AGREES, tuple[str, ...]()
+        try:
+            lines = tuple(disagreements(case, reference, text))
+            kind = "differs" if lines else AGREES
+        except LackingError:
+            return say(UNOFFERED, case.kinds)
+        except lw.LinkwrightError as error:
+            kind, lines = "refused", (str(error),)
+        except Exception:
+            kind, lines = "crash", tuple(traceback.format_exc().splitlines()[-6:])
+        if kind != AGREES:
+            return say(kind, case.kinds, (f"order {order}", *lines), text)
+    return say(AGREES, case.kinds)
 
 
-def run(count: int, seed: int) -> int:
+def verdicts(seed: int, orders: int, workers: int) -> Iterator[Verdict]:
+    """On one mechanism after the other, without end."""
+    numbers, judge = from_here(seed * STRIDE), partial(verdict, orders=orders)
+    if workers == 1:
+        yield from map(judge, numbers)
+        return
+    with get_context("spawn").Pool(workers, signal.signal, (signal.SIGINT, signal.SIG_IGN)) as pool:
+        while True:
+            yield from pool.imap(judge, [next(numbers) for _ in range(16 * workers)])
+
+
+def run(count: int, seed: int, orders: int, workers: int) -> int:
     """Judges until ``count`` mechanisms are compared."""
     kinds: Counter[str] = Counter()
     pieces: Counter[str] = Counter()
-    began, number, code = time.process_time(), seed * STRIDE, 0
-    while kinds.total() - kinds["not judged"] < count:
-        case = geared_case(number)
-        kind, lines = verdict(case)
-        kinds[kind] += 1
-        if kind != "not judged":
-            pieces.update(case.kinds)
-        if kind not in ("agrees", "not judged"):
-            code = 1
-            print(f"{number}: {kind}\n  " + "\n  ".join(lines) + f"\n{case.text}")
-        number += 1
+    began, code, compared = time.monotonic(), 0, 0
+    for found in verdicts(seed, orders, workers):
+        kinds[found.kind] += 1
+        if found.counts:
+            compared += 1
+            pieces.update(found.pieces)
+            if found.kind != AGREES:
+                code = 1
+                print(f"{found.number}: {found.kind}\n  " + "\n  ".join(found.lines) + f"\n{found.text}")
+        if compared == count:
+            break
     print(
         ", ".join(f"{n} {kind}" for kind, n in sorted(kinds.items())),
-        f"in {time.process_time() - began:.0f} s",
+        f"in {orders} orders each, {time.monotonic() - began:.0f} s",
     )
     print("pieces:", ", ".join(f"{n} {kind}" for kind, n in sorted(pieces.items())))
     return code
@@ -72,11 +127,13 @@ def main() -> int:
     parser = argparse.ArgumentParser(prog="python -m tests.random_geared", description=__doc__.split("\n")[0])
     parser.add_argument("--count", type=int, default=100, help="how many mechanisms (default 100)")
     parser.add_argument("--seed", type=int, default=1, help="which sequence of mechanisms (default 1)")
+    parser.add_argument("--orders", type=int, default=1, help="orders of each file (default 1)")
+    parser.add_argument("--workers", type=int, default=1, help="processes (default 1)")
     given = parser.parse_args()
-    if given.count < 1:
-        parser.error("--count is a number above zero")
+    if min(given.count, given.orders, given.workers) < 1:
+        parser.error("--count, --orders and --workers are numbers above zero")
     warnings.simplefilter("error")
-    return run(given.count, given.seed)
+    return run(given.count, given.seed, given.orders, given.workers)
 
 
 if __name__ == "__main__":

@@ -51,12 +51,12 @@ def symbols(columns: int = 5, wide: float = 150.0, high: float = 120.0) -> str:
 def main() -> None:
     """Writes every picture."""
     (HERE / "symbols.svg").write_text(symbols(), encoding="utf-8")
-    lw.gear_pair((12, 24), 3e-3, profile_shift=(0.6, 0.36)).draw(0.1).save(HERE / "gear_pair.svg")
+    lw.gear_pair((12, 24), 3e-3, profile_shift=(0.6, 0.36)).draw(0.1).save(HERE / "gear_pair.svg", force=True)
     for name, (model, options) in STILL.items():
-        draw(lw.load(f"gallery:{model}"), **options).save(HERE / f"{name}.svg")
+        draw(lw.load(f"gallery:{model}"), **options).save(HERE / f"{name}.svg", force=True)
     for name, (model, options) in MOVING.items():
         motion = lw.solve_motion(lw.load(f"gallery:{model}"), steps=180)
-        animate(motion, **options).save(HERE / f"{name}.svg")
+        animate(motion, **options).save(HERE / f"{name}.svg", force=True)
 
 
 if __name__ == "__main__":

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from linkwright.errors import Finding as Finding
     from linkwright.errors import LinkwrightError as LinkwrightError
     from linkwright.errors import ModelError as ModelError
+    from linkwright.errors import SelfCheckError as SelfCheckError
     from linkwright.export.export import export as export
     from linkwright.export.sweep_parts import SweepParts as SweepParts
     from linkwright.export.sweep_parts import sweep_parts as sweep_parts
@@ -45,8 +46,6 @@ if TYPE_CHECKING:
     from linkwright.kinematics.input_range import input_range as input_range
     from linkwright.kinematics.limits import LimitPosition as LimitPosition
     from linkwright.kinematics.limits import limit_positions as limit_positions
-    from linkwright.kinetostatics.balancing import Balancing as Balancing
-    from linkwright.kinetostatics.balancing import balance as balance
     from linkwright.kinetostatics.forces import Forces as Forces
     from linkwright.kinetostatics.forces import solve_forces as solve_forces
     from linkwright.laws.base import MotionLaw as MotionLaw
@@ -59,6 +58,8 @@ if TYPE_CHECKING:
     from linkwright.machine import SteadyRunning as SteadyRunning
     from linkwright.machine import TorqueCurve as TorqueCurve
     from linkwright.machine import steady_running as steady_running
+    from linkwright.machine.balancing import Balancing as Balancing
+    from linkwright.machine.balancing import balance as balance
     from linkwright.mechanism.mechanism import Mechanism as Mechanism
     from linkwright.metrics import MetricsTable as MetricsTable
     from linkwright.metrics import metrics as metrics

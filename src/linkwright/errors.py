@@ -72,6 +72,10 @@ class LinkwrightError(Exception):
         return in_language(self.sentence, language)
 
 
+class SelfCheckError(LinkwrightError):
+    """Numbers that do not pass the check that the program makes of them, by more than rounding."""
+
+
 class RequestError(LinkwrightError):
     """What was asked for does not exist or is out of range: the call is wrong, not the model."""
 

@@ -460,6 +460,12 @@ def name_of(kind: Dimension) -> Sentence:
     return Sentence("nouns.in_units", unit=si_symbol(kind))
 
 
+def most(kind: Dimension) -> tuple[float, str]:
+    """What no machine reaches in a dimension, with its SI unit."""
+    names = (name for name, each in DIMENSIONS.items() if each == kind)
+    return next((LARGEST[name] for name in names), LARGEST_OF_ALL), si_symbol(kind)
+
+
 def usual_symbol(kind: Dimension) -> str:
     """The unit in which a dimension is mostly written: ``mm``, ``deg``, ``N·m/rad``; empty for a number."""
     names = (name for name, dimension in DIMENSIONS.items() if dimension == kind)

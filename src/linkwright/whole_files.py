@@ -4,14 +4,19 @@ from __future__ import annotations
 
 import errno
 import os
-from contextlib import suppress
+import sys
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from linkwright.errors import RequestError
 from linkwright.words.sentence import reason_of
 
+#: Permissions of new files, before the user's mask.
+_USUAL, _PRIVATE = 0o666, 0o600
 
-def refuse_target(path: str | Path, *, force: bool = True, remedy: str = "") -> None:
+
+def refuse_target(path: str | Path, *, force: bool = True, remedy: str = "force=True") -> None:
     """Raise RequestError where a file could not be written, before any work is done.
 
     A file that is there already is refused unless ``force``; ``remedy`` says how it may be replaced.
@@ -54,40 +59,96 @@ def make_folder(path: str | Path) -> Path:
     return target
 
 
-def write_whole(path: str | Path, content: bytes) -> Path:
+def write_whole(
+    path: str | Path, content: bytes, *, force: bool = True, remedy: str = "force=True", private: bool = False
+) -> Path:
     """Write ``content`` beside ``path`` and move it there in one step; nothing is left behind on failure.
 
     A symbolic link stays, and the file that it leads to is replaced; what is no file (a device, a pipe) is written
-    to directly. A new file gets the usual permissions, an old one keeps its own.
+    to directly. A new file gets the usual permissions, an old one keeps its own; ``private``: only this user may read
+    it. A file that is there already, or comes there meanwhile, is refused unless ``force``; ``remedy`` says how it
+    may be replaced.
     Raises RequestError where the folder does not exist or cannot be written.
     """
     target = Path(path)
-    refuse_target(target)
+    refuse_target(target, force=force, remedy=remedy)
     try:
         if target.exists() and not target.is_file():
             target.write_bytes(content)
         else:
-            _replace(Path(os.path.realpath(target)), content)
+            _replace(Path(os.path.realpath(target)), content, force, _PRIVATE if private else _USUAL)
+    except FileExistsError:
+        raise RequestError("file.exists", path=target, remedy=remedy) from None
     except (OSError, ValueError) as problem:
         raise _refused(target, problem) from None
     return target
 
 
-def _replace(target: Path, content: bytes) -> None:
+def write_new(paths: Iterable[Path], content: bytes) -> Path:
+    """Write to the first of the paths where no file is; raises RequestError where it cannot be written."""
+    for path in paths:
+        try:
+            return write_whole(path, content, force=False)
+        except RequestError:
+            if not path.exists():
+                raise
+    raise ValueError("no path is free")
+
+
+@contextmanager
+def alone(path: Path) -> Iterator[None]:
+    """Within it no other process and no other thread is within it for the same file, which is made and stays.
+
+    Where the file system knows no locks, processes are not kept apart.
+    """
+    try:
+        stream = path.open("ab")
+    except OSError as problem:
+        raise _refused(path, problem) from None
+    with stream:
+        with suppress(OSError):
+            _lock(stream.fileno())
+        yield  # closing the file ends the lock
+
+
+def _lock(handle: int) -> None:
+    if sys.platform == "win32":
+        import msvcrt
+
+        os.lseek(handle, 0, os.SEEK_SET)
+        msvcrt.locking(handle, msvcrt.LK_LOCK, 1)
+    else:
+        import fcntl
+
+        fcntl.flock(handle, fcntl.LOCK_EX)
+
+
+def _replace(target: Path, content: bytes, force: bool, mode: int) -> None:
+    """Unless ``force`` the name is taken first, so that one of two writers is refused."""
     import secrets
 
     beside = target.parent / f".linkwright-{secrets.token_hex(8)}"
-    handle = os.open(beside, os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0), 0o666)
+    left = [beside]
     try:
-        with os.fdopen(handle, "wb") as stream:
+        with os.fdopen(_made(beside, mode), "wb") as stream:
             stream.write(content)
-        with suppress(FileNotFoundError):
-            os.chmod(beside, target.stat().st_mode & 0o777)
+        if not force:
+            os.close(_made(target, mode))
+            left.append(target)
+        elif mode == _USUAL:
+            with suppress(FileNotFoundError):
+                os.chmod(beside, target.stat().st_mode & 0o777)
         os.replace(beside, target)
     except BaseException:
-        with suppress(OSError):
-            os.unlink(beside)
+        for each in left:
+            with suppress(OSError):
+                os.unlink(each)
         raise
+
+
+def _made(path: Path, mode: int) -> int:
+    """A handle of a file that was not there before."""
+    return os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0), mode)
 
 
 def _refused(target: Path, problem: OSError | ValueError, said: str = "file.cannot_write") -> RequestError:

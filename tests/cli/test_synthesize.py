@@ -1,6 +1,7 @@
 """The command synthesize."""
 
 import json
+import math
 from pathlib import Path
 
 import pytest
@@ -34,6 +35,15 @@ def test_files_are_written_and_can_be_solved(tmp_path: Path, capsys: pytest.Capt
     assert "written" in capsys.readouterr().out
 
 
+def test_files_have_the_speed_asked_for(tmp_path: Path) -> None:
+    words = ["synthesize", "quick_return", "quick_return_ratio=1.5", "frame=430 mm", "--speed", "50 rpm"]
+    assert main([*words, "--output", str(tmp_path)]) == 0
+    (turned,) = set(
+        lw.solve_motion(lw.load(*tmp_path.glob("*.yaml")), steps=12).link("crank").angular_velocity
+    )
+    assert turned == pytest.approx(50 * 2 * math.pi / 60)
+
+
 def test_a_file_with_a_section(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     file = tmp_path / "line.yaml"
     file.write_text("format: 1\nsynthesis: {task: straight_line, length: 100 mm, kind: hoecken}\n")
@@ -60,6 +70,7 @@ def test_picture(tmp_path: Path) -> None:
         (["synthesize", "nothing.yaml"], "no such file"),
         (["synthesize", "slider_crank", "stroke"], "is no demand"),
         ([*PRESS, "--mass", "x"], "mass per length"),
+        ([*PRESS, "--speed", "50 mm"], "speed"),
         ([*PRESS, "--output", f"{__file__}/models"], f'"{__file__}" is a file'),
         ([*PRESS, "--output", "/proc/models"], "cannot be made"),
         ([*PRESS, "--plot", "/no/such/folder/a.svg"], 'there is no folder "/no/such/folder"'),

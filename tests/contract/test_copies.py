@@ -152,6 +152,7 @@ MADE_OF_CODE = {
     "Objective",
     "OptimizeError",
     "PathError",
+    "SelfCheckError",
     "Rack",
     "SweepParts",
     "SynthesisError",

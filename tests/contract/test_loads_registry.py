@@ -162,6 +162,13 @@ class FreeSite:
     def omega(self, link: str) -> float:
         return self.bodies[link].omega
 
+    def turning(self, link: str, against: str) -> float:
+        return self.omega(link) - self.omega(against)
+
+    def heading_of(self, link: str, point: str) -> Vec:
+        velocity = self.velocity(link, point)
+        return velocity * (1.0 / math.sqrt(velocity.square))
+
     def angle_between(self, a: str, b: str, near: float = 0.0) -> float:
         return self.bodies[b].angle - self.bodies[a].angle
 

@@ -4,7 +4,10 @@ import ast
 import re
 from pathlib import Path
 
+import pytest
+
 import linkwright
+import linkwright as lw
 from linkwright.words import LANGUAGES, catalogue
 
 ROOT = Path(linkwright.__file__).parent
@@ -85,3 +88,32 @@ def test_every_finding_has_its_remedy_in_every_language() -> None:
     for language in LANGUAGES:
         words = catalogue("model", language)
         assert keys <= set(words), language
+
+
+#: One term for one thing: that of Chinese textbooks of the theory of machines, and what is not written instead.
+ONE_TERM = {"平衡力矩": ("输入力矩",), "运动副反力": ("约束反力",), "设计指标": ("设计参数",)}
+CHINESE = [*(ROOT / "words/zh").glob("*.py"), *(ROOT.parents[1] / "docs/zh").rglob("*.md")]
+
+
+def test_one_chinese_term_for_one_thing() -> None:
+    for path in CHINESE:
+        text = path.read_text("utf-8")
+        assert not [word for words in ONE_TERM.values() for word in words if word in text], path
+
+
+@pytest.mark.parametrize("model", ["jaw_crusher_fourbar", "planetary_two_inputs", "chain_drive"])
+def test_the_frame_has_its_chinese_word(model: str) -> None:
+    """Wherever the program itself lists links: structure, worked solution, legends of pictures, report."""
+    machine = lw.load(f"gallery:{model}")
+    forces = lw.solve_forces(machine, steps=12)
+    shown = re.sub(
+        "<style>.*?</style>|<[^>]*>", " ", lw.draw(forces.motion, forces=forces, language="zh").svg
+    )
+    texts = [
+        lw.structure(machine).text("zh"),
+        lw.worked(forces, language="zh").text(),
+        shown,
+        lw.report(machine, language="zh", sections=["structure", "method", "gears"]).content(".typ").decode(),
+    ]
+    for text in texts:
+        assert not re.search(r"(?<![\w.])frame(?![\w.(:])", text)

@@ -173,7 +173,7 @@ ADDED = [
     ("parameters: {crank: 1 m}", "parameters.crank", "duplicate", "crank"),
     ("cycle: {from: 90 deg, to: 0 deg}", "cycle", "range", "exchange"),
     ("cycle: {duration: -1 s}", "cycle.duration", "range", "negative"),
-    ("drawing: {Q: [1 m, 0 m]}", "drawing.Q", "unknown-name", "O1, O2, A, B"),
+    ("drawing: {Q: [1 m, 0 m]}", "drawing.Q", "unknown-name", "the points of a link"),
     ("drivers: {}", "drivers", "choice", "driver"),
     ("speed: 3 rpm", "speed", "unknown-key", "known:"),
 ]

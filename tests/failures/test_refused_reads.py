@@ -14,8 +14,8 @@ from linkwright.engine.program import Program
 from linkwright.engine.reductions import Accumulation, Reduction
 from linkwright.engine.trace import Trace
 from linkwright.kinematics.cycle import at_inputs, over_cycle
-from linkwright.kinetostatics.balancing import balance
 from linkwright.kinetostatics.forces import Forces
+from linkwright.machine.balancing import balance
 
 
 @cache

@@ -35,7 +35,7 @@ HEAD = "format: 1\nkind: tolerance\nmechanism: gallery:crank_rocker\n"
         ("dimensions: {crank.length: 1 mm}\ncurves: [rocker.angel]", 'did you mean "rocker.angle"'),
         (
             "dimensions: {crank.length: 1 mm}\nof: [rocker.angle range]\nsamples: 3",
-            "whole number of 64 or more",
+            "whole number from 64 to",
         ),
         (
             "dimensions: {crank.length: 3 m}\nof: [rocker.angle range]\nlimits: {B.x max: {lower: 1 m}}",

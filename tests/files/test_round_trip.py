@@ -63,7 +63,7 @@ def test_a_changed_value_leaves_every_other_character(tmp_path: Path, ends: str,
     document.set("crank.mass", "2 kg")
     document.set("driver.start", "5 deg")
     document.set("l", "1.05 m")
-    document.save(path)
+    document.save(path, force=True)
     expected = (
         BLOCK.replace("3 m}", "3.2 m}").replace("length: l  ", "length: 1.1 m  ").replace("20 mm", "25 mm")
     )

@@ -3,13 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
 
 import linkwright as lw
+from linkwright.engine.trace import Scalar
+from linkwright.engine.vector import Vec
+from linkwright.errors import SelfCheckError
+from linkwright.joints.revolute import PinCut
 from linkwright.kinematics.motion import Evaluate, Rows
 from linkwright.kinetostatics.forces import Forces
+from linkwright.kinetostatics.trace import ForceTrace
+from linkwright.study.designs import sweep_curves
 
 MODEL = """
 format: 1
@@ -149,3 +156,90 @@ def test_the_resultant_on_a_block_lies_where_its_couple_says(forces: Forces) -> 
     assert forces.resultant_offset("slot") * (e[:, 0] * f[:, 1] - e[:, 1] * f[:, 0]) == pytest.approx(
         across, abs=1e-9
     )
+
+
+FALSIFIED = """
+format: 1
+name: falsified four-bar
+frame: {points: {O: [0 m, 0 m], Q: [0.9 m, 0 m]}}
+links:
+  falsified_crank: {points: [O, A], length: 0.2 m, mass: 2 kg, inertia: 0.01 kg·m²}
+  falsified_rod: {points: [A, B], length: 0.8 m, mass: 3 kg, inertia: 0.1 kg·m²}
+  falsified_lever: {points: [Q, B], length: 0.6 m, mass: 5 kg, inertia: 0.3 kg·m²}
+assembly: {B: left}
+driver: {turn: falsified_crank, about: O, speed: 6 rad/s}
+loads: {work: {kind: torque, on: falsified_lever, magnitude: 90 N·m}}
+"""
+
+
+def solved(name: str, steps: int = 12) -> Forces:
+    """The four-bar with links of its own names, for which no formula is kept."""
+    return lw.solve_forces(lw.solve_motion(lw.loads(FALSIFIED.replace("falsified", name)), steps=steps))
+
+
+def unbalance(patch: pytest.MonkeyPatch) -> None:
+    """Let a cut pin give one link 1 % more than it takes from the other."""
+    right = PinCut.force_on
+
+    def wrong(self: PinCut, end: str, multipliers: Any, poses: Any) -> tuple[Vec, Scalar]:
+        force, couple = right(self, end, multipliers, poses)
+        return (force * 1.01 if end == self.connection.a else force), couple
+
+    patch.setattr(PinCut, "force_on", wrong)
+
+
+def test_a_formula_that_leaves_a_link_out_of_balance_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    with monkeypatch.context() as patch:
+        unbalance(patch)
+        with pytest.raises(
+            SelfCheckError, match=r"link 'unbalanced_\w+' is out of balance at joint '\w' by"
+        ) as said:
+            solved("unbalanced")
+    assert "report it with the model file" in str(said.value) and "未通过自校核" in said.value.say("zh")
+    assert np.isfinite(solved("balanced").input_torque).all()
+
+
+def test_in_sweeps_it_is_an_outcome(monkeypatch: pytest.MonkeyPatch) -> None:
+    swept = lw.loads(FALSIFIED.replace("falsified", "swept"))
+    vary = {"swept_rod.length": np.array([0.7, 0.75, 0.8, 0.85])}
+    with monkeypatch.context() as patch:
+        unbalance(patch)
+        found = lw.sweep(swept, vary, outputs=["reaction Q on swept_lever max"], backend="numpy")
+        with pytest.raises(SelfCheckError, match="out of balance"):
+            next(iter(sweep_curves(swept, vary, outputs=["driver.effort"], backend="numpy")))
+        prepared = lw.prepare(
+            lw.loads(FALSIFIED.replace("falsified", "prepared")), vary=["prepared_rod.length"]
+        )
+        with pytest.raises(SelfCheckError, match="out of balance"):
+            prepared.solve({"prepared_rod.length": 0.75})
+    assert not found.ok.any() and np.isnan(found["reaction Q on swept_lever max"]).all()
+    (failure,) = found.failures()
+    assert failure.count == 4 and "do not pass their own check" in failure.example
+
+
+def test_a_power_that_is_not_the_drivers_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    right = ForceTrace.power.fget
+    assert right is not None
+    with monkeypatch.context() as patch:
+        patch.setattr(ForceTrace, "power", property(lambda self: right(self) * 1.001))
+        with pytest.raises(
+            SelfCheckError, match="the power of the drivers and that of all other forces differ by"
+        ):
+            solved("powerless")
+
+
+def test_results_out_of_balance_are_not_given_away(monkeypatch: pytest.MonkeyPatch) -> None:
+    right, forces = Forces.couple, lw.solve_forces(lw.solve_motion(lw.loads(MODEL), steps=16))
+    monkeypatch.setattr(Forces, "couple", lambda self, name, *, on=None: right(self, name, on=on) + 0.01)
+    with pytest.raises(SelfCheckError, match="put together leave a link out of balance"):
+        forces.columns()
+
+
+@pytest.mark.parametrize("near", [1e-2, 1e-4, 1e-5])
+def test_near_a_singular_position_rounding_passes(near: float) -> None:
+    """An input that is so near (rad) to the dead point of a lever that drives its crank."""
+    text = FALSIFIED.replace("turn: falsified_crank, about: O", "turn: falsified_lever, about: Q")
+    text = text.replace("{B: left}", "{A: left}")
+    stretched = np.pi - np.arccos((0.9**2 + 0.6**2 - 1.0**2) / (2 * 0.9 * 0.6))
+    forces = lw.solve_forces(lw.solve_motion(lw.loads(text), at=[stretched + near]))
+    assert np.abs(forces.reaction("A", on="falsified_rod")).max() > 10 / np.sqrt(near)

@@ -37,15 +37,18 @@ def test_cantilever_of_the_lecture() -> None:
 
 
 def test_simple_beam_of_the_lecture() -> None:
-    """Uniform load on the left half and a couple at three quarters, by integrating the moment by hand."""
+    """Uniform load on the left half and a clockwise couple at three quarters: the slides' reactions, moments and
+    deflection, and the moment integrated by hand."""
     line = parts.load("gallery:simple_beam").solve()
     rigidity, x = 200e9 * 2e-6, np.linspace(0, 2, 81)
     past = lambda a, n: np.where(x > a, (x - a) ** n, 0.0)  # noqa: E731
-    moment = 1200 * x - 500 * x**2 + 500 * past(1, 2) - 900 * (x >= 1.5)
-    bent = 200 * x**3 - 500 / 12 * x**4 + 500 / 12 * past(1, 4) - 450 * past(1.5, 2)
-    close(line.moment(x)[1:-1], moment[1:-1])
+    moment = 300 * x - 500 * x**2 + 500 * past(1, 2) + 900 * (x >= 1.5)
+    bent = 50 * x**3 - 500 / 12 * x**4 + 500 / 12 * past(1, 4) + 450 * past(1.5, 2)
+    assert line.moment(x)[1:-1] == pytest.approx(moment[1:-1], rel=1e-9, abs=1e-9)
     close(line.deflection(x), (bent - bent[-1] * x / 2) / rigidity)
-    assert line.reactions["A"][0] == pytest.approx(1200) and line.reactions["B"][0] == pytest.approx(-200)
+    assert line.reactions["A"][0] == pytest.approx(300) and line.reactions["B"][0] == pytest.approx(700)
+    assert [value for _, value in line.extremes("moment")] == pytest.approx([-550, 350])
+    assert line.extremes("deflection")[1][1] == pytest.approx(0.1697e-3, abs=0.5e-7)
 
 
 def test_propped_cantilever() -> None:

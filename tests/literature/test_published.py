@@ -1,12 +1,12 @@
-"""Every published number that the package holds, to the digits that are printed; the page that shows them."""
+"""Every reference number of the package, to the digits given; which of them their sources print; the page of them."""
 
 from dataclasses import replace
 
 import pytest
 
 from linkwright.cli import main
-from linkwright.validation.published import Printed, Published, published
-from linkwright.validation.validate import Validation, check, last_digit, validate
+from linkwright.validation.published import Published, Reference, published
+from linkwright.validation.validate import Validation, check, last_digit, line, validate
 
 CASES = list(published())
 
@@ -32,6 +32,18 @@ def test_errata_are_shown_with_their_reasons(everything: Validation) -> None:
     assert "有误" in everything.text("zh")
 
 
+def test_only_what_a_source_prints_is_called_printed(everything: Validation) -> None:
+    """As the sources are: the lecture's beam is printed, its cantilever only posed; a report's table row by row."""
+    lines = [line(each, "en") for each in everything.checks]
+    shown = {each for each in lines if ": printed " in each}
+    assert sum(each.reference.printed for each in everything.checks) == len(shown)
+    beam = {each.split(": ", 1)[1].split(",")[0] for each in shown if each.startswith("Simple beam")}
+    assert {"reactions.A F: printed 300 N", "reactions.B F: printed 700 N"} <= beam
+    assert not any(each.startswith(("Cantilever", "Two heavy bars", "Four-bar for three")) for each in shown)
+    conveyor = [each for each in shown if each.startswith("Swinging conveyor, six-bar 0 deg")]
+    assert len(conveyor) == 4  # three angles and the slider's place; its rates are the corrected ones
+
+
 @pytest.mark.parametrize(
     ("what", "text", "digits"),
     [
@@ -42,17 +54,20 @@ def test_errata_are_shown_with_their_reasons(everything: Validation) -> None:
     ],
 )
 def test_a_number_that_differs_is_found(what: str, text: str, digits: float) -> None:
-    case = Published("four-bar", "nobody", "structure", {"model": "crank_rocker"}, (Printed(what, text),))
+    case = Published(
+        "four-bar", "nobody", "structure", {"model": "crank_rocker"}, (Reference(what, text, printed=True),)
+    )
     (found,) = check(case)
     assert found.digits == pytest.approx(digits) and found.ok is (digits == 0.0)
     assert Validation((found,)).ok is found.ok
 
 
 def test_an_angle_is_compared_over_full_turns_and_in_its_unit() -> None:
-    case = Published("conveyor", "report", "machine", {"model": "swing_conveyor", "at": "0 deg"},
-                     (Printed("coupler.angle", "347.053 deg"), Printed("coupler.angle", "-12.947 deg")))  # fmt: skip
+    angles = (Reference("coupler.angle", text, printed=True) for text in ("347.053 deg", "-12.947 deg"))
+    given = {"model": "swing_conveyor", "at": "0 deg"}
+    case = Published("conveyor", "report", "machine", given, tuple(angles))
     assert all(each.ok for each in check(case))
-    wrong = replace(case, numbers=(Printed("coupler.angle", "347.055 deg"),))
+    wrong = replace(case, numbers=(Reference("coupler.angle", "347.055 deg", printed=True),))
     assert check(wrong)[0].digits == pytest.approx(-2.0, abs=0.5)
 
 

@@ -6,9 +6,11 @@ import numpy as np
 from tests.reference.agreement import Comparison, floors, force_floors, motion_comparison
 from tests.reference.geared import pressed_forces
 from tests.reference.geared_mechanisms import GearedCase
-from tests.reference.multibody import Motion, Unreachable
+from tests.reference.multibody import Array, Motion, Unreachable
 
 import linkwright as lw
+from linkwright.core.outputs import row_name
+from linkwright.kinetostatics.link_balance import load_outputs
 
 TIMES = np.linspace(0.0, 0.12, 5)
 TOLERANCE = 1e-9
@@ -26,23 +28,34 @@ def well_placed(case: GearedCase) -> Motion | None:
     return motion if calm else None
 
 
-def disagreements(case: GearedCase, reference: Motion) -> list[str]:
-    """What of motion, forces, powers and balance is not as it must be, a line each."""
-    mechanism = lw.loads(case.text)
+def disagreements(case: GearedCase, reference: Motion, text: str = "") -> list[str]:
+    """What of motion, forces, powers and balance is not as it must be, a line each; ``text``: the file in another
+    order."""
+    mechanism = lw.loads(text or case.text)
     motion = lw.solve_motion(mechanism, times=TIMES)
     moved = motion_comparison(mechanism, motion, reference, derived=False)
     found = list(moved.failures(TOLERANCE, floors(mechanism, reference)))
     forces = lw.solve_forces(motion)
-    expected, pressing = pressed_forces(reference, case.loads())
+    forces.fetch((*load_outputs(forces), row_name("power"), row_name("power_of_forces")))
+    expected, beside = pressed_forces(reference, case.loads())
     compared = Comparison()
     for joint in mechanism.joints.values():
+        place = joint.acts_at(motion)
         for link in joint.joined:
-            force, _ = expected.on(joint.name, link)
-            if joint.name in pressing:
-                force = force + pressing[joint.name] * (1.0 if link == joint.joined[0] else -1.0)
+            force, couple = expected.on(joint.name, link, place)
+            for wrench in beside.get(joint.name, ()):
+                if wrench.body == link:
+                    force = force + wrench.force
+                    couple = couple + wrench.torque + _cross(wrench.point - place, wrench.force)
             compared.add("force", f"{joint.name} on {link}", forces.reaction(joint.name, on=link), force)
+            if joint.couples:
+                compared.add("moment", f"{joint.name} on {link}", forces.couple(joint.name, on=link), couple)
     compared.add("moment", "driver", forces.input_torque, expected.effort("driver driver"))
     found += compared.failures(TOLERANCE, force_floors(expected))
     scale = 1e-11 * float(np.abs(expected.lam).max())
     checks = {"balance": forces.balance_residual.max(), "power": np.abs(forces.power_residual).max()}
     return found + [f"{name} residual {value:.3g}" for name, value in checks.items() if not value < scale]
+
+
+def _cross(arm: Array, force: Array) -> Array:
+    return np.asarray(arm[:, 0] * force[:, 1] - arm[:, 1] * force[:, 0])

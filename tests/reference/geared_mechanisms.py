@@ -10,7 +10,7 @@ from math import cos, hypot, pi, sin
 
 import numpy as np
 from tests.reference.formulas import gravity
-from tests.reference.geared import Geared, Rack, Wheels, belt, gear
+from tests.reference.geared import Geared, Rack, Row, belt, gear
 from tests.reference.multibody import (
     FRAME,
     Array,
@@ -37,7 +37,7 @@ class GearedDraft:
     poses: dict[str, tuple[float, float, float]] = field(default_factory=lambda: {FRAME: (0.0, 0.0, 0.0)})
     points: dict[str, dict[str, Vec]] = field(default_factory=lambda: {FRAME: {}})
     constraints: list[Constraint] = field(default_factory=list)
-    rolling: list[Wheels | Rack] = field(default_factory=list)
+    rolling: list[Row] = field(default_factory=list)
     joints: list[str] = field(default_factory=list)
     pins: list[tuple[str, str, str]] = field(default_factory=list)  # point, carrier, wheel
     kinds: list[str] = field(default_factory=list)
@@ -108,7 +108,7 @@ def geared_case(seed: int) -> GearedCase:
         kind = d.some(list(PIECES))
         _ADD[kind](d)
         d.kinds.append(kind)
-    return _case(d)
+    return case_of(d)
 
 
 def _wheel_on(d: GearedDraft) -> tuple[str, str, str, str, Vec, Vec]:
@@ -127,17 +127,25 @@ def _add_gear(d: GearedDraft) -> None:
     carrier, _, wheel, new, at, there = _wheel_on(d)
     d.pin(carrier, new, there)
     ratio = float(d.some(["-1", "-0.5", "-2", "-1.5", "0.4", "2.5", "3"]))
-    _mesh(d, carrier, (wheel, new), (at, there), ratio)
+    add_mesh(d, carrier, (wheel, new), (at, there), ratio)
 
 
-def _mesh(d: GearedDraft, carrier: str, wheels: tuple[str, str], at: tuple[Vec, Vec], ratio: float) -> None:
+def add_mesh(
+    d: GearedDraft,
+    carrier: str,
+    wheels: tuple[str, str],
+    at: tuple[Vec, Vec],
+    ratio: float,
+    kind: str = "gear",
+) -> None:
+    """Two wheels on a carrier; those that roll on each other have no teeth that press them apart."""
     name, (a, b), (p, q) = f"g{len(d.rolling)}", wheels, at
-    alpha = float(d.rng.uniform(0.0, 0.5))
+    alpha = float(d.rng.uniform(0.0, 0.5)) if kind == "gear" else 0.0
+    leaning = f", pressure_angle: {alpha!r} rad" if kind == "gear" else ""
     row = gear(name, a, d.local(a, p), b, d.local(b, q), hypot(q[0] - p[0], q[1] - p[1]), ratio, alpha, 0.0)
     d.rolling.append(row)
     d.joints.append(
-        f"  {name}: {{kind: gear, links: [{a}, {b}], ratio: {ratio!r}, carrier: {carrier}, "
-        f"pressure_angle: {alpha!r} rad}}"
+        f"  {name}: {{kind: {kind}, links: [{a}, {b}], ratio: {ratio!r}, carrier: {carrier}{leaning}}}"
     )
 
 
@@ -158,8 +166,11 @@ def _add_belt(d: GearedDraft) -> None:
 
 
 def _add_rack(d: GearedDraft) -> None:
+    add_rack(d, *d.pins[int(d.rng.integers(len(d.pins)))])
+
+
+def add_rack(d: GearedDraft, name: str, carrier: str, wheel: str) -> str:
     """A rack beside a wheel, guided on the wheel's carrier."""
-    name, carrier, wheel = d.pins[int(d.rng.integers(len(d.pins)))]
     at = d.points[carrier][name]
     direction, radius = float(d.rng.uniform(-pi, pi)), float(d.rng.uniform(0.1, 0.4))
     side = 1.0 if d.rng.random() < 0.5 else -1.0
@@ -186,10 +197,10 @@ def _add_rack(d: GearedDraft) -> None:
             wheel,
             d.local(wheel, at),
             rack,
+            0.0,
             d.local(rack, on_line),
             own,
             side * radius,
-            0.0,
             float(np.tan(alpha)),
         )
     )
@@ -199,9 +210,10 @@ def _add_rack(d: GearedDraft) -> None:
         f"  {row}: {{kind: rack, pinion: {wheel}, rack: {rack}, through: {t}, centre: {name}, "
         f"direction: {own!r} rad, radius: {radius!r} m, pressure_angle: {alpha!r} rad}}",
     ]
+    return rack
 
 
-def _add_dyad(d: GearedDraft) -> None:
+def add_dyad(d: GearedDraft) -> None:
     """Two bars between two links."""
     names = list(d.poses)
     a = d.some([n for n in names if n != FRAME])
@@ -226,7 +238,7 @@ def _add_loop(d: GearedDraft) -> None:
     a, b = d.link(p), d.link(q)
     d.pin(carrier, a, p)
     d.pin(carrier, b, q)
-    _mesh(d, carrier, (a, b), (p, q), float(d.some(["-1", "-2", "0.5", "2"])))
+    add_mesh(d, carrier, (a, b), (p, q), float(d.some(["-1", "-2", "0.5", "2"])))
     ends = d.near(p, 0.2, 0.4), d.near(q, 0.2, 0.4)
     inner = d.near(((ends[0][0] + ends[1][0]) / 2, (ends[0][1] + ends[1][1]) / 2), 0.4, 0.7)
     bars = [d.link(each) for each in (*ends, inner)]
@@ -238,10 +250,11 @@ def _add_loop(d: GearedDraft) -> None:
     d.pin(driver, bars[2], x)
 
 
-_ADD = {"gear": _add_gear, "belt": _add_belt, "rack": _add_rack, "dyad": _add_dyad, "loop": _add_loop}
+_ADD = {"gear": _add_gear, "belt": _add_belt, "rack": _add_rack, "dyad": add_dyad, "loop": _add_loop}
 
 
-def _case(d: GearedDraft) -> GearedCase:
+def case_of(d: GearedDraft) -> GearedCase:
+    """The draft as file and reference."""
     order = [name for name in d.poses if name != FRAME]
     everywhere = list(dict.fromkeys(p for each in d.points.values() for p in each))
     parts = list(d.constraints)
@@ -257,7 +270,7 @@ def _case(d: GearedDraft) -> GearedCase:
     system = Geared(bodies, parts, d.rolling, 1)
     system.constant[system.row_angle[-1]] = crank_turn
     for row, c in enumerate(d.rolling, system.first):
-        value = float(system.rolled(c, start))
+        value = float(c.at(system, start))
         system.rolling[row - system.first] = c = replace(c, value=value)
         system.constant[row] = value
     system.constraints = [*parts, *system.rolling]  # type: ignore[list-item]

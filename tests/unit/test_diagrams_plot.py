@@ -2,11 +2,13 @@
 
 import subprocess
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 import matplotlib
 import numpy as np
 import pytest
+from matplotlib import font_manager
 
 import linkwright as lw
 from linkwright.errors import LinkwrightError
@@ -42,7 +44,8 @@ def test_curves_close_and_go_with_the_motion(forces: lw.Forces) -> None:
     line = max(axes[0].lines, key=lambda each: len(each.get_xdata()))
     x, y = np.asarray(line.get_xdata()), np.asarray(line.get_ydata())
     assert (x[0], x[-1]) == pytest.approx((0.0, -360.0)) and y[-1] == pytest.approx(y[0])
-    assert y[:-1] == pytest.approx(np.degrees(forces.motion.link("jaw").angle))
+    passed = np.interp(-np.degrees(forces.motion.input), -x, y)
+    assert passed == pytest.approx(np.degrees(forces.motion.link("jaw").angle))
     assert axes[0].get_xlim() == pytest.approx((0.0, -360.0))
 
 
@@ -267,3 +270,40 @@ def test_a_joint_that_carries_nothing_has_a_point_for_a_hodograph() -> None:
     axes = plot(lw.solve_forces(lw.load("gallery:scotch_yoke")), "hodographs", of=["guide"]).figure.axes[0]
     assert all(not np.any(line.get_xydata()) for line in axes.lines if len(line.get_xydata()) > 2)
     assert axes.get_xlim()[1] > 0.5 and axes.get_xlabel() == "Fx (N)"
+
+
+def collection(path: Path, families: Sequence[str], style: str) -> None:
+    """A font collection with one face per family, as the packages of Chinese fonts have them."""
+    from fontTools.ttLib import TTCollection, TTFont
+
+    faces = TTCollection()
+    for family in families:
+        face = TTFont(font_manager.findfont("DejaVu Sans:bold" if style == "Bold" else "DejaVu Sans"))
+        for number, text in ((1, family), (2, style), (4, f"{family} {style}"), (16, family), (17, style)):
+            face["name"].setName(text, number, 3, 1, 0x409)
+            face["name"].setName(text, number, 1, 0, 0)
+        faces.fonts.append(face)
+    faces.save(path)
+
+
+@pytest.mark.parametrize("package", ["NotoSansCJK", "wqy-microhei"])
+def test_the_regular_face_of_a_collection_that_was_installed_after_the_list(
+    package: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    """Of fonts that matplotlib has not listed: by name, upright and not bold, without its complaints."""
+    family = {"NotoSansCJK": "Noto Sans CJK SC", "wqy-microhei": "WenQuanYi Micro Hei"}[package]
+    faces = [family, family.replace("CJK", "Mono CJK") if "CJK" in family else f"{family} Mono"]
+    for style in ("Bold", "Regular") if package == "NotoSansCJK" else ("Regular",):
+        collection(tmp_path / f"{package}-{style}.ttc", faces, style)
+    stale = font_manager.FontManager.__new__(font_manager.FontManager)
+    stale.__dict__.update(font_manager.fontManager.__dict__)
+    stale.ttflist = [font for font in font_manager.fontManager.ttflist if font.name == "DejaVu Sans"]
+    monkeypatch.setattr(font_manager, "fontManager", stale)
+    monkeypatch.setattr("linkwright.plot.svg.text.system_fonts", lambda: tuple(sorted(tmp_path.iterdir())))
+    picture.chinese_font.cache_clear()
+    try:
+        assert picture.chinese_font() == family
+        found = Path(stale.findfont(font_manager.FontProperties(family=[family])))
+        assert found.name == f"{package}-Regular.ttc" and not caplog.records
+    finally:
+        picture.chinese_font.cache_clear()

@@ -14,8 +14,8 @@ import linkwright as lw
 from linkwright.cli import main
 from linkwright.core.arrays import Floats
 from linkwright.errors import LinkwrightError
-from linkwright.kinetostatics.balancing import Balancing, balance
 from linkwright.machine import TorqueCurve
+from linkwright.machine.balancing import Balancing, balance
 from linkwright.metrics import metrics
 from linkwright.metrics.coupler_curve import coupler_curve
 from linkwright.plot import Diagram, plot

@@ -361,7 +361,7 @@ def test_saving_is_whole_or_not_at_all(
 
     monkeypatch.setattr("os.replace", broken)
     with pytest.raises(lw.LinkwrightError, match="No space left"):
-        draw(crusher, position=9).save(target)
+        draw(crusher, position=9).save(target, force=True)
     assert target.read_text(encoding="utf-8") == draw(crusher).svg
     assert [file.name for file in tmp_path.iterdir()] == ["crusher.svg"]
 

@@ -39,13 +39,68 @@ def test_links_have_their_lengths(motion: lw.Motion, tmp_path: Path) -> None:
     assert sorted(found) == pytest.approx([100.0, 1000.0, 1150.0, 1250.0, 1960.0], rel=1e-12)
 
 
-def test_dimensions_measure_the_lengths(motion: lw.Motion, tmp_path: Path) -> None:
-    found = [each.get_measurement() for each in on_layer(read(motion, tmp_path), "dimensions", "DIMENSION")]
-    assert sorted(found) == pytest.approx([100.0, 1000.0, 1150.0, 1250.0, 1960.0], rel=1e-12)
+def measured(document: Any) -> list[float]:
+    return sorted(each.get_measurement() for each in on_layer(document, "dimensions", "DIMENSION"))
+
+
+#: Of the jaw crusher: links and the point D, then O3 and O5 from O1 across and up, mm.
+LENGTHS = [100.0, 600.0, 1000.0, 1150.0, 1250.0, 1960.0, 940.0, 1000.0, 1000.0, 850.0]
+
+
+def test_dimensions_measure_what_places_the_points(motion: lw.Motion, tmp_path: Path) -> None:
+    assert measured(read(motion, tmp_path)) == pytest.approx(sorted(LENGTHS), rel=1e-12)
     document = read(motion, tmp_path, unit="m", force=True)
-    found = [each.get_measurement() for each in on_layer(document, "dimensions", "DIMENSION")]
     assert document.units == 6
-    assert sorted(found) == pytest.approx([0.1, 1.0, 1.15, 1.25, 1.96], rel=1e-12)
+    assert measured(document) == pytest.approx([each / 1000 for each in sorted(LENGTHS)], rel=1e-12)
+
+
+def test_an_offset_and_the_decimal_point(tmp_path: Path) -> None:
+    """The guide of the press lies 60.5 mm above the crank's pin; its numbers have a point in every language."""
+    motion = lw.solve_motion(lw.load("gallery:slider_crank_offset"), steps=24)
+    for language in ("en", "zh"):
+        document = read(motion, tmp_path, language=language, force=True)
+        assert measured(document) == pytest.approx([60.5, 198.0, 702.5], rel=1e-12)
+        shown = {text.plain_text() for text in numbers_of(document)}
+        assert shown == {"60.5", "198", "702.5"}
+
+
+def test_the_angle_of_a_bent_link(tmp_path: Path) -> None:
+    text = """format: 1
+frame: {points: {O1: [0 m, 0 m], O2: [0.4 m, 0 m]}}
+links:
+  crank: {points: [O1, A], length: 0.1 m}
+  coupler: {points: [A, B], length: 0.35 m}
+  rocker: {points: [O2, B, C], lengths: [0.3 m, 0.2 m], angle: -50 deg}
+assembly: {B: left}
+driver: {turn: crank, about: O1, speed: 60 rpm}
+"""
+    document = read(lw.solve_motion(lw.loads(text), steps=12), tmp_path)
+    assert measured(document) == pytest.approx([50.0, 100.0, 200.0, 300.0, 350.0, 400.0], rel=1e-12)
+
+
+def numbers_of(document: Any) -> list[Any]:
+    """The texts of dimensions as they are drawn."""
+    dimensions = on_layer(document, "dimensions", "DIMENSION")
+    return [each for one in dimensions for each in one.get_geometry_block().query("MTEXT")]
+
+
+@pytest.mark.parametrize("model", ["slider_crank_offset", "swing_conveyor", "jaw_crusher_sixbar"])
+def test_numbers_stand_clear_of_guides_links_and_each_other(model: str, tmp_path: Path) -> None:
+    """Middles of texts lie further than half a letter from every line, and from other middles."""
+    document = read(lw.solve_motion(lw.load(f"gallery:{model}"), steps=60), tmp_path)
+    texts = numbers_of(document)
+    middles = np.array([tuple(each.dxf.insert)[:2] for each in texts])
+    half = 0.5 * texts[0].dxf.char_height
+    lines = [*on_layer(document, "frame"), *on_layer(document, "links")]
+    ends = [(each.dxf.start, each.dxf.end) if each.dxftype() == "LINE" else None for each in lines]
+    rows = [np.array([tuple(a)[:2], tuple(b)[:2]]) for a, b in filter(None, ends)]
+    rows += [np.array(each.get_points("xy")) for each in lines if each.dxftype() == "LWPOLYLINE"]
+    for row in rows:
+        share = np.linspace(0.0, 1.0, 200)[:, None, None]
+        dots = (row[:-1] + share * (row[1:] - row[:-1])).reshape(-1, 2)
+        assert np.hypot(*(dots[:, None] - middles).T).min() > half
+    gaps = np.hypot(*(middles[:, None] - middles).T) + 1e9 * np.eye(len(middles))
+    assert gaps.min() > 2.0 * half
 
 
 def test_pins_are_where_the_motion_puts_them(motion: lw.Motion, tmp_path: Path) -> None:

@@ -7,6 +7,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from tests.reference.geared_loops import looped_case, reordered
 from tests.reference.geared_mechanisms import geared_case
 from tests.reference.random_mechanisms import random_mechanism
 from tests.unit.worked_reading import is_printed_zero, last_digit, reckon
@@ -94,6 +95,18 @@ def test_geared_loops_and_racks_come_out_with_a_calculator(seed: int) -> None:
     columns = forces.motion.columns()
     moving = [name for name, values in columns.items() if abs(values[3]) > 1e-9]
     assert [name for name in moving if name not in seen and not any(word in name for word in BESIDE)] == []
+
+
+@pytest.mark.parametrize("seed", [2, 7, 8, 13, 20])
+def test_loops_whose_pairs_act_on_cut_pins_come_out_with_a_calculator(seed: int) -> None:
+    """Gears, belts and racks between links of a loop, read in an order in which a pin beside them is cut."""
+    text = reordered(looped_case(seed).text, np.random.default_rng([seed, 0 if seed != 7 else 1]))
+    forces = lw.solve_forces(lw.solve_motion(lw.loads(text), times=np.linspace(0.0, 0.12, 5)))
+    page = lw.worked(forces, 3)
+    assert "λ_" in page.text()
+    assert reckon_lines(page) == []
+    wrong, _ = against_solver(page, forces)
+    assert wrong == []
 
 
 def test_the_row_of_a_pair_is_put_into_the_closure_equations() -> None:

@@ -105,9 +105,10 @@ export interface Glyph {
   crossed?: boolean;
 }
 
-/** `on`: links whose reactions add up to the size of that on b; `arm`: friction over the pressing force. */
+/** `rate`: the row of the joint's rate, zero at rest; `on`: links whose reactions add up to the size of that on b; `arm`: friction over the pressing force. */
 export interface FrictionTerm {
   field: string;
+  rate: string;
   joint: string;
   a: string;
   b: string;

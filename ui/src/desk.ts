@@ -4,15 +4,15 @@ import { bytes, type ModelData } from "./data";
 import { History } from "./history";
 import { save, type Page } from "./living";
 import { code, type Values } from "./solver";
-import type { Action, Picture } from "./paper";
+import type { Action, Picture } from "./picture";
 import { Session } from "./session";
 
 export interface Found {
   severity: string;
   line: number;
   key: string;
-  message: string;
-  remedy: string;
+  /** What is the matter and what to do about it. */
+  sentence: string;
 }
 
 export interface Solved {
@@ -80,8 +80,8 @@ export class Desk {
   private readonly window = crypto.randomUUID();
   private readonly token = new URLSearchParams(location.search).get("token") ?? "";
   readonly history = new History<string>(() => this.text.value, (text) => this.put(text, 0));
-  private version = "";
-  private serial = 0;
+  /** The open file as the server has it: version on the disk, serial of its draft. */
+  private file = { name: "", version: "", serial: 0 };
   private typed = -PAUSE;
   /** The text before the last change of the machine by hand, and the text that wrote. */
   private moved: { before: string; text: string } | null = null;
@@ -97,6 +97,7 @@ export class Desk {
   constructor(readonly page: Page) {
     page.history = this.history;
     window.setInterval(() => void this.watch(), WATCH);
+    window.addEventListener("beforeunload", (event) => this.unkept && event.preventDefault());
   }
 
   say = (key: string, values: Record<string, string> = {}) => {
@@ -145,38 +146,39 @@ export class Desk {
     this.timer = window.setTimeout(() => void this.solve(), wait);
   }
 
-  /** Every change goes to the server as a draft, in their order. */
+  /** Every change goes to the server as a draft of the file that is open now, in their order. */
   private keep(): Promise<void> {
-    this.queue = this.queue.then(async () => {
-      if (!this.name.value || this.elsewhere.value !== null) return;
-      const kept = await this.ask<{ serial: number; other: string | null }>("keep", { name: this.name.value, text: this.text.value, window: this.window, serial: this.serial });
+    const { file } = this, text = this.text.value;
+    return (this.queue = this.queue.then(async () => {
+      if (!file.name || this.elsewhere.value !== null) return;
+      const kept = await this.ask<{ serial: number; other: string | null }>("keep", { name: file.name, text, window: this.window, serial: file.serial });
       this.unkept = !kept;
       if (!kept) return;
       this.gone.value = false;
-      this.serial = kept.serial;
-      if (kept.other !== null) this.elsewhere.value = kept.other;
-    });
-    return this.queue;
+      file.serial = kept.serial;
+      if (kept.other !== null && file === this.file) this.elsewhere.value = kept.other;
+    }));
   }
 
   private async watch(): Promise<void> {
-    if (!this.name.value || this.elsewhere.value !== null) return;
-    const name = this.name.value, behind = this.gone.value || this.unkept, { version } = this;
-    const state = await this.ask<{ serial: number; other: boolean; version: string }>("state", { name, window: this.window });
-    if (!state || name !== this.name.value) return;
+    const { file } = this;
+    if (!file.name || this.elsewhere.value !== null) return;
+    const behind = this.gone.value || this.unkept, { version } = file;
+    const state = await this.ask<{ serial: number; other: boolean; version: string }>("state", { name: file.name, window: this.window });
+    if (!state || file !== this.file) return;
     if (behind) {
-      this.serial = state.serial;
+      file.serial = state.serial;
       await this.keep();
       return;
     }
-    if (state.other && state.serial !== this.serial) {
-      const opened = await this.ask<{ text: string; serial: number }>("open", { name: this.name.value });
-      if (opened && plain(opened.text) !== this.text.value) this.elsewhere.value = opened.text;
-      this.serial = state.serial;
+    if (state.other && state.serial !== file.serial) {
+      const opened = await this.ask<{ text: string; serial: number }>("open", { name: file.name });
+      if (opened && file === this.file && plain(opened.text) !== this.text.value) this.elsewhere.value = opened.text;
+      file.serial = state.serial;
     }
     const known = this.onDisk.value;
-    if (version !== this.version || (known && known.name !== name)) return;
-    this.onDisk.value = state.version === version ? null : { name, version: state.version };
+    if (version !== file.version || (known && known.name !== file.name)) return;
+    this.onDisk.value = state.version === version ? null : { name: file.name, version: state.version };
   }
 
   takeTheirs(): void {
@@ -195,10 +197,12 @@ export class Desk {
   }
 
   private async opened(asked: { name?: string; gallery?: string; fresh?: boolean }): Promise<void> {
-    const opened = await this.ask<{ name: string; text: string; version: string; serial: number; recovered: boolean }>("open", asked);
+    await this.queue;
+    if (this.elsewhere.value !== null || this.unkept) return; // what is not stored yet would be lost
+    const opened = await this.ask<{ name: string; text: string; version: string; serial: number; recovered: boolean }>("open", { ...asked, window: this.window });
     if (!opened) return;
     this.name.value = opened.name;
-    [this.version, this.serial] = [opened.version, opened.serial];
+    this.file = { name: opened.name, version: opened.version, serial: opened.serial };
     this.history.clear();
     this.elsewhere.value = null;
     this.onDisk.value = null;
@@ -216,19 +220,20 @@ export class Desk {
   }
 
   private async saved(asked: string, version?: string): Promise<void> {
-    const name = /\.(ya?ml|json)$/i.test(asked) ? asked : `${asked}.yaml`, own = name === this.name.value;
-    if (own) await this.keep();
+    const name = /\.(ya?ml|json)$/i.test(asked) ? asked : `${asked}.yaml`, { file } = this, own = name === file.name;
+    await this.keep();
     const text = this.text.value;
-    const saved = await this.ask<{ saved: boolean; version: string; serial: number }>("save", {
-      name, text, version: version ?? (own ? this.version : ""), draft: this.name.value,
+    const saved = await this.ask<{ saved: boolean; version: string; name: string; aside: string }>("save", {
+      name, text, version: version ?? (own ? file.version : ""), draft: file.name,
     });
-    if (!saved) return;
+    if (!saved || file !== this.file) return;
     this.onDisk.value = saved.saved ? null : { name, version: saved.version };
     if (!saved.saved) return;
-    if (!own) [this.name.value, this.serial] = [name, saved.serial];
-    this.version = saved.version;
+    if (own) file.version = saved.version;
+    else this.file = { name: (this.name.value = saved.name), version: saved.version, serial: 0 };
     this.dirty.value = text !== this.text.value;
-    this.page.note.value = this.dirty.value ? "" : this.say("saved");
+    if (!own && this.dirty.value) void this.keep();
+    this.page.note.value = saved.aside ? this.say("set_aside", { name: saved.name, aside: saved.aside }) : this.dirty.value ? "" : this.say("saved");
   }
 
   /** Writes the file in place of the one on the disk that has been in the way. */
@@ -239,13 +244,13 @@ export class Desk {
 
   /** Goes on with the text of the open file as it is on the disk now; what is typed while it comes stays. */
   async takeDisk(): Promise<void> {
-    const name = this.name.value, text = this.text.value, there = await this.ask<{ text: string; version: string }>("disk", { name });
-    if (!there || name !== this.name.value) return;
+    const { file } = this, text = this.text.value, there = await this.ask<{ text: string; version: string }>("disk", { name: file.name });
+    if (!there || file !== this.file) return;
     if (text !== this.text.value) {
       this.page.note.value = this.say("typed_meanwhile");
       return;
     }
-    this.version = there.version;
+    file.version = there.version;
     this.onDisk.value = null;
     this.change(there.text);
     this.dirty.value = false;
@@ -307,12 +312,12 @@ export class Desk {
   }
 
   /** Takes a change by hand back where the file does not admit it, and says why. */
-  private refuse(before: string, { findings, sentence }: Solved): void {
+  private refuse(before: string, solved: Solved): void {
     this.moved = null;
     this.history.unmark();
     if (this.session.value) back(this.session.value);
     this.put(before, 0);
-    this.page.note.value = findings.filter(({ severity }) => severity === "error").map(({ message, remedy }) => [message, remedy].filter(Boolean).join("; ")).join("; ") || sentence;
+    this.page.note.value = this.errors(solved) || solved.sentence;
   }
 
   /** Begins a search and looks what is found so far until it has ended. */
@@ -345,7 +350,7 @@ export class Desk {
   async compare(asked: { name?: string; gallery?: string } | null): Promise<void> {
     const found = asked && (await this.ask<{ text: string }>("read", asked));
     const solved = found && (await this.ask<Solved>("solve", { text: found.text }));
-    if (solved && !solved.model?.module) this.page.note.value = solved.sentence || solved.findings.map(({ message }) => message).join("; ");
+    if (solved && !solved.model?.module) this.page.note.value = solved.sentence || this.errors(solved);
     this.beside.value = solved?.model?.module ? new Session(solved.model, await code(solved.model, 1), 1) : null;
     this.side();
   }
@@ -372,22 +377,54 @@ export class Desk {
 
   /** Carries out actions of drawing on the text, as one step, in the order in which they were asked. */
   act = (actions: Action[]): Promise<void> => {
+    const { ready } = this;
     this.pending++;
     return (this.queue = this.queue.then(async () => {
-      await this.ready;
-      for (let from: string | undefined, text: string; from !== this.text.value; ) {
-        from = text = this.text.value;
-        for (const action of actions) {
-          const edited = await this.ask<{ text: string }>("edit", { text, action });
-          if (!edited) return;
-          text = edited.text;
-        }
-        if (from !== this.text.value) continue;
-        this.page.note.value = "";
-        return this.change(text);
-      }
-    }).finally(() => this.pending--));
+      await ready;
+      const done = await this.carriedOut(actions).finally(() => this.pending--);
+      const { picture } = this.solved.value;
+      if (!done && picture) this.solved.value = { ...this.solved.value, picture: { ...picture } };
+    }));
   };
+
+  /** Whether the text admits the actions. */
+  private async carriedOut(actions: Action[]): Promise<boolean> {
+    for (;;) {
+      const from = this.text.value, notes: string[] = [];
+      let text = from;
+      for (const action of actions) {
+        const edited = await this.ask<{ text: string; note: string }>("edit", { text, action });
+        if (!edited) return false;
+        ({ text } = edited);
+        notes.push(edited.note);
+      }
+      if (from !== this.text.value) continue;
+      this.change(text);
+      this.page.note.value = notes.filter(Boolean).join(" ");
+      return true;
+    }
+  }
+
+  /** Shows the machine in motion; where the text makes none, says why. */
+  async run(): Promise<void> {
+    await this.queue;
+    await this.solve();
+    const { model, sentence } = this.solved.value, reason = this.errors() || sentence;
+    if (model?.module) this.drawing.value = false;
+    else if (!this.gone.value) this.page.note.value = this.say("cannot_run", { reason: reason || this.say("no_machine") });
+  }
+
+  /** What is wrong with the text, in a line. */
+  private errors(solved = this.solved.value): string {
+    return solved.findings.filter(({ severity }) => severity === "error").map(({ sentence }) => sentence).join(this.say("semicolon"));
+  }
+
+  /** Shows everything in another language; sentences that were said in the one before go. */
+  speak(language: "en" | "zh"): void {
+    this.page.language.value = language;
+    this.page.note.value = "";
+    void this.solve();
+  }
 }
 
 /** A text with the ends of lines that a text field has; the server writes those of the file. */

@@ -1,33 +1,14 @@
 // Drawing paper: what of a text can be drawn before it is a machine, and the tools that draw on it.
+import { distance, drawLoad, type Load, off, reach } from "./drawn_loads";
 import { Names } from "./names";
+import { Photo } from "./photo";
+import type { Action, Picture, Tool } from "./picture";
+import type { Vec } from "./shapes";
 import { element } from "./strokes";
-
-export interface Picture {
-  points: Record<string, [number, number]>;
-  fixed: string[];
-  links: Record<string, string[]>;
-  driver: string | null;
-  guided: string[];
-  /** Points that are where the solved machine has them, by its dimensions. */
-  placed?: string[];
-}
-
-export type Tool = "select" | "fixed" | "link" | "driver" | "guide" | "slot" | "gear" | "rack" | "cam" | "mass" | "load" | "curve" | "photo" | "remove";
-export type Action = Record<string, unknown> & { do: string };
 
 const SNAP = 12;
 const STEPS = [0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1];
 const LETTERS = "ABCDEFGHIJKLMNPQRSTUVW";
-
-type Vec = [number, number];
-
-/** A picture behind the drawing: its upper left corner and width, m. */
-interface Photo {
-  href: string;
-  corner: Vec;
-  width: number;
-  shape: number;
-}
 
 // A hand-drawn curve ends at its beginning where it comes this near, in pixels; its points are this far apart.
 const CLOSING = 22, APART = 4;
@@ -36,7 +17,7 @@ export class Paper {
   readonly svg: SVGElement;
   tool: Tool = "fixed";
   value = "";
-  private picture: Picture = { points: {}, fixed: [], links: {}, driver: null, guided: [] };
+  private picture: Picture = { points: {}, fixed: [], links: {}, driver: null, guided: [], loads: {} };
   private chosen: string[] = [];
   private dragged: string | null = null;
   private scale = 1000;
@@ -44,16 +25,19 @@ export class Paper {
   private size: Vec = [600, 420];
   /** Called with the points of a curve that was drawn, m, and whether it is closed. */
   drawn: ((points: Vec[], closed: boolean) => void) | null = null;
-  /** Called with a point that cannot be moved on the paper. */
-  refused: ((point: string) => void) | null = null;
+  /** Called with a sentence for the user: its key and values. */
+  tell: ((key: string, values: Record<string, string>) => void) | null = null;
+  /** A load that is shown as chosen. */
+  load: string | null = null;
   /** A curve to be reached, and curves of candidates, the shown one first, m. */
   target: Vec[] = [];
   candidates: Vec[][] = [];
-  private photo: Photo | null = null;
-  private clicks: Vec[] = [];
+  private readonly photo: Photo;
   private drawing = false;
   private picked: string | null = null;
-  private readonly behind: SVGElement;
+  /** New points of a link that is not finished: they are on the paper only. */
+  private begun: Record<string, Vec> = {};
+  private pointer: Vec | null = null;
   private readonly back: SVGElement;
   private readonly measures: SVGElement;
   private readonly front: SVGElement;
@@ -61,7 +45,7 @@ export class Paper {
   /** `act` carries out actions one after the other. */
   constructor(host: HTMLElement, readonly act: (actions: Action[]) => void) {
     this.svg = element("svg", { class: "machine drafting", role: "application", tabindex: 0 }, host);
-    this.behind = element("image", { preserveAspectRatio: "none", class: "photo" }, this.svg);
+    this.photo = new Photo(element("image", { preserveAspectRatio: "none", class: "photo" }, this.svg));
     this.back = element("path", { class: "grid fine" }, this.svg);
     this.front = element("g", {}, this.svg);
     this.measures = element("text", { class: "measures", x: 8 }, this.svg);
@@ -71,6 +55,7 @@ export class Paper {
     this.svg.addEventListener("keydown", (event) => {
       if (event.key === "Enter") this.finish();
       if (event.key === "Escape") this.leave();
+      if ((event.key === "Delete" || event.key === "Backspace") && this.load) this.remove("load", this.load);
     });
   }
 
@@ -85,6 +70,8 @@ export class Paper {
   set(picture: Picture): void {
     const first = !Object.keys(this.picture.points).length;
     this.picture = picture;
+    for (const name in this.begun) picture.points[name] ??= this.begun[name];
+    if (this.load && !(this.load in picture.loads)) this.load = null;
     if (this.picked && !(this.picked in picture.links)) this.picked = null;
     this.chosen = this.chosen.filter((name) => name in picture.points);
     if (first || this.outside()) this.fit();
@@ -93,15 +80,17 @@ export class Paper {
 
   /** Ends what was begun with a tool. */
   leave(): void {
-    this.picked = null;
-    this.clicks = [];
+    this.picked = this.load = null;
+    this.photo.clicks = [];
+    for (const name in this.begun) delete this.picture.points[name];
+    this.begun = {};
     this.choose([]);
   }
 
   /** Puts a picture behind the drawing, as wide as the paper. */
   show(href: string | null, shape = 1): void {
     const [w, h] = this.size, width = Math.min(w, h / shape) / this.scale;
-    this.photo = href === null ? null : { href, corner: this.free([8, 8]), width: 0.95 * width, shape };
+    this.photo.show(href === null ? null : { href, corner: this.free([8, 8]), width: 0.95 * width, shape });
     this.draw();
   }
 
@@ -162,10 +151,10 @@ export class Paper {
     return found;
   }
 
-  /** The link nearest to a place of the screen. */
-  private link(at: Vec): string | null {
-    let best = SNAP, found: string | null = null;
-    for (const name in this.picture.links) {
+  /** The link nearest to a place of the screen; of those with a point, however far it is. */
+  private link(at: Vec, point: string | null = null): string | null {
+    let best = point ? Infinity : SNAP, found: string | null = null;
+    for (const name of point ? this.linksOf(point) : Object.keys(this.picture.links)) {
       const corners = this.picture.links[name].filter((point) => point in this.picture.points).map((point) => this.screen(this.picture.points[point]));
       for (let k = 0; k < corners.length; k++) {
         const d = distance(at, corners[k], corners[(k + 1) % corners.length]);
@@ -175,8 +164,26 @@ export class Paper {
     return found;
   }
 
-  private linkOf(point: string): string | undefined {
-    return Object.keys(this.picture.links).find((name) => this.picture.links[name].includes(point));
+  private linksOf(point: string): string[] {
+    return Object.keys(this.picture.links).filter((name) => this.picture.links[name].includes(point));
+  }
+
+  private readonly placed = (point: string): Vec | null => (point in this.picture.points ? this.screen(this.picture.points[point]) : null);
+
+  /** The middle of a link's points on the screen. */
+  private readonly middle = (link: string): Vec | null => {
+    const all = (this.picture.links[link] ?? []).map(this.placed).filter((each) => each !== null);
+    return all.length ? [0, 1].map((k) => all.reduce((sum, each) => sum + each[k], 0) / all.length) as Vec : null;
+  };
+
+  /** The load nearest to a place of the screen. */
+  private loadAt(at: Vec): string | null {
+    let best = SNAP, found: string | null = null;
+    for (const [name, load] of Object.entries(this.picture.loads)) {
+      const ends = reach(load, this.placed, this.middle), d = ends ? off(at, load, ends) : Infinity;
+      if (d < best) [best, found] = [d, name];
+    }
+    return found;
   }
 
   private fresh(letters: boolean): string {
@@ -193,8 +200,8 @@ export class Paper {
       case "select": {
         const placed = near !== null && this.picture.placed?.includes(near);
         this.dragged = placed ? null : near;
-        if (placed) this.refused?.(near);
-        return;
+        if (placed) this.tell?.("placed", { name: near });
+        return this.chooseLoad(near ? null : this.loadAt(at));
       }
       case "fixed": {
         if (!near) this.add(this.fresh(false), this.world(at), true);
@@ -204,14 +211,10 @@ export class Paper {
       case "driver": return this.drive(this.link(at));
       case "mass": {
         const link = this.link(at);
-        if (link) this.act([{ do: "mass", link, mass: this.value }]);
+        if (link) this.act([{ do: "mass", link, mass: this.value, places: this.places() }]);
         return;
       }
-      case "load": {
-        const on = near && this.linkOf(near);
-        if (on) this.act([{ do: "load", link: on, at: near, force: this.value }]);
-        return;
-      }
+      case "load": return this.push(at, near);
       case "guide": return this.slide(at, near);
       case "slot": return this.slot(at, near);
       case "gear": return this.pair(this.link(at), (links) => ({ do: "gear", links, teeth: this.value }));
@@ -223,13 +226,44 @@ export class Paper {
         this.candidates = [];
         return;
       }
-      case "photo": return this.measure(at);
+      case "photo": {
+        if (!this.photo.measure(this.free(at), this.value)) this.tell?.("no_length_given", { text: this.value });
+        return this.draw();
+      }
       case "remove": {
-        const link = near && !this.linkOf(near) ? null : this.link(at);
-        if (link) this.act([{ do: "remove", what: "link", name: link }]);
-        else if (near) this.act([{ do: "remove", what: "point", name: near }]);
+        const load = near ? null : this.loadAt(at), link = this.link(at);
+        if (near) this.remove("joint", this.loose(near) ?? near);
+        else if (load) this.remove("load", load);
+        else if (link) this.remove("link", link);
       }
     }
+  }
+
+  /** Whether a fixed point is under a block that it guides. */
+  private covered(name: string): boolean {
+    const { fixed, guided } = this.picture;
+    return fixed.includes(name) && guided.some((block) => block in this.picture.points && this.together(block, name));
+  }
+
+  private together(a: string, b: string): boolean {
+    const [[ax, ay], [bx, by]] = [a, b].map((name) => this.screen(this.picture.points[name]));
+    return Math.hypot(ax - bx, ay - by) < 1;
+  }
+
+  /** A point of no link where another one is. */
+  private loose(point: string): string | undefined {
+    return Object.keys(this.picture.points).find((name) => this.together(name, point) && !this.covered(name) && !this.linksOf(name).length);
+  }
+
+  private remove(what: string, name: string): void {
+    this.act([{ do: "remove", what, name }]);
+  }
+
+  private chooseLoad(name: string | null): void {
+    this.load = name;
+    const load = name && this.picture.loads[name];
+    if (load) this.tell?.("load_chosen", { name, size: load.size, on: load.on || load.ends.join(" – "), at: load.at });
+    this.draw();
   }
 
   private add(name: string, at: Vec, fixed: boolean): void {
@@ -242,7 +276,7 @@ export class Paper {
   private linkPoint(at: Vec, near: string | null): void {
     if (near && near === this.chosen[this.chosen.length - 1]) return this.finish();
     const name = near ?? this.fresh(true);
-    if (!near) this.add(name, this.world(at), false);
+    if (!near) this.picture.points[name] = this.begun[name] = this.world(at);
     this.choose([...this.chosen, name]);
   }
 
@@ -257,14 +291,45 @@ export class Paper {
       let k = 1;
       while (`${base}${k}` in this.picture.links) k++;
       this.picture.links[`${base}${k}`] = [...this.chosen];
-      this.act([{ do: "link", name: `${base}${k}`, points: this.chosen, places: this.places(this.chosen) }]);
+      this.act([{ do: "link", name: `${base}${k}`, points: this.chosen, places: { ...this.places(this.chosen), ...this.begun } }]);
+      this.begun = {};
     }
-    this.choose([]);
+    this.leave();
   }
 
   private drive(link: string | null): void {
     const about = link && this.picture.links[link].find((point) => this.picture.fixed.includes(point));
     if (about) this.act([{ do: "driver", link, about }]);
+    else if (link) this.tell?.("no_drive", { link });
+  }
+
+  /** The point of a link, the link being the one nearest to the pointer or at each click the next; then a direction. */
+  private push(at: Vec, near: string | null): void {
+    const [point] = this.chosen;
+    if (point === undefined) {
+      const link = near ? this.link(at, near) : this.link(at);
+      this.picked = link;
+      if (link) this.choose([near ?? this.nearest(at, this.picture.links[link])]);
+      else if (near) this.tell?.("no_link_there", { point: near });
+    } else if (near === point) {
+      const links = this.linksOf(point);
+      this.picked = links[(links.indexOf(this.picked!) + 1) % links.length];
+      this.draw();
+    } else {
+      this.act([{ do: "load", link: this.picked, at: point, force: this.value, angle: this.heading(point, at) }]);
+      this.leave();
+    }
+  }
+
+  private nearest(at: Vec, points: string[]): string {
+    const far = (point: string) => Math.hypot(...[0, 1].map((k) => (this.placed(point)?.[k] ?? Infinity) - at[k]));
+    return points.reduce((best, each) => (far(each) < far(best) ? each : best));
+  }
+
+  /** The direction from a point to a place of the screen, in steps of 15 degrees. */
+  private heading(point: string, at: Vec): number {
+    const [x, y] = this.screen(this.picture.points[point]);
+    return fifteenth((Math.atan2(y - at[1], at[0] - x) * 180) / Math.PI);
   }
 
   private slide(at: Vec, near: string | null): void {
@@ -272,8 +337,7 @@ export class Paper {
       if (near) this.choose([near]);
       return;
     }
-    const [point] = this.chosen, [x, y] = this.screen(this.picture.points[point]);
-    const angle = (Math.atan2(y - at[1], at[0] - x) * 180) / Math.PI, step = fifteenth(angle);
+    const [point] = this.chosen, step = this.heading(point, at);
     let k = 1;
     while (`slider${k}` in this.picture.links) k++;
     this.picture.links[`slider${k}`] = [point];
@@ -314,22 +378,6 @@ export class Paper {
     this.draw();
   }
 
-  /** The second of two clicks makes the picture so large that they are as far apart as the value says. */
-  private measure(at: Vec): void {
-    const length = metres(this.value), { photo } = this;
-    if (!photo || !(length > 0)) return;
-    this.clicks.push(this.free(at));
-    if (this.clicks.length === 2) {
-      const [[ax, ay], [bx, by]] = this.clicks, factor = length / Math.hypot(bx - ax, by - ay);
-      this.clicks = [];
-      if (Number.isFinite(factor)) {
-        photo.corner = [ax + factor * (photo.corner[0] - ax), ay + factor * (photo.corner[1] - ay)];
-        photo.width *= factor;
-      }
-    }
-    this.draw();
-  }
-
   /** How wide a square of the grid is, and where the pointer is on it. */
   private note(at?: Vec): void {
     const mm = (value: number) => Number((1e3 * value).toPrecision(6)), place = at ? ` · ${this.world(at).map(mm).join(", ")} mm` : "";
@@ -338,9 +386,11 @@ export class Paper {
   }
 
   private moved(event: PointerEvent): void {
-    this.note(this.local(event));
+    const at = (this.pointer = this.local(event));
+    this.note(at);
+    if (this.tool === "load") this.draw();
     if (this.drawing) {
-      const at = this.local(event), [x, y] = this.screen(this.target[this.target.length - 1]);
+      const [x, y] = this.screen(this.target[this.target.length - 1]);
       if (Math.hypot(at[0] - x, at[1] - y) >= APART) {
         this.target.push(this.free(at));
         this.draw();
@@ -348,7 +398,7 @@ export class Paper {
       return;
     }
     if (!this.dragged) return;
-    this.picture.points[this.dragged] = this.world(this.local(event));
+    this.picture.points[this.dragged] = this.world(at);
     this.draw();
   }
 
@@ -365,6 +415,20 @@ export class Paper {
     this.act([{ do: "point", name, at: this.picture.points[name], fixed: this.picture.fixed.includes(name) }]);
   }
 
+  /** The link that a click with *Load* would take. */
+  private hovered(): string | null {
+    if (this.tool !== "load" || !this.pointer) return null;
+    return this.link(this.pointer, this.near(this.pointer));
+  }
+
+  /** The loads, with the one that is being set at the pointer. */
+  private aimed(): Record<string, Load> {
+    const { loads } = this.picture, [at] = this.chosen;
+    if (this.tool !== "load" || at === undefined || !this.pointer || this.near(this.pointer) === at) return loads;
+    const angle = (this.heading(at, this.pointer) * Math.PI) / 180;
+    return { ...loads, "": { kind: "force", on: this.picked ?? "", at, angle, ends: [], size: this.value } };
+  }
+
   draw(): void {
     const [w, h] = this.size, step = this.grid * this.scale;
     let d = "";
@@ -372,12 +436,7 @@ export class Paper {
     for (let y = this.shift[1] % step; y < h; y += step) d += `M0 ${y.toFixed(1)}H${w}`;
     this.back.setAttribute("d", d);
     if (!this.dragged && !this.drawing) this.note();
-    this.behind.setAttribute("visibility", this.photo ? "visible" : "hidden");
-    if (this.photo) {
-      const { href, corner, width, shape } = this.photo, [x, y] = this.screen(corner);
-      if (this.behind.getAttribute("href") !== href) this.behind.setAttribute("href", href);
-      for (const [name, value] of Object.entries({ x, y, width: width * this.scale, height: width * shape * this.scale })) this.behind.setAttribute(name, value.toFixed(1));
-    }
+    this.photo.draw((place) => this.screen(place), this.scale);
     this.front.replaceChildren();
     const curve = (line: Vec[], style: string) => {
       const text = line.map((place, k) => `${k ? "L" : "M"}${this.screen(place).map((each) => each.toFixed(1)).join(" ")}`).join("");
@@ -385,7 +444,7 @@ export class Paper {
     };
     [...this.candidates].reverse().forEach((line, k) => curve(line, `curve ${k === this.candidates.length - 1 ? "now" : "original"}`));
     if (this.target.length > 1) curve(this.target, "curve target");
-    for (const place of this.clicks) {
+    for (const place of this.photo.clicks) {
       const [cx, cy] = this.screen(place);
       element("circle", { class: "lw-pin chosen", cx, cy, r: 4 }, this.front);
     }
@@ -395,12 +454,15 @@ export class Paper {
       const corners = links[name].filter((point) => point in points).map((point) => this.screen(points[point]));
       inked(corners.length > 2 ? [...corners, corners[0]] : corners);
       const text = corners.map(([x, y], k) => `${k ? "L" : "M"}${x.toFixed(1)} ${y.toFixed(1)}`).join("");
-      element("path", { class: `${corners.length > 2 ? "lw-plate" : "lw-bar"}${name === driver ? " driven" : ""}${name === this.picked ? " chosen" : ""}`, d: corners.length > 2 ? `${text}Z` : text }, this.front);
+      element("path", { class: `${corners.length > 2 ? "lw-plate" : "lw-bar"}${name === driver ? " driven" : ""}${name === (this.picked ?? this.hovered()) ? " chosen" : ""}`, d: corners.length > 2 ? `${text}Z` : text }, this.front);
     }
-    const blocks = guided.filter((name) => name in points).map((name) => this.screen(points[name]));
+    for (const [name, load] of Object.entries(this.aimed())) {
+      const ends = reach(load, this.placed, this.middle);
+      if (ends) inked(drawLoad(this.front, name, load, ends, name === (this.load ?? "")));
+    }
     for (const name in points) {
       const [x, y] = this.screen(points[name]);
-      if (fixed.includes(name) && blocks.some(([a, b]) => Math.hypot(a - x, b - y) < 1)) continue;
+      if (this.covered(name)) continue;
       if (fixed.includes(name)) {
         element("path", { class: "lw-support", d: `M${x} ${y}l-9 16h18Z` }, this.front);
         element("path", { class: "lw-ground", d: `M${x - 15} ${y + 16}h30` }, this.front);
@@ -423,21 +485,7 @@ export class Paper {
   }
 }
 
-const UNITS: Record<string, number> = { mm: 1e-3, cm: 1e-2, m: 1, in: 0.0254 };
-
-/** A length as it is written in files, m. */
-export function metres(text: string): number {
-  const [, number, unit] = /^\s*([\d.]+)\s*(mm|cm|m|in)\s*$/.exec(text) ?? [];
-  return unit ? Number(number) * UNITS[unit] : NaN;
-}
-
 /** The nearest multiple of 15 degrees. */
 function fifteenth(angle: number): number {
   return Math.round(angle / 15) * 15;
-}
-
-function distance(p: Vec, a: Vec, b: Vec): number {
-  const [dx, dy] = [b[0] - a[0], b[1] - a[1]], square = dx * dx + dy * dy || 1;
-  const share = Math.min(1, Math.max(0, ((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / square));
-  return Math.hypot(p[0] - a[0] - share * dx, p[1] - a[1] - share * dy);
 }

@@ -101,8 +101,9 @@ export class Solver {
     this.steady(values);
     if (Object.keys(this.data.positions.modes).length) this.setModes(values);
     this.doubtful = false;
+    this.found = this.paces(values);
     if (this.cycle) {
-      this.found = this.cycle.run(values, this.arrays);
+      Object.assign(this.found, this.cycle.run({ ...values, ...this.found }, this.arrays));
       this.doubtful = Object.entries(this.found).some(([name, x]) => name.startsWith("doubt:") && !(x === 0));
     }
     this.main.set({ ...values, ...this.found });
@@ -120,6 +121,13 @@ export class Solver {
     this.locking = friction.length > 0 && !settle(this.main, friction);
     if (this.main.has(this.data.sizes)) this.doubtful ||= !this.main.row(this.data.sizes).every(Number.isFinite);
     return null;
+  }
+
+  /** Rates beside which others are rest, with the speed of a steady driver. */
+  private paces(values: Values): Values {
+    const law = this.data.positions.steady, share = law ? Math.abs((values[`${law.driver}.speed`] ?? law.speed) / law.speed) : 1;
+    const names = Object.keys(this.data.values).filter((name) => name.startsWith("pace:"));
+    return Object.fromEntries(names.map((name) => [name, share * this.data.values[name]]));
   }
 
   /** The cycle as the phases of loads see it. */

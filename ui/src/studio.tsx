@@ -7,7 +7,8 @@ import { Comparison } from "./compare";
 import { Desk, WAIT } from "./desk";
 import { Page } from "./living";
 import { Optimise } from "./optimise";
-import { Paper, type Tool } from "./paper";
+import { Paper } from "./paper";
+import type { Tool } from "./picture";
 import { quantity } from "./words";
 import "./proof";
 import "./studio.css";
@@ -22,7 +23,7 @@ function Drafting({ desk }: { desk: Desk }) {
   const { picture, mobility, text } = desk.solved.value;
   useEffect(() => {
     paper.current = new Paper(host.current!, desk.act);
-    paper.current.refused = (name) => (desk.page.note.value = desk.say("placed", { name }));
+    paper.current.tell = (key, values) => (desk.page.note.value = desk.say(key, values));
     paper.current.drawn = (points, closed) => void desk.search("curve", { points, closed });
     const observer = new ResizeObserver(([{ contentRect: box }]) => paper.current!.resize(box.width, box.height));
     observer.observe(host.current!);
@@ -33,10 +34,9 @@ function Drafting({ desk }: { desk: Desk }) {
     paper.current!.svg.setAttribute("aria-label", desk.say("paper"));
   }, [picture]);
   useLayoutEffect(() => {
-    if (!paper.current) return;
-    Object.assign(paper.current, { tool, value });
-    paper.current.leave();
+    if (paper.current) Object.assign(paper.current, { tool, value });
   }, [tool, value]);
+  useLayoutEffect(() => paper.current?.leave(), [tool]);
   const found = desk.sought.value, sought = found?.kind === "curve" ? found : null, [shown, show] = useState(0);
   useLayoutEffect(() => {
     if (!paper.current) return;
@@ -44,6 +44,11 @@ function Drafting({ desk }: { desk: Desk }) {
     paper.current.candidates = shown < curves.length ? [curves[shown], ...curves.filter((_, k) => k !== shown)] : curves;
     paper.current.draw();
   }, [sought, shown]);
+  const loads = Object.entries(picture?.loads ?? {});
+  const point = (name: string | null) => {
+    paper.current!.load = name;
+    paper.current!.draw();
+  };
   const choosePhoto = async (file: File | undefined) => {
     if (!file) return paper.current!.show(null);
     const href = URL.createObjectURL(file), image = new Image();
@@ -60,9 +65,9 @@ function Drafting({ desk }: { desk: Desk }) {
       <h1>{desk.name.value || desk.say("new")}</h1>
       <div class="tools" role="toolbar" aria-label={desk.say("draw")}>
         {TOOLS.map((each) => (
-          <button key={each} aria-pressed={each === tool} onClick={() => { choose(each); setValue(VALUES[each] ?? ""); }}>{desk.say(each)}</button>
+          <button key={each} aria-pressed={each === tool} onClick={() => { choose(each); setValue(VALUES[each] ?? ""); paper.current!.leave(); }}>{desk.say(each)}</button>
         ))}
-        {VALUES[tool] && <input class="value" value={value} aria-label={desk.say("value")} onChange={(event) => setValue(event.currentTarget.value)} />}
+        {VALUES[tool] && <input class="value" value={value} aria-label={desk.say("value")} onInput={(event) => setValue(event.currentTarget.value)} />}
       </div>
       {tool === "photo" && (
         <div class="tools">
@@ -72,6 +77,16 @@ function Drafting({ desk }: { desk: Desk }) {
       )}
       <p class="hint">{desk.say(`help_${tool}`, { value })}</p>
       <div class="paper" ref={host} />
+      {loads.length > 0 && (
+        <ul class="loads" aria-label={desk.say("loads")}>
+          {loads.map(([name, load]) => (
+            <li key={name} onPointerEnter={() => point(name)} onPointerLeave={() => point(null)}>
+              <span>{desk.say("load_is", { name, size: load.size, on: [load.on, load.at].filter(Boolean).join(".") || load.ends.join(" – ") })}</span>
+              <button aria-label={desk.say("remove_load", { name })} onClick={() => void desk.act([{ do: "remove", what: "load", name }])}>×</button>
+            </li>
+          ))}
+        </ul>
+      )}
       {sought && (
         <section aria-label={desk.say("candidates")} class="candidates">
           <h2>{desk.say("candidates")}</h2>
@@ -95,7 +110,7 @@ function Drafting({ desk }: { desk: Desk }) {
           </ol>
         </section>
       )}
-      <p class="status" role="status">{[mobility === undefined ? "" : desk.say("mobility", { value: String(mobility) }), desk.solved.value.sentence].filter(Boolean).join("; ")}</p>
+      <p class="status" role="status">{[mobility === undefined ? "" : desk.say("mobility", { value: String(mobility) }), desk.solved.value.sentence].filter(Boolean).join(desk.say("semicolon"))}</p>
     </div>
   );
 }
@@ -140,9 +155,9 @@ function Text({ desk }: { desk: Desk }) {
       <h2>{desk.say("findings")}</h2>
       <ul class="findings">
         {findings.map((found) => (
-          <li key={`${found.line}${found.key}${found.message}`} class={found.severity}>
+          <li key={`${found.line}${found.key}${found.sentence}`} class={found.severity}>
             {found.line > 0 && <button onClick={() => goTo(found.line)}>{desk.say("line", { line: String(found.line) })}</button>}
-            <span>{found.key}: {found.message}{found.remedy && `; ${found.remedy}`}</span>
+            <span>{found.key ? desk.say("finding", { name: found.key, sentence: found.sentence }) : found.sentence}</span>
           </li>
         ))}
         {!findings.length && <li>{sentence || desk.say("fine")}</li>}
@@ -151,21 +166,30 @@ function Text({ desk }: { desk: Desk }) {
   );
 }
 
+/** Model files, drawings that were never saved, and models of the gallery, by name. */
+interface Lists {
+  files: string[];
+  drafts: string[];
+  gallery: string[];
+}
+
 function Bar({ desk }: { desk: Desk }) {
-  const [lists, setLists] = useState<{ files: string[]; gallery: string[] }>({ files: [], gallery: [] });
+  const [lists, setLists] = useState<Lists>({ files: [], drafts: [], gallery: [] });
   const [name, setName] = useState(""), { page } = desk, machine = desk.session.value && !desk.drawing.value;
-  useEffect(() => void desk.ask<{ files: string[]; gallery: string[] }>("files").then((found) => found && setLists(found)), [desk.dirty.value]);
+  useEffect(() => void desk.ask<Lists>("files").then((found) => found && setLists(found)), [desk.dirty.value, desk.name.value]);
   useEffect(() => setName(desk.name.value), [desk.name.value]);
-  const pick = (title: string, names: string[], take: (name: string) => void) => (
+  const drafts = lists.drafts.filter((each) => each !== desk.name.value);
+  const pick = (title: string, names: string[], take: (name: string) => void, unsaved: string[] = []) => (
     <select aria-label={title} value="" onChange={(event) => event.currentTarget.value && take(event.currentTarget.value)}>
       <option value="">{title}</option>
       {names.map((each) => <option key={each}>{each}</option>)}
+      {unsaved.map((each) => <option key={each} value={each}>{desk.say("never_saved", { name: each })}</option>)}
     </select>
   );
   return (
     <div class="common">
       <button onClick={() => void desk.open({ fresh: true })}>{desk.say("new")}</button>
-      {pick(desk.say("open"), lists.files, (file) => void desk.open({ name: file }))}
+      {pick(desk.say("open"), lists.files, (file) => void desk.open({ name: file }), drafts)}
       {pick(desk.say("gallery"), lists.gallery, (gallery) => void desk.open({ gallery }))}
       <input value={name} placeholder="machine.yaml" aria-label={desk.say("name")} onInput={(event) => setName(event.currentTarget.value)} />
       <button disabled={!name} onClick={() => void desk.save(name)}>{desk.say("save")}</button>
@@ -188,10 +212,10 @@ function Bar({ desk }: { desk: Desk }) {
           <optgroup label={desk.say("gallery")}>{lists.gallery.map((each) => <option key={each} value={`gallery:${each}`}>{each}</option>)}</optgroup>
         </select>
       )}
-      <button aria-pressed={desk.drawing.value} onClick={() => (desk.drawing.value = !desk.drawing.value)}>{desk.say(desk.drawing.value ? "run" : "draw")}</button>
+      <button aria-pressed={desk.drawing.value} onClick={() => (desk.drawing.value ? void desk.run() : (desk.drawing.value = true))}>{desk.say(desk.drawing.value ? "run" : "draw")}</button>
       <button disabled={!desk.history.undoable} onClick={() => desk.history.undo()}>{page.say("undo")}</button>
       <button disabled={!desk.history.redoable} onClick={() => desk.history.redo()}>{page.say("redo")}</button>
-      <button class="language" lang={page.language.value === "en" ? "zh-CN" : "en"} onClick={() => { page.language.value = page.language.value === "en" ? "zh" : "en"; void desk.solve(); }}>{page.say("language")}</button>
+      <button class="language" lang={page.language.value === "en" ? "zh-CN" : "en"} onClick={() => desk.speak(page.language.value === "en" ? "zh" : "en")}>{page.say("language")}</button>
     </div>
   );
 }

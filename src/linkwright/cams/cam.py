@@ -20,6 +20,7 @@ from linkwright.cams.sizes import CamChoice, chosen
 from linkwright.cams.undercut import undercuts
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.core.search import first_largest
 from linkwright.errors import Finding, ModelError
 from linkwright.fields.base import GivenByFile
 from linkwright.laws.program import Program
@@ -234,13 +235,13 @@ class Cam(Problem):
             return []
         phi = self._tried
         effort = loading.effort(self.program, phi)
-        k = int(effort.argmin())
+        k = first_largest(-effort)
         size = float(np.abs(effort).max())
         if effort[k] >= -1e-9 * size:
             lever = leverage(self.follower, self.walls[0].contact(phi))
             if lever.min() > 0:
                 return []
-            worst = phi[int(lever.argmin())]
+            worst = phi[first_largest(-lever)]
             return [fault("cams.jam", "limits", place=math.degrees(float(worst)))]
         values = {"place": math.degrees(float(phi[k])), "missing": -float(effort[k])}
         unit = "N·m" if self.follower.oscillating else "N"

@@ -115,7 +115,8 @@ class RollerCurve(CamCurve):
         gap = points - p
         size = np.maximum(np.abs(gap), 1e-300)
         along = (gap.conj() * p1).real / size
-        across = (np.abs(p1) ** 2 - (gap.conj() * p2).real - along**2) / size
+        with np.errstate(over="ignore"):  # of points on the pitch curve
+            across = (np.abs(p1) ** 2 - (gap.conj() * p2).real - along**2) / size
         return along, -across
 
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from linkwright.core.search import first_largest
 from linkwright.laws.program import MotionProgram
 from linkwright.laws.smoothest import FoundProgram
 from linkwright.parts.base import Block, Row, number, put, shown
@@ -220,7 +221,8 @@ def steps(design: CamDesign, say: Say) -> list[Step]:
         numbers = f"√({number(prime, 'length')}² − {number(follower.offset, 'length')}²)"
         put(first, "d", "√((r_b + r_r)² − e²)", follower.start_height(base) or 0.0, "length", numbers=numbers)
     second = Step("2", say("cams.step_angle"))
-    extreme = max((design.pressure_angle_rise, design.pressure_angle_fall), key=lambda each: abs(each.value))
+    steepest = sorted((design.pressure_angle_rise, design.pressure_angle_fall), key=lambda each: each.place)
+    extreme = steepest[first_largest(np.abs([each.value for each in steepest]))]
     formula, numbers = _angle_formula(design, extreme.place)
     put(second, f"α({math.degrees(extreme.place):.5g}°)", formula, extreme.value, "angle", numbers=numbers)
     third = Step("3", say("cams.step_radius"))

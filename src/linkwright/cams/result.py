@@ -16,7 +16,7 @@ from linkwright.cams.vibration import residual_amplitude, steady_deviation
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.piecewise import Piecewise
-from linkwright.core.search import ends
+from linkwright.core.search import ends, first_largest
 from linkwright.errors import RequestError
 from linkwright.laws.program import MotionProgram
 from linkwright.parts.base import Block, Result
@@ -107,13 +107,13 @@ class CamDesign(Result):
 
     def _largest(self, known: Floats, values: Callable[[Floats], Floats]) -> Extreme:
         """The value of largest size around the largest of those that are known at the angles (n,)."""
-        k = int(known.argmax())
+        k = first_largest(known)
         inside = self._inside
         low, high = inside[max(k - 1, 0)], inside[min(k + 1, len(known) - 1)]
         for _ in range(8):
             phi = np.linspace(low, high, 33)
             found = values(phi)
-            j = int(np.abs(found).argmax())
+            j = first_largest(np.abs(found))
             low, high = phi[max(j - 1, 0)], phi[min(j + 1, 32)]
         return Extreme(float(found[j]), float(phi[j]))
 

@@ -14,6 +14,7 @@ from linkwright.core.arrays import Complexes, Flags, Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.piecewise import Piecewise
 from linkwright.core.search import ends as last_places
+from linkwright.core.search import first_largest
 from linkwright.laws.program import Program
 
 #: Places on the way at which everything is looked at first.
@@ -42,7 +43,7 @@ def undercuts(curve: CamCurve) -> tuple[Undercut, ...]:
     search = _Search(curve)
     cut = search.depth(search.phi) > search.slack
     if cut.all():
-        phi = search.phi[int(np.argmax(search.depth(search.phi)))]
+        phi = search.phi[first_largest(search.depth(search.phi))]
         deepest = float(search.depth(search.phi).max())
         point = curve.contact(np.array([phi])).point[0]
         return (Undercut(0.0, search.period, float(phi), deepest, (point.real, point.imag)),)
@@ -61,7 +62,7 @@ def undercuts(curve: CamCurve) -> tuple[Undercut, ...]:
 def _undercut(search: _Search, low: float, high: float) -> Undercut:
     phi = np.linspace(low, high, 129)
     depth = search.depth(phi)
-    k = int(depth.argmax())
+    k = first_largest(depth)
     point = search.curve.contact(np.array([low])).point[0]
     return Undercut(float(low), float(high), float(phi[k]), float(depth[k]), (point.real, point.imag))
 

@@ -26,8 +26,8 @@ def refuse_existing(path: Path, *, force: bool) -> None:
 
 def write_whole(path: Path, content: str | bytes, *, force: bool) -> None:
     """Writes a file by way of a temporary one beside it, so that a broken one is never seen."""
-    refuse_existing(path, force=force)
-    whole_files.write_whole(path, content.encode() if isinstance(content, str) else content)
+    encoded = content.encode() if isinstance(content, str) else content
+    whole_files.write_whole(path, encoded, force=force, remedy="--force")
 
 
 def write_diagram(

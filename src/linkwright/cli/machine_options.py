@@ -85,7 +85,7 @@ def curve(option: str, text: str, period: str | None) -> TorqueCurve:
         found = TorqueCurve.from_function(text, period=length)
         with np.errstate(all="ignore"):
             values = found.function(np.linspace(0.0, length, TRIED))
-    if not np.isfinite(values).all():
+    if not (np.abs(values) <= units.LARGEST["torque"]).all():
         raise UsageError("machine.not_finite", option=option, text=text)
     return found
 

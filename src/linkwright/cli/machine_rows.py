@@ -60,8 +60,7 @@ class Row:
 def of_running(running: SteadyRunning, wanted: Wanted) -> list[list[Row]]:
     """Rows of a mechanism: motor, energy and inertia, flywheel by the formula, exact flywheel, its dimensions."""
     reduced, energy, motor_found = running.equivalent, running.energy, running.motor
-    least, most = int(reduced.inertia.argmin()), int(reduced.inertia.argmax())
-    inertia, angle, at = reduced.inertia, reduced.angle, reduced.input_at
+    (least, most), at = reduced.inertia_extremes, reduced.input_at
     first = [
         Row("speed", reduced.speed, "angular_velocity"),
         Row("mean_torque", running.mean_torque, "torque"),
@@ -69,6 +68,7 @@ def of_running(running: SteadyRunning, wanted: Wanted) -> list[list[Row]]:
     ]
     if running.driven is None:
         first.append(Row("motor_power", motor_found.power, "power"))
+        first.append(Row("motor_power_without_flywheel", running.power_without_flywheel, "power"))
     second = [
         Row("energy_fluctuation", energy.value, "energy"),
         *(
@@ -79,8 +79,8 @@ def of_running(running: SteadyRunning, wanted: Wanted) -> list[list[Row]]:
                 Row("energy_highest", float(np.max(energy.energy)), "energy", at(energy.high)),
             ]
         ),
-        Row("inertia_smallest", float(inertia[least]), "inertia", at(float(angle[least]))),
-        Row("inertia_largest", float(inertia[most]), "inertia", at(float(angle[most]))),
+        Row("inertia_smallest", least.value, "inertia", at(least.place)),
+        Row("inertia_largest", most.value, "inertia", at(most.place)),
         Row("required_fluctuation", running.required, "fluctuation"),
     ]
     third = [Row("flywheel", running.flywheel, "inertia"), *_speeds(running.speed, at)]

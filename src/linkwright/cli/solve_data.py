@@ -8,7 +8,7 @@ from linkwright.cli.columns import Column, pick
 from linkwright.cli.data import finding_data
 from linkwright.cli.files import csv_of
 from linkwright.cli.solve_columns import leading, point_keys
-from linkwright.cli.solve_remarks import closeness
+from linkwright.cli.solve_remarks import closeness, largest_reactions
 from linkwright.cli.solving import Solved
 from linkwright.core.arrays import largest
 from linkwright.plot.force_names import reaction_pairs
@@ -27,6 +27,7 @@ def data(solved: Solved, options: argparse.Namespace) -> dict[str, object]:
         "ok": motion.whole and solved.trouble is None,
         "name": motion.mechanism.name,
         "mobility": motion.structure.mobility,
+        "turned": motion.structure.data()["turned"],
         "positions": len(solved.rows),
         "columns": {f"{column.name} [{column.unit}]": column.values for column in chosen(solved, options)},
         "reached": motion.ok[solved.rows],
@@ -41,9 +42,10 @@ def data(solved: Solved, options: argparse.Namespace) -> dict[str, object]:
             "power_residual [W]": largest(forces.power_residual),
             "balance_residual [N]": largest(forces.balance_residual),
         }
+        peaks = largest_reactions(solved) if motion.ok.any() else []
         found["largest_reactions [N]"] = {
-            f"{joint} on {link}": largest((forces.reaction(joint, on=link) ** 2).sum(axis=1) ** 0.5)
-            for joint, link in reaction_pairs(forces.mechanism)
+            f"{joint} on {link}": peak.value
+            for (joint, link), peak in zip(reaction_pairs(forces.mechanism), peaks, strict=bool(peaks))
         }
     if solved.trouble is not None:
         found["error"] = str(solved.trouble)

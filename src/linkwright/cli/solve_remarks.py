@@ -12,6 +12,7 @@ from linkwright.cli.columns import Column
 from linkwright.cli.solving import Solved
 from linkwright.core.arrays import Floats, largest
 from linkwright.core.dataclass import dataclass
+from linkwright.core.search import first_largest
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
@@ -21,8 +22,6 @@ from linkwright.plot.force_names import reaction_pairs, rubbing_guides
 from linkwright.words import Say
 from linkwright.words.characters import aligned
 
-#: Shares of the cycle at which the forces of an extreme are looked at: at a jump they are those of one side.
-BESIDE = np.array([0.0, -1e-9, 1e-9])
 Wanted = tuple[Callable[[Forces], Floats], Kind]
 
 
@@ -49,7 +48,7 @@ def extremes(solved: Solved, say: Say, *, degrees: bool) -> list[str]:
     several = solved.motion.steps > 1
     title = "largest_of_cycle" if solved.grid is not None else "largest_forces" if several else "joint_forces"
     pairs = reaction_pairs(forces.mechanism)
-    peaks = _places(solved, [(partial(_size, joint=joint, on=link), "max") for joint, link in pairs], degrees)
+    peaks = largest_reactions(solved, degrees=degrees)
     rows = [
         tuple(say(f"solve.{key}") for key in ("joint", "on", "force_there", "x_there", "y_there", "at_input"))
     ]
@@ -70,6 +69,12 @@ def extremes(solved: Solved, say: Say, *, degrees: bool) -> list[str]:
     ]
 
 
+def largest_reactions(solved: Solved, *, degrees: bool = True) -> list[Place]:
+    """The largest force of every joint on a link, in the order of ``reaction_pairs``."""
+    pairs = reaction_pairs(solved.motion.mechanism)
+    return _places(solved, [(partial(_size, joint=joint, on=link), "max") for joint, link in pairs], degrees)
+
+
 def _size(forces: Forces, joint: str, on: str) -> Floats:
     """Size of a joint's force on a link, (n,) N."""
     return np.asarray(np.hypot(*forces.reaction(joint, on=on).T))
@@ -81,23 +86,14 @@ def _places(solved: Solved, wanted: Sequence[Wanted], degrees: bool) -> list[Pla
     assert forces is not None
     if solved.grid is None:
         rows = [
-            int((np.nanargmax if kind == "max" else np.nanargmin)(signal(forces))) for signal, kind in wanted
+            first_largest(signal(forces) if kind == "max" else -signal(forces)) for signal, kind in wanted
         ]
         values = [float(signal(forces)[row]) for (signal, _), row in zip(wanted, rows, strict=True)]
     else:
-        found = [solved.analysis.extreme(signal, kind, of="forces") for signal, kind in wanted]
-        known = [each for each in found if each is not None]
-        times = np.array([each.time for each in known])[:, None] + solved.motion.time.max() * BESIDE
-        forces = solved.analysis.resolver.at(times.ravel(), "forces")
-        values = [each.value for each in known]
-        off = np.array(
-            [np.abs(signal(forces) - value) for (signal, _), value in zip(wanted, values, strict=True)]
-        )
-        rows = [
-            k * BESIDE.size + int(row[k].argmin())
-            for k, row in enumerate(off.reshape(len(known), -1, BESIDE.size))
-        ]
-    assert isinstance(forces, Forces)
+        found = [(signal, solved.analysis.extreme(signal, kind, of="forces")) for signal, kind in wanted]
+        known = [(signal, each.time, each.value) for signal, each in found if each is not None]
+        forces, rows = solved.analysis.resolver.forces_at(known)
+        values = [value for _, _, value in known]
     return [
         Place(value, input_text(forces.motion, row, degrees=degrees), forces, row)
         for value, row in zip(values, rows, strict=True)

@@ -11,6 +11,7 @@ from linkwright.cli.columns import Column, fitting, pick, table
 from linkwright.cli.session import Session
 from linkwright.cli.solve_columns import blocks, efforts, leading, point_keys
 from linkwright.cli.solving import Solved
+from linkwright.structure.text import turned_against
 from linkwright.words import Say
 from linkwright.words.sentence import in_language
 
@@ -19,6 +20,7 @@ def report(solved: Solved, options: argparse.Namespace, session: Session) -> lis
     """Lines of heading, table, largest forces, checks, notes and warnings."""
     say, degrees = session.say, not options.si
     lines = [session.strong(solved.motion.mechanism.name), _structure_line(solved, say)]
+    lines += turned_against(solved.motion.structure, say)
     for paragraph in (
         *_table(solved, options, session),
         solve_remarks.extremes(solved, say, degrees=degrees),

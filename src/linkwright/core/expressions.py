@@ -348,6 +348,10 @@ class _Parser:
 
     def _number(self, token: str, column: int) -> Node:
         value = float(token)
+        if not math.isfinite(value):
+            raise ExpressionError(
+                Sentence("units.not_finite", text=token), "", self.text, column, "not-finite"
+            )
         kind, name, place = self.tokens[self.at]
         if kind != "name" or self.tokens[self.at + 1][1] == "(":
             return Number(value, units.NONE, column)

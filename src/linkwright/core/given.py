@@ -47,8 +47,8 @@ def one_or_more(given: Any) -> tuple[Any, ...]:
     return tuple(given) if isinstance(given, Iterable) and not isinstance(given, str) else (given,)
 
 
-def whole(option: str, given: object, least: int | None = None) -> int:
-    """A whole number, ``least`` or more; raises RequestError for anything else."""
+def whole(option: str, given: object, least: int | None = None, most: int | None = None) -> int:
+    """A whole number, ``least`` or more and at most ``most``; raises RequestError for anything else."""
     number = given if isinstance(given, SupportsInt) and not isinstance(given, str) else None
     try:
         found = None if number is None else int(number)
@@ -57,6 +57,10 @@ def whole(option: str, given: object, least: int | None = None) -> int:
     if found is None or found != given or (least is not None and found < least):
         key = "no_whole" if least is None else "no_whole_from"
         raise RequestError(f"given_instead.{key}", option=option, given=repr(given)[:LONGEST], least=least)
+    if most is not None and found > most:
+        raise RequestError(
+            "given_instead.whole_beyond", option=option, given=repr(given)[:LONGEST], most=most
+        )
     return found
 
 

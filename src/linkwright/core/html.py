@@ -30,8 +30,9 @@ def html_table(
     return f"<table>{top}<tbody>{body}</tbody></table>{lines}"
 
 
-def columns_html(title: str, columns: Mapping[str, Any]) -> str:
-    """The first rows of named columns, numbered."""
+def columns_html(title: str, columns: Mapping[str, Any], notes: Sequence[str] = ()) -> str:
+    """The first rows of named columns, numbered, with notes below."""
     count = max(map(len, columns.values()), default=0)
     rows = [[str(i), *(f"{column[i]:.6g}" for column in columns.values())] for i in range(min(count, MOST))]
-    return html_table(title, ["", *columns], rows, [f"{MOST} / {count}"] if count > MOST else [])
+    below = [f"{MOST} / {count}"] if count > MOST else []
+    return html_table(title, ["", *columns], rows, [*below, *map(str, notes)])

@@ -67,6 +67,7 @@ KINDS = {
     "couple": Kind("joint", "torque", "c", "M", form="phrase"),
     "heat": Kind("joint", "power", form="phrase"),
     "friction": Kind("joint", "", "friction"),
+    "unsupplied": Kind("joint", "", "left"),
     "magnitude": Kind("load", "", "load"),
     "load": Kind("load", "force", "lf", vector=True, form="phrase"),
     "load_place": Kind("load", "length", "lp", vector=True),

@@ -15,6 +15,7 @@ import numpy as np
 
 from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.dataclass import dataclass
+from linkwright.core.search import EQUAL
 
 Function = Callable[[Floats], Floats]
 
@@ -51,8 +52,6 @@ _HIDDEN, _LEAST, _MANY = 8.0, 1e-13, 8
 #: How much higher than its nodes, as share of the span of these, a function may be in a piece that meets it: half of
 #: the gap between two nodes, squared, is 0.009 of it, and up to the ends it may rise by 0.025.
 SLACK = 0.03
-#: Share of a function's size by which a piece must be higher than that with the highest point to be taken for it.
-ROUNDING = 2e-15
 
 
 def nodes(edges: Floats) -> Floats:
@@ -275,6 +274,8 @@ def sought(curve: Piecewise, kind: str, function: Function) -> Extreme:
         values = np.concatenate([values[~rough], new])
     jumps = rough & (high - low < 2.0 * least)
     values[jumps] = values[jumps].max(axis=1, keepdims=True)
+    order = np.argsort(low)
+    low, high, values, rough = low[order], high[order], values[order], rough[order]
     found = largest(values.T[None], values.max(axis=1)[None])
     piece, share, value, _ = (each[0] for each in found)
     place = 0.5 * (low[piece] + high[piece]) + 0.5 * share * (high[piece] - low[piece])
@@ -288,25 +289,30 @@ def largest(values: Floats, tops: Floats) -> Peak:
     """The largest values of many functions (k, POINTS, pieces) at the Gauss points of their pieces.
 
     ``tops``: the largest of the values in each piece, (k, pieces); the polynomials of all pieces that may be higher
-    than the largest of these are climbed, as two of one height may differ between the points.
+    than the largest of these are climbed, as two of one height may differ between the points. Of equal ones the first
+    counts, of a constant piece its beginning.
     Returns the piece, the place in it (-1 to 1), the value, and the size of the last orders there, (k,) each.
     """
     tops = np.where(np.isnan(tops), -np.inf, tops)
     highest, least = tops.argmax(axis=1), values.min(axis=1)
     with np.errstate(invalid="ignore"):
-        may = tops + SLACK * (tops - least) > tops.max(axis=1)[:, None]
+        equal = EQUAL * np.maximum(tops.max(axis=1), -least.min(axis=1))
+        may = tops + SLACK * (tops - least) > (tops.max(axis=1) - equal)[:, None]
+        flat = tops - least <= equal[:, None]
     may[np.arange(len(may)), highest] = True
     rows, pieces = np.nonzero(may)
-    series = values[rows, :, pieces]
+    series, equal = values[rows, :, pieces], equal[rows]
     seen = series @ TO_PLACES
-    look, top = seen.argmax(axis=1), seen.max(axis=1)
+    look, top = (seen >= (seen.max(axis=1) - equal)[:, None]).argmax(axis=1), seen.max(axis=1)
     low, high = PLACES[np.maximum(look - 1, 0)], PLACES[np.minimum(look + 1, LOOKS - 1)]
     place = _summits(series @ TO_SLOPE, low, high, PLACES[look])
     found = _at(series, place)
     place, found = np.where(found > top, place, PLACES[look]), np.maximum(found, top)
-    size = np.maximum(tops.max(axis=1), -least.min(axis=1))[rows]
-    doubt = np.where(pieces == highest[rows], 0.0, ROUNDING * size)
-    best = np.lexsort((found - doubt, rows))[np.append(rows[1:] != rows[:-1], True)]
+    place = np.where(flat[rows, pieces], -1.0, place)
+    begins = np.flatnonzero(np.append(True, rows[1:] != rows[:-1]))
+    peak = np.maximum.reduceat(found, begins)[rows]
+    good = np.flatnonzero(~(found < peak - equal))
+    best = good[np.append(True, rows[good][1:] != rows[good][:-1])]
     return pieces[best], place[best], found[best], tails(series[best])
 
 

@@ -23,6 +23,15 @@ _HALVINGS = 47
 _STEPS = 100
 #: Places of a section, and rounds of them, of which each leaves an eighth of the bracket.
 _SECTION, _ROUNDS = 17, 10
+#: Share of the largest size of some values within which two of them are equal: which is larger is rounding.
+EQUAL = 1e-12
+
+
+def first_largest(values: Floats) -> int:
+    """Number of the largest of some values (n,), of equal ones the first; NaN counts as none."""
+    known = np.where(np.isnan(values), -np.inf, values)
+    size = np.abs(known[np.isfinite(known)]).max(initial=0.0)
+    return int(np.argmax(known >= known.max() - EQUAL * size))
 
 
 def zeros(

@@ -122,16 +122,20 @@ class Variants:
 
         return files_of(self, forms, language)
 
-    def save(self, folder: str | Path, forms: Sequence[str] = (), language: str = "en") -> list[Path]:
-        """Write the files into a folder, each whole; returns their paths."""
-        from linkwright.whole_files import make_folder, write_whole
+    def save(
+        self, folder: str | Path, forms: Sequence[str] = (), language: str = "en", *, force: bool = False
+    ) -> list[Path]:
+        """Write the files into a folder, each whole; returns their paths.
 
-        target, written = Path(folder), []
-        for name, content in self.files(forms, language).items():
-            path = target / name
+        Raises LinkwrightError, and writes none, where one cannot be written or is there already unless ``force``.
+        """
+        from linkwright.whole_files import make_folder, refuse_target, write_whole
+
+        contents = {Path(folder) / name: content for name, content in self.files(forms, language).items()}
+        for path in contents:
             make_folder(path.parent)
-            written.append(write_whole(path, content))
-        return written
+            refuse_target(path, force=force)
+        return [write_whole(path, content) for path, content in contents.items()]
 
     def key_text(self) -> str:
         """The answer key as JSON."""

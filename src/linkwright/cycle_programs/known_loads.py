@@ -24,7 +24,6 @@ from linkwright.engine.cycle_gradient import cycle_gradient
 from linkwright.engine.table import Tables
 from linkwright.errors import LinkwrightError
 from linkwright.fields.signals import InputPhase
-from linkwright.kinetostatics.friction import still_rates
 from linkwright.kinetostatics.friction_stage import MOST, can_be_traced
 from linkwright.kinetostatics.load_site import ACTS, middle_name
 from linkwright.kinetostatics.run import run_forces
@@ -57,7 +56,6 @@ def known_loads(plain: Traced, fields: Iterable[str], by: tuple[str, ...]) -> Kn
             derivative.
     """
     rubbing = any(kind_of(name) == "friction" for name in fields)
-    terms = plain.forces.friction.terms if rubbing else ()
     if rubbing and not can_be_traced(plain.forces.friction):
         raise LinkwrightError("study.friction_slope", most=MOST)
     given = [
@@ -84,7 +82,7 @@ def known_loads(plain: Traced, fields: Iterable[str], by: tuple[str, ...]) -> Kn
                 names = names - {load.name} | {f"{ACTS}:{load.name}"}
                 known |= _phase(load, signals)
         moving = {}, {}
-    numbers = {**along.constants, **along.rests(signals), **moving[0], **still_rates(plain.nominal, terms)}
+    numbers = {**along.constants, **moving[0]}
     return KnownLoads(frozenset(names), numbers, moving[1], known, along.tables, rubbing)
 
 

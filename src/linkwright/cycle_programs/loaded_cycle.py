@@ -19,7 +19,7 @@ from linkwright.engine.reductions import VALID_COUNT, Reduction, Results
 from linkwright.engine.stage import Backend, Stage
 from linkwright.engine.trace import Scalar, select
 from linkwright.errors import LinkwrightError
-from linkwright.kinetostatics.friction import STILL, FrictionTerm, Swinging, joint_rate, still_rates
+from linkwright.kinetostatics.friction import FrictionTerm, Swinging, moving_rate
 from linkwright.kinetostatics.friction_stage import can_be_traced
 from linkwright.kinetostatics.load_site import turns_steadily
 from linkwright.kinetostatics.signals import MotionSignals
@@ -122,9 +122,8 @@ def along_input(
     terms = traced.forces.friction.terms if rubbing else ()
     if len(names) + len(terms) < len(given) or (rubbing and not can_be_traced(traced.forces.friction)):
         return None
-    still = still_rates(traced.nominal, terms)
     swinging = dict.fromkeys(_swinging(term) for term in terms if _swings(traced, term))
-    plain = AlongInput(frozenset(), constants=still, rubbing=rubbing, swinging=tuple(swinging))
+    plain = AlongInput(frozenset(), rubbing=rubbing, swinging=tuple(swinging))
     if not names:
         return plain
     loads = [mechanism.loads[name] for name in sorted(names)]
@@ -140,7 +139,7 @@ def along_input(
     middles = known.middles(signals) if known.angles else {}
     if middles is None:
         return None
-    constants = {**known.constants, **middles, **known.rests(signals), **still}
+    constants = {**known.constants, **middles}
     return replace(known, constants=constants, rubbing=rubbing, swinging=plain.swinging)
 
 
@@ -167,9 +166,8 @@ def _swinging(term: FrictionTerm) -> Swinging:
 
 def _swings(traced: Traced, term: FrictionTerm) -> bool:
     """Whether the parts of a joint move both ways."""
-    rate = joint_rate(traced.nominal, term)
-    largest = STILL * float(np.nanmax(np.abs(rate), initial=0.0))
-    return bool(np.nanmin(rate) < -largest and np.nanmax(rate) > largest)
+    rate = moving_rate(traced.nominal, term)
+    return bool(np.nanmin(rate) < 0.0 < np.nanmax(rate))
 
 
 def friction_doubt(traced: Traced) -> Scalar:

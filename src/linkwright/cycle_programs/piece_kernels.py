@@ -48,6 +48,8 @@ SLACK = 0.03
 #: How much higher it may be where it is not met, as multiple of the size of its last orders.
 REACH = 10.0
 HUGE, TINY, BELOW_ONE = 1e300, 1e-40, 1.0 - 1e-15
+#: As ``core.search.EQUAL``.
+EQUAL = 1e-12
 STEPS = 4
 
 
@@ -131,17 +133,18 @@ def integral(row: Reals, share: Reals, pieces: int, tables: Reals, mean: float, 
 
 
 def contenders(
-    row: Reals, pieces: int, seen: Reals, sign: float, bar: float, owner: int, rows: Reals, capacity: int,
-    ids: Wholes, first: int,
+    row: Reals, pieces: int, seen: Reals, sign: float, bar: float, size: float, owner: int, rows: Reals,
+    capacity: int, ids: Wholes, first: int,
 ) -> int:  # fmt: skip
-    """Puts the values of all pieces that may hold the largest of sign · signal, as ``seen`` says, behind each other;
-    how many there are then."""
+    """Puts the values of all pieces that may hold the largest of sign · signal, as ``seen`` says, behind each other,
+    with the ``size`` of the signal; how many there are then."""
     at = first
     for p in range(pieces):
-        if seen[p] < bar:
+        if seen[p] < bar - EQUAL * size:
             continue
         for i in range(POINTS):
             rows[i * capacity + at] = sign * row[i * pieces + p]
+        rows[POINTS * capacity + at] = size
         ids[2 * at] = owner
         ids[2 * at + 1] = p
         at += 1
@@ -179,12 +182,13 @@ def reduced(
             if job[1] > 0:
                 powers(row, share, pieces, result, apart)
             owner = job[5] * apart + d
+            size = max(result[0], -result[apart])
             if job[3] > 0:
-                at = contenders(row, pieces, seen, 1.0, result[0], owner, rows, capacity, ids, at)
+                at = contenders(row, pieces, seen, 1.0, result[0], size, owner, rows, capacity, ids, at)
                 owner += apart
             if job[4] > 0:
                 at = contenders(
-                    row, pieces, seen + pieces, -1.0, -result[apart], owner, rows, capacity, ids, at
+                    row, pieces, seen + pieces, -1.0, -result[apart], size, owner, rows, capacity, ids, at
                 )
             if job[2] > 0:
                 integral(row, share, pieces, tables, result[3 * apart], room)
@@ -215,20 +219,24 @@ def series(of: Reals, x: Vector, tables: Reals) -> Vector:
 
 
 def peaks(count: int, rows: Reals, capacity: int, tables: Reals, room: Reals, found: Reals) -> None:
-    """Largest values of polynomials through ``rows`` (POINTS, capacity): of each place, value and size of the last
-    orders, (3, capacity); the capacity is a multiple of LANES.
+    """Largest values of polynomials through ``rows`` (POINTS, capacity), beneath which the sizes of the signals
+    stand: of each place, value and size of the last orders, (3, capacity); the capacity is a multiple of LANES.
 
-    From the highest look by Newton's steps between its neighbours, halvings where these leave the bracket. ``room``:
-    sums and differences of values at nodes opposite to each other, coefficients of the polynomial, its slope and the
-    slope of that, (4, POINTS) vectors.
+    From the highest look, of equal ones the first, by Newton's steps between its neighbours, halvings where these
+    leave the bracket. ``room``: sums and differences of values at nodes opposite to each other, coefficients of the
+    polynomial, its slope and the slope of that, (4, POINTS) vectors.
     """
     orders = room + POINTS * LANES
     slopes = orders + POINTS * LANES
     bends = slopes + POINTS * LANES
     r = 0
     while r < count:
+        equal = EQUAL * load(rows, POINTS * capacity + r)
+        top_there, bottom_there = load(rows, r), load(rows, r)
         for i in range(HALF):
             left, right = load(rows, i * capacity + r), load(rows, (POINTS - 1 - i) * capacity + r)
+            top_there = higher(top_there, higher(left, right))
+            bottom_there = lower(bottom_there, lower(left, right))
             store(room, LANES * i, left + right)
             store(room, LANES * (HALF + i), left - right)
         for k in range(POINTS):
@@ -244,9 +252,9 @@ def peaks(count: int, rows: Reals, capacity: int, tables: Reals, room: Reals, fo
             for i in range(HALF):
                 even = even + tables[LOOKED + POINTS * j + i] * load(room, LANES * i)
                 odd = odd + tables[LOOKED + POINTS * j + HALF + i] * load(room, LANES * (HALF + i))
-            place = spread(tables[PLACES + j]) if best < even + odd else place
+            place = spread(tables[PLACES + j]) if best + equal < even + odd else place
             best = higher(best, even + odd)
-            place = spread(-tables[PLACES + j]) if best < even - odd else place
+            place = spread(-tables[PLACES + j]) if best + equal < even - odd else place
             best = higher(best, even - odd)
         gap = GAP * root(higher(spread(0.0), 1.0 - place * place)) + GAP * GAP
         low, high = higher(spread(-1.0), place - gap), lower(spread(1.0), place + gap)
@@ -267,6 +275,7 @@ def peaks(count: int, rows: Reals, capacity: int, tables: Reals, room: Reals, fo
         top = series(orders, x, tables)
         doubt = rim * slope * moved
         place = x if top > best else place
+        place = place if top_there - bottom_there > equal else spread(-1.0)
         rough = higher(doubt, -doubt)
         for k in range(POINTS - 3, POINTS):
             last = load(orders, LANES * k)
@@ -277,9 +286,11 @@ def peaks(count: int, rows: Reals, capacity: int, tables: Reals, room: Reals, fo
         r += LANES
 
 
-def gathered(count: int, ids: Wholes, looked: Reals, capacity: int, extremes: int, found: Reals) -> None:
-    """Of the contenders for every extreme the highest: its piece, place and value, and the size of the last orders of
-    all that may be higher, (4, extremes), where minus infinity and zero stand before."""
+def gathered(
+    count: int, ids: Wholes, rows: Reals, looked: Reals, capacity: int, extremes: int, found: Reals
+) -> None:
+    """Of the contenders for every extreme the highest, of equal ones the first: its piece, place and value, and the
+    size of the last orders of all that may be higher, (4, extremes), where minus infinity and zero stand before."""
     for r in range(count):
         owner = ids[2 * r]
         value = looked[capacity + r]
@@ -288,6 +299,12 @@ def gathered(count: int, ids: Wholes, looked: Reals, capacity: int, extremes: in
         found[owner] = float(ids[2 * r + 1])
         found[extremes + owner] = looked[r]
         found[2 * extremes + owner] = value
+    for back in range(count):
+        r = count - 1 - back
+        owner = ids[2 * r]
+        if looked[capacity + r] >= found[2 * extremes + owner] - EQUAL * rows[POINTS * capacity + r]:
+            found[owner] = float(ids[2 * r + 1])
+            found[extremes + owner] = looked[r]
     for r in range(count):
         owner = ids[2 * r]
         rough = looked[2 * capacity + r]

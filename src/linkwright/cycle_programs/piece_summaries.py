@@ -228,7 +228,7 @@ class _Room:
         kernels, tables, pieces, capacity = piece_kernels.kernels(), _tables(), self.of.pieces, self.capacity
         work, ids = np.empty((2 * POINTS + 3) * pieces), np.empty(2 * capacity + 1, dtype=np.int64)
         rows, looked, vectors = (
-            np.empty((POINTS, capacity)),
+            np.empty((POINTS + 1, capacity)),
             np.empty((3, capacity)),
             np.empty((4 * POINTS, 8)),
         )
@@ -250,7 +250,7 @@ class _Room:
             )  # fmt: skip
             if count:
                 kernels("peaks", count, *polynomials)
-                kernels("gathered", count, at_ids, at_looked, capacity, total, best + 8 * done)
+                kernels("gathered", count, at_ids, at_rows, at_looked, capacity, total, best + 8 * done)
             done += int(ids[2 * capacity])
 
 

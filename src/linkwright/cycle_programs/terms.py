@@ -9,8 +9,9 @@ import numpy as np
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
+from linkwright.core.search import first_largest
 from linkwright.engine.trace import Scalar, absolute, minimum, select
-from linkwright.errors import RequestError
+from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.names import find_point
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import METRICS, Analysis
@@ -140,8 +141,8 @@ def term(name: str, analysis: Analysis, asked: Asked | None = None) -> Term | No
     no formula of summaries.
 
     ``analysis``: of the machine from which designs start; ``asked``: for the numbers of the shared output, which is
-    also the subject that counts where none is asked and the metric has it. Raises RequestError for a subject that the
-    metric does not have.
+    also the subject that counts where none is asked and the metric has it. None as well for an output of which other
+    designs may have such a number. Raises RequestError for another subject that the metric does not have.
     """
     if asked is not None and name in OWN:
         return own(name, analysis, asked)
@@ -156,6 +157,8 @@ def term(name: str, analysis: Analysis, asked: Asked | None = None) -> Term | No
     numbers = tuple(metric.numbers(analysis))
     if not numbers:
         return None
+    if may_have(subject, analysis) and all(number.subject != subject for number in numbers):
+        return None
     chosen = _chosen(name, metric, numbers, subject, preferred)
     passed_over = chosen[0].passed_over if len(chosen) == len(numbers) and not subject else ()
     return Term(name, chosen, chosen[0].dimension or metric.dimension, metric.better, passed_over)
@@ -163,7 +166,8 @@ def term(name: str, analysis: Analysis, asked: Asked | None = None) -> Term | No
 
 def measured(name: str, analysis: Analysis) -> tuple[float, str] | None:
     """Value and dimension of a metric of one machine: of the asked subject, or the governing one; None where it has
-    no such number. Raises RequestError for a subject that the metric does not have."""
+    no such number. Raises LinkwrightError for an output that has none here while others have; RequestError for a
+    subject that no design can have."""
     found = term(name, analysis)
     if found is not None:
         return found.measured(analysis), found.dimension
@@ -173,21 +177,30 @@ def measured(name: str, analysis: Analysis) -> tuple[float, str] | None:
     values = kind().evaluate(analysis)
     mine = [each for each in values if not subject or each.subject == subject]
     if subject and values and not mine:
-        raise _no_subject(name, subject, (each.subject for each in values))
+        error = LinkwrightError if may_have(subject, analysis) else RequestError
+        raise _no_subject(error, name, subject, (each.subject for each in values))
     chosen = governing(mine, kind.better) if mine else None
     return None if chosen is None else (chosen.value, chosen.dimension)
 
 
 def governing(found: Sequence[MetricValue], better: str | None) -> MetricValue:
     """Of several values the worst where a direction is better, else the first."""
-    if better == "higher":
-        return min(found, key=lambda value: value.value)
-    return max(found, key=lambda value: abs(value.value)) if better == "lower" else found[0]
+    if better is None:
+        return found[0]
+    values = np.array([value.value for value in found])
+    return found[first_largest(-values if better == "higher" else np.abs(values))]
 
 
-def _no_subject(name: str, subject: str, known: Iterable[str]) -> RequestError:
+def _no_subject(
+    error: type[LinkwrightError], name: str, subject: str, known: Iterable[str]
+) -> LinkwrightError:
     metric, _, _ = name.partition(" ")
-    return RequestError("metrics.no_value", name=metric, subject=subject, hint=offered(subject, known))
+    return error("metrics.no_value", name=metric, subject=subject, hint=offered(subject, known))
+
+
+def may_have(subject: str, analysis: Analysis) -> bool:
+    """Whether a subject is an output, or a limit of one, of which numbers come and go with the dimensions."""
+    return bool(subject) and subject.removesuffix(" max").removesuffix(" min") in map(str, analysis.outputs)
 
 
 def _chosen(
@@ -204,7 +217,7 @@ def chosen_subjects(name: str, subject: str, known: Iterable[str]) -> tuple[str,
     """Of the known subjects the asked one, or all; raises RequestError where it is none of them."""
     every = tuple(known)
     if subject and subject not in every:
-        raise _no_subject(name, subject, every)
+        raise _no_subject(RequestError, name, subject, every)
     return (subject,) if subject else every
 
 

@@ -50,10 +50,11 @@ def export(
     """
     target = Path(path)
     chosen = chosen_format(target, format)
-    refuse_target(target, force=force, remedy="force=True")
+    refuse_target(target, force=force)
     require_language(language)
     check_options(chosen, FORMATS[chosen], options)
-    return write_whole(target, FORMATS[chosen].content(Results.of(result, steps, language), **options))
+    content = FORMATS[chosen].content(Results.of(result, steps, language), **options)
+    return write_whole(target, content, force=force)
 
 
 def chosen_format(path: Path, name: str | None) -> str:

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Floats
+from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import require, whole
 from linkwright.errors import RequestError
@@ -116,6 +117,13 @@ class SweepParts:
     def parts(self) -> int:
         """Number of parts."""
         return self.plan.parts
+
+    @cached_property
+    def notes(self) -> tuple[str, ...]:
+        """As :attr:`Sweep.notes`."""
+        plan = self.plan
+        first = {each.address: each.values[:1] for each in plan.ranges}
+        return sweep(plan.mechanism, first, outputs=plan.outputs, steps=plan.steps).notes
 
     def path(self, number: int) -> Path:
         """The file of a part."""
@@ -240,16 +248,18 @@ def _missing(found: SweepParts) -> list[int]:
     _, parquet = _arrow()
     make_folder(found.folder)
     note, digest = found.folder / "sweep.json", found.plan.digest
-    if note.exists():
-        try:
-            same = json.loads(note.read_text(encoding="utf-8")).get("plan") == digest
-        except (OSError, ValueError, AttributeError):
-            same = False
-        if not same:
-            raise RequestError("study.other_sweep", folder=found.folder)
-    else:
-        said = {"plan": digest, "designs": found.designs, "parts": found.parts, "outputs": found.plan.outputs}
-        write_whole(note, json.dumps(said, indent=1).encode())
+    said = {"plan": digest, "designs": found.designs, "parts": found.parts, "outputs": found.plan.outputs}
+    try:
+        write_whole(note, json.dumps(said, indent=1).encode(), force=False)
+    except RequestError:
+        if not note.exists():
+            raise
+    try:
+        same = json.loads(note.read_text(encoding="utf-8")).get("plan") == digest
+    except (OSError, ValueError, AttributeError):
+        same = False
+    if not same:
+        raise RequestError("study.other_sweep", folder=found.folder)
 
     def there(number: int) -> bool:
         try:

@@ -132,9 +132,12 @@ class Document:
             self._composed = self.text, _root(self.text)
         return self._composed[1]
 
-    def save(self, path: str | Path) -> None:
-        """Write the text to a file, whole or not at all; raises LinkwrightError where it cannot be written."""
-        write_whole(path, self.text.encode())
+    def save(self, path: str | Path, *, force: bool = False) -> None:
+        """Write the text to a file, whole or not at all.
+
+        Raises LinkwrightError where it cannot be written, and for a file that is there already unless ``force``.
+        """
+        write_whole(path, self.text.encode(), force=force)
 
     def _replaced(self, text: str, node: Node, value: str) -> Edit:
         offset = 1 if text.startswith("\ufeff") else 0
@@ -226,7 +229,9 @@ def _follow(root: Mapping, path: list[str]) -> tuple[Node, list[str]]:
         elif isinstance(node, Sequence):
             position = _AXES.get(part, part)
             below = (
-                node.items[int(position)] if position.isdigit() and int(position) < len(node.items) else None
+                node.items[int(position)]
+                if position.isdecimal() and int(position) < len(node.items)
+                else None
             )
         if below is None:
             return node, path[index:]

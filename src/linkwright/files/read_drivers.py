@@ -8,6 +8,7 @@ from functools import lru_cache
 from typing import Any
 
 from linkwright.drivers.base import LAWS, Driver, Law
+from linkwright.errors import Severity
 from linkwright.fields.base import Field
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar
@@ -22,7 +23,7 @@ from linkwright.words.sentence import Sentence, together
 TURN_FIELDS: Mapping[str, Field] = {
     "turn": LinkName(required=True, moving=True, doc="the link that is turned"),
     "about": JointName(("turn",), required=True, doc="the pin about which it turns"),
-    "relative_to": LinkName(doc="the link against which (default: the frame)"),
+    "relative_to": LinkName(doc="the link against which (default: the frame, or the other link on the pin)"),
 }
 SLIDE_FIELDS: Mapping[str, Field] = {
     "slide": JointName(("slide",), required=True, doc="the prismatic joint that is driven"),
@@ -195,23 +196,24 @@ def _revolute(
                 node, place.child("relative_to"), "several_on_pin", "ambiguous", pin=pin, rest=tuple(rest)
             )
             return None
-        held = [name for name, links in reader.names.pins.items() if {link, "frame"} <= set(links)]
-        if other != "frame" and held:
-            values = {"link": link, "pin": pin, "other": other, "held": held[0]}
-            reader.finding(
-                node.get("about"),
-                place.child("about"),
-                "driven_against",
-                "doubtful",
-                severity="warning",
-                **values,
-            )
+        if other != "frame":
+            _tell_against(reader, node, place, link, pin, other)
     elif other not in rest:
         remedy = Sentence("names.one_of", names=tuple(rest))
         at, key = node.get("relative_to"), place.child("relative_to")
         reader.finding(at, key, "not_on_pin", "reference", remedy, other=other, pin=pin)
         return None
     return pin, link, other
+
+
+def _tell_against(reader: Reader, node: MappingNode, place: Place, link: str, pin: str, other: str) -> None:
+    """That a link is turned against another one than the frame: doubtful where it has a pin on the frame too."""
+    held = [name for name, links in reader.names.pins.items() if {link, "frame"} <= set(links)]
+    remedy = Sentence("model.driven_against_or", other=other, held=held[0]) if held else ""
+    severity: Severity = "warning" if held else "note"
+    values = {"link": link, "pin": pin, "other": other}
+    at, key = node.get("about"), place.child("about")
+    reader.finding(at, key, "driven_against", "doubtful", remedy, severity=severity, **values)
 
 
 #: The keys of which one set says what a cycle is.

@@ -13,6 +13,7 @@ from linkwright.files.node_reader import NAME, Place, as_meant
 from linkwright.files.reader import Reader
 from linkwright.mechanism.geometry import from_drawing
 from linkwright.mechanism.mechanism import FRAME_FIELDS, LINK_FIELDS, Geometry, Link, Vec
+from linkwright.registry import offered
 from linkwright.words.sentence import Sentence, together
 
 #: Links of a model, at most; more than that no machine has, and none is answered quickly.
@@ -66,6 +67,10 @@ def read_drawing(reader: Reader, node: Node | None, frame: Link) -> dict[str, Ve
     drawing: dict[str, Vec] = {}
     for name, place in found.items():
         value = below(node, name)
+        if name not in everywhere and reader.names.listed:
+            near = offered(name, everywhere, "model.in_no_link_do")
+            reader.finding(value or node, f"drawing.{name}", "in_no_link", "unknown-name", near, name=name)
+            continue
         if not reader.known(value or node, f"drawing.{name}", "point", name, everywhere) or place is None:
             continue
         fixed = frame.points.get(name)

@@ -103,18 +103,19 @@ class Reader(PlainReader):
         try:
             given = expressions.parse_quantity(text, dimension, self.kinds)
             value = given if isinstance(given, float) else self._evaluated(given, node, place)
-            return None if value is None else self._within(value, node, place, dimension)
+            if value is None:
+                return None
+            return self.within(value, node, place, units.LARGEST[dimension], units.SI_UNITS[dimension])
         except QuantityError as error:
             self.used |= {each for each in _WORD.findall(text) if each in self.kinds}
             self.quantity_error(error, node, place, text)
             return None
 
-    def _within(self, value: float, node: Node, place: Place, dimension: str) -> float | None:
-        """The value, or None after a finding where no machine has one so large."""
-        largest = units.LARGEST.get(dimension, units.LARGEST_OF_ALL)
+    def within(self, value: float, node: Node, place: Place, largest: float, unit: str) -> float | None:
+        """The value, or None after a finding where it is above ``largest``, which no machine reaches."""
         if abs(value) <= largest:
             return value
-        limit = units.format(largest, dimension)
+        limit = f"{units.number(largest)} {unit}".rstrip()
         shown = node.text if isinstance(node, Scalar) else f"{value:g}"
         self.finding(node, place, "beyond", "range", shown=shown, limit=limit)
         return None

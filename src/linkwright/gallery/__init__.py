@@ -51,7 +51,7 @@ def content(name: str) -> bytes:
             try:
                 with open(os.path.join(_FOLDER, folder, f"{name}{_SUFFIX}"), "rb") as file:
                     return file.read()
-            except FileNotFoundError:
+            except OSError:  # a name that no file has, or that is too long for one
                 continue
     raise KeyError(name)
 

@@ -8,6 +8,7 @@ from functools import cached_property
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.inputs import Input, mode_inputs, turned
+from linkwright.core.outputs import row_names
 from linkwright.engine.program import Program
 from linkwright.engine.recently_made import Recent
 from linkwright.engine.scalar_backend import ScalarProgram
@@ -176,45 +177,57 @@ def _from_drawing(mechanism: Mechanism, structure: Structure, assembly: Assembly
     modes |= {group.name: 1.0 for group in open_groups}
     if not drawing or not open_groups:
         return
-    motion = trace_motion(mechanism, structure, rates=False, iterations=8)
+    probe = _Probe(trace_motion(mechanism, structure, rates=False, iterations=8), open_groups, drawing)
     for group in open_groups:
-        probe = _Probe(motion, group, drawing)
-        if probe.names:
+        if probe.goals[group.name]:
             distances = {
-                sign: probe.distance({**modes, group.name: sign}, assembly.states, assembly.inputs)
+                sign: probe.distance(group, {**modes, group.name: sign}, assembly.states, assembly.inputs)
                 for sign in (1.0, -1.0)
             }
-            closer = distances[-1.0] < distances[1.0] * (1.0 - 1e-9) - probe.rounding
+            closer = distances[-1.0] < distances[1.0] * (1.0 - 1e-9) - probe.rounding(group)
             modes[group.name] = -1.0 if closer else 1.0
 
 
 class _Probe:
-    """Distance between the drawn points of one group and where a choice of modes puts them."""
+    """Distances between the drawn points of groups and where a choice of modes puts them.
 
-    def __init__(self, motion: MotionTrace, group: Group, drawing: Drawing) -> None:
+    ``goals``: of every group the names of its points' coordinates with what is drawn, m.
+    """
+
+    def __init__(self, motion: MotionTrace, groups: Iterable[Group], drawing: Drawing) -> None:
         self.motion = motion
-        self.goal: list[float] = []
-        self.names: list[str] = []
+        self.goals: dict[str, dict[str, float]] = {}
         outputs: dict[str, Scalar] = {}
-        for link in group.links:
-            for point, local in motion.mechanism.links[link].points.items():
-                drawn = drawing.points.get(f"{link}.{point}", drawing.points.get(point))
-                if drawn is not None and local is not None:
-                    place = motion.poses[link].point(motion.dimensions.point(link, point))
-                    outputs |= {f"{link}.{point}.x": place.x, f"{link}.{point}.y": place.y}
-                    self.names.append(f"{link}.{point}")
-                    self.goal += drawn
+        for group in groups:
+            goals = self.goals[group.name] = {}
+            for link in group.links:
+                for point, local in motion.mechanism.links[link].points.items():
+                    drawn = drawing.points.get(f"{link}.{point}", drawing.points.get(point))
+                    if drawn is not None and local is not None:
+                        place = motion.poses[link].point(motion.dimensions.point(link, point))
+                        names = row_names("position", f"{link}.{point}")
+                        outputs |= zip(names, (place.x, place.y), strict=True)
+                        goals |= zip(names, drawn, strict=True)
         self.program = Program.of(motion.trace, outputs)
-        self.rounding = 1e-20 * sum(coordinate * coordinate for coordinate in self.goal)
+        self.places = {name: k for k, name in enumerate(self.program.output_names)}
+        self.steps = ScalarProgram(self.program)
 
-    def distance(self, modes: dict[str, float], states: dict[str, float], inputs: dict[str, float]) -> float:
+    def rounding(self, group: Group) -> float:
+        """What is no difference of squared distances, m²."""
+        return 1e-20 * sum(coordinate * coordinate for coordinate in self.goals[group.name].values())
+
+    def distance(
+        self, group: Group, modes: dict[str, float], states: dict[str, float], inputs: dict[str, float]
+    ) -> float:
+        """The squared distance of a group's points, m²."""
         values = self._values(modes, inputs)
-        outputs, _ = ScalarProgram(self.program).step(
+        outputs, _ = self.steps.step(
             [values[name] for name in self.program.parameters],
             [values[name] for name in self.program.positions],
             [states[name] for name in self.program.states],
         )
-        gap = sum((float(o) - g) ** 2 for o, g in zip(outputs, self.goal, strict=True))
+        goals = self.goals[group.name].items()
+        gap = sum((float(outputs[self.places[name]]) - goal) ** 2 for name, goal in goals)
         return gap if gap == gap else math.inf
 
     def _values(self, modes: dict[str, float], inputs: dict[str, float]) -> dict[str, float]:

@@ -33,6 +33,8 @@ _RATES = {
 
 #: Positions of which a turning driver is further apart are no way, but positions of their own, rad.
 LARGEST_STEP = 0.55
+#: More positions of a cycle than one computer takes at once.
+MOST_POSITIONS = 10_000_000
 #: A cycle in which drivers of several speeds come back is taken by itself up to so many turns of the slowest one.
 FEW = 12
 
@@ -222,7 +224,7 @@ def over_cycle(mechanism: Mechanism, steps: int, endpoint: bool = False) -> Posi
     A closed cycle (whole turns of a driver, or a law that repeats) gives ``steps`` positions, or one more with
     ``endpoint``; an open one always ``steps`` + 1 positions, both ends among them.
     """
-    steps = whole("steps", steps, 1)
+    steps = whole("steps", steps, 1, MOST_POSITIONS)
     if not mechanism.drivers:
         return at_times(mechanism, [0.0])
     if mechanism.higher:

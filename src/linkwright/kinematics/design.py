@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from linkwright.core.inputs import mode_inputs
+from linkwright.kinematics.rest import paces
 from linkwright.mechanism.mechanism import Mechanism
 
 
@@ -29,7 +30,8 @@ class Design:
 
     @property
     def parameters(self) -> dict[str, float]:
-        """Values of all parameters of the programs: dimensions and signs of the assembly modes."""
+        """Values of all parameters of the programs: dimensions, signs of the assembly modes, paces."""
         if self._parameters is None:
-            self._parameters = {**self.mechanism.dimensions(), **mode_inputs(self.modes)}
+            known = self.mechanism
+            self._parameters = {**known.dimensions(), **mode_inputs(self.modes), **paces(known)}
         return self._parameters

@@ -19,6 +19,7 @@ from linkwright.kinematics.cycle import Positions
 from linkwright.kinematics.design import Design
 from linkwright.kinematics.names import point_key
 from linkwright.kinematics.outcome import Outcome
+from linkwright.kinematics.rest import moving, pace_name
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
@@ -285,6 +286,19 @@ class Motion(Plotted):
             self._kept[key] = find()
         found: Found = self._kept[key]
         return found
+
+    def turning(self, link: str, against: str) -> Floats:
+        """Angular velocity of a link against another one, (n,) rad/s, zero at rest."""
+        a, b = self.link(against), self.link(link)
+        second = b.angular_acceleration - a.angular_acceleration
+        return self.moving(b.angular_velocity - a.angular_velocity, second, "angle")
+
+    def moving(self, rate: Floats | float, second: Floats | float, dimension: str) -> Floats:
+        """Rates, with their own rates, of an ``angle`` or a ``length``, zero at rest."""
+        pace, turning = (self.design.parameters[pace_name(each)] for each in (dimension, "angle"))
+        first: Any = rate
+        own: Any = second
+        return np.asarray(moving(first, own, pace, turning))
 
     def joint(self, name: str) -> JointMotion:
         """Coordinate of a joint: displacement of a guide's block, or angle of a pin's second link on its first."""

@@ -129,7 +129,8 @@ def _rank_where_closed(
 
 
 def rank_sentence(mechanism: Mechanism, language: str = "en") -> str:
-    """What the rank of the Jacobian at the start of the cycle says about the mobility; empty if it cannot be had."""
+    """What the rank of the Jacobian at the start of the cycle says about the mobility, or that a group is
+    singular there; empty if it cannot be had."""
     from linkwright.kinematics.cycle import over_cycle
     from linkwright.kinematics.solve import MotionRun
     from linkwright.kinematics.solver import MotionSolver
@@ -141,7 +142,10 @@ def rank_sentence(mechanism: Mechanism, language: str = "en") -> str:
     except LinkwrightError:
         return ""
     good = np.flatnonzero(motion.ok)
-    return jacobian_rank(motion, int(good[0])).say(language) if len(good) else ""
+    if len(good):
+        return jacobian_rank(motion, int(good[0])).say(language)
+    outcome = motion.outcomes[0]
+    return Sentence("rank.singular", outcome=outcome).say(language) if outcome.kind == "singular" else ""
 
 
 # rank ---------------------------------------------------------------------------------------------

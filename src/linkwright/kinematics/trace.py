@@ -14,6 +14,7 @@ from linkwright.kinematics.angles import Angles
 from linkwright.kinematics.dimensions import Dimensions, DriverInput, driver_input
 from linkwright.kinematics.groups import GroupTracer, Placed, dyad_shape
 from linkwright.kinematics.rates import RateTracer
+from linkwright.kinematics.rest import moving, pace_name
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.structure.group import Group, Structure
 
@@ -43,6 +44,16 @@ class MotionTrace:
         """Chain coordinates of the groups without closed form, carried to the next position."""
         own = {name: value for p in self.placed.values() for name, value in p.next_states.items()}
         return own | self.angles.carried
+
+    def moving(self, rate: Scalar, second: Scalar, dimension: str) -> Scalar:
+        """A rate, with its own rate, of an ``angle`` or a ``length``, zero at rest."""
+        pace, turning = (self.trace.parameter(pace_name(each)) for each in (dimension, "angle"))
+        return moving(rate, second, pace, turning)
+
+    def turning(self, link: str, against: str) -> Scalar:
+        """Angular velocity of a link against another one, rad/s, zero at rest."""
+        a, b = self.states[against], self.states[link]
+        return self.moving(b.omega - a.omega, b.alpha - a.alpha, "angle")
 
     def point(self, link: str, local: Vec) -> tuple[Vec, Vec, Vec]:
         """Position, velocity and acceleration of a point given in a link's axes."""

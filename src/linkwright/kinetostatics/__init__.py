@@ -5,8 +5,6 @@ from typing import TYPE_CHECKING
 from linkwright.lazy import offer
 
 if TYPE_CHECKING:
-    from linkwright.kinetostatics.balancing import Balancing as Balancing
-    from linkwright.kinetostatics.balancing import balance as balance
     from linkwright.kinetostatics.forces import Forces as Forces
     from linkwright.kinetostatics.forces import solve_forces as solve_forces
 

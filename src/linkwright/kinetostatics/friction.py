@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from functools import cached_property
 
 import numpy as np
@@ -13,13 +13,11 @@ from linkwright.core.outputs import Output, RelativeAngle, row_name
 from linkwright.engine.trace import Scalar
 from linkwright.engine.vector import Vec
 from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.outputs import MotionOutputs
 from linkwright.kinematics.trace import MotionTrace
 from linkwright.kinetostatics.load_site import guide_state
 from linkwright.loads.site import Wrench
 from linkwright.mechanism.mechanism import Mechanism
-
-#: Share of a joint's largest rate below which it stands still.
-STILL = 1e-12
 
 
 @dataclass(frozen=True)
@@ -108,21 +106,24 @@ class FrictionTerms:
         return [Wrench(term.b, force, place), Wrench(term.a, -force, place)]
 
 
-def still_name(term: FrictionTerm) -> str:
-    """Name of the parameter that holds the rate of a joint, rad/s or m/s, below which it stands still."""
-    return f"still:{term.joint}|{term.b}"
-
-
-def still_rates(motion: Motion, terms: Iterable[FrictionTerm]) -> dict[str, float]:
-    """These parameters in a motion."""
-    return {
-        still_name(term): STILL * float(np.nanmax(np.abs(joint_rate(motion, term)), initial=0.0))
-        for term in terms
-    }
-
-
 def joint_rate(motion: Motion, term: FrictionTerm | RelativeAngle) -> Floats:
     """Rate of link b against link a, (n,) rad/s, or of the block along the guide, m/s."""
     if isinstance(term, FrictionTerm) and term.slides:
         return motion.joint(term.joint).velocity
     return np.asarray(motion.link(term.b).angular_velocity - motion.link(term.a).angular_velocity)
+
+
+def moving_rate(motion: Motion, term: FrictionTerm | RelativeAngle) -> Floats:
+    """The same, zero at rest."""
+    if isinstance(term, FrictionTerm) and term.slides:
+        joint = motion.joint(term.joint)
+        return motion.moving(joint.velocity, joint.acceleration, "length")
+    return motion.turning(term.b, term.a)
+
+
+def traced_rate(motion: MotionTrace, term: FrictionTerm) -> Scalar:
+    """The same as a traced value."""
+    if not term.slides:
+        return motion.turning(term.b, term.a)
+    _, rate, second = MotionOutputs(motion).slide(term.joint)
+    return motion.moving(rate, second, "length")

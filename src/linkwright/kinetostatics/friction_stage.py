@@ -16,7 +16,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.engine.linear import product, solution
 from linkwright.engine.trace import Mask, Scalar, Value, absolute, maximum, select, slope, sqrt, stop
 from linkwright.engine.vector import ZERO, Vec
-from linkwright.kinetostatics.friction import FrictionTerm, FrictionTerms, still_name
+from linkwright.kinetostatics.friction import FrictionTerm, FrictionTerms, traced_rate
 from linkwright.kinetostatics.load_site import guide_state
 from linkwright.kinetostatics.trace import ForceTrace, Size
 from linkwright.loads.site import Wrench
@@ -168,16 +168,13 @@ def caused(friction: FrictionTerms, forces: ForceTrace, field: str) -> Scalar:
 
 
 def _factor(friction: FrictionTerms, term: FrictionTerm) -> Scalar:
-    """Friction over the force that presses the parts together: against the joint's rate, zero where it stands."""
+    """Friction over the force that presses the parts together: against the joint's rate, zero at rest."""
     motion, dimensions = friction.motion, friction.motion.dimensions
     arm = dimensions(f"{term.joint}.friction")
-    if term.slides:
-        rate = guide_state(motion, term.joint)[2]
-    else:
-        rate = motion.states[term.b].omega - motion.states[term.a].omega
+    if not term.slides:
         arm = arm * dimensions(f"{term.joint}.pin_radius")
-    still = motion.trace.parameter(still_name(term))
-    return select(rate > still, -arm, select(rate < -still, arm, 0.0))
+    rate = traced_rate(motion, term)
+    return select(rate > 0.0, -arm, select(rate < 0.0, arm, 0.0))
 
 
 def pressing(forces: ForceTrace, term: FrictionTerm) -> Vec:

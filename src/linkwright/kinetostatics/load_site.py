@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from linkwright.core.outputs import Output, row_name
-from linkwright.engine.trace import Mask, Scalar, angle, cos, select, sign, sin
+from linkwright.engine.trace import Mask, Scalar, angle, cos, select, sign, sin, sqrt
 from linkwright.engine.vector import Vec
 from linkwright.fields.signals import MovingPhase, SwingPhase
 from linkwright.kinematics.outputs import MotionOutputs
@@ -61,12 +61,7 @@ def middle_name(a: str, b: str) -> str:
 
 def of_cycle(name: str) -> bool:
     """Whether a parameter is found from the motion over the cycle."""
-    return name in (LAP, DRIFT) or name.startswith(("limit:", "limit input:", "value:", "middle:", "rest:"))
-
-
-def rest_name(output: Output) -> str:
-    """Name of the parameter that holds the rate of an output, rad/s or m/s, up to which it is at rest."""
-    return f"rest:{output}"
+    return name in (LAP, DRIFT) or name.startswith(("limit:", "limit input:", "value:", "middle:"))
 
 
 def angle_between(motion: MotionTrace, a: str, b: str) -> Scalar:
@@ -128,6 +123,17 @@ class TracedSite:
     def omega(self, link: str) -> Scalar:
         return self.motion.states[link].omega
 
+    def turning(self, link: str, against: str) -> Scalar:
+        return self.motion.turning(link, against)
+
+    def heading_of(self, link: str, point: str) -> Vec:
+        velocity = self.velocity(link, point)
+        local = self.motion.dimensions.point(link, point)
+        seconds = self.motion.states[link].acceleration_of(local)
+        speed, second = sqrt(velocity.square), sqrt(seconds.square)
+        moves = self.motion.moving(speed, second, "length") > 0.0
+        return velocity * select(moves, 1.0 / select(moves, speed, 1.0), 0.0)
+
     def guide(self, joint: str) -> tuple[Vec, Vec, Scalar]:
         return guide_state(self.motion, joint)
 
@@ -185,10 +191,10 @@ class TracedSite:
         between, share = moving_of_turn(self, phase) if limited else (True, 0.0)
         if limited and turns_steadily(self.motion.mechanism):
             return between, share
-        rate = MotionOutputs(self.motion).value(phase.output.rate.row)
-        rate = rate if phase.direction == "increasing" else -rate
-        rest = 0.0 if limited else self.motion.trace.parameter(rest_name(phase.output))
-        return self.motion.trace.logic("and", between, rate > rest), share
+        rate, second = (MotionOutputs(self.motion).value(each.row) for each in phase.output.course[1:])
+        rate = rate if limited else self.motion.moving(rate, second, phase.output.dimension)
+        grows = rate > 0.0 if phase.direction == "increasing" else rate < 0.0
+        return self.motion.trace.logic("and", between, grows), share
 
     def constant(self, field: str) -> Scalar:
         return self.motion.trace.parameter(constant_name(self.load.name, field))

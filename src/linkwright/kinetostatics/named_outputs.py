@@ -222,10 +222,9 @@ class Named:
         if pin is None or not pin.pin_radius:
             no_output(self.mechanism, name)
         other = next(each for each in pin.joined if each != link)
-        states = self.motion.motion.states
         force = sqrt(self.forces.forces.reaction(joint, link).square)
         radius = self.motion.motion.dimensions(f"{joint}.pin_radius")
-        return force * radius * (states[link].omega - states[other].omega)
+        return force * radius * self.motion.motion.turning(link, other)
 
     def areal_velocity(self, name: str, output: Output) -> Scalar:
         """Area per time that the line from the frame's origin to a point sweeps over, counter-clockwise positive."""

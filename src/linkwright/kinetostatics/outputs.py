@@ -32,6 +32,8 @@ class ForceOutputs:
                 return forces.reaction(owner, output.on)
             case "couple":
                 return forces.couple(owner, output.on)
+            case "unsupplied":
+                return forces.left[owner, output.on]
             case "effort":
                 return forces.efforts[owner]
             case "load":
@@ -90,6 +92,12 @@ class ForceOutputs:
             if couple:
                 names.append(row_name("couple", joint, on=link))
         return (*names, *(row_name("effort", name) for name in self.forces.efforts))
+
+    @cached_property
+    def checks(self) -> tuple[str, ...]:
+        """What must be zero but for rounding, the powers of which two must be equal."""
+        left = (row_name("unsupplied", joint, on=link) for joint, link in self.forces.left)
+        return (*left, row_name("power"), row_name("power_of_forces"))
 
     def reaction_keys(self) -> list[tuple[str, str, bool]]:
         """Joint, link, and whether it carries a couple; one link per pair, the others follow by reaction."""

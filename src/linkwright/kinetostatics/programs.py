@@ -16,9 +16,11 @@ from linkwright.kinetostatics.friction import FrictionTerms
 from linkwright.kinetostatics.load_site import of_cycle
 from linkwright.kinetostatics.named_outputs import Named
 from linkwright.kinetostatics.outputs import ForceOutputs
+from linkwright.kinetostatics.self_check import ForceChecks
 from linkwright.kinetostatics.trace import ForceTrace, Size, trace_forces
 from linkwright.kinetostatics.traced_loads import traced_magnitude
 from linkwright.loads.magnitude import followed_by
+from linkwright.mechanism.geometry import mechanism_size
 
 if TYPE_CHECKING:
     from linkwright.kinetostatics.friction_stage import SolvedFriction, Wrenches
@@ -107,6 +109,11 @@ class ForcePrograms:
         """The forces' outputs by name."""
         return ForceOutputs(self.forces)
 
+    @cached_property
+    def checks(self) -> ForceChecks:
+        """What of them is checked."""
+        return ForceChecks(self.outputs, self.motion.outputs, mechanism_size(self.motion.mechanism))
+
     def program(self, names: tuple[str, ...]) -> NumpyProgram:
         """The program for some outputs, of the forces or of the motion."""
         with self.motion.lock:
@@ -116,8 +123,9 @@ class ForcePrograms:
             return self._programs[names]
 
     def at_once(self, measures: tuple[str, ...], asked: tuple[str, ...]) -> tuple[tuple[str, ...], InTurn]:
-        """What motions store, some measures of it, what the loads follow, what forces store, what else is asked and
-        traced magnitudes, with one program for all, which takes in turn what the first three tell of the cycle."""
+        """What motions store, some measures of it, what the loads follow, what forces store and check, what else is
+        asked and traced magnitudes, with one program for all, which takes in turn what the first three tell of the
+        cycle."""
         return _at_once.get(self, (measures, asked), lambda: self._at_once(measures, asked))
 
     def _at_once(self, measures: tuple[str, ...], asked: tuple[str, ...]) -> tuple[tuple[str, ...], InTurn]:
@@ -131,7 +139,7 @@ class ForcePrograms:
         more += [row_name(kind, guide) for guide in moved for kind in SLIDE]
         early = tuple(dict.fromkeys((*self.motion.outputs.standard, *measures, *more)))
         sizes = (row_name("magnitude", name) for name in sorted(self.along_input))
-        names = tuple(dict.fromkeys((*early, *self.outputs.standard, *asked, *sizes)))
+        names = tuple(dict.fromkeys((*early, *self.checks.names, *asked, *sizes)))
         with self.motion.lock:
             program = Program.of(self.motion.motion.trace, {name: self._value(name) for name in names})
         late = {*program.fields, *filter(of_cycle, program.parameters)}

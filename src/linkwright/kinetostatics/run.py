@@ -9,6 +9,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.outputs import Output, kind_of, row_name
+from linkwright.core.search import first_largest
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.cycle import Positions
 from linkwright.kinematics.design import Design
@@ -16,7 +17,7 @@ from linkwright.kinematics.motion import Motion, Rows
 from linkwright.kinematics.reach_sentences import input_at
 from linkwright.kinematics.solve import MotionRun
 from linkwright.kinetostatics.forces import Forces
-from linkwright.kinetostatics.friction import FrictionTerm, still_rates
+from linkwright.kinetostatics.friction import FrictionTerm
 from linkwright.kinetostatics.programs import caused_name
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.kinetostatics.solver import ForceSolver
@@ -111,7 +112,7 @@ def solved_at_once(
             return None
         found.append((motion, rows))
         fields.update(_load_fields(motion, program.program.fields, signals))
-        return {**limits, **middles, **known.rests(signals), **fields}
+        return {**limits, **middles, **fields}
 
     numbers = {**design.parameters, **known.constants}
     values = program.run(numbers, positions.arrays, late, positions.count, known.tables)
@@ -123,15 +124,17 @@ def solved_at_once(
     ):
         return None
     ((motion, rows),) = found
+    solver.programs.checks.require(rows, motion)
     return Forces(motion, solver, fields, not solver.inertia, rows)
 
 
 def _evaluated(motion: Motion, solver: ForceSolver, fields: dict[str, Floats], static: bool) -> Forces:
-    names = solver.outputs.standard
-    values = solver.evaluate(names, motion, fields)
+    checks = solver.programs.checks
+    values = solver.evaluate(checks.names, motion, fields)
     if not motion.ok.all():
         values[:, ~motion.ok] = np.nan
-    rows = Rows(values, {name: i for i, name in enumerate(names)})
+    rows = Rows(values, {name: i for i, name in enumerate(checks.names)})
+    checks.require(rows, motion)
     return _with_notes(Forces(motion, solver, fields, static, rows))
 
 
@@ -157,7 +160,7 @@ def _contacts_lost(forces: Forces) -> Iterable[Sentence]:
             for first, last in ends
         )
         sizes = np.linalg.norm(forces.reaction(name, on=joint.joined[-1]), axis=1)[at]
-        most, where = float(sizes.max()), float(motion.input[at[sizes.argmax()]])
+        most, where = float(sizes.max()), float(motion.input[at[first_largest(sizes)]])
         yield joint.said(
             "forces.contact_lost",
             name=name,
@@ -196,10 +199,10 @@ def _with_friction(motion: Motion, solver: ForceSolver, fields: dict[str, Floats
     names = [term.field for term in terms]
     reactions = [name for name in solver.outputs.standard if kind_of(name) == "reaction"]
     wanted = (*(caused_name(name) for name in names), *reactions)
-    still, most = still_rates(motion, terms), max(term.arm for term in terms)
+    most = max(term.arm for term in terms)
     previous, growing = np.inf, 0
     for _ in range(FRICTION_STEPS):
-        values = solver.evaluate(wanted, motion, fields, still)
+        values = solver.evaluate(wanted, motion, fields)
         values[:, ~ok] = np.nan
         sizes = values[: len(names)]
         gap = np.abs(sizes - [fields[name] for name in names])[:, ok]

@@ -15,14 +15,12 @@ from linkwright.kinematics.cycle import CycleError, Positions, over_cycle
 from linkwright.kinematics.limits import limit_inputs, limit_positions
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import MotionRun
-from linkwright.kinetostatics.friction import joint_rate
+from linkwright.kinetostatics.friction import moving_rate
 from linkwright.loads.signals import Limit, Whole
 from linkwright.mechanism.mechanism import Mechanism
 
 #: Steps of the cycle that anchors angles and brackets limit positions.
 STEPS = 360
-#: Rates below this share of the largest one in the cycle are zero but for rounding.
-STILL = 1e-12
 TURN = 2 * np.pi
 
 
@@ -96,22 +94,14 @@ class MotionSignals:
 
     def output(self, output: Output) -> tuple[Floats, Floats]:
         """Value and rate of an output, (n,) each."""
-        value, rate = self.motion.read(output), self.motion.read(output.rate)
+        value, rate, second = (self.motion.read(each) for each in output.course)
         if output.kind == "angle" and self.cycle is not self.motion:
             value = self._anchored(value, self.cycle.read(output))
-        return value, np.where(np.abs(rate) <= self.at_rest(output), 0.0, rate)
+        return value, self.motion.moving(rate, second, output.dimension)
 
     def rate(self, output: Output | RelativeAngle) -> Floats:
-        """Rate of an output, (n,), zero where it is but for rounding."""
-        if isinstance(output, Output):
-            return self.output(output)[1]
-        rate = joint_rate(self.motion, output)
-        return np.where(np.abs(rate) <= STILL * float(np.nanmax(np.abs(rate), initial=0.0)), 0.0, rate)
-
-    def at_rest(self, output: Output) -> float:
-        """Rate of an output, rad/s or m/s, up to which it is zero but for rounding."""
-        rates = [each.read(output.rate) for each in (self.cycle, self.motion)]
-        return STILL * float(np.nanmax(np.abs(np.concatenate(rates)), initial=0.0)) if self.ok.any() else 0.0
+        """Rate of an output, (n,), zero at rest."""
+        return self.output(output)[1] if isinstance(output, Output) else moving_rate(self.motion, output)
 
     def limits(self, output: Output) -> Sequence[Limit]:
         """Where an output reverses within the cycle, by increasing time."""

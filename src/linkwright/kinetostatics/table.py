@@ -24,7 +24,10 @@ def results_of(motion: Motion, forces: Forces | None) -> dict[Output, Floats]:
 
 
 def force_results(forces: Forces) -> dict[Output, Floats]:
-    """The results of the motion, then efforts, reactions on every link, couples, shaking force, residuals, (n,)."""
+    """The results of the motion, then efforts, reactions on every link, couples, shaking force, residuals, (n,).
+
+    Raises SelfCheckError where they leave a link out of balance.
+    """
     motion = forces.motion
     motion.evaluate_together((*directions(motion), *motion_outputs(forces)))
     forces.fetch((*_RESULTANTS, *load_outputs(forces)))
@@ -42,6 +45,7 @@ def force_results(forces: Forces) -> dict[Output, Floats]:
                 found[Output("couple", name, on=link)] = forces.couple(name, on=link)
     found |= {Output("shaking_force", "", axis): forces.shaking_force[:, k] for k, axis in enumerate("xy")}
     found[Output("shaking_moment")] = forces.shaking_moment
+    forces.solver.programs.checks.require_balance(forces)
     found[Output("power_residual")] = forces.power_residual
     found[Output("balance_residual")] = forces.balance_residual
     return found

@@ -54,7 +54,8 @@ class JointForce:
 @dataclass
 class ForceTrace:
     """Reactions and efforts as traced values; ``between``: the forces between teeth or in strands whose sizes press
-    on pins, by the names of the joints."""
+    on pins, by the names of the joints; ``left``: what a link's balance wants along the coordinate by which a joint
+    leaves it free, N or N·m, by joint and link: zero but for rounding, for no joint can supply it."""
 
     motion: MotionTrace
     joints: list[JointForce] = field(default_factory=list)
@@ -62,6 +63,7 @@ class ForceTrace:
     own: dict[str, Demand] = field(default_factory=dict)
     wrenches: dict[str, list[Wrench]] = field(default_factory=dict)
     between: dict[str, Scalar] = field(default_factory=dict)
+    left: dict[tuple[str, str], Scalar] = field(default_factory=dict)
 
     def reaction(self, joint: str, on: str) -> Vec:
         """Force that a joint exerts on a link."""
@@ -170,29 +172,26 @@ class _Reverse:
         self.demands = demands
 
     def solve(self, placed: Placed) -> None:
-        """Forces of one group; what its links need of links solved before is added to their demand."""
-        multipliers = product(transposed(placed.inverse), self._wanted(placed)) if placed.cuts else []
-        pressing = self._press(placed, multipliers)
-        if pressing and any(not cut.connection.higher for cut in placed.cuts):
-            multipliers = product(transposed(placed.inverse), self._wanted(placed))
-        for cut, own in _shares(placed, multipliers):
-            self._apply(cut, own, pressing.get(cut.connection, ZERO))
+        """Forces of one group; what its links need of links solved before is added to their demands.
+
+        The row of a higher pair takes the other joints as closed: its multiplier is the force of the pair, which
+        then loads the open chains like any other force, so that a cut pin carries its part of it as well.
+        """
+        for higher in (True, False):
+            if any(cut.connection.higher is higher for cut in placed.cuts):
+                for cut, own in self._shares(placed):
+                    if cut.connection.higher is higher:
+                        self._apply(cut, own)
         for step in reversed(placed.group.tree):
             self._carry(step)
 
-    def _press(self, placed: Placed, multipliers: list[Scalar]) -> dict[Connection, Vec]:
-        """What follows from the multipliers of higher pairs and does no work, added to the demands of their links."""
-        found: dict[Connection, Vec] = {}
-        poses = self.motion.poses
-        for cut, own in _shares(placed, multipliers):
-            force = cut.pressing(own, poses, partial(self._size, cut.connection))
-            if force is None:
-                continue
-            found[cut.connection] = force
-            for link in (cut.connection.a, cut.connection.b):
-                push = force if link == cut.on else -force
-                arm = cut.arm(link, poses)
-                self.demands[link] = self.demands[link] + Demand(-push, -arm.cross(push))
+    def _shares(self, placed: Placed) -> list[tuple[Cut, list[Scalar]]]:
+        """Every cut of a group with the multipliers of its own rows that supply what its links demand now."""
+        multipliers = product(transposed(placed.inverse), self._wanted(placed))
+        found, row = [], 0
+        for cut in placed.cuts:
+            found.append((cut, multipliers[row : row + cut.rows]))
+            row += cut.rows
         return found
 
     def _size(self, connection: Connection, force: Scalar) -> Scalar:
@@ -228,17 +227,19 @@ class _Reverse:
             return parent.spin(point - parent.anchor)
         return child.place - parent.place
 
-    def _apply(self, cut: Cut, multipliers: list[Scalar], pressing: Vec) -> None:
-        """The force at a cut supplies part of both links' demand; ``pressing`` is in it already."""
-        poses = self.motion.poses
-        for link in (cut.connection.a, cut.connection.b):
+    def _apply(self, cut: Cut, multipliers: list[Scalar]) -> None:
+        """The force at a cut, with what presses there and does no work, supplies part of both links' demand."""
+        poses, connection = self.motion.poses, cut.connection
+        pressing = cut.pressing(multipliers, poses, partial(self._size, connection))
+        for link in (connection.a, connection.b):
             force, couple = cut.force_on(link, multipliers, poses)
+            if pressing is not None:
+                force = force + pressing if link == cut.on else force - pressing
             moment = cut.arm(link, poses).cross(force) + couple
             self.demands[link] = self.demands[link] + Demand(-force, -moment)
-        force, couple = cut.force_on(cut.on, multipliers, poses)
-        self.forces.joints.append(
-            JointForce(cut.connection, cut.on, force + pressing, couple, cut.place(cut.on, poses))
-        )
+            if link == cut.on:
+                place = cut.place(link, poses)
+                self.forces.joints.append(JointForce(connection, link, force, couple, place))
 
     def _carry(self, step: TreeJoint) -> None:
         """The joint that hangs a child on its parent supplies the child's whole demand."""
@@ -247,6 +248,9 @@ class _Reverse:
         passed = self._moved(demand, step, free_pin=pin and step.free)
         self.demands[step.parent] = self.demands[step.parent] + passed
         force, couple = demand.force, 0.0 if pin else self._couple(step, demand)
+        if step.free:
+            left = demand.moment if pin else self._along(step).dot(demand.force)
+            self.forces.left[step.joint, step.child] = left
         if step.driver is not None:
             force = force - self._drive(step, demand)
         place = self.motion.poses[step.child].place
@@ -276,12 +280,3 @@ class _Reverse:
         effort = along.dot(demand.force)
         self.forces.efforts[step.driver] = effort
         return along * effort
-
-
-def _shares(placed: Placed, multipliers: list[Scalar]) -> list[tuple[Cut, list[Scalar]]]:
-    """Every cut of a group with its own multipliers."""
-    found, row = [], 0
-    for cut in placed.cuts:
-        found.append((cut, multipliers[row : row + cut.rows]))
-        row += cut.rows
-    return found

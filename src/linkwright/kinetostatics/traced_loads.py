@@ -24,7 +24,6 @@ from linkwright.kinetostatics.load_site import (
     constant_name,
     limit_name,
     middle_name,
-    rest_name,
     turns_steadily,
     value_name,
 )
@@ -90,10 +89,6 @@ class AlongInput:
         for output in self.valued:
             found |= {value_name(output, each.kind): each.value for each in signals.limits(output)}
         return found
-
-    def rests(self, signals: MotionSignals) -> dict[str, float]:
-        """Rates up to which what moves is at rest."""
-        return {rest_name(output): signals.at_rest(output) for output in self.moving}
 
     def middles(self, signals: MotionSignals) -> dict[str, float] | None:
         """Angles near which the angles that loads take stay; None where a link turns through."""

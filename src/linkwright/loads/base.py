@@ -66,7 +66,6 @@ if TYPE_CHECKING:
     from linkwright.worked.terms import Pair, Term
 
 __all__ = [
-    "AT_REST",
     "LOADS",
     "LinkPoint",
     "Load",
@@ -88,9 +87,6 @@ __all__ = [
     "values",
     "word",
 ]
-
-#: Slower than this (m/s, rad/s) is at rest, where no direction is opposed.
-AT_REST = 1e-12
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -8,11 +8,10 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import Expression
-from linkwright.engine.trace import select, sqrt
 from linkwright.engine.vector import Vec
 from linkwright.errors import LinkwrightError
 from linkwright.loads import base
-from linkwright.loads.base import AT_REST, LOADS, Load, Output, Phase, Table
+from linkwright.loads.base import LOADS, Load, Output, Phase, Table
 from linkwright.loads.marks import Push, sign_of
 from linkwright.loads.site import Site, Wrench
 
@@ -29,7 +28,7 @@ class Force(Load):
     Direction, one of: ``direction``, an angle (rad) fixed in space; ``in_link``, an angle in the axes of
     ``on``; ``normal_to`` [P, Q], along the left normal of the ray from P to Q of ``on``; ``along`` [P, Q],
     along that ray; ``opposes: velocity``, against the velocity of ``at`` in the frame, F = -magnitude v/|v|,
-    zero at rest (below 1e-12 m/s). Magnitude, one of: ``magnitude``, a number or an expression; ``ramp``
+    zero at rest (where v is rounding of zero). Magnitude, one of: ``magnitude``, a number or an expression; ``ramp``
     [q0, q1], linear in the input over the phase (over the output's way where the phase is a part of its
     stroke); ``table``. A negative magnitude reverses the force. Instead of both:
     ``components`` [Fx, Fy] in frame axes. Outside ``phase`` the force is zero. The frame takes no part:
@@ -88,7 +87,7 @@ class Force(Load):
         if self.in_link is not None:
             return site.axis(self.on).turn(site.direction(site.dimension("in_link")))
         if self.opposes is not None:
-            return _against(site.velocity(self.on, self.at))
+            return -site.heading_of(self.on, self.at)
         p, q = self.normal_to or self.along or (self.at, self.at)
         points = site.motion.mechanism.link(self.on).points
         if points[p] == points[q]:
@@ -136,13 +135,7 @@ class Force(Load):
     def _against_velocity(self, motion: Motion, index: int) -> float:
         """Against the velocity of the point; at rest against the motion that begins there."""
         point = motion.point(f"{self.on}.{self.at}")
-        vx, vy = point.velocity[index]
-        if math.hypot(vx, vy) <= AT_REST:
-            vx, vy = point.acceleration[index]
+        (vx, vy), seconds = point.velocity[index], point.acceleration[index]
+        if not motion.moving(math.hypot(vx, vy), math.hypot(*seconds), "length"):
+            vx, vy = seconds
         return math.atan2(-vy, -vx)
-
-
-def _against(velocity: Vec) -> Vec:
-    """Unit vector against a velocity; zero at rest."""
-    moves = velocity.square > AT_REST * AT_REST
-    return velocity * select(moves, -1.0 / sqrt(select(moves, velocity.square, 1.0)), 0.0)

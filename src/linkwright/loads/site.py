@@ -59,6 +59,14 @@ class Site(Protocol):
         """Angular velocity of a link, rad/s."""
         ...
 
+    def turning(self, link: str, against: str) -> Scalar:
+        """Angular velocity of a link against another one, rad/s; zero at rest, where digits would tell its sign."""
+        ...
+
+    def heading_of(self, link: str, point: str) -> Vec:
+        """Unit vector of the velocity of a point of a link; zero at rest."""
+        ...
+
     def guide(self, joint: str) -> tuple[Vec, Vec, Scalar]:
         """Of a prismatic joint: the guide's unit vector, the block's point, the sliding velocity."""
         ...

@@ -10,7 +10,7 @@ from linkwright.core.expressions import Expression
 from linkwright.core.outputs import RelativeAngle
 from linkwright.engine.trace import select
 from linkwright.loads import base
-from linkwright.loads.base import AT_REST, LOADS, Load, Output, Phase, Table
+from linkwright.loads.base import LOADS, Load, Output, Phase, Table
 from linkwright.loads.marks import Turn, sign_of
 from linkwright.loads.site import Site, Wrench
 from linkwright.words.sentence import Sentence
@@ -27,8 +27,8 @@ class Torque(Load):
 
     Magnitude, one of: ``magnitude``, a number or an expression; ``ramp`` [M0, M1], linear in the input over
     the phase; ``table``. With ``opposes: velocity`` a positive magnitude acts against the rotation of ``on``
-    relative to ``against``, M = -magnitude sign(ω), zero at rest (below 1e-12 rad/s). Outside ``phase`` it is
-    zero.
+    relative to ``against``, M = -magnitude sign(ω), zero at rest (where ω is rounding of zero). Outside ``phase``
+    it is zero.
 
     Source: Norton, Design of Machinery, chapter 11 (dynamic force analysis).
     """
@@ -61,8 +61,8 @@ class Torque(Load):
     def wrenches(self, site: Site) -> list[Wrench]:
         moment = site.magnitude()
         if self.opposes is not None:
-            omega = site.omega(self.on) - site.omega(self.against)
-            moment = moment * select(omega > AT_REST, -1.0, select(omega < -AT_REST, 1.0, 0.0))
+            omega = site.turning(self.on, self.against)
+            moment = moment * select(omega > 0.0, -1.0, select(omega < 0.0, 1.0, 0.0))
         return [Wrench(self.on, torque=moment), Wrench(self.against, torque=-moment)]
 
     def reverses(self, mechanism: Mechanism) -> Output | RelativeAngle | None:
@@ -74,9 +74,6 @@ class Torque(Load):
     def mark(self, motion: Motion, index: int) -> Turn:
         sense = sign_of(self)
         if self.opposes is not None:
-            omega = (
-                motion.link(self.on).angular_velocity[index]
-                - motion.link(self.against).angular_velocity[index]
-            )
-            sense *= 0 if abs(omega) <= AT_REST else -1 if omega > 0 else 1
+            omega = motion.turning(self.on, self.against)[index]
+            sense *= int(omega < 0.0) - int(omega > 0.0)
         return Turn(self.on, sense)

@@ -5,6 +5,8 @@ from typing import TYPE_CHECKING
 from linkwright.lazy import offer
 
 if TYPE_CHECKING:
+    from linkwright.machine.balancing import Balancing as Balancing
+    from linkwright.machine.balancing import balance as balance
     from linkwright.machine.energy import EnergyFluctuation as EnergyFluctuation
     from linkwright.machine.energy import energy_fluctuation as energy_fluctuation
     from linkwright.machine.energy import fluctuation_from_areas as fluctuation_from_areas

@@ -11,6 +11,7 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.piecewise import Piecewise, increasing
+from linkwright.core.search import first_largest
 from linkwright.errors import LinkwrightError
 from linkwright.machine.torque_curve import TorqueCurve
 
@@ -109,7 +110,7 @@ def fluctuation_from_areas(
     energy = np.concatenate([[0.0], np.cumsum(given)]) * torque_scale * angle_scale
     if abs(given.sum()) > BALANCE * np.abs(given).sum():
         raise LinkwrightError("running.areas_sum", total=given.sum())
-    low, high = int(energy.argmin()), int(energy.argmax())
+    low, high = first_largest(-energy), first_largest(energy)
     value = float(energy[high] - energy[low])
     diagram = partial(_areas, energy)
     return EnergyFluctuation(value, float(low), float(high), float(energy[-1]), diagram)

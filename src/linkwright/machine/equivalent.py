@@ -11,7 +11,7 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import row_names
-from linkwright.core.piecewise import POINTS, Integral, Piecewise, at_nodes
+from linkwright.core.piecewise import POINTS, Extreme, Integral, Piecewise, at_nodes
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.cycle import not_back
 from linkwright.kinematics.motion import Motion
@@ -122,6 +122,12 @@ class Equivalent:
     @cached_property
     def _reduced(self) -> tuple[Floats, Floats]:
         return _inertia_and_slope(self.forces.motion)
+
+    @cached_property
+    def inertia_extremes(self) -> tuple[Extreme, Extreme]:
+        """Smallest and largest J_e, kg·m², between the positions too, with the angle turned there."""
+        low, high = self.inertia_at.extremes()
+        return low, high
 
     @property
     def mean_inertia(self) -> float:

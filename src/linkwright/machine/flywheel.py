@@ -7,7 +7,11 @@ from math import pi
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import real
 from linkwright.errors import LinkwrightError, RequestError
+from linkwright.units import SMALLEST
 from linkwright.words.sentence import Sentence
+
+#: Coefficient of speed fluctuation δ for which flywheels are laid out where none is asked for.
+FLUCTUATION = 0.02
 
 
 def flywheel_inertia(energy: float, speed: float, fluctuation: float, *, present: float = 0.0) -> float:
@@ -37,9 +41,9 @@ def speed_fluctuation(energy: float, speed: float, inertia: float) -> float:
 def on_faster_shaft(inertia: float, ratio: float) -> float:
     """The same flywheel on a shaft that runs ``ratio`` times as fast as the crank: J/ratio², kg·m².
 
-    Raises LinkwrightError for a ratio of zero.
+    Raises LinkwrightError for a ratio of zero, and for one so small that nothing but rounding is left of it.
     """
-    if not abs(ratio) > 0:
+    if not abs(ratio) > SMALLEST:
         raise RequestError("running.bad_ratio")
     return inertia / (ratio * ratio)
 

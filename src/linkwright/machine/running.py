@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import field
+from dataclasses import field, replace
 
 import numpy as np
 
@@ -28,6 +28,7 @@ DIMENSIONS = {
     "mean_torque": "torque",
     "mean_power": "power",
     "motor_power": "power",
+    "motor_power_without_flywheel": "power",
     "energy_fluctuation": "energy",
     "energy_lowest_at": "angle",
     "energy_highest_at": "angle",
@@ -82,8 +83,7 @@ class SteadyRunning(Plotted):
     def text(self, language: str = "en") -> str:
         """The numbers with labels and units, one per line."""
         lines = [f"{label}: {shown(value, kind)}" for label, value, kind in self.labelled(speaker(language))]
-        if self.driven is not None:
-            lines.append(self.driven.say(language))
+        lines += [each.say(language) for each in self.remarks]
         return "\n".join(lines)
 
     def labelled(self, say: Say) -> Iterator[tuple[str, float, str]]:
@@ -97,6 +97,31 @@ class SteadyRunning(Plotted):
         name = self.equivalent.forces.mechanism.name
         return Sentence("running.driven", name=name) if self.mean_torque < 0.0 else None
 
+    @property
+    def remarks(self) -> list[Sentence]:
+        """What is to be said beside the numbers: that the loads drive the machine, or what its motor rests on."""
+        return [each for each in (self.driven, self.evened) if each is not None]
+
+    @property
+    def evened(self) -> Sentence | None:
+        """That the motor of the mean power does only beside a flywheel, or the inertia that the machine has."""
+        if self.driven is not None or self.power_without_flywheel <= self.motor.power * (1.0 + NOTHING):
+            return None
+        powers = (self.motor.power, self.power_without_flywheel)
+        most, peak = (shown(each, "power") for each in powers)
+        if not self.exact_flywheel:
+            return Sentence("running.evened_by_itself", power=most, peak=peak)
+        inertia = shown(self.exact_flywheel, "inertia")
+        return Sentence("running.needs_flywheel", power=most, peak=peak, inertia=inertia)
+
+    @property
+    def power_without_flywheel(self) -> float:
+        """What the motor must have to turn the input at constant speed: margin · largest power / efficiency, W."""
+        analysis = Analysis.of(self.equivalent.forces)
+        most = analysis.part(f"input_torque {'max' if self.equivalent.direction > 0 else 'min'}").value
+        largest = replace(self.motor, mean_power=self.equivalent.direction * most * self.equivalent.speed)
+        return largest.power
+
     def data(self) -> dict[str, float]:
         """The numbers, SI; without a motor where the loads drive the machine."""
         reduced = self.equivalent
@@ -105,11 +130,12 @@ class SteadyRunning(Plotted):
             "mean_torque": self.mean_torque,
             "mean_power": self.motor.mean_power,
             "motor_power": self.motor.power,
+            "motor_power_without_flywheel": self.power_without_flywheel,
             "energy_fluctuation": self.energy.value,
             "energy_lowest_at": reduced.input_at(self.energy.low),
             "energy_highest_at": reduced.input_at(self.energy.high),
-            "equivalent_inertia_smallest": float(reduced.inertia.min()),
-            "equivalent_inertia_largest": float(reduced.inertia.max()),
+            "equivalent_inertia_smallest": reduced.inertia_extremes[0].value,
+            "equivalent_inertia_largest": reduced.inertia_extremes[1].value,
             "required_fluctuation": self.required,
             "flywheel": self.flywheel,
             "reached_fluctuation": self.speed.fluctuation,
@@ -117,7 +143,7 @@ class SteadyRunning(Plotted):
             "shaft_flywheel": self.shaft_flywheel,
         }
         if self.driven is not None:
-            del found["motor_power"]
+            del found["motor_power"], found["motor_power_without_flywheel"]
         return found
 
 

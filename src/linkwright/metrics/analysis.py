@@ -15,7 +15,7 @@ from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.core.piecewise import POINTS, Piecewise, largest, reach, sought
-from linkwright.core.search import lowest
+from linkwright.core.search import EQUAL, first_largest, lowest
 from linkwright.engine.recently_made import Recent
 from linkwright.kinematics.limits import limit_positions
 from linkwright.kinematics.motion import Motion
@@ -53,6 +53,12 @@ class Extreme:
     time: float
     input: float
     exact: bool
+
+
+def _first_largest(*found: Extreme) -> Extreme:
+    """The one of largest size, of equal ones the first."""
+    ordered = sorted(found, key=lambda each: each.time)
+    return ordered[first_largest(np.abs([each.value for each in ordered]))]
 
 
 class Analysis:
@@ -244,7 +250,7 @@ class Analysis:
         if kind == "range":
             return replace(nothing, value=high.value - low.value, exact=high.exact and low.exact)
         if kind == "peak":
-            largest = high if abs(high.value) >= abs(low.value) else low
+            largest = _first_largest(high, low)
             return replace(largest, value=abs(largest.value))
         found = high if kind == "argmax" else low
         return replace(found, value=found.input)
@@ -318,7 +324,8 @@ class Analysis:
         bound = np.tile(grid.tolerance * size, 2)
         smooth = (rough <= bound) & (reach(pieces, tops.reshape(2, count, -1), bound[:count]) <= top + bound)
         first, last, never = time[:count], time[count:], np.full(count, np.nan)
-        above, below, upwards = smooth[:count], smooth[count:], np.abs(high) >= np.abs(low)
+        above, below, more = smooth[:count], smooth[count:], np.abs(high) - np.abs(low)
+        upwards = np.where(np.abs(more) <= EQUAL * size, first <= last, more > 0.0)
         found = {
             "max": (high, first, above),
             "min": (low, last, below),
@@ -417,7 +424,7 @@ class Analysis:
         if not np.isfinite(values).any():
             return None
         sign = 1.0 if kind == "max" else -1.0
-        index = int(np.nanargmax(sign * values))
+        index = first_largest(sign * values)
         time = self.motion.time
         at = float(self.motion.input[index]) if self.motion.inputs else float("nan")
         sample = Extreme(float(values[index]), float(time[index]), at, False)
@@ -476,7 +483,7 @@ class Analysis:
         values = signal(time)
         if not np.isfinite(values).any():
             return None
-        best = int(np.nanargmax(values))
+        best = first_largest(values)
         at = float(time[best])
         first = Extreme(sign * float(values[best]), at, self.resolver.input_at(at), True)
         low, high = time[[max(best - 1, 0)]], time[[min(best + 1, len(time) - 1)]]
@@ -487,7 +494,7 @@ class Analysis:
     ) -> Extreme:
         """The best of some brackets of a signal, of which ``sign`` makes the largest the extreme, and a sample."""
         places, least = lowest(lambda time: -signal(time.ravel()).reshape(time.shape), low, high)
-        best = int(least.argmin())
+        best = first_largest(-least)
         if not -least[best] > sign * first.value:
             return Extreme(first.value, first.time, first.input, True)
         time = float(places[best])

@@ -47,7 +47,8 @@ class MetricValue:
 
     ``subject``: the link, joint, point, group or loop; ``value``: SI; ``at``: the first driver's coordinate there
     (rad or m), None where the value belongs to the whole cycle; ``place``: a point in frame axes, m, where there is
-    one; ``exact``: False where the value is the largest or smallest of the solved positions, not refined between.
+    one; ``exact``: False where the value is the largest or smallest of the solved positions, not refined between;
+    ``limit``: the recommended one of this value, SI.
     """
 
     metric: str
@@ -59,6 +60,7 @@ class MetricValue:
     remarks: tuple[Remark, ...] = ()
     place: tuple[float, float] | None = None
     exact: bool = True
+    limit: float | None = None
 
     @property
     def unit(self) -> str:
@@ -80,8 +82,8 @@ class MetricValue:
         metric, at, limit = METRICS[self.metric](), "", ""
         if self.at is not None:
             at = shown(self.at if abs(self.at) >= NO_PLACE else 0.0, self.at_dimension)
-        if metric.limit is not None:
-            limit = f"{'≥' if metric.better == 'higher' else '≤'} {shown(metric.limit, metric.dimension)}"
+        if self.limit is not None:
+            limit = f"{'≥' if metric.better == 'higher' else '≤'} {shown(self.limit, self.dimension)}"
         label, subject = metric.label_in(language, self.dimension), in_words(self.subject, language)
         return label, subject, in_unit(self.value, self.dimension), shown_unit(self.dimension), at, limit
 
@@ -266,6 +268,7 @@ class Metric(ABC):
     ) -> MetricValue:
         """A value of this number; an ``at`` that is NaN is left out."""
         kind = dimension or self.dimension
+        more.setdefault("limit", self.limit if kind == self.dimension else None)
         where = None if at is None or isnan(at) else at
         return MetricValue(self.name, subject, float(value), kind, where, analysis.input_dimension, **more)
 

@@ -32,7 +32,7 @@ from linkwright.errors import LinkwrightError
 from linkwright.kinematics.bends import bend_times, stretches, with_leaps
 from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import Forces
-from linkwright.kinetostatics.friction import FrictionTerm, joint_rate
+from linkwright.kinetostatics.friction import FrictionTerm, joint_rate, moving_rate
 from linkwright.kinetostatics.programs import signed_name
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.loads.base import Load
@@ -314,7 +314,8 @@ class CycleGrid:
                 found.append(np.array([each.time for each in signals.limits(reversing)]))
             elif reversing is not None:
                 turning.append(reversing)
-        if turning := [*self._forces.solver.friction.terms, *turning]:
+        turning = [*self._forces.solver.friction.terms, *turning]
+        if turning := [each for each in turning if moving_rate(self._motion, each).any()]:
             found.append(self._reversals(turning))
         return self._wrapped(found)
 

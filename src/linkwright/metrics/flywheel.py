@@ -12,6 +12,7 @@ import numpy as np
 from linkwright.engine.trace import Scalar, maximum, select
 from linkwright.errors import LinkwrightError
 from linkwright.kinetostatics.forces import Forces
+from linkwright.machine.flywheel import FLUCTUATION
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Better, Metric, Number
 from linkwright.metrics.true_speed import steady_cycle
@@ -59,7 +60,7 @@ class Flywheel(EnergyFluctuation):
 
     dimension = "inertia"
 
-    def __init__(self, fluctuation: float = 0.02) -> None:
+    def __init__(self, fluctuation: float = FLUCTUATION) -> None:
         self.fluctuation = fluctuation
 
     def numbers(self, analysis: Analysis) -> Iterator[Number]:
@@ -83,7 +84,7 @@ class TrueSpeed(EnergyFluctuation):
     on_request = True
     rank = 9
 
-    def __init__(self, fluctuation: float = 0.02) -> None:
+    def __init__(self, fluctuation: float = FLUCTUATION) -> None:
         self.fluctuation = fluctuation
 
     def numbers(self, analysis: Analysis) -> Iterator[Number]:

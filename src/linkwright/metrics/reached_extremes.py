@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.core.search import peaks
+from linkwright.core.search import first_largest, peaks
 from linkwright.kinetostatics.forces import ROUNDING
 
 if TYPE_CHECKING:
@@ -26,7 +26,7 @@ def extreme_of_part(analysis: Analysis, signal: Signal, sign: float, of: str, sa
     tells it."""
     ends, resolver = analysis.ends, analysis.resolver
     times, values = _samples(analysis, signal, of)
-    index = int(np.nanargmax(sign * values))
+    index = first_largest(sign * values)
     if sign * values[index] > sign * sample.value or analysis.ways.known:
         time = float(times[index])
         sample = replace(sample, value=float(values[index]), time=time, input=resolver.input_at(time))

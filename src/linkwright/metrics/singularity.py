@@ -10,6 +10,7 @@ from linkwright.kinetostatics.closure import closable
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Better, Metric, MetricValue, Number, Remark
 from linkwright.metrics.quantities import shown
+from linkwright.structure.group import Group
 
 #: Below this a dyad is nearer than 10° to a dead point.
 NEAR = 0.17
@@ -34,11 +35,20 @@ class Singularity(Metric):
         for group in closable(analysis.motion.structure):
             yield Number(group.name, (f"conditioning {group.name} min",))
 
+    @staticmethod
+    def throughout(analysis: Analysis) -> Iterator[tuple[Group, float, float]]:
+        """The groups that are near a singular position all the time, with their best value and its limit."""
+        for group in closable(analysis.motion.structure):
+            best, limit = analysis.part(f"conditioning {group.name} max").value, NEAR ** len(group.cuts)
+            if best < limit:
+                yield group, best, limit
+
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:
         for found, group in zip(super().values(analysis), closable(analysis.motion.structure), strict=False):
-            if found.value >= NEAR ** len(group.cuts):
-                yield found
+            limit = NEAR ** len(group.cuts)
+            if found.value >= limit:
+                yield replace(found, limit=limit)
                 continue
             at = shown(found.at if found.at is not None else float("nan"), analysis.input_dimension)
             remark = Remark("singularity.near", {"group": group.name, "at": at}, warning=True)
-            yield replace(found, remarks=(remark,))
+            yield replace(found, limit=limit, remarks=(remark,))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from math import ceil
 from typing import Any
 
@@ -24,6 +24,8 @@ from linkwright.loads.base import Load
 from linkwright.loads.over_cycle import activity
 from linkwright.loads.signals import Limit, Whole
 
+#: Shares of the cycle at which the forces of an extreme are looked at: at a jump they are those of one side.
+BESIDE = np.array([0.0, -1e-9, 1e-9])
 #: Steps of a cycle from which its numbers are read.
 FEWEST = 24
 
@@ -80,6 +82,18 @@ class Resolver(Reach):
         if of != "forces":
             return self.motion(time)
         return self._at_once(time, asked) or self.forces(self.motion(time))
+
+    def forces_at(
+        self, wanted: Sequence[tuple[Callable[[Forces], Floats], float, float]]
+    ) -> tuple[Forces, list[int]]:
+        """Forces where signals of them have values, and the position of each: at a jump that on its side.
+
+        ``wanted``: signals of the forces, each with a time, s, and its value there.
+        """
+        times = np.array([time for _, time, _ in wanted])[:, None] + self._motion.time.max() * BESIDE
+        forces = self.at(times.ravel(), "forces")
+        off = [np.abs(signal(forces) - value).reshape(times.shape) for signal, _, value in wanted]
+        return forces, [k * BESIDE.size + int(each[k].argmin()) for k, each in enumerate(off)]
 
     def _at_once(self, time: Floats, asked: tuple[str, ...]) -> Forces | None:
         """Forces with their motion in one evaluation, where all positions are reached and no mode changes."""

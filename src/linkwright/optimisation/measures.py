@@ -201,12 +201,9 @@ class Measures:
         """Numbers of one design, by its dimensions alone; NaN where it has none or does not move."""
         try:
             each = self._alternative(self.mechanism.with_dimensions(dimensions))
-            found = [criterion(name).measure(each) for name in self.numbers]
-        except RequestError:
-            raise
         except LinkwrightError:
             return (np.nan,) * len(self.numbers)
-        return tuple(np.nan if number is None else float(number.value) for number in found)
+        return tuple(_number(name, each) for name in self.numbers)
 
     def _measured(
         self, addresses: tuple[str, ...], designs: list[tuple[float, ...]]
@@ -320,6 +317,17 @@ def _designs(
 def _of_problem(pickled: bytes) -> Measures:
     """Made once for all designs of a search."""
     return Measures(pickle.loads(pickled))
+
+
+def _number(name: str, each: Alternative) -> float:
+    """A number of a design; NaN where it has none."""
+    try:
+        found = criterion(name).measure(each)
+    except RequestError:
+        raise
+    except LinkwrightError:
+        return np.nan
+    return np.nan if found is None else float(found.value)
 
 
 def is_metric(name: str) -> bool:

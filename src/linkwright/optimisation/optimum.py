@@ -97,11 +97,14 @@ class Optimum(Plotted, Frozen):
             return dump(self.mechanism(index))
         return changed_text(self.document, self.choices[index].values)
 
-    def write(self, path: str | Path, index: int = 0) -> Path:
-        """Writes the model file of one design, whole or not at all."""
+    def write(self, path: str | Path, index: int = 0, *, force: bool = False) -> Path:
+        """Writes the model file of one design, whole or not at all.
+
+        Raises LinkwrightError where it cannot be written, and for a file that is there already unless ``force``.
+        """
         from linkwright.whole_files import write_whole
 
-        return write_whole(path, self.model_text(index).encode())
+        return write_whole(path, self.model_text(index).encode(), force=force)
 
     def text(self, language: str = "en") -> str:
         """Variables and numbers beside the start, and what to know about them."""
@@ -116,6 +119,8 @@ class Optimum(Plotted, Frozen):
             "name": self.problem.mechanism.name,
             "objectives": [{"number": each.text, "sign": each.sign} for each in self.problem.goals],
             "demands": {text: list(limits) for text, limits in self.limits.items()},
+            "units": {**{each.address: each.si for each in self.problem.variables},
+                      **{text: units.si_symbol(kind) for text, kind in self.kinds.items()}},
             "start": {"values": dict(zip(addresses, self.problem.start.tolist(), strict=True)),
                       "numbers": dict(self.start)},
             "designs": [{"values": dict(each.values), "numbers": dict(each.numbers), "missed": list(each.missed),

@@ -14,6 +14,7 @@ from linkwright import units
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, LinkwrightError, ModelError, RequestError
+from linkwright.machine.flywheel import FLUCTUATION
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.optimisation.paths import path_error
 from linkwright.registry import offered
@@ -40,6 +41,11 @@ class Variable:
     high: float
     choices: Floats | None = None
     unit: str = ""
+
+    @property
+    def si(self) -> str:
+        """The SI unit of its values."""
+        return units.si_symbol(units.unit(self.unit)[1]) if self.unit else ""
 
     def shown(self, value: float) -> str:
         """A value in the unit of the bounds."""
@@ -88,7 +94,7 @@ class Problem:
     tolerances: Mapping[str, float] = field(default_factory=dict)
     robust: Robust = ""
     least_yield: float = 0.99
-    fluctuation: float = 0.02
+    fluctuation: float = FLUCTUATION
     steps: int = 360
     evaluations: int = 4000
     population: int = 0
@@ -199,10 +205,10 @@ class _Reading:
         value = self.given.get(key, usual)
         try:
             found = float(value)
-        except (TypeError, ValueError):
+        except (TypeError, ValueError, OverflowError):
             found = float("nan")
         low = 0.0 if key in ("seed", "population") else 1.0 if key in ("steps", "evaluations") else 1e-12
-        high = 1.0 if key in ("yield", "fluctuation") else 1e9
+        high = 1.0 if key in ("yield", "fluctuation") else 1e6 if key in ("steps", "population") else 1e9
         if not low <= found <= high:
             self._wrong(key, Sentence("optimize.number", key_=key, given=str(value), low=low, high=high))
         return found
@@ -285,7 +291,14 @@ def _rising(found: Range) -> None:
         raise RequestError("optimize.falling", address=found.address, **said)
 
 
-_USUAL = {"yield": 0.99, "fluctuation": 0.02, "steps": 360, "evaluations": 4000, "population": 0, "seed": 0}
+_USUAL = {
+    "yield": 0.99,
+    "fluctuation": FLUCTUATION,
+    "steps": 360,
+    "evaluations": 4000,
+    "population": 0,
+    "seed": 0,
+}
 
 
 def _demand(text: str, value: Any) -> Demand | None:

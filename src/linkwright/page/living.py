@@ -19,9 +19,12 @@ class LivingPage:
     html: str
     height: int = 720
 
-    def save(self, path: str | Path) -> Path:
-        """Writes the file, whole or not at all; raises LinkwrightError where it cannot be written."""
-        return write_whole(path, self.html.encode())
+    def save(self, path: str | Path, *, force: bool = False) -> Path:
+        """Writes the file, whole or not at all.
+
+        Raises LinkwrightError where it cannot be written, and for a file that is there already unless ``force``.
+        """
+        return write_whole(path, self.html.encode(), force=force)
 
     def _repr_html_(self) -> str:
         return (

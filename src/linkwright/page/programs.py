@@ -27,6 +27,7 @@ from linkwright.kinematics.step_rule import StepRule
 from linkwright.kinematics.trace import MotionTrace
 from linkwright.kinetostatics.closure import dyads, transmission
 from linkwright.kinetostatics.forces import Forces, solve_forces
+from linkwright.kinetostatics.friction import FrictionTerm, traced_rate
 from linkwright.kinetostatics.load_site import TracedSite, guide_state
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.kinetostatics.traced_loads import AlongInput, numbers_of_loads
@@ -38,6 +39,11 @@ from linkwright.page.loads import angles, fields, found_again, phases, traced_na
 from linkwright.structure.group import Group
 
 STEPS = 360
+
+
+def _rate_of(term: FrictionTerm) -> str:
+    """Name of the output that is the rate of a joint with friction, zero at rest."""
+    return f"moving {term.field}"
 
 
 class PagePrograms:
@@ -92,7 +98,7 @@ class PagePrograms:
         terms = self.forces.solver.friction.terms if self.forces is not None else ()
         joints = self.mechanism.joints
         return [
-            {**asdict(term), "field": term.field,
+            {**asdict(term), "field": term.field, "rate": _rate_of(term),
              "on": [term.b] if term.b in joints[term.joint].joined[1:] else joints[term.joint].joined[1:]}
             for term in terms
         ]  # fmt: skip
@@ -216,6 +222,8 @@ class PagePrograms:
             names += [*row_names("load", load), *row_names("load_place", load)]
         names += [*row_names("shaking_force"), row_name("shaking_moment")]
         found: dict[str, Scalar | bool] = {name: forces.value(name) for name in names}
+        motion, terms = self.traced.solver.motion, self.traced.forces.friction.terms
+        found |= {_rate_of(term): traced_rate(motion, term) for term in terms}
         return found if (sizes := self._sizes()) is None else {**found, SIZES: sizes}
 
     def _sizes(self) -> Scalar | None:

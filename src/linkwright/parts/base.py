@@ -7,8 +7,9 @@ A problem is a frozen dataclass: ``findings`` lists what is wrong with it, ``sol
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping, Sequence
+from collections.abc import Container, Mapping, Sequence
 from dataclasses import fields
+from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -18,7 +19,7 @@ from linkwright.core.plot_method import Plotted
 from linkwright.errors import Finding, ModelError
 from linkwright.fields.base import GivenByFile
 from linkwright.metrics.quantities import FURTHER, SHOWN
-from linkwright.units import SI_UNITS
+from linkwright.units import SI_UNITS, Dimension, si_symbol
 from linkwright.words import Say, speaker
 from linkwright.words.characters import aligned
 from linkwright.words.sentence import Sentence
@@ -121,28 +122,52 @@ class Scale:
     si: str
 
 
+def in_si(kind: Dimension) -> Scale:
+    """The SI unit of a dimension."""
+    return Scale(si_symbol(kind), 1.0, si_symbol(kind))
+
+
+#: Shares of one as tables show them; they are plain numbers in data.
+PERCENT, PARTS_PER_MILLION = Scale("%", 1e-2, ""), Scale("ppm", 1e-6, "")
+
+
 @dataclass(frozen=True)
 class Row:
     """One number of a result: its key, value (SI) and dimension; ``label`` where it is not the key's word.
 
-    A text in place of the number has no dimension; ``scale`` is a unit of the user's own.
+    An interval goes from ``value`` to ``end``; ``scale`` is the unit of a number without dimension; ``text`` is what
+    tables show in place of number and unit.
     """
 
     key: str
-    value: float | str
+    value: float
     dimension: str = ""
     label: str = ""
     note: str = ""
     scale: Scale | None = None
+    end: float | None = None
+    text: str = ""
 
     def cells(self, area: str, say: Say, digits: int = 6) -> list[str]:
         """Label, number with so many digits, unit and note."""
         label = self.label or say(f"{area}.{self.key}")
-        if isinstance(self.value, str):
-            return [label, self.value, "", self.note]
+        if self.text:
+            return [label, self.text, "", self.note]
+        ends = [self.value] if self.end is None else [self.value, self.end]
         if self.scale is not None:
-            return [label, f"{self.value / self.scale.factor:.{digits}g}", self.scale.unit, self.note]
-        return [label, number(self.value, self.dimension, digits), unit(self.dimension), self.note]
+            size = self.scale.factor
+            return [label, " … ".join(f"{end / size:.{digits}g}" for end in ends), self.scale.unit, self.note]
+        shown = " … ".join(number(end, self.dimension, digits) for end in ends)
+        return [label, shown, unit(self.dimension), self.note]
+
+    def data(self) -> dict[str, Any]:
+        """Value or both ends, SI, with their unit, and the note."""
+        value = self.value if self.end is None else [self.value, self.end]
+        found: dict[str, Any] = {
+            "value": value,
+            "unit": self.scale.si if self.scale else si_unit(self.dimension),
+        }
+        return {**found, "note": self.note} if self.note else found
 
 
 @dataclass(frozen=True)
@@ -189,16 +214,15 @@ class Result(Plotted, ABC):
         return "\n".join(lines)
 
     def data(self) -> dict[str, Any]:
-        """The numbers by block and key, SI, each with its unit; remarks in English."""
+        """The numbers by block and label, SI, each with its unit; notes and remarks in English."""
         found: dict[str, Any] = {"name": self.title}
         for block in self.blocks(speaker("en")):
             rows: dict[str, Any] = {}
             for row in block.rows:
-                key = row.label or row.key
-                plain = isinstance(row.value, str)
-                own = row.scale.si if row.scale else si_unit(row.dimension)
-                rows[key] = row.value if plain else {"value": row.value, "unit": own}
-            found[block.key] = {**rows, "remarks": list(block.remarks)} if block.remarks else rows
+                rows[unused((row.label or row.key).strip(), rows)] = row.data()
+            if block.remarks:
+                rows[unused("remarks", rows)] = list(block.remarks)
+            found[unused(block.key, found)] = rows
         return found
 
     def worked(self, language: str = "en") -> str:
@@ -209,6 +233,11 @@ class Result(Plotted, ABC):
 
     def __repr__(self) -> str:
         return self.text()
+
+
+def unused(key: str, taken: Container[str]) -> str:
+    """The key, numbered where a name that the user chose has taken it: ``remarks (2)``."""
+    return next(each for n in count(1) if (each := f"{key} ({n})" if n > 1 else key) not in taken)
 
 
 def put(

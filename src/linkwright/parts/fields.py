@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -16,6 +17,10 @@ from linkwright.registry import nearest
 from linkwright.words.sentence import Sentence
 
 Make = Callable[..., Any]
+
+#: More positions or machines than one computer takes at once.
+MOST = 10_000_000
+_WHOLE = re.compile(r"[+-]?[0-9]{1,18}")
 
 
 @dataclass(frozen=True)
@@ -147,22 +152,23 @@ class Flag(Field):
 
 @dataclass(frozen=True)
 class Whole(Field):
-    """A whole number from ``least`` on."""
+    """A whole number from ``least`` to ``most``."""
 
     least: int = 0
+    most: int = MOST
 
     def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> int | None:
         text = reader.text(node, place)
         if text is None:
             return None
-        if text.strip().lstrip("+-").isdigit() and int(text) >= self.least:
+        if _WHOLE.fullmatch(text.strip()) and self.least <= int(text) <= self.most:
             return int(text)
-        message = Sentence("part.no_whole", text=text, least=self.least)
+        message = Sentence("part.no_whole", text=text, least=self.least, most=self.most)
         reader.error(node, place, message, Sentence("part.no_whole_remedy"), "range")
         return None
 
     def shape(self) -> Schema:
-        return {"type": "integer", "minimum": self.least}
+        return {"type": "integer", "minimum": self.least, "maximum": self.most}
 
 
 @dataclass(frozen=True)
@@ -231,7 +237,9 @@ def _any(
     except QuantityError as error:
         reader.quantity_error(error, node, place, text)
         return None
-    return (value * factor, kind) if kind is not None and own == units.NONE else (value, own)
+    if kind is not None and own == units.NONE:
+        value, own = value * factor, kind
+    return None if reader.within(value, node, place, *units.most(own)) is None else (value, own)
 
 
 def unknown_name(reader: Reader, node: Node, place: Place, code: str, name: str, known: list[str]) -> None:

@@ -217,7 +217,7 @@ def _node_at(root: Node, key: str) -> Node:
             rest = "" if name is None else rest[len(name) + 1 :]
         elif isinstance(node, SequenceNode):
             head, _, rest = rest.partition(".")
-            below = node.items[int(head)] if head.isdigit() and int(head) < len(node.items) else None
+            below = node.items[int(head)] if head.isdecimal() and int(head) < len(node.items) else None
         if below is None:
             return node
         node = below

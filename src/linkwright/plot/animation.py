@@ -19,6 +19,7 @@ from linkwright.kinematics.names import point_key
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.table import results_of
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.plot.diagrams.source import Source
 from linkwright.plot.drawing.draw import Names, all_arrows, solved
 from linkwright.plot.drawing.frames import frame_indices, key_indices, usual_seconds
 from linkwright.plot.drawing.labels import Label, Obstacles, place_moving, point_labels, written
@@ -32,7 +33,7 @@ from linkwright.plot.drawing.vectors import Arrows, scale_of
 from linkwright.plot.drawing.video import gif, mp4
 from linkwright.plot.svg.element import Element, circle, group
 from linkwright.plot.svg.render import png
-from linkwright.whole_files import write_whole
+from linkwright.whole_files import refuse_target, write_whole
 from linkwright.words import say
 from linkwright.words.sentence import in_language
 
@@ -193,13 +194,16 @@ class Animation:
         width: int = 640,
         fonts: Sequence[str | Path] = (),
         progress: Progress | None = None,
+        force: bool = False,
     ) -> Path:
         """Write it as .svg, .gif or .mp4, whole or not at all.
 
         ``width``: pixels across of GIF and MP4; ``progress`` is called with the frames done and their number.
         GIF needs ``linkwright[plot]``, MP4 ``linkwright[video]``. Raises LinkwrightError for another suffix, a
-        missing package or font, a folder that cannot be written.
+        missing package or font, a folder that cannot be written, and for a file that is there already unless
+        ``force``.
         """
+        refuse_target(path, force=force)
         suffix = Path(path).suffix.lower()
         if suffix != ".svg" and not WIDTHS[0] <= whole("width", width) <= WIDTHS[1]:
             raise RequestError("picture.bad_film_width", width=width, least=WIDTHS[0], most=WIDTHS[1])
@@ -295,7 +299,25 @@ class Animation:
         if not self.curves:
             return None
         alone = len(self.scene.machine.motion.mechanism.drivers) == 1
-        return panel(self.results, self.curves, self._drawn_box, self.language, alone=alone)
+        return panel(self.results, self.curves, self._drawn_box, self.language, alone=alone, ends=self._ends)
+
+    def _ends(self, output: Output) -> tuple[float, float]:
+        """Smallest and largest value of a result: between the positions where it is found there."""
+        motion, values = self.scene.machine.motion, self.results[output]
+        source = Source(motion if self.forces is None else self.forces)
+        of = "motion" if self.forces is None else "forces"
+
+        def signal(solved: Motion | Forces) -> Floats:
+            parts = (solved, None) if isinstance(solved, Motion) else (solved.motion, solved)
+            return results_of(*parts)[output]
+
+        exact = (
+            source.angle_extremes(signal, values) if output.kind == "angle" else source.extremes(signal, of)
+        )
+        found = [exact(kind) if exact is not None else None for kind in ("min", "max")]
+        samples = float(np.nanmin(values)), float(np.nanmax(values))
+        low, high = (s if e is None else e.value for s, e in zip(samples, found, strict=True))
+        return low, high
 
     @cached_property
     def _legend(self) -> Legend:

@@ -21,7 +21,7 @@ from linkwright.report.settings import Settings
 from linkwright.structure.group import Structure
 from linkwright.units import parse
 from linkwright.words import Say, speaker
-from linkwright.words.sentence import in_language
+from linkwright.words.sentence import in_language, links_said
 
 if TYPE_CHECKING:
     from linkwright.machine.running import SteadyRunning
@@ -253,8 +253,7 @@ class Case:
     @property
     def links_text(self) -> str:
         """The links with the numbers that stand in symbols."""
-        numbered = (f"{number} {name}" for name, number in self.heads.numbers.items())
-        return self.say("worked.links", links=", ".join(numbered))
+        return self.say("worked.links", links=", ".join(links_said(self.heads.numbers, self.language)))
 
     # pictures -----------------------------------------------------------------------------------
     def diagram(self, kind: str, source: object = None, **options: object) -> str:

@@ -33,7 +33,7 @@ from linkwright.report.markdown import own_text, printable
 from linkwright.report.numbers import typeset
 from linkwright.report.section import SECTIONS, Section
 from linkwright.report.settings import settings
-from linkwright.whole_files import write_whole
+from linkwright.whole_files import refuse_target, write_whole
 from linkwright.words import speaker
 from linkwright.words.sentence import Sentence, in_language
 from linkwright.words.titles import title_said
@@ -87,9 +87,14 @@ class Report:
         if sentence not in self.document.missing:
             self.document.missing.append(sentence)
 
-    def save(self, path: str | Path) -> Path:
-        """Write it, whole or not at all; the ending of ``path`` says which form."""
-        return write_whole(path, self.content(Path(path).suffix.lower()))
+    def save(self, path: str | Path, *, force: bool = False) -> Path:
+        """Write it, whole or not at all; the ending of ``path`` says which form.
+
+        Raises LinkwrightError for another ending, where the file cannot be written, and for one that is there already
+        unless ``force``.
+        """
+        refuse_target(path, force=force)
+        return write_whole(path, self.content(Path(path).suffix.lower()), force=force)
 
     def __repr__(self) -> str:
         return f"Report({self.document.title!r}: {len(self.document.blocks)} blocks)"

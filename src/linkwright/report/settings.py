@@ -8,6 +8,7 @@ from typing import Any
 
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
+from linkwright.machine.flywheel import FLUCTUATION
 from linkwright.registry import offered
 from linkwright.words import LANGUAGES
 
@@ -51,7 +52,7 @@ class Settings:
     position: str = ""
     positions: int | None = None
     numbered_from: str = ""
-    fluctuation: float = 0.03
+    fluctuation: float = FLUCTUATION
     text: Mapping[str, str] = field(default_factory=dict)
     errata: tuple[Erratum, ...] = ()
 
@@ -71,7 +72,7 @@ def settings(given: Mapping[str, Any], language: str = "en") -> Settings:
         sections=tuple(map(str, _sequence(given, "sections"))),
         positions=_count(given["positions"]) if "positions" in given else None,
         numbered_from=str(given.get("numbered_from", "")),
-        fluctuation=_fluctuation(given.get("fluctuation", 0.03)),
+        fluctuation=_fluctuation(given.get("fluctuation", FLUCTUATION)),
         text={str(key): str(text) for key, text in _mapping(given, "text").items()},
         errata=tuple(_erratum(each, i) for i, each in enumerate(_sequence(given, "errata"))),
     )

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import hashlib
 import json
-import os
+from contextlib import suppress
 from dataclasses import asdict
 from pathlib import Path
 
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.cache import folder as cache_folder
+from linkwright.errors import RequestError
+from linkwright.whole_files import make_folder, write_whole
 
 
 @dataclass(frozen=True)
@@ -37,13 +39,9 @@ def remember(folder: Path, address: Address) -> None:
     path = _path(folder)
     if path is None:
         return
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.unlink(missing_ok=True)
-        with os.fdopen(os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "w") as file:
-            json.dump(asdict(address), file)
-    except OSError:
-        return
+    with suppress(RequestError):
+        make_folder(path.parent)
+        write_whole(path, json.dumps(asdict(address)).encode(), private=True)
 
 
 def _path(folder: Path) -> Path | None:

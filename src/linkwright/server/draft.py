@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
@@ -26,7 +27,7 @@ class Draft(Document):
     """
 
     def __init__(self, text: str, places: Mapping[str, list[float]] | None = None) -> None:
-        self.name, self.text = "model", text
+        self.name, self.text = "model", text.removeprefix("\ufeff")
         self._places = dict(places or {})
 
     def shown(self) -> Plain:
@@ -37,7 +38,7 @@ class Draft(Document):
     @property
     def root(self) -> MappingNode:
         """The tree; raises LinkwrightError for a text that has none."""
-        root, _ = compose(self.text.removeprefix("\ufeff"))
+        root, _ = compose(self.text)
         if root is None:
             return MappingNode(0, 0, 0, 0)
         if not isinstance(root, MappingNode):
@@ -51,11 +52,19 @@ class Draft(Document):
         found = self.root.get(name)
         return found if isinstance(found, MappingNode) else None
 
+    def link(self, name: str) -> MappingNode:
+        """The entry of a link; raises LinkwrightError where there is none."""
+        links = self.section("links")
+        found = links.get(name) if links is not None else None
+        if not isinstance(found, MappingNode):
+            raise LinkwrightError("studio.no_link", name=name)
+        return found
+
     def put(self, section: str, key: str, value: Any) -> None:
         """Write an entry of a section, which is added at the end where it is missing."""
         found = self.section(section)
         if found is None:
-            self._append(f"{section}:\n  {key}: {flow(value)}")
+            self._append(f"{section}:\n  {scalar(key)}: {flow(value)}")
         else:
             self.write_key(found, key, flow(value))
 
@@ -68,12 +77,11 @@ class Draft(Document):
         if (old := node.get(key)) is not None:
             self.write(old, text)
         else:
-            self.text = self._added(self.text, node, key, text).made(self.text)
+            self.text = self._added(self.text, node, scalar(key), text).made(self.text)
 
     def write(self, node: Node, text: str) -> None:
         """Writes a text in place of a node."""
-        offset = 1 if self.text.startswith("\ufeff") else 0
-        start, end = node.start + offset, node.end + offset
+        start, end = node.start, node.end
         while end > start and self.text[end - 1] in " \r\n":
             end -= 1
         self.text = self.text[:start] + text + self.text[end:]
@@ -100,18 +108,19 @@ class Draft(Document):
         if old is None:
             self._append(text)
             return
-        offset = 1 if self.text.startswith("\ufeff") else 0
-        end = content_end(old) + offset
-        self.text = self.text[: old.key.start + offset] + text + self.text[end:]
+        self.text = self.text[: old.key.start] + text + self.text[content_end(old) :]
 
     def take_out(self, section: str, key: str) -> None:
         """Take an entry out of a section, and the section with its last entry."""
         found = self.section(section)
-        place = [entry.key.text for entry in found.entries].index(key) if found is not None else 0
-        assert found is not None
-        if len(found.entries) == 1:
+        if found is None or len(found.entries) == 1:
             self.cut_top(section)
-            return
+        else:
+            self.cut(found, key)
+
+    def cut(self, found: MappingNode, key: str) -> None:
+        """Take one of several entries out of a mapping."""
+        place = [entry.key.text for entry in found.entries].index(key)
         entry = found.entries[place]
         if found.flow:
             nearby = found.entries[place + 1].key.start if place + 1 < len(found.entries) else entry.value.end
@@ -139,7 +148,8 @@ class Draft(Document):
 
 
 def picture(text: str) -> Plain:
-    """What of a text can be drawn before it is a model: points (m), links with their points, fixed points, driver."""
+    """What of a text can be drawn before it is a model: points (m), links with their points, fixed points, driver,
+    loads with the points or links that they act on and the direction of a force (rad)."""
     draft = Draft(text)
     frame = draft.section("frame")
     fixed = _places(frame.get("points") if frame is not None else None)
@@ -147,9 +157,11 @@ def picture(text: str) -> Plain:
     for name, link in draft.section("links") or ():
         points = link.get("points") if isinstance(link, MappingNode) else None
         names = [name for name, _ in points] if isinstance(points, MappingNode) else texts(points)
-        links[name] = names
+        also = link.get("also") if isinstance(link, MappingNode) else None
+        links[name] = [*names, *(point for point, _ in also)] if isinstance(also, MappingNode) else names
     driver = draft.section("driver")
     turned = driver.get("turn") if driver is not None else None
+    loads = [(name, load) for name, load in draft.section("loads") or () if isinstance(load, MappingNode)]
     return {
         "points": {**_places(draft.root.get("drawing")), **fixed},
         "fixed": list(fixed),
@@ -162,7 +174,25 @@ def picture(text: str) -> Plain:
             and joint.get("block") is not None
             and isinstance(each := joint.get("at"), Scalar)
         ],
+        "loads": {name: _load(load) for name, load in loads},
     }
+
+
+def _load(load: MappingNode) -> Plain:
+    """A load as it is drawn: its words, the link and point that it acts on, its direction in space (rad)."""
+    angle, components = None, texts(load.get("components"))
+    with suppress(QuantityError, ValueError):
+        x, y = (units.parse(each, "force") for each in components) if components else (0.0, 0.0)
+        angle = math.atan2(y, x) if components else units.parse(word(load, "direction"), "angle")
+    ends = texts(load.get("between")) or texts(load.get("links"))
+    size = (
+        " ".join(filter(None, (word(load, key) for key in ("magnitude", "stiffness", "damping"))))
+        or components
+    )
+    return {
+        "kind": word(load, "kind"), "on": word(load, "on"), "at": word(load, "at"), "angle": angle,
+        "ends": [end.split(".")[-1] for end in ends], "size": size if isinstance(size, str) else ", ".join(size),
+    }  # fmt: skip
 
 
 def completed(shown: Plain, motion: Motion) -> Plain:
@@ -191,6 +221,12 @@ def _as_drawn(motion: Motion) -> Motion:
         with suppress(LinkwrightError):
             return solve_motion(motion.mechanism, at=at)
     return motion
+
+
+def word(entry: MappingNode, key: str) -> str:
+    """The text of a key; "" where there is none."""
+    node = entry.get(key)
+    return node.text if isinstance(node, Scalar) else ""
 
 
 def fresh(stem: str, known: Iterable[str]) -> str:

@@ -11,11 +11,11 @@ from linkwright import units
 from linkwright.core.json_data import Plain
 from linkwright.errors import LinkwrightError, QuantityError
 from linkwright.fields.nodes import Mapping as MappingNode
-from linkwright.fields.nodes import Scalar
 from linkwright.joints.base import JOINTS
 from linkwright.joints.cam import CamJoint
 from linkwright.joints.rack import RackPair
-from linkwright.server.draft import Draft
+from linkwright.server import request
+from linkwright.server.draft import Draft, word
 from linkwright.units import number
 
 #: A roller's radius as share of its centre's distance from the cam's; lengths are written to this, m.
@@ -31,12 +31,14 @@ def add_cam(draft: Draft, action: Mapping[str, Any]) -> None:
     follower is the way of the roller.
     """
     shown = draft.shown()
-    cam, at = str(action["cam"]), str(action["at"])
+    cam, at = request.name(action, "cam"), request.name(action, "at")
     centre = _pin(shown, cam)
     follower = _link_with(shown, at, cam)
     if centre is None or follower is None:
         raise LinkwrightError("studio.no_cam", cam=cam, at=at)
     away = _place(shown, at) - _place(shown, centre)
+    if abs(away) < FINEST:
+        raise LinkwrightError("studio.no_cam", cam=cam, at=at)
     roller = _nice(ROLLER * abs(away))
     entry: Plain = {
         "kind": CamJoint.kind, "cam": cam, "follower": follower, "at": at, "touch": "roller",
@@ -56,7 +58,7 @@ def add_cam(draft: Draft, action: Mapping[str, Any]) -> None:
     phase = _drawn_angle(shown, cam)
     if phase:
         entry["phase"] = f"{number(phase, 6)} deg"
-    lift = _lift(str(action["lift"]), arm)
+    lift = _lift(request.text(action, "lift"), arm)
     up, above, down, below = (f"{each} deg" for each in LIFTING)
     law = {"law": "modified_sine"}
     entry["program"] = [
@@ -69,7 +71,7 @@ def add_rack(draft: Draft, action: Mapping[str, Any]) -> None:
     """A slider as rack of a link that turns about a pin; the pitch radius is the pin's distance from the slider's
     way."""
     shown = draft.shown()
-    pinion, rack = str(action["pinion"]), str(action["rack"])
+    pinion, rack = request.name(action, "pinion"), request.name(action, "rack")
     centre = _pin(shown, pinion)
     _, guide = _guide_of(draft, rack)
     through = shown["links"].get(rack, [None])[0]
@@ -87,6 +89,8 @@ def add_rack(draft: Draft, action: Mapping[str, Any]) -> None:
 
 
 def _place(shown: Plain, point: str) -> complex:
+    if point not in shown["points"]:
+        raise LinkwrightError("studio.no_point", name=point)
     return complex(*shown["points"][point])
 
 
@@ -104,22 +108,17 @@ def _link_with(shown: Plain, point: str, other: str) -> str | None:
 def _guide_of(draft: Draft, block: str) -> tuple[str, MappingNode | None]:
     """The guide on the frame that a link slides in, with its name."""
     for name, joint in draft.section("joints") or ():
-        kind = _word(joint, "kind") if isinstance(joint, MappingNode) else ""
+        kind = word(joint, "kind") if isinstance(joint, MappingNode) else ""
         if not isinstance(joint, MappingNode) or kind not in JOINTS or JOINTS[kind].coordinate != "slide":
             continue
-        if _word(joint, "block") == block and _word(joint, "guide") == "frame":
+        if word(joint, "block") == block and word(joint, "guide") == "frame":
             return name, joint
     return "", None
 
 
-def _word(entry: MappingNode, key: str) -> str:
-    node = entry.get(key)
-    return node.text if isinstance(node, Scalar) else ""
-
-
 def _direction(guide: MappingNode) -> complex | None:
     try:
-        return cmath.exp(1j * units.parse(_word(guide, "direction"), "angle"))
+        return cmath.exp(1j * units.parse(word(guide, "direction"), "angle"))
     except QuantityError:
         return None
 

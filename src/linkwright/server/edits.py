@@ -3,100 +3,118 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+import re
+from collections.abc import Callable, Mapping
+from contextlib import suppress
 from typing import Any
 
 from linkwright import units
-from linkwright.errors import LinkwrightError
+from linkwright.errors import LinkwrightError, QuantityError
 from linkwright.fields.nodes import Mapping as MappingNode
-from linkwright.fields.nodes import Node, Scalar, Sequence
-from linkwright.files.document import Document
-from linkwright.files.model_file import read_text
+from linkwright.fields.nodes import Node, Scalar
 from linkwright.files.write import flow
 from linkwright.joints.gear import GearPair
 from linkwright.joints.prismatic import PrismaticJoint
-from linkwright.server.draft import Draft, fresh, picture, texts
+from linkwright.loads.force import Force
+from linkwright.server import request
+from linkwright.server.draft import Draft, fresh, picture
 from linkwright.server.drawn_contacts import add_cam, add_rack
+from linkwright.server.removing import remove
 from linkwright.units import number
+from linkwright.words.sentence import Sentence
 
 #: Drawn coordinates are whole multiples of this, m.
 _FINEST = 1e-4
+#: Two numbers of teeth.
+_TEETH = re.compile(r"\s*([1-9][0-9]{0,5})\s*[:：]\s*([1-9][0-9]{0,5})\s*")
 
 
-def edited(text: str, action: Mapping[str, Any]) -> str:
-    """The text after one action of drawing.
+def edited(text: str, action: Mapping[str, Any]) -> tuple[str, str]:
+    """The text after one action of drawing, and what the user should know about it ("": nothing).
 
-    ``do``: ``point`` (name, at, fixed), ``link`` (name, points), ``driver`` (link, about, speed), ``guide`` (link,
-    at, angle), ``slot`` (along, at), ``gear`` (links, teeth), ``cam`` (cam, at, lift), ``rack`` (pinion, rack),
-    ``mass`` (link, mass), ``load`` (link, at, force), ``optimize`` (section), ``remove`` (link or point); ``places``
-    (m) of points that no drawing gives. Raises LinkwrightError for an action that the text does not admit.
+    ``do``: ``point`` (name, at, fixed), ``link`` (name, points), ``driver`` (link, about), ``guide`` (link, at,
+    angle), ``slot`` (along, at), ``gear`` (links, teeth), ``cam`` (cam, at, lift), ``rack`` (pinion, rack), ``mass``
+    (link, mass), ``load`` (link, at, force, angle), ``optimize`` (section), ``remove`` (what, name): a link, joint or
+    load; angles in degrees, ``places`` (m) of points that no drawing gives. Raises LinkwrightError for an action
+    that the text does not admit.
     """
-    draft = Draft(text, dict(action.get("places") or {}))
+    draft = Draft(text, request.places(action, "places"))
     act = _ACTIONS.get(str(action.get("do")))
     if act is None:
         raise LinkwrightError("studio.no_action", name=str(action.get("do")))
-    act(draft, action)
-    return draft.text
+    note = act(draft, action)
+    return draft.text, note or ""
 
 
 def _coordinates(at: Any) -> list[str]:
-    return [
-        f"{number(round(float(x) / _FINEST) / 10)} mm" if abs(float(x)) >= _FINEST / 2 else "0 mm" for x in at
-    ]
+    return [f"{number(round(x / _FINEST) / 10)} mm" if abs(x) >= _FINEST / 2 else "0 mm" for x in at]
 
 
 def _point(draft: Draft, action: Mapping[str, Any]) -> None:
-    place = _coordinates(action["at"])
-    if not action.get("fixed"):
-        draft.put("drawing", action["name"], place)
+    _put_point(draft, request.name(action, "name"), request.place(action, "at"), bool(action.get("fixed")))
+
+
+def _put_point(draft: Draft, name: str, at: list[float], fixed: bool = False) -> None:
+    place = _coordinates(at)
+    if not fixed:
+        draft.put("drawing", name, place)
         return
     frame = draft.section("frame")
     points = frame.get("points") if frame is not None else None
     if not isinstance(points, MappingNode):
-        draft.put("frame", "points", {action["name"]: place})
+        draft.put("frame", "points", {name: place})
     else:
-        draft.write_key(points, action["name"], flow(place))
+        draft.write_key(points, name, flow(place))
 
 
 def _link(draft: Draft, action: Mapping[str, Any]) -> None:
-    """A link through points; ``places`` (m) of those that no drawing gives, which become part of it."""
-    known = picture(draft.text)["points"]
-    for point, place in dict(action.get("places") or {}).items():
-        if point not in known:
-            _point(draft, {"name": point, "at": place})
-    draft.put("links", action["name"], {"points": list(action["points"])})
+    _put_link(draft, request.name(action, "name"), request.names(action, "points"))
+
+
+def _put_link(draft: Draft, name: str, points: list[str]) -> None:
+    """A link through points; those that no drawing gives become part of it."""
+    known, there = picture(draft.text)["points"], draft.shown()["points"]
+    for point in points:
+        if point not in known and point in there:
+            _put_point(draft, point, there[point])
+    draft.put("links", name, {"points": points})
 
 
 def _driver(draft: Draft, action: Mapping[str, Any]) -> None:
-    speed = action.get("speed", "60 rpm")
-    draft.put_top("driver", {"turn": action["link"], "about": action["about"], "speed": speed})
+    link, about = request.name(action, "link"), request.name(action, "about")
+    draft.put_top("driver", {"turn": link, "about": about, "speed": "60 rpm"})
 
 
 def _guide(draft: Draft, action: Mapping[str, Any]) -> None:
     """A block on a fixed guide through a point's place in the drawing."""
     shown = draft.shown()
+    link, at = request.name(action, "link"), request.name(action, "at")
+    if at not in shown["points"]:
+        raise LinkwrightError("studio.no_point", name=at)
     through = fresh("G", [*shown["points"], *shown["fixed"]])
-    _point(draft, {"name": through, "at": shown["points"][action["at"]], "fixed": True})
-    angle = f"{number(round(float(action['angle']), 3))} deg"
+    _put_point(draft, through, shown["points"][at], fixed=True)
+    angle = f"{number(round(request.number(action, 'angle'), 3))} deg"
     draft.put_new("joints", "guide", {
         "kind": PrismaticJoint.kind, "guide": "frame", "through": through, "direction": angle,
-        "block": action["link"], "at": action["at"],
+        "block": link, "at": at,
     })  # fmt: skip
 
 
 def _slot(draft: Draft, action: Mapping[str, Any]) -> None:
     """A block that slides along a moving link, from its first point to its last, at a point beside or on it."""
-    shown = draft.shown()
-    ends = shown["links"].get(action["along"], [])
-    if len(ends) < 2 or not all(point in shown["points"] for point in (*ends, action["at"])):
-        raise LinkwrightError("studio.no_slot", name=str(action["along"]))
-    (ax, ay), (bx, by), (x, y) = (shown["points"][point] for point in (ends[0], ends[-1], action["at"]))
+    shown, along, at = draft.shown(), request.name(action, "along"), request.name(action, "at")
+    ends = shown["links"].get(along, [])
+    if len(ends) < 2 or not all(point in shown["points"] for point in (*ends, at)):
+        raise LinkwrightError("studio.no_slot", name=along)
+    (ax, ay), (bx, by), (x, y) = (shown["points"][point] for point in (ends[0], ends[-1], at))
+    if not math.dist((ax, ay), (bx, by)):
+        raise LinkwrightError("studio.no_slot", name=along)
     across = ((bx - ax) * (y - ay) - (by - ay) * (x - ax)) / math.dist((ax, ay), (bx, by))
     block = fresh("slider", list(shown["links"]))
-    _link(draft, {"name": block, "points": [action["at"]]})
+    _put_link(draft, block, [at])
     entry = {
-        "kind": PrismaticJoint.kind, "guide": action["along"], "through": ends[0], "direction": [ends[0], ends[-1]],
-        "block": block, "at": action["at"],
+        "kind": PrismaticJoint.kind, "guide": along, "through": ends[0], "direction": [ends[0], ends[-1]],
+        "block": block, "at": at,
     }  # fmt: skip
     if abs(across) >= _FINEST / 2:
         entry["offset"] = _coordinates([across])[0]
@@ -105,135 +123,69 @@ def _slot(draft: Draft, action: Mapping[str, Any]) -> None:
 
 def _gear(draft: Draft, action: Mapping[str, Any]) -> None:
     """Two links as gears with numbers of teeth ``20:40``."""
-    teeth = [each.strip() for each in str(action["teeth"]).split(":")]
-    if len(teeth) != 2 or not all(each.isdigit() and int(each) for each in teeth):
-        raise LinkwrightError("studio.no_teeth", text=str(action["teeth"]))
-    entry = {"kind": GearPair.kind, "links": list(action["links"]), "teeth": [int(z) for z in teeth]}
+    text = request.text(action, "teeth")
+    teeth = _TEETH.fullmatch(text)
+    if teeth is None:
+        raise LinkwrightError("studio.no_teeth", text=text)
+    links = request.names(action, "links")
+    entry = {"kind": GearPair.kind, "links": links, "teeth": [int(z) for z in teeth.groups()]}
     draft.put_new("joints", "mesh", entry)
 
 
 def _optimize(draft: Draft, action: Mapping[str, Any]) -> None:
     """The section that says what varies, what is made least and what is kept; none at all where nothing varies."""
-    draft.put_section("optimize", dict(action["section"]))
+    draft.put_section("optimize", request.mapping(action, "section"))
 
 
-def _mass(draft: Draft, action: Mapping[str, Any]) -> None:
-    links = draft.section("links")
-    link = links.get(action["link"]) if links is not None else None
-    if not isinstance(link, MappingNode):
-        raise LinkwrightError("studio.no_link", name=str(action["link"]))
-    draft.write_key(link, "mass", action["mass"])
+def _mass(draft: Draft, action: Mapping[str, Any]) -> str:
+    """A mass, with the moment of inertia of an even bar between the link's first two points; one that the file has
+    already stays, unless it is that of the mass before."""
+    name, text = request.name(action, "link"), request.text(action, "mass").strip()
+    mass = units.parse(text, "mass")
+    if mass < 0:
+        raise LinkwrightError("studio.negative_mass", text=text)
+    before = draft.link(name)
+    old, given = _quantity(before.get("mass"), "mass"), before.get("inertia")
+    draft.write_key(before, "mass", flow(text))
+    places = [draft.shown()["points"].get(point) for point in draft.shown()["links"][name][:2]]
+    if len(places) < 2 or None in places:
+        return ""
+    length = math.dist(*places)
+    known = _quantity(given, "inertia")
+    if given is not None and (known is None or old is None or not _alike(known, old * length**2 / 12)):
+        return Sentence("studio.inertia_stays", link=name)
+    inertia = f"{number(mass * length**2 / 12, 4)} kg·m²" if mass else "0 kg·m²"
+    draft.write_key(draft.link(name), "inertia", inertia)
+    return Sentence("studio.bar_inertia", link=name, length=_coordinates([length])[0], inertia=inertia)
 
 
-def _load(draft: Draft, action: Mapping[str, Any]) -> None:
-    draft.put_new("loads", "load", {
-        "kind": "force", "on": action["link"], "at": action["at"], "direction": "-90 deg",
-        "magnitude": action["force"],
-    })  # fmt: skip
+def _alike(a: float, b: float) -> bool:
+    return math.isclose(a, b, rel_tol=1e-3)
 
 
-#: Keys of joints and loads whose words are no links.
-_NO_LINKS = ("kind", "at", "through")
-
-
-def _remove(draft: Draft, action: Mapping[str, Any]) -> None:
-    """A link with what stands on it: joints, loads, drivers, assembly; or a point that no link has."""
-    name = str(action["name"])
-    if action.get("what") == "link":
-        if name not in picture(draft.text)["links"]:
-            raise LinkwrightError("studio.no_link", name=name)
-        draft.take_out("links", name)
-        _remove_what_names(draft, name)
-    links = picture(draft.text)["links"].values()
-    used = {point for points in links for point in points}
-    for point, _ in list(draft.section("drawing") or ()):
-        if point not in used:
-            draft.take_out("drawing", point)
-    frame = draft.section("frame")
-    points = frame.get("points") if frame is not None else None
-    if (
-        action.get("what") == "point"
-        and name not in used
-        and isinstance(points, MappingNode)
-        and points.get(name)
-    ):
-        kept = {key: texts(place) for key, place in points if key != name}
-        draft.put("frame", "points", kept)
-
-
-def _remove_what_names(draft: Draft, link: str) -> None:
-    """Joints, loads and drivers of a link that is gone, and words about their joints and pins of no two links."""
-    gone = {link}
-    for section in ("joints", "loads", "drivers"):
-        for key, node in list(draft.section(section) or ()):
-            if gone & set(_named(node)):
-                draft.take_out(section, key)
-                gone |= {key} if section == "joints" else set()
-    driver = draft.root.get("driver")
-    if driver is not None and gone & set(_named(driver)):
-        draft.cut_top("driver")
-    shown = picture(draft.text)
-    ends = [*shown["fixed"], *(point for points in shown["links"].values() for point in points)]
-    names = {"frame", *shown["links"]}
-    joints = [key for key, node in draft.section("joints") or () if names & set(_named(node))]
-    for section in ("assembly", "joints"):
-        for key, _ in list(draft.section(section) or ()):
-            if ends.count(key) < 2 and key not in joints:
-                draft.take_out(section, key)
-
-
-def _named(node: Node) -> Iterator[str]:
-    """What may be links among the words of an entry: of ``link.point`` the link."""
+def _quantity(node: Node | None, dimension: str) -> float | None:
     if isinstance(node, Scalar):
-        yield node.text.split(".")[0]
-    for each in node.items if isinstance(node, Sequence) else ():
-        yield from _named(each)
-    for key, value in node if isinstance(node, MappingNode) else ():
-        if key not in _NO_LINKS:
-            yield from _named(value)
+        with suppress(QuantityError):
+            return units.parse(node.text, dimension)
+    return None
 
 
-_ACTIONS: dict[str, Callable[[Draft, Mapping[str, Any]], None]] = {
+def _load(draft: Draft, action: Mapping[str, Any]) -> str:
+    """A force at a point of a link, in a direction fixed in space."""
+    link, at = request.name(action, "link"), request.name(action, "at")
+    text = request.text(action, "force").strip()
+    units.parse(text, "force")
+    if at not in draft.shown()["links"].get(link, []):
+        raise LinkwrightError("studio.no_point_on", name=at, link=link)
+    angle = f"{number(round(request.number(action, 'angle'), 3))} deg"
+    draft.put_new("loads", "load", {
+        "kind": Force.kind, "on": link, "at": at, "direction": angle, "magnitude": text,
+    })  # fmt: skip
+    return Sentence("studio.load_put", force=text, link=link, at=at, angle=angle)
+
+
+_ACTIONS: dict[str, Callable[[Draft, Mapping[str, Any]], str | None]] = {
     "point": _point, "link": _link, "driver": _driver, "guide": _guide, "mass": _mass, "load": _load,
     "slot": _slot, "gear": _gear, "cam": add_cam, "rack": add_rack, "optimize": _optimize,
-    "remove": _remove,
+    "remove": remove,
 }  # fmt: skip
-
-
-def with_values(text: str, values: Mapping[str, float]) -> str:
-    """The text with changed dimensions (SI): numbers written where they stand, drawn links by their drawing.
-
-    Raises LinkwrightError where the file has no place for one.
-    """
-    from linkwright.page.dimensions import dimensions
-
-    document = Document(text, "model", read_text)
-    mechanism = document.mechanism.with_dimensions(values)
-    drawn = [name for name, link in mechanism.links.items() if link.geometry == "drawing"]
-    rest = {address: value for address, value in values.items() if address.split(".")[0] not in drawn}
-    known = {each.address: each for each in dimensions(document, set(rest))}
-    for address, value in rest.items():
-        if address in known:
-            said = f"{number(value / known[address].factor, 10)} {known[address].unit}"
-        else:
-            said = f"{number(value)} {units.si_symbol(_kind(document, address))}"
-        document.set(address, said.strip())
-    if len(rest) == len(values):
-        return document.text
-    from linkwright.kinematics.solve import solve_motion
-    from linkwright.mechanism.drawing import Drawing
-
-    drawing = Drawing(document.mechanism)
-    at = {name: drawing.driver(name) for name in mechanism.drivers}
-    motion = solve_motion(mechanism, at={name: 0.0 if q is None else q for name, q in at.items()})
-    draft = Draft(document.text)
-    for point in mechanism.drawing:
-        x, y = motion.point(point).position[0]
-        draft.put("drawing", point, [f"{number(float(1e3 * each), 10)} mm" for each in (x, y)])
-    return draft.text
-
-
-def _kind(document: Document, address: str) -> units.Dimension:
-    from linkwright.study.ranges import dimension_of
-
-    return dimension_of(document.mechanism, address) or units.NONE

@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import hashlib
 import json
+import os
 import threading
-from contextlib import suppress
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from linkwright.core.json_data import Plain
 from linkwright.errors import LinkwrightError
 from linkwright.files.source import decode
-from linkwright.whole_files import make_folder, write_whole
+from linkwright.whole_files import alone, make_folder, write_whole
+from linkwright.words.characters import UNFIT, printable
 from linkwright.words.sentence import reason_of
 
 _ENDINGS = (".yaml", ".yml", ".json")
@@ -21,23 +25,31 @@ LARGEST = 1_000_000
 
 
 class Files:
-    """Reads and writes model files of a folder; every change is kept as a draft until it is saved."""
+    """Reads and writes model files of a folder; every change is stored as a draft until it is saved.
+
+    Windows and processes that share the folder are told of each other's changes: reading and writing are one step.
+    """
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder.resolve()
-        self._serial: dict[str, tuple[int, str]] = {}
-        self._lock = threading.Lock()
+        self._reserved: dict[str, str] = {}
+        self._lock = threading.RLock()
 
     def path(self, name: str) -> Path:
         """The path of a file below the folder; raises LinkwrightError for any other."""
         path = self.folder
-        with suppress(OSError, RuntimeError):  # links that lead in a circle
+        # Links may lead in a circle, and some names no file can have.
+        with suppress(OSError, RuntimeError, ValueError):
             path = (self.folder / name).resolve()
-        if not path.is_relative_to(self.folder) or path.suffix.lower() not in _ENDINGS or "\0" in name:
-            raise LinkwrightError("studio.outside", name=name)
-        if any(part.startswith(".") for part in path.relative_to(self.folder).parts):
-            raise LinkwrightError("studio.outside", name=name)
+        inner = path.relative_to(self.folder).parts if path.is_relative_to(self.folder) else (".",)
+        hidden = any(part.startswith(".") for part in inner)
+        if hidden or path.suffix.lower() not in _ENDINGS or UNFIT.search(name) or "\n" in name:
+            raise LinkwrightError("studio.outside", name=printable(name))
         return path
+
+    def name(self, name: str) -> str:
+        """The one name of a file, however it is written."""
+        return self.path(name).relative_to(self.folder).as_posix()
 
     def disk(self, name: str) -> Plain:
         """A file's text and version as they are on the disk; no text and the version "" where there is none."""
@@ -52,7 +64,7 @@ class Files:
             text = decode(path.read_bytes(), name)
         except OSError as problem:
             raise LinkwrightError("model.unreadable", reason=reason_of(problem)) from None
-        return {"text": text, "version": hashlib.sha256(text.encode()).hexdigest()[:24]}
+        return {"text": text, "version": _digest(text)}
 
     def names(self) -> list[str]:
         """Model files of the folder and those below, at most 500."""
@@ -67,89 +79,125 @@ class Files:
         return found
 
     def open(self, name: str) -> Plain:
-        """A file's text; a draft that is newer than what was saved comes first and is said (``recovered``)."""
-        found = self.disk(name)
-        draft = self._draft(name)
+        """A file's text; a draft that is newer than what was saved comes first and is reported (``recovered``)."""
+        name = self.name(name)
+        found, draft = self.disk(name), self._draft(name)
         recovered = draft is not None and _plain(draft["text"]) != _plain(found["text"])
-        serial, _ = self._serial.get(name, (0, ""))
         shown = draft["text"] if draft is not None and recovered else found["text"]
+        serial = 0 if draft is None else draft["serial"]
         return {**found, "name": name, "text": shown, "serial": serial, "recovered": recovered}
 
-    def fresh(self, stem: str) -> str:
-        """A name that no file and no draft has."""
-        place = 1
-        while True:
-            name = f"{stem}{place if place > 1 else ''}.yaml"
-            if not (self.folder / name).exists() and self._draft(name) is None:
-                return name
-            place += 1
+    def fresh(self, stem: str, window: str) -> str:
+        """A name that no file, no draft and no other window has; it is kept for the window until it opens another."""
+        with self._lock:
+            self._reserved = {name: owner for name, owner in self._reserved.items() if owner != window}
+            place = 1
+            while self._taken(name := f"{stem}{place if place > 1 else ''}.yaml"):
+                place += 1
+            self._reserved[name] = window
+            return name
 
-    def unsaved(self) -> str | None:
-        """The name of the newest draft that was never saved as a file."""
-        drafts = (self.folder / _DRAFTS).glob("*.json")
-        for path in sorted(drafts, key=lambda each: each.stat().st_mtime, reverse=True):
-            try:
-                name = json.loads(path.read_bytes())["name"]
-                if not self.path(name).exists():
-                    return str(name)
-            except (OSError, ValueError, KeyError, TypeError, LinkwrightError):
-                continue
-        return None
+    def unsaved(self) -> list[str]:
+        """The names of drafts that were never saved as files, the newest first."""
+        found = []
+        for path in (self.folder / _DRAFTS).glob("*.json"):
+            with suppress(OSError, ValueError, KeyError, TypeError, LinkwrightError):
+                draft = self._draft(str(json.loads(path.read_bytes())["name"]))
+                if draft is not None and not self.path(draft["name"]).exists():
+                    found.append((draft["serial"], draft["name"]))
+        return [name for _, name in sorted(found, reverse=True)]
 
     def keep(self, name: str, text: str, window: str, serial: int) -> Plain:
-        """Keeps a draft; where another window has kept one since ``serial``, its text instead (``other``)."""
+        """Stores a draft; where another window has stored one since ``serial``, its text instead (``other``)."""
         _small(text)
-        self.path(name)
-        with self._lock:
-            known, writer = self._serial.get(name, (0, ""))
-            if known != serial and writer != window:
-                draft = self._draft(name)
-                return {"serial": known, "other": draft["text"] if draft else None}
-            self._serial[name] = (known + 1, window)
-            make_folder(self.folder / _DRAFTS)
-            write_whole(self._draft_path(name), json.dumps({"name": name, "text": text}).encode())
-        return {"serial": known + 1, "other": None}
+        name = self.name(name)
+        with self._alone():
+            draft = self._draft(name)
+            if draft is not None and draft["serial"] != serial and draft["window"] != window:
+                return {"serial": draft["serial"], "other": draft["text"]}
+            return {"serial": self._store(name, text, window), "other": None}
 
     def state(self, name: str, window: str) -> Plain:
         """Whether another window has changed the draft, and the version of the file on the disk."""
-        version = self.disk(name)["version"]
-        serial, writer = self._serial.get(name, (0, ""))
-        return {"serial": serial, "other": writer not in ("", window), "version": version}
+        version, draft = self.disk(name)["version"], self._draft(self.name(name))
+        if draft is None:
+            return {"serial": 0, "other": False, "version": version}
+        return {"serial": draft["serial"], "other": draft["window"] not in ("", window), "version": version}
 
     def save(self, name: str, text: str, version: str, draft: str) -> Plain:
-        """Writes the file, if it is still the one that was opened (``version``; "" for one that is not there yet).
+        """Writes the file, if what has its name is still what was there (``version``; "" for nothing at all).
 
-        The ends of lines stay those of the file. Its draft, and the one that the text was kept in under another name
-        (``draft``), are done with.
+        Under the name of another file than the open one, whose name is ``draft``, an unsaved drawing counts as well;
+        one that is replaced gets a new name (``aside``). The ends of lines stay those of the file. Drafts of what is
+        saved are done with, all others stay.
         """
         _small(text)
-        path = self.path(name)
-        there = self.disk(name)
-        if there["version"] != version:
-            return {"saved": False, "version": there["version"]}
-        if "\r\n" in there["text"]:
-            text = _plain(text).replace("\n", "\r\n")
-        make_folder(path.parent)
-        write_whole(path, text.encode())
-        for each in (name, draft):
-            with suppress(OSError):
-                self._draft_path(each).unlink(missing_ok=True)
-        serial, _ = self._serial.get(name, (0, ""))
-        return {"saved": True, "version": self.disk(name)["version"], "serial": serial}
+        path, name = self.path(name), self.name(name)
+        with self._alone():
+            there, hidden = self.disk(name), None
+            if not draft or self.name(draft) != name:
+                hidden = self._hidden(name, text, there["text"])
+            known = there["version"] + ("" if hidden is None else f"+{_digest(hidden)}")
+            if known != version:
+                return {"saved": False, "version": known}
+            aside = ""
+            if hidden is not None:
+                aside = self.fresh(name.removesuffix(path.suffix), "")
+                self._store(aside, hidden, "")
+                self._draft_path(name).unlink(missing_ok=True)
+            if "\r\n" in there["text"]:
+                text = _plain(text).replace("\n", "\r\n")
+            make_folder(path.parent)
+            write_whole(path, text.encode())
+            for each in {name, self.name(draft)} if draft else {name}:
+                if self._hidden(each, text, text) is None:
+                    with suppress(OSError):
+                        self._draft_path(each).unlink(missing_ok=True)
+        return {"saved": True, "name": name, "version": _digest(text), "aside": aside}
+
+    @contextmanager
+    def _alone(self) -> Iterator[None]:
+        """Within it nobody else reads and writes drafts and files of the folder."""
+        drafts = make_folder(self.folder / _DRAFTS)
+        with self._lock, alone(drafts / "lock"):
+            yield
+
+    def _taken(self, name: str) -> bool:
+        return os.path.exists(self.path(name)) or self._draft(name) is not None or name in self._reserved
+
+    def _hidden(self, name: str, *shown: str) -> str | None:
+        """The text of a draft that differs from all the shown ones."""
+        draft = self._draft(name)
+        if draft is None or _plain(draft["text"]) in map(_plain, shown):
+            return None
+        return str(draft["text"])
+
+    def _store(self, name: str, text: str, window: str) -> int:
+        """Writes a draft; gives its serial, which no draft of the name had before."""
+        old, now = self._draft(name), time.time_ns() // 1000
+        serial = now if old is None else max(now, old["serial"] + 1)
+        found = {"name": name, "text": text, "window": window, "serial": serial}
+        write_whole(self._draft_path(name), json.dumps(found).encode())
+        return serial
 
     def _draft_path(self, name: str) -> Path:
         return self.folder / _DRAFTS / f"{hashlib.sha256(name.encode()).hexdigest()[:24]}.json"
 
     def _draft(self, name: str) -> Plain | None:
         try:
-            found: Plain = json.loads(self._draft_path(name).read_bytes())
-        except (OSError, ValueError):
+            found: Plain = {"serial": 0, "window": "", **json.loads(self._draft_path(name).read_bytes())}
+        except (OSError, ValueError, TypeError):
             return None
-        return found if found.get("name") == name and isinstance(found.get("text"), str) else None
+        fits = found.get("name") == name and isinstance(found.get("text"), str)
+        return found if fits and isinstance(found["serial"], int) else None
 
 
 def _plain(text: str) -> str:
     return text.replace("\r\n", "\n")
+
+
+def _digest(text: str) -> str:
+    return hashlib.sha256(text.encode()).hexdigest()[:24]
 
 
 def _small(text: str) -> None:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from functools import partial
+from typing import Any
 
 import numpy as np
 
@@ -21,9 +22,12 @@ REACH, TRANSMISSION = 4.0, 0.35
 _FEWEST, _MOST = 3, 4000
 
 
-def linkages(points: Sequence[Sequence[float]], closed: bool) -> Callable[[Job], None]:
-    """The search for linkages whose coupler curve goes through ``points`` (m)."""
-    curve = np.array(points, dtype=float)
+def linkages(points: Any, closed: bool) -> Callable[[Job], None]:
+    """The search for linkages whose coupler curve goes through ``points`` (m), pairs of numbers."""
+    try:
+        curve = np.array(points, dtype=float)
+    except (ValueError, TypeError, OverflowError):
+        raise LinkwrightError("studio.no_curve") from None
     if curve.ndim != 2 or curve.shape[1] != 2 or not _FEWEST <= len(curve) <= _MOST:
         raise LinkwrightError("studio.no_curve")
     if not np.isfinite(curve).all() or not np.ptp(curve, axis=0).max() > 0:

@@ -9,19 +9,25 @@ from __future__ import annotations
 
 import hmac
 import json
+import re
 import secrets
+from collections.abc import Callable
 from contextlib import suppress
+from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
 from urllib.parse import parse_qs, urlsplit
 
+from linkwright.core.json_data import Plain
 from linkwright.errors import LinkwrightError
 from linkwright.server.background import unexpected
 from linkwright.server.files import LARGEST, Files
+from linkwright.server.request import BadRequest, parsed
 from linkwright.server.work import Work, language_of, said
 from linkwright.words import LANGUAGES, catalogue
+from linkwright.words.sentence import Sentence
 
 _POLICY = (
     "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; connect-src 'self'; "
@@ -30,6 +36,7 @@ _POLICY = (
 _BUILT = {"/studio.js": "text/javascript", "/studio.css": "text/css"}
 _AREAS = ("page", "outcome", "studio")
 _HEADER = "X-Linkwright-Token"
+_LENGTH = re.compile(r"[0-9]{1,9}")
 
 
 class Studio(ThreadingHTTPServer):
@@ -71,48 +78,81 @@ class _Handler(BaseHTTPRequestHandler):
 
     def do_GET(self) -> None:
         """The page, by the secret in its address; its script and style."""
-        address = urlsplit(self.path)
         if not self._trusted():
+            return
+        try:
+            address = urlsplit(self.path)
+            token = parse_qs(address.query).get("token", [""])[0]
+        except ValueError:
+            self._refuse(400, "bad_request")
             return
         if address.path in _BUILT:
             built = files("linkwright") / "page" / "built" / address.path[1:]
             self._send(200, built.read_bytes(), _BUILT[address.path])
-        elif address.path == "/" and self.server.allows(parse_qs(address.query).get("token", [""])[0]):
+        elif address.path == "/favicon.ico":
+            self._send(204, b"", "text/plain")
+        elif address.path != "/":
+            self._refuse(404, "no_page")
+        elif self.server.allows(token):
             self._send(200, self._page(), "text/html")
         else:
-            self._send({"/": 403, "/favicon.ico": 204}.get(address.path, 404), b"", "text/plain")
+            self._refuse(403, "no_secret")
 
     def do_POST(self) -> None:
         """One request of the page."""
         if not self._trusted():
             return
         length = self.headers.get("Content-Length", "")
-        if not length.isdigit() or int(length) > 2 * LARGEST:
-            self.close_connection = True
-            self._send(413, b"", "text/plain")
+        if not _LENGTH.fullmatch(length) or self.headers.get("Transfer-Encoding"):
+            self._end(411, "no_length")
+            return
+        if int(length) > 2 * LARGEST:
+            self._end(413, "large", most=2 * LARGEST)
             return
         body = self.rfile.read(int(length))
         answer = self.server.work.answers.get(self.path.removeprefix("/api/"))
         if not self.server.allows(self.headers.get(_HEADER, "")):
-            self._send(403, b"", "text/plain")
+            self._refuse(403, "no_secret")
         elif answer is None or self.headers.get("Content-Type") != "application/json":
-            self._send(404, b"", "text/plain")
+            self._refuse(404, "no_page")
         else:
             self._answer(answer, body)
 
-    def _answer(self, answer: Any, body: bytes) -> None:
-        language = "en"
+    def _answer(self, answer: Callable[[Plain], Plain], body: bytes) -> None:
+        language = self.server.language
         try:
-            asked = json.loads(body)
+            asked = parsed(body)
             language = language_of(asked)
             status, found = 200, answer(asked)
+        except BadRequest as error:
+            status, found = 400, {"error": said(error, language)}
         except LinkwrightError as error:
             status, found = 422, {"error": said(error, language)}
         except Exception as error:
-            misshapen = isinstance(error, (KeyError, TypeError, ValueError, AttributeError))
-            status, found = 400 if misshapen else 500, {"error": unexpected(error, language)}
+            status, found = 500, {"error": unexpected(error, language)}
         text = json.dumps(found, ensure_ascii=False, allow_nan=False)
-        self._send(status, text.encode(), "application/json")
+        self._send(status, text.encode(errors="replace"), "application/json")
+
+    def send_error(self, code: int, message: str | None = None, explain: str | None = None) -> None:
+        """A request that is not HTTP, or not one that is answered here."""
+        self.request_version = self.protocol_version  # whichever it asked for, the answer has a head
+        too_long = code in (HTTPStatus.REQUEST_URI_TOO_LONG, HTTPStatus.REQUEST_HEADER_FIELDS_TOO_LARGE)
+        no_method = code == HTTPStatus.NOT_IMPLEMENTED
+        self._end(
+            code if too_long else 405 if no_method else 400, "no_method" if no_method else "bad_request"
+        )
+
+    def _end(self, status: int, key: str, **values: object) -> None:
+        """Refuses a request of which there may be more to come, which is not read."""
+        self.close_connection = True
+        self._refuse(status, key, **values)
+
+    def _refuse(self, status: int, key: str, **values: object) -> None:
+        sentence = Sentence(f"studio.{key}", **values).say(self.server.language)
+        if self.command == "POST":
+            self._send(status, json.dumps({"error": sentence}).encode(), "application/json")
+        else:
+            self._send(status, sentence.encode(), "text/plain")
 
     def _trusted(self) -> bool:
         """Whether host and origin are this server; else the request is refused."""
@@ -120,8 +160,7 @@ class _Handler(BaseHTTPRequestHandler):
         own = [f"http://{name}" for name in self.server.names]
         if self.headers.get("Host") in self.server.names and (origin is None or origin in own):
             return True
-        self.close_connection = True
-        self._send(403, b"", "text/plain")
+        self._end(403, "foreign")
         return False
 
     def _page(self) -> bytes:

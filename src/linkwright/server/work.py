@@ -11,21 +11,22 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from linkwright.core.json_data import Plain
-from linkwright.errors import Finding, LinkwrightError, ModelError
+from linkwright.errors import Finding, LinkwrightError, ModelError, with_remedy
 from linkwright.files.document import Document
 from linkwright.files.model_file import gallery_names, read_text
 from linkwright.files.source import read_source
 from linkwright.server.background import Background
 from linkwright.server.draft import completed, picture
-from linkwright.server.edits import edited, with_values
+from linkwright.server.edits import edited
 from linkwright.server.files import Files
+from linkwright.server.request import mapping, number, numbers, text
 from linkwright.server.search import linkages
-from linkwright.words import LANGUAGES
+from linkwright.words import LANGUAGES, say
 from linkwright.words.sentence import in_language
 
 #: What the studio hands out, by the ending of the file.
 TAKEN = (".report.pdf", ".report.html", ".html", ".xlsx", ".csv", ".json", ".svg", ".pdf", ".png", ".dxf")
-NEW = "format: 1\nname: New mechanism\n"
+NEW = "format: 1\nname: {name}\n"
 
 
 class Work:
@@ -37,57 +38,64 @@ class Work:
         self._solving = threading.Lock()
         self._foreseen: tuple[str, str, Plain] | None = None
         self.answers: Mapping[str, Callable[[Plain], Plain]] = {
-            "files": lambda asked: {"files": files.names(), "gallery": gallery_names()},
+            "files": lambda asked: {
+                "files": files.names(), "drafts": files.unsaved(), "gallery": gallery_names()
+            },
             "open": self._open,
             "read": lambda a: {"text": self._read(a)},
             "keep": lambda a: files.keep(
-                _text(a, "name"), _text(a, "text"), _text(a, "window"), int(a["serial"])
+                text(a, "name"), text(a, "text"), text(a, "window"), int(number(a, "serial"))
             ),
-            "state": lambda a: files.state(_text(a, "name"), _text(a, "window")),
+            "state": lambda a: files.state(text(a, "name"), text(a, "window")),
             "save": lambda a: files.save(
-                _text(a, "name"), _text(a, "text"), _text(a, "version"), _text(a, "draft")
+                text(a, "name"), text(a, "text"), text(a, "version"), text(a, "draft")
             ),
-            "disk": lambda a: files.disk(_text(a, "name")),
-            "solve": lambda a: self._solve(_text(a, "text"), language_of(a)),
-            "edit": lambda a: {"text": edited(_text(a, "text"), dict(a["action"]))},
+            "disk": lambda a: files.disk(text(a, "name")),
+            "solve": lambda a: self._solve(text(a, "text"), language_of(a)),
+            "edit": self._edit,
             "curve": lambda a: self.background.begin(
-                "curve", linkages(a["points"], bool(a["closed"])), language_of(a)
+                "curve", linkages(a.get("points"), bool(a.get("closed"))), language_of(a)
             ),
             "optimize": self._optimize,
             "goals": self._goals,
             "candidates": lambda a: self.background.state(),
             "enough": lambda a: self.background.end(),
             "take": self._take,
-            "set": lambda a: {
-                "text": with_values(_text(a, "text"), {k: float(v) for k, v in a["values"].items()})
-            },
-        }
+            "set": lambda a: {"text": _changed(text(a, "text"), numbers(a, "values"))},
+        }  # fmt: skip
 
     def _open(self, asked: Plain) -> Plain:
         """A file; without a name what was drawn last and never saved, or with ``fresh`` a new one."""
+        window = text(asked, "window", "")
+        new = new_text(language_of(asked))
         if asked.get("gallery"):
-            name = _text(asked, "gallery")
-            return {**self.files.open(self.files.fresh(name)), "text": self._read(asked)}
+            found = self._read(asked)
+            return {**self.files.open(self.files.fresh(text(asked, "gallery"), window)), "text": found}
         if asked.get("name"):
-            found = self.files.open(_text(asked, "name"))
-            return found if found["version"] or found["recovered"] else {**found, "text": NEW}
-        unsaved = None if asked.get("fresh") else self.files.unsaved()
-        if unsaved is not None:
-            return self.files.open(unsaved)
-        return {**self.files.open(self.files.fresh("machine")), "text": NEW}
+            opened = self.files.open(text(asked, "name"))
+            return opened if opened["version"] or opened["recovered"] else {**opened, "text": new}
+        unsaved = [] if asked.get("fresh") else self.files.unsaved()
+        if unsaved:
+            return self.files.open(unsaved[0])
+        return {**self.files.open(self.files.fresh("machine", window)), "text": new}
+
+    def _edit(self, asked: Plain) -> Plain:
+        """The text after an action of drawing, and what the user should know about it."""
+        changed, note = edited(text(asked, "text"), mapping(asked, "action"))
+        return {"text": changed, "note": in_language(note, language_of(asked))}
 
     def _read(self, asked: Plain) -> str:
         """The text of a file, or of one of the gallery."""
         if asked.get("gallery"):
-            return read_source(f"gallery:{_text(asked, 'gallery')}")[0]
-        return str(self.files.open(_text(asked, "name"))["text"])
+            return read_source(f"gallery:{text(asked, 'gallery')}")[0]
+        return str(self.files.open(text(asked, "name"))["text"])
 
     def foresee(self, name: str, language: str) -> None:
         """Begins to solve a file that a window will ask for first: the browser is opened meanwhile."""
         with suppress(LinkwrightError, OSError):
-            text = str(self.files.open(name)["text"])
+            found = str(self.files.open(name)["text"])
             self._solving.acquire()
-            threading.Thread(target=self._prepare, args=(text, language), daemon=True).start()
+            threading.Thread(target=self._prepare, args=(found, language), daemon=True).start()
 
     def _prepare(self, text: str, language: str) -> None:
         try:
@@ -107,20 +115,20 @@ class Work:
         """Begins the optimisation that the text's section asks."""
         from linkwright.server.optimising import optimised
 
-        return self.background.begin("optimum", optimised(_text(asked, "text")), language_of(asked))
+        return self.background.begin("optimum", optimised(text(asked, "text")), language_of(asked))
 
     def _goals(self, asked: Plain) -> Plain:
         """What an optimisation of a text's model can make least or keep."""
         from linkwright.server.optimising import goals
 
-        return {"goals": goals(_text(asked, "text"), language_of(asked))}
+        return {"goals": goals(text(asked, "text"), language_of(asked))}
 
     def _take(self, asked: Plain) -> Plain:
         """A report, or an export, of a text: its bytes in base64."""
-        text, ending, language = _text(asked, "text"), _text(asked, "ending"), language_of(asked)
+        model, ending, language = text(asked, "text"), text(asked, "ending"), language_of(asked)
         if ending not in TAKEN:
             raise LinkwrightError("studio.no_ending", ending=ending)
-        document = Document(text, "model", read_text)
+        document = Document(model, "model", read_text)
         with TemporaryDirectory() as folder:
             path = Path(folder) / f"machine{ending.removeprefix('.report')}"
             if ending.startswith(".report"):
@@ -130,10 +138,22 @@ class Work:
             else:
                 from linkwright.export.export import export
 
-                more: Plain = {"text": text} if ending == ".html" else {}
+                more: Plain = {"text": model} if ending == ".html" else {}
                 export(document.mechanism, path, language=language, **more)
             content = path.read_bytes()
         return {"content": base64.b64encode(content).decode()}
+
+
+def new_text(language: str = "en") -> str:
+    """The text of a new file."""
+    return NEW.format(name=say("studio.new_name", language))
+
+
+def _changed(text: str, values: Mapping[str, float]) -> str:
+    """The text with changed dimensions, SI."""
+    from linkwright.study.changed_text import changed_text
+
+    return changed_text(Document(text, "model", read_text), values)
 
 
 def solved(text: str, language: str) -> Plain:
@@ -169,16 +189,8 @@ def _finding(found: Finding, language: str) -> Plain:
         "severity": found.severity,
         "line": int(place[1]) if len(place) > 1 and place[1].isdigit() else 0,
         "key": found.key,
-        "message": in_language(found.message, language),
-        "remedy": in_language(found.remedy, language) if found.remedy else "",
+        "sentence": in_language(with_remedy(found.message, found.remedy), language),
     }
-
-
-def _text(asked: Plain, key: str) -> str:
-    value = asked[key]
-    if not isinstance(value, str):
-        raise TypeError(key)
-    return value
 
 
 def said(error: LinkwrightError, language: str) -> str:

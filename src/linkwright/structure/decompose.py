@@ -42,6 +42,11 @@ def structure(mechanism: Mechanism) -> Structure:
         trains=gear_trains(mechanism),
         passive=tuple(name for name in graph.redundant if mechanism.joints[name].higher),
         parts=tuple(tuple(part) for part in islands(mechanism)),
+        turned={
+            name: (driver.link, driver.joint, driver.relative_to)
+            for name, driver in mechanism.drivers.items()
+            if driver.law.rotary
+        },
     )
 
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from dataclasses import field
 from functools import cached_property
 
 from linkwright.core.dataclass import dataclass
@@ -137,7 +138,8 @@ class Structure:
     ``grubler``: mobility by Grübler's formula, 3n - 2p_L - p_H; ``redundant``: demands on rotations that others
     make already (joint names), added to it, those of higher pairs also in ``passive``; ``parts``: sets of links
     that share nothing but the frame (more than one: several mechanisms in one model); ``trains``: ratios of gears and
-    belts with their carriers stopped. See the theory page on structure.
+    belts with their carriers stopped; ``turned``: of every turning driver the link, the pin and the link
+    against which it turns. See the theory page on structure.
     """
 
     grubler: int
@@ -148,6 +150,7 @@ class Structure:
     parts: tuple[tuple[str, ...], ...] = ()
     passive: tuple[str, ...] = ()
     trains: tuple[GearTrain, ...] = ()
+    turned: Mapping[str, tuple[str, str, str]] = field(default_factory=dict)
 
     @property
     def mobility(self) -> int:

@@ -6,8 +6,9 @@ from linkwright.joints.base import JOINTS
 from linkwright.structure.group import Connection, Group, Structure
 from linkwright.structure.mobility import lower_pairs
 from linkwright.structure.trains import GearTrain, written
-from linkwright.words import Say, has, speaker
+from linkwright.words import Say, has, language_of, speaker
 from linkwright.words.characters import cells, padded
+from linkwright.words.sentence import link_said
 
 
 def describe(structure: Structure, language: str = "en") -> str:
@@ -19,6 +20,7 @@ def describe(structure: Structure, language: str = "en") -> str:
         "",
         say("structure_text.groups"),
         *_table(structure, say),
+        *turned_against(structure, say),
         "",
         say("structure_text.chain", chain=structure.chain),
         say("structure_text.class", level=level),
@@ -31,6 +33,15 @@ def describe(structure: Structure, language: str = "en") -> str:
     for train in structure.trains:
         lines += ["", *_train(train, say)]
     return "\n".join(lines)
+
+
+def turned_against(structure: Structure, say: Say) -> list[str]:
+    """The drivers that turn a link against another one than the frame, a sentence each."""
+    return [
+        say("structure_text.turned_against", driver=name, link=link, pin=pin, other=other)
+        for name, (link, pin, other) in structure.turned.items()
+        if other != "frame"
+    ]
 
 
 def numeral(number: int, say: Say) -> str:
@@ -75,16 +86,17 @@ def _kind(kind: str, say: Say) -> str:
 def _train(train: GearTrain, say: Say) -> list[str]:
     """The ratios of a train by the method of the stopped carrier."""
     wheels = list(train.ratios)
-    stopped = say("structure_text.stopped", carrier=train.carrier)
+    carrier, frame = (link_said(name, language_of(say)) for name in (train.carrier, "frame"))
+    stopped = say("structure_text.stopped", carrier=carrier)
     rows = [["", *wheels], [stopped, *map(written, train.ratios.values())]]
     if train.planetary:
         rows[0].append(train.carrier)
         rows[1].append("0")
         rows.append([say("structure_text.as_one"), *["1"] * (len(wheels) + 1)])
         if speeds := train.speeds:
-            rows.append([say("structure_text.stopped", carrier="frame"), *map(written, speeds.values())])
+            rows.append([say("structure_text.stopped", carrier=frame), *map(written, speeds.values())])
     widths = [max(cells(row[i]) for row in rows) for i in range(len(rows[0]))]
-    lines = [say("structure_text.train", pairs=", ".join(train.pairs), carrier=train.carrier)]
+    lines = [say("structure_text.train", pairs=", ".join(train.pairs), carrier=carrier)]
     for row in rows:
         first, *rest = (padded(cell, w) for cell, w in zip(row, widths, strict=True))
         lines.append("  " + "  ".join([first, *rest]).rstrip())
@@ -135,6 +147,10 @@ def as_data(structure: Structure) -> dict[str, object]:
         "redundant": list(structure.redundant),
         "counts": dict(structure.counts),
         "drivers": list(structure.drivers),
+        "turned": {
+            name: {"link": link, "about": pin, "relative_to": other}
+            for name, (link, pin, other) in structure.turned.items()
+        },
         "trains": [
             {"carrier": t.carrier, "pairs": list(t.pairs), "ratios": dict(t.ratios)} for t in structure.trains
         ],

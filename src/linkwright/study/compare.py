@@ -12,7 +12,9 @@ from linkwright.core.given import real, require
 from linkwright.core.html import html_table
 from linkwright.core.plot_method import Plotted
 from linkwright.core.read_only import Frozen
-from linkwright.errors import RequestError, with_remedy
+from linkwright.errors import LinkwrightError, RequestError, with_remedy
+from linkwright.kinematics.outcome import PositionError
+from linkwright.machine.flywheel import FLUCTUATION
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.quantities import si_unit
 from linkwright.registry import offered
@@ -224,7 +226,7 @@ def compare(
     metrics: Iterable[str] | str | None = None,
     weights: Mapping[str, float] | None = None,
     output: str | Mapping[str, str] | Sequence[str] | None = None,
-    fluctuation: float = 0.02,
+    fluctuation: float = FLUCTUATION,
     steps: int = 360,
 ) -> Comparison:
     """Compares alternative machines by the motion of an output that they share and by their design numbers.
@@ -258,7 +260,7 @@ def compare(
         alternative.analysis.ask(part for number in wanted for part in number.parts)
     rows = []
     for each in asked:
-        values = tuple(each.measure(alternative) for alternative in found)
+        values = tuple(_measured(each, alternative) for alternative in found)
         if metrics is None and all(value is None for value in values):
             continue
         if metrics is not None and all(value is None for value in values):
@@ -266,6 +268,17 @@ def compare(
             raise RequestError("study.applies_to_none", name=each.name, known=known)
         rows.append(Row(each, values, given.get(each.name, 1.0)))
     return Comparison(tuple(found), tuple(rows), fluctuation)
+
+
+def _measured(asked: Criterion, alternative: Alternative) -> Measured | None:
+    """The value of an alternative; None, with the reason among its notes, where it has none."""
+    try:
+        return asked.measure(alternative)
+    except PositionError:
+        raise
+    except LinkwrightError as error:
+        alternative.notes.append(error.sentence)
+        return None
 
 
 def _weights(weights: Mapping[str, float], asked: Sequence[Criterion]) -> Mapping[str, float]:

@@ -8,7 +8,7 @@ import numpy as np
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import one_or_more
-from linkwright.cycle_programs.terms import OWN, governing, metric_of, own, term
+from linkwright.cycle_programs.terms import OWN, governing, may_have, metric_of, own, term
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.metrics import METRICS, Metric, MetricValue
 from linkwright.metrics.base import Number
@@ -17,11 +17,7 @@ from linkwright.metrics.summary import is_summary, wanted
 from linkwright.registry import offered
 from linkwright.study.alternatives import Alternative
 from linkwright.words import say
-from linkwright.words.sentence import Sentence
-
-
-class NoSuchSubject(RequestError):
-    """A design number that is asked for a joint, link or output for which it has no value."""
+from linkwright.words.sentence import Sentence, in_words
 
 
 @dataclass(frozen=True)
@@ -52,7 +48,7 @@ class Criterion:
         if (found := metric_of(self.name)) is None:
             return self.name
         title = found[0]().label_in(language, dimension)
-        return f"{title}, {found[1]}" if found[1] else title
+        return f"{title}, {in_words(found[1], language)}" if found[1] else title
 
 
 def criteria(names: Iterable[str] | str) -> list[Criterion]:
@@ -100,12 +96,10 @@ def _metric(each: Alternative, metric: Metric, subject: str) -> Measured | None:
     values = metric.evaluate(each.analysis)
     found = [v for v in values if v.subject == subject] if subject else _of_output(each, metric, values)
     if not found:
-        subjects = [v.subject for v in values]
         if subject and values:
-            hint = offered(subject, subjects)
-            raise NoSuchSubject(
-                "study.no_value_for", name=metric.name, label=each.label, subject=subject, hint=hint
-            )
+            hint = offered(subject, [v.subject for v in values])
+            error = LinkwrightError if may_have(subject, each.analysis) else RequestError
+            raise error("study.no_value_for", name=metric.name, label=each.label, subject=subject, hint=hint)
         return None
     worst = governing(found, metric.better)
     return Measured(worst.value, worst.dimension, worst.at)
@@ -152,6 +146,7 @@ def _summary(each: Alternative, name: str) -> Measured:
     summary = next(iter(found.summaries))
     if found.unloaded:
         raise LinkwrightError(found.unloaded[0])
+    each.notes += [Sentence("cli.about", name=each.label, cause=note) for note in found.notes]
     return Measured(float(found.summaries[summary][0]), found.dimension(summary))
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Flags, Floats, Whole
+from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import one_of, require, whole
 from linkwright.core.html import columns_html
@@ -27,6 +28,7 @@ from linkwright.metrics.summary import Summary, wanted
 from linkwright.study.cluster import current, in_order, in_turn
 from linkwright.study.design_numbers import numbers_of
 from linkwright.study.failures import Failure, explained
+from linkwright.study.of_positions import note_of_positions
 from linkwright.study.sweep_run import Manner, SweepRun
 from linkwright.study.varied_dimensions import design_values, refuse_moved_positions
 
@@ -49,7 +51,8 @@ class Sweep(Plotted, Frozen):
     put together, or with ``partial`` that it reaches on its way from the first of them, as ``Motion.ok`` counts;
     ``ok``: which designs pass the whole cycle, (designs,);
     ``result["driver.effort", "rms"]`` or ``result["driver.effort rms"]`` a summary, NaN for designs
-    that do not pass the whole cycle (unless ``partial`` was asked for). ``branch_margin`` (designs,): how far the
+    that do not pass the whole cycle (unless ``partial`` was asked for); those of outputs are of the ``steps``
+    positions, and ``notes`` says how far they are off. ``branch_margin`` (designs,): how far the
     step nearest to another assembly was from being refused, 1 far, 0 at the edge, where groups without closed form
     are followed (their steps keep the determinant's sign, the correction small and both ends' exact rates on one
     curve; a proof as in ``solve_motion`` is too dear here); None where all groups have a closed form.
@@ -58,14 +61,22 @@ class Sweep(Plotted, Frozen):
     mechanism: Mechanism
     varied: Mapping[str, Floats]
     positions: int
+    steps: int
     assembled: Whole
     ok: Flags
     summaries: Mapping[Summary, Floats]
     quantities: Mapping[str, Quantity] = field(repr=False)
     unloaded: Mapping[int, str] = field(default_factory=dict)
-    notes: tuple[str, ...] = ()
+    of_motion: tuple[str, ...] = field(default=(), repr=False)
     branch_margin: Floats | None = None
     dimensions: Mapping[str, str] = field(default_factory=dict, repr=False)
+
+    @cached_property
+    def notes(self) -> tuple[str, ...]:
+        """Notes on the machine as it is: on its motion, and how far summaries of the positions are off."""
+        kinds = (self.dimension(each) for each in self.summaries)
+        told = note_of_positions(self.mechanism, self.steps, self.summaries, kinds)
+        return self.of_motion if told is None else (*self.of_motion, told)
 
     @property
     def designs(self) -> int:
@@ -110,7 +121,7 @@ class Sweep(Plotted, Frozen):
 
     def _repr_html_(self) -> str:
         """The first designs as notebooks show them, SI."""
-        return columns_html(self.mechanism.name, self.columns())
+        return columns_html(self.mechanism.name, self.columns(), self.notes)
 
     def __repr__(self) -> str:
         kept = int(self.ok.sum())
@@ -149,6 +160,9 @@ def sweep(
         backend: ``numpy``, ``llvm`` (compiled), or ``auto``.
         progress: called with (designs done, designs); what it raises stops the sweep.
 
+    Summaries of outputs are those of the positions, off by some 1e-4 of smooth ones, by percents where a load
+    switches on between two positions; :attr:`Sweep.notes` says how far for the machine as it is.
+
     Raises:
         LinkwrightError: unknown names (nearest ones offered), values that no design can have, dimensions that
             change the drive's law.
@@ -184,6 +198,7 @@ def sweep(
         mechanism,
         columns,
         positions.count,
+        positions.steps,
         assembled,
         passed,
         {each: values[each] for each in asked},
@@ -210,7 +225,8 @@ def _shared(client: Any, run: SweepRun, asked: Sequence[Summary], steps: int) ->
         *map(found.get, range(len(tasks))), strict=True
     )
     return Sweep(
-        run.mechanism, run.columns, run.positions.count, np.concatenate(assembled), np.concatenate(passed),
+        run.mechanism, run.columns, run.positions.count, run.positions.steps, np.concatenate(assembled),
+        np.concatenate(passed),
         dict(zip(asked, map(np.concatenate, zip(*summaries, strict=True)), strict=True)), run.quantities,
         {each.start + k: why for each, some in zip(places, unloaded, strict=True) for k, why in some.items()},
         run.traced.nominal.notes, None if margins[0] is None else np.concatenate(margins),

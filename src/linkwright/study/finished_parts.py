@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 
 from linkwright.errors import RequestError
-from linkwright.whole_files import refuse_target, write_whole
+from linkwright.whole_files import refuse_target, write_new
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
@@ -124,6 +124,7 @@ class Kept:
 
     def __init__(self, path: Path | None, name: str, digest: str, progress: Progress | None) -> None:
         self.path, self.name, self.progress, self.written = path, name, progress, time.monotonic()
+        self._unwritten: dict[str, str] = {}
         if path is not None:
             refuse_target(path)
         try:
@@ -162,10 +163,7 @@ class Kept:
             content = json.dumps(_plain(found))
         except TypeError:
             return
-        try:
-            self.parts.execute("insert or replace into parts values (?, ?)", (key, content))
-        except sqlite3.Error as problem:
-            raise self._bad(problem) from None
+        self._unwritten[key] = content
         if time.monotonic() - self.written > WRITTEN:
             self._write()
 
@@ -175,7 +173,7 @@ class Kept:
         if self.path is None:
             stem = re.sub(r"[^\w-]+", "_", self.name).strip("_") or "machine"
             names = (Path(f"{stem}{'' if k == 1 else f'_{k}'}.state") for k in count(1))
-            self.path = write_whole(next(each for each in names if not each.exists()), self.parts.serialize())
+            self.path = write_new(names, self.parts.serialize())
         return self.path
 
     def close(self) -> None:
@@ -184,10 +182,18 @@ class Kept:
         self.parts.close()
 
     def _write(self) -> None:
-        self.parts.commit()
+        """In one short transaction: another process that shares the file waits no longer than that."""
+        try:
+            with self.parts:
+                self.parts.executemany("insert or replace into parts values (?, ?)", self._unwritten.items())
+        except sqlite3.Error as problem:
+            raise self._bad(problem) from None
+        self._unwritten.clear()
         self.written = time.monotonic()
 
     def _content(self, key: str) -> str | None:
+        if key in self._unwritten:
+            return self._unwritten[key]
         row = self.parts.execute("select content from parts where key = ?", (key,)).fetchone()
         return None if row is None else str(row[0])
 

@@ -97,6 +97,7 @@ class Prepared:
         plain = not (self.program.fields or self.program.states)
         self._at_once = plain and positions.is_way and parts(self.solver, positions) == 1
         self._modes = self.solver.assembly.modes
+        self._checked = False
 
     def __reduce__(self) -> tuple[type[Prepared], tuple[object, ...]]:
         return Prepared, (self.mechanism, self.vary, self.positions, self.backend)
@@ -137,6 +138,9 @@ class Prepared:
         values = self._values(changes) if self._at_once else None
         if values is None or is_near(values[-2]):
             return self._solve_alone(design, failures)
+        if not self._checked:  # compiled formulas are those of a machine alone, which checks its numbers
+            self._solve_alone(design, failures)
+            self._checked = True
         motion = Motion(self.solver, design, self.positions, {}, {}, Rows(values, self._index))
         fields = {name: values[self._index[name]] for name in self._loads.fields}
         return Forces(motion, self.force_solver, fields, False, motion.rows)

@@ -43,6 +43,11 @@ class Range:
         """Largest value."""
         return float(self.values.max())
 
+    @property
+    def si(self) -> str:
+        """The SI unit of its values."""
+        return units.si_symbol(units.unit(self.unit)[1]) if self.unit else ""
+
     def shown(self, value: float) -> str:
         """A value in the user's unit."""
         factor = units.unit(self.unit)[0] if self.unit else 1.0
@@ -104,7 +109,7 @@ def _quantity(part: str, unit: str, address: str, text: str) -> tuple[float, str
 def _count(text: str | None, address: str, whole: str) -> int:
     if text is None:
         return USUAL_COUNT
-    if not text.strip().isdigit() or int(text) < 1:
+    if not text.strip().isdecimal() or int(text) < 1:
         raise RequestError("study.no_count", address=address, whole=whole, text=text.strip())
     if int(text) > 1_000_000:
         raise RequestError("study.count_large", address=address, whole=whole, count=text)

@@ -21,7 +21,7 @@ from linkwright.engine.machine_code import available
 from linkwright.engine.threads import chunks
 from linkwright.errors import LinkwrightError, RequestError, with_remedy
 from linkwright.files.write import dump
-from linkwright.machine import flywheel_inertia
+from linkwright.machine.flywheel import FLUCTUATION, flywheel_inertia
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.evaluate import unloaded
 from linkwright.metrics.outputs import usual_output
@@ -30,7 +30,7 @@ from linkwright.metrics.summary import is_summary
 from linkwright.registry import offered
 from linkwright.study.alternatives import Alternative, output_of_machine
 from linkwright.study.cluster import current, in_turn
-from linkwright.study.criteria import Criterion, NoSuchSubject, criteria
+from linkwright.study.criteria import Criterion, criteria
 from linkwright.study.design_numbers import side_by_side
 from linkwright.study.designs import sweep
 from linkwright.study.failures import Failure
@@ -142,6 +142,7 @@ class Study(Plotted, Frozen):
             "designs": self.designs,
             "movable": int(self.ok.sum()),
             "varied": {address: values.tolist() for address, values in self.varied.items()},
+            "units": {each.address: each.si for each in self.ranges},
             "metrics": {
                 name: {
                     "unit": si_unit(self.dimensions[name]),
@@ -193,7 +194,7 @@ def study(
     samples: int = 64,
     seed: int = 0,
     output: str | None = None,
-    fluctuation: float = 0.02,
+    fluctuation: float = FLUCTUATION,
     steps: int = 360,
     progress: Progress | None = None,
 ) -> Study:
@@ -283,7 +284,7 @@ class _Work:
         better = {each.name: each.better for each in self.asked}
         return Study(
             self.mechanism, ranges, self.columns, self.values, self.dimensions, better, ok, tuple(failures), sampling,
-            (*found.notes, *self.notes),
+            (*(found.notes if summaries else found.of_motion), *self.notes),
         )  # fmt: skip
 
     def found(
@@ -383,15 +384,16 @@ class _Work:
             "",
         )
         each = Alternative(design.name, design, self.output, self.steps, self.fluctuation)
-        try:
-            for criterion in asked:
+        for criterion in asked:
+            try:
                 found = criterion.measure(each)
-                if found is not None:
-                    numbers[criterion.name] = found.value, found.dimension
-        except NoSuchSubject:
-            raise
-        except LinkwrightError as error:
-            troubled = error.sentence
+            except RequestError:
+                raise
+            except LinkwrightError as error:
+                troubled = troubled or error.sentence
+                continue
+            if found is not None:
+                numbers[criterion.name] = found.value, found.dimension
         return numbers, troubled, [*each.notes]
 
     def _leave_out_idle(self, ok: Flags) -> None:

@@ -14,18 +14,21 @@ from linkwright.core.inputs import Input, mode_groups
 from linkwright.cycle_programs.change_points import ChangePoints, near_enough
 from linkwright.cycle_programs.iterated_groups import MARGIN, following
 from linkwright.cycle_programs.loaded_cycle import LoadedCycle, loaded_cycle
-from linkwright.cycle_programs.one_by_one import OneByOne
+from linkwright.cycle_programs.one_by_one import OneByOne, changes_of
 from linkwright.cycle_programs.traced_outputs import NEAREST, VALID, Traced
 from linkwright.engine.cycle import Progress, summaries
 from linkwright.engine.llvm_backend import compile_program
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
+from linkwright.engine.recently_made import Recent
 from linkwright.engine.reductions import Reduction, Results
 from linkwright.engine.stage import Backend
 from linkwright.engine.states import inputs_as_fields
 from linkwright.engine.threads import chunks, cores
+from linkwright.errors import LinkwrightError, SelfCheckError
 from linkwright.files.write import dump
 from linkwright.kinematics.cycle import Positions
+from linkwright.kinetostatics.forces import solve_forces
 from linkwright.kinetostatics.named_outputs import Quantity
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.summary import Summary, finished, reductions
@@ -37,6 +40,8 @@ PASSED = "passed"
 BLOCK, LOADED_BLOCK = 1 << 16, 1 << 9
 #: Designs whose curves are held at a time.
 CURVE_BLOCK = 1 << 12
+#: Designs of a sweep whose forces are checked, and the positions in which they are.
+CHECKED, CHECK_STEPS = 3, 24
 
 
 @dataclass(frozen=True)
@@ -47,6 +52,10 @@ class Manner:
     threads: int | None = None
     backend: Backend = "auto"
     progress: Progress | None = None
+
+
+#: Sentences of those of the first few designs of a mechanism that do not pass, by number.
+_few: Recent[Mechanism, dict[int, str]] = Recent(64)
 
 
 class SweepRun:
@@ -100,6 +109,7 @@ class SweepRun:
                 into[first:end] = found
             if self.progress is not None:
                 self.progress(end, self.designs)
+        self.unloaded |= self._unsound()
         for into in values.values():
             into[list(self.unloaded)] = np.nan
         passed[list(self.unloaded)] = False
@@ -107,11 +117,37 @@ class SweepRun:
 
     def curves(self, names: Sequence[str]) -> Iterator[tuple[slice, dict[str, Floats]]]:
         """The outputs over the positions block by block, (designs, n) each; NaN for designs that do not pass."""
+        for why in self._unsound().values():
+            raise SelfCheckError(why)
         for first, end in chunks(self.designs, CURVE_BLOCK):
             part = {address: column[first:end] for address, column in self.columns.items()}
             yield slice(first, end), self._curves(names, part, first)
             if self.progress is not None:
                 self.progress(end, self.designs)
+
+    def _unsound(self) -> dict[int, str]:
+        """Sentences of the designs whose forces do not pass their own check, by number.
+
+        Compiled programs have the formulas of single machines: a few designs of a mechanism's first sweep are solved
+        as such, which check themselves, and all of them if one of the few fails.
+        """
+        if all(each.output.of_motion for each in self.quantities.values()):
+            return {}
+        few = np.unique(np.linspace(0, self.designs - 1, CHECKED).astype(np.intp))
+        failing = _few.get(self.mechanism, None, lambda: self._failing(few))
+        return failing and self._failing(np.arange(self.designs))
+
+    def _failing(self, designs: Indices) -> dict[int, str]:
+        found: dict[int, str] = {}
+        for index in designs.tolist():
+            try:
+                design = self.mechanism.with_dimensions(changes_of(self.columns, index))
+                solve_forces(design, steps=CHECK_STEPS)
+            except SelfCheckError as error:
+                found[index] = error.sentence
+            except LinkwrightError:
+                continue
+        return found
 
     def _curves(self, names: Sequence[str], part: Mapping[str, Floats], first: int) -> dict[str, Floats]:
         """The outputs of a block, (designs, n) each; kept where parts are kept."""

@@ -9,6 +9,7 @@ import numpy as np
 from linkwright.core.given import real
 from linkwright.kinematics import solve_motion
 from linkwright.kinetostatics.forces import solve_forces
+from linkwright.metrics.evaluate import metrics
 from linkwright.synthesis.linkage import Linkage
 
 
@@ -28,11 +29,5 @@ def peak_loads(linkage: Linkage, mass_per_length: float, speed: str | float, ste
         centre = (float(middle[0]), float(middle[1]))
         links[name] = replace(link, mass=mass, inertia=mass * length**2 / 12, mass_centre=centre)
     forces = solve_forces(solve_motion(replace(mechanism, links=links), steps=steps))
-    reactions = [
-        np.hypot(*forces.reaction(name, on=joint.joined[0]).T).max()
-        for name, joint in mechanism.joints.items()
-    ]
-    return {
-        "peak_input_torque": float(np.abs(forces.input_torque).max()),
-        "peak_reaction": float(max(reactions)),
-    }
+    peaks = metrics(forces, ["peak_input_torque", "peak_reaction"])
+    return {name: max(row.value for row in peaks[name]) for name in ("peak_input_torque", "peak_reaction")}

@@ -95,16 +95,16 @@ class Linkage:
         points = {name: factor * place + shift for name, place in self.points.items()}
         return replace(self, points=points, guides=guides, span=span)
 
-    def text(self, name: str, *, purpose: str = "", source: str = "", speed: str = "60 rpm") -> str:
-        """The linkage as the text of a model file."""
-        return "\n".join(_lines(self, name, purpose, source, speed)) + "\n"
+    def text(self, name: str, *, purpose: str = "", source: str = "", speed: str | float = "60 rpm") -> str:
+        """The linkage as the text of a model file; ``speed``: that of the input link, a text or rad/s."""
+        return "\n".join(_lines(self, name, purpose, source, input_speed(speed))) + "\n"
 
     def mechanism(self, name: str = "", *, speed: str | float = "60 rpm") -> Mechanism:
         """The linkage as a mechanism: what its text says; ``speed`` a text or rad/s."""
-        return loads(self.text(name or self.kind, speed=_speed(speed)), f"{self.kind}.yaml")
+        return loads(self.text(name or self.kind, speed=speed), f"{self.kind}.yaml")
 
 
-def _speed(given: str | float) -> str:
+def input_speed(given: str | float) -> str:
     """A speed as a number and a unit with a space between; raises RequestError for anything else."""
     text = given if isinstance(given, str) else f"{real('speed', given)!r} rad/s"
     with about("speed"):
@@ -143,21 +143,29 @@ def _lines(linkage: Linkage, name: str, purpose: str, source: str, speed: str) -
 
 def _driver(linkage: Linkage, speed: str) -> list[str]:
     link, about = linkage.driver
-    start = f", start: {_angle(linkage.start if linkage.span is None else linkage.span[0])}"
-    law = f"{{turn: {link}, about: {about}, speed: {speed}{start}}}"
+    first, last = linkage.span or (linkage.start, linkage.start)
+    if parse(speed, "angular_velocity") < 0:
+        first, last = last, first
+    law = f"{{turn: {link}, about: {about}, speed: {speed}, start: {_angle(first)}}}"
     if linkage.second is not None:
         other, pin, ratio = linkage.second
-        number, _, unit = speed.partition(" ")
-        turned = f"{{turn: {other}, about: {pin}, speed: {_digits(float(number) * ratio)} {unit}"
-        before = 0.0 if linkage.span is None else ratio * (linkage.span[0] - linkage.start)
-        begin = _angle(_phase(linkage, other, pin) + before)
-        lines = ["drivers:", f"  input: {law}", f"  geared: {turned}, start: {begin}}}"]
+        begin = _angle(_phase(linkage, other, pin) + ratio * (first - linkage.start))
+        turned = f"{{turn: {other}, about: {pin}, speed: {_times(speed, ratio)}, start: {begin}}}"
+        lines = ["drivers:", f"  input: {law}", f"  geared: {turned}"]
     else:
         lines = [f"driver: {law}"]
     if linkage.span is not None:
-        first, last = linkage.span
         lines.append(f"cycle: {{from: {_angle(first)}, to: {_angle(last)}}}")
     return lines
+
+
+def _times(speed: str, ratio: float) -> str:
+    """A speed times a ratio, in the speed's own unit where it is a number and a unit."""
+    number, _, unit = speed.partition(" ")
+    try:
+        return f"{_digits(float(number) * ratio)} {unit}"
+    except ValueError:
+        return f"{parse(speed, 'angular_velocity') * ratio!r} rad/s"
 
 
 def _phase(linkage: Linkage, link: str, about: str) -> float:

@@ -19,6 +19,7 @@ from linkwright.errors import LinkwrightError
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.synthesis.linkage import Linkage
 from linkwright.synthesis.merit import merit
+from linkwright.whole_files import refuse_target, write_whole
 from linkwright.words.sentence import Sentence
 
 #: Share of its size within which a linkage does what another one does.
@@ -154,22 +155,33 @@ class Synthesis(Plotted):
             "candidates": [each.data() for each in self.candidates],
         }
 
-    def write(self, folder: str | Path, name: str = "") -> list[Path]:
-        """Every candidate as a model file ``NAME_1.yaml`` … in a folder that exists; gives the paths."""
-        stem = name or self.task
-        found = []
-        for number in range(1, len(self) + 1):
-            path = Path(folder) / f"{stem}_{number}.yaml"
-            path.write_text(self.model_text(number - 1, f"{stem} {number}"), encoding="utf-8")
-            found.append(path)
-        return found
+    def write(
+        self, folder: str | Path, name: str = "", *, speed: str | float = "60 rpm", force: bool = False
+    ) -> list[Path]:
+        """Every candidate as a model file ``NAME_1.yaml`` … in a folder that exists; gives the paths.
 
-    def model_text(self, index: int = 0, name: str = "", *, language: str = "en") -> str:
-        """The model file of one candidate, its purpose in a language."""
+        ``speed``: that of the input link, a text or rad/s.
+        Raises LinkwrightError, and writes none, where one cannot be written or is there already unless ``force``.
+        """
+        stem = name or self.task
+        paths = [Path(folder) / f"{stem}_{number + 1}.yaml" for number in range(len(self))]
+        for path in paths:
+            refuse_target(path, force=force)
+        for number, path in enumerate(paths):
+            write_whole(
+                path, self.model_text(number, f"{stem} {number + 1}", speed=speed).encode(), force=force
+            )
+        return paths
+
+    def model_text(
+        self, index: int = 0, name: str = "", *, language: str = "en", speed: str | float = "60 rpm"
+    ) -> str:
+        """The model file of one candidate: its purpose in a language, its input's speed a text or rad/s."""
         from linkwright.synthesis.report import purpose
 
         each = self.candidates[index]
-        return each.linkage.text(name or f"{self.task} {index + 1}", purpose=purpose(self, each, language))
+        said = purpose(self, each, language)
+        return each.linkage.text(name or f"{self.task} {index + 1}", purpose=said, speed=speed)
 
 
 class SynthesisError(LinkwrightError):

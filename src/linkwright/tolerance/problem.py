@@ -134,7 +134,7 @@ class ToleranceStudy(OfMechanism):
         ByAddress(Table(LIMIT, _limit), doc="limits by summary: {lower: 59 deg, upper: 61 deg}"), dict
     )
     samples: int = given(Whole(LEAST, doc="machines of the Monte Carlo study, 8192 unless given"), 8192)
-    seed: int = given(Whole(0, doc="seed of the random numbers"), 1)
+    seed: int = given(Whole(0, 2**32 - 1, doc="seed of the random numbers"), 1)
     steps: int = given(Whole(4, doc="positions over the cycle, 360 unless given"), 360)
     name: str = ""
     source: str = ""

@@ -13,7 +13,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError, ModelError
 from linkwright.kinetostatics.forces import Forces
 from linkwright.metrics.summary import Summary, wanted
-from linkwright.parts.base import Block, Result, Row, fault, number, put, shown, unit
+from linkwright.parts.base import PERCENT, Block, Result, Row, fault, put, shown
 from linkwright.study.designs import Sweep, sweep
 from linkwright.study.sensitivity import Sensitivity, sensitivity
 from linkwright.study.varied_dimensions import design_values
@@ -367,8 +367,8 @@ class Spread(Result):
         shift = self.shift(text)
         if self.study.holes("pressed"):
             gaps = int((~self.followed.followed).sum()) if math.isnan(shift) else 0
-            value = say("tolerance.no_shift", count=gaps) if gaps else shift
-            rows.append(Row("shift", value, "" if math.isnan(shift) else kind))
+            unknown = say("tolerance.no_shift", count=gaps) if gaps else ""
+            rows.append(Row("shift", shift, kind, text=unknown))
         if self.swept is not None:
             values = self.values(text)
             low, high = np.quantile(values, QUANTILES).tolist()
@@ -382,7 +382,7 @@ class Spread(Result):
                     say("tolerance.machines", count=len(values)),
                 ),
                 Row("mean", float(values.mean()), kind),
-                Row("range", f"{number(low, kind)} … {number(high, kind)} {unit(kind)}".rstrip()),
+                Row("range", low, kind, end=high),
                 Row("worst", self.worst_case(text), kind),
             ]
         if text in self.study.limits:
@@ -393,12 +393,13 @@ class Spread(Result):
                 high=f"{100 * high:.3f}",
                 linear=f"{100 * linear:.3f}",
             )
-            rows.append(Row("yield", f"{100 * share:.3f} %", "", "", note))
+            rows.append(Row("yield", share, note=note, scale=PERCENT))
         parts = []
         for each in self.shares(text):
             slope = f"{each.slope:.5g} {self.study.per_unit(kind, each.name)}".rstrip()
             note = say("tolerance.part", slope=slope)
-            parts.append(Row(each.name, f"{100 * each.share:.2f} %", "", each.name, note))
+            percent = f"{100 * each.share:.2f} %"
+            parts.append(Row(each.name, each.share, label=each.name, note=note, text=percent))
         remarks = [self.reason(text, say)]
         if self.summaries[text].kind in EXTREMES:
             remarks.append(say("tolerance.at_positions", name=text, count=self.study.steps))

@@ -1,4 +1,4 @@
-"""Published numbers beside those of the program: the data, how each is found, and the comparison."""
+"""Reference numbers next to those of the program: the data, how each is found, and the comparison."""
 
 from typing import TYPE_CHECKING
 

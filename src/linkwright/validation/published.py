@@ -1,4 +1,4 @@
-"""Published numbers with their sources: of the data files, and of the models of the gallery."""
+"""Reference numbers with their sources: of the data files, and of the models of the gallery."""
 
 from __future__ import annotations
 
@@ -15,14 +15,18 @@ from linkwright.words.sentence import Sentence
 
 #: Units of the last printed digit by which a rounded number may differ.
 ROUNDED = 0.51
+#: Keys of ``expected`` that are numbers of the structure.
+STRUCTURE = ("mobility", "grubler", "class")
 
 
 @dataclass(frozen=True)
-class Printed:
-    """One number: ``what`` it is, ``text`` as printed with its unit; ``right`` where the source is wrong, and why."""
+class Reference:
+    """One number: ``what`` it is, ``text`` with its unit; ``printed``: the source prints it, else it is derived (by
+    hand, closed form, independent solution) from what the source gives; ``right`` where a print is wrong, and why."""
 
     what: str
     text: str
+    printed: bool
     right: str = ""
     why: str = ""
 
@@ -35,7 +39,7 @@ class Published:
     source: str
     probe: str
     given: Mapping[str, Any]
-    numbers: tuple[Printed, ...]
+    numbers: tuple[Reference, ...]
     within: float = ROUNDED
     place: str = field(default="")
 
@@ -60,67 +64,80 @@ def from_data() -> Iterator[Published]:
             name, unit = entry["at"].split()
             for row in rows:
                 numbers = tuple(
-                    Printed(column["of"], f"{row[key]} {column['unit']}")
+                    Reference(column["of"], f"{row[key]} {column['unit']}", printed=True)
                     for key, column in entry["columns"].items()
                 )
                 place = f"{row[name]} {unit}"
                 yield Published(*head, {**entry["given"], "at": place}, numbers, within, place)
             continue
-        numbers = tuple(_printed(str(what), given) for what, given in entry["numbers"].items())
+        numbers = tuple(
+            _reference(str(what), given, printed=key == "printed")
+            for key in ("printed", "derived")
+            for what, given in entry.get(key, {}).items()
+        )
         yield Published(*head, entry.get("given", {}), numbers, within)
 
 
-def _printed(what: str, given: Any) -> Printed:
+def _reference(what: str, given: Any, *, printed: bool) -> Reference:
     if isinstance(given, Mapping):
-        return Printed(
-            what, str(given["printed"]), str(given["right"]), Sentence(f"validate.why_{given['why']}")
-        )
-    return Printed(what, str(given))
+        why = Sentence(f"validate.why_{given['why']}")
+        return Reference(what, str(given["printed"]), printed, str(given["right"]), why)
+    return Reference(what, str(given), printed)
 
 
 def from_gallery(name: str) -> Iterator[Published]:
-    """Numbers that a gallery file has as ``expected``."""
+    """Numbers that a gallery file has as ``expected``.
+
+    ``printed`` names those of the source itself, of all states or of one state or limit; the others are derived.
+    """
     mechanism = load(f"gallery:{name}")
     expected, head = mechanism.expected, (mechanism.name, mechanism.source)
+    printed = frozenset(expected.get("printed", ()))
     for state in expected.get("states", ()):
-        numbers = tuple(_of_state(state))
+        here = printed | frozenset(state.get("printed", ()))
+        numbers = tuple(Reference(what, text, kind in here) for what, kind, text in _of_state(state))
         place = next((f"{key} {state[key]}" for key in ("input", "time") if key in state), "")
         given = {"model": name, **{key: state[key] for key in ("input", "time") if key in state}}
         yield Published(*head, "machine", given, numbers, place=place.partition(" ")[2])
     limits = tuple(
-        Printed(f"{each['link']} {each['kind']} {what}", str(each[what]))
+        Reference(f"{each['link']} {each['kind']} {what}", str(each[what]), what in each.get("printed", ()))
         for each in expected.get("limits", ())
         for what in ("input", "angle")
         if what in each
     )
-    if limits:
-        yield Published(*head, "limits", {"model": name}, limits)
-    metrics = tuple(Printed(metric, str(text)) for metric, text in expected.get("metrics", {}).items())
-    if metrics:
-        yield Published(*head, "metrics", {"model": name}, metrics)
-    structure = tuple(
-        Printed(key, str(expected[key])) for key in ("mobility", "grubler", "class") if key in expected
-    )
-    if structure:
-        yield Published(*head, "structure", {"model": name}, structure)
+    metrics = _plain(expected.get("metrics", {}), printed)
+    structure = _plain({key: expected[key] for key in STRUCTURE if key in expected}, printed)
+    for probe, found in (("limits", limits), ("metrics", metrics), ("structure", structure)):
+        if found:
+            yield Published(*head, probe, {"model": name}, found)
 
 
-def _of_state(state: Mapping[str, Any]) -> Iterator[Printed]:
+def _plain(numbers: Mapping[str, Any], printed: frozenset[str]) -> tuple[Reference, ...]:
+    return tuple(Reference(what, str(text), what in printed) for what, text in numbers.items())
+
+
+def _of_state(state: Mapping[str, Any]) -> Iterator[tuple[str, str, str]]:
+    """What each number of a state is, the kind under which ``printed`` names it, and its text."""
     for link, numbers in state.get("links", {}).items():
-        yield from (Printed(f"{link}.{what}", str(text)) for what, text in numbers.items())
+        yield from ((f"{link}.{kind}", kind, str(text)) for kind, text in numbers.items())
     for point, numbers in state.get("points", {}).items():
-        for what, pair in numbers.items():
-            yield from (Printed(f"{point}.{what}.{axis}", str(t)) for axis, t in zip("xy", pair, strict=True))
+        for kind, pair in numbers.items():
+            yield from (
+                (f"{point}.{kind}.{axis}", f"{kind}.{axis}", str(text))
+                for axis, text in zip("xy", pair, strict=True)
+            )
     for joint, numbers in state.get("reactions", {}).items():
         on = f"{joint} on {numbers['on']}"
         pair = numbers.get("force", ())
-        yield from (Printed(f"{on}.{axis}", str(text)) for axis, text in zip("xy", pair, strict=False))
         yield from (
-            Printed(f"{on}.{what}", str(numbers[what]))
-            for what in ("magnitude", "direction")
-            if what in numbers
+            (f"{on}.{axis}", f"force.{axis}", str(text)) for axis, text in zip("xy", pair, strict=False)
+        )
+        yield from (
+            (f"{on}.{kind}", kind, str(numbers[kind]))
+            for kind in ("magnitude", "direction")
+            if kind in numbers
         )
     for driver, text in state.get("efforts", {}).items():
-        yield Printed(f"{driver}.effort", str(text))
+        yield f"{driver}.effort", "effort", str(text)
     if "input_torque" in state:
-        yield Printed("input_torque", str(state["input_torque"]))
+        yield "input_torque", "input_torque", str(state["input_torque"])

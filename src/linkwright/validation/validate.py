@@ -1,4 +1,4 @@
-"""The comparison: every published number beside ours."""
+"""The comparison: every reference number next to the one found here."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError
 from linkwright.units import unit
 from linkwright.validation.probes import PROBES
-from linkwright.validation.published import Printed, Published, published
+from linkwright.validation.published import Published, Reference, published
 from linkwright.words import say, speaker
 from linkwright.words.characters import aligned_within
 from linkwright.words.sentence import in_language
@@ -18,11 +18,11 @@ from linkwright.words.titles import title_said
 
 @dataclass(frozen=True)
 class Checked:
-    """One published number and ours: ``value`` and ``expected`` in the printed unit; ``digits``: the difference in
-    units of the last printed digit; ``trouble``: why there is no value."""
+    """One reference number and ours: ``value`` and ``expected`` in its unit; ``digits``: the difference in units of
+    its last digit; ``trouble``: why there is no value."""
 
     case: Published
-    printed: Printed
+    reference: Reference
     value: float
     expected: float
     digits: float
@@ -36,7 +36,7 @@ class Checked:
     @property
     def erratum(self) -> bool:
         """Whether the printed number is known to be wrong, and ours shows it."""
-        return bool(self.printed.right)
+        return bool(self.reference.right)
 
 
 @dataclass(frozen=True)
@@ -68,19 +68,22 @@ class Validation:
         ``width``: characters across within which texts of the table are folded.
         """
         say = speaker(language)
-        rows = [tuple(say(f"validate.{key}") for key in ("case", "numbers", "agree", "worst"))]
+        rows = [tuple(say(f"validate.{key}") for key in ("case", "numbers", "from_source", "agree", "worst"))]
         for (case, _), checks in self.cases().items():
             worst = max(checks, key=lambda each: abs(each.digits))
             agree = sum(each.ok for each in checks)
-            rows.append(
-                (title_said(case, language), str(len(checks)), str(agree), f"{abs(worst.digits):.2g}")
-            )
-        lines = [line for each in aligned_within(rows, "<>>>", width) for line in each]
+            counts = len(checks), _printed(checks), agree
+            rows.append((title_said(case, language), *map(str, counts), f"{abs(worst.digits):.2g}"))
+        lines = [line for each in aligned_within(rows, "<>>>>", width) for line in each]
         shown = self.checks if every else [each for each in self.checks if not each.ok or each.erratum]
         lines += ["", *(line(each, language) for each in shown)] if shown else []
-        agree, errata = sum(each.ok for each in self.checks), sum(each.erratum for each in self.checks)
         count = say(
-            "validate.count", agree=agree, all=len(self.checks), cases=len(self.cases()), errata=errata
+            "validate.count",
+            agree=sum(each.ok for each in self.checks),
+            all=len(self.checks),
+            cases=len(self.cases()),
+            printed=_printed(self.checks),
+            errata=sum(each.erratum for each in self.checks),
         )
         return "\n".join([*lines, "", count])
 
@@ -91,10 +94,11 @@ class Validation:
                 "case": each.case.case,
                 "source": each.case.source,
                 "place": each.case.place,
-                "what": each.printed.what,
-                "printed": each.printed.text,
-                "right": each.printed.right,
-                "why": each.printed.why,
+                "what": each.reference.what,
+                "expected": each.reference.right or each.reference.text,
+                "printed": each.reference.text if each.reference.printed else None,
+                "right": each.reference.right,
+                "why": each.reference.why,
                 "ours": each.value,
                 "digits": each.digits,
                 "ok": each.ok,
@@ -104,31 +108,38 @@ class Validation:
 
     def markdown(self, language: str = "en") -> str:
         """The table of the documentation."""
-        lines = [say("validate.columns", language), "|---|---|--:|--:|--:|"]
+        lines = [say("validate.columns", language), "|---|---|--:|--:|--:|--:|"]
         for (case, source), checks in self.cases().items():
             agree, worst = sum(each.ok for each in checks), max(abs(each.digits) for each in checks)
-            cells = (title_said(case, language), source, len(checks), agree, f"{worst:.1f}")
+            counts = len(checks), _printed(checks), agree
+            cells = (title_said(case, language), source, *counts, f"{worst:.1f}")
             lines.append(f"| {' | '.join(str(each).replace('|', '/') for each in cells)} |")
         return "\n".join(lines)
+
+
+def _printed(checks: Iterable[Checked]) -> int:
+    """How many of the numbers their sources print."""
+    return sum(each.reference.printed for each in checks)
 
 
 def line(each: Checked, language: str) -> str:
     """One number in a sentence."""
     say = speaker(language)
+    number = each.reference.text
     words = {
         "case": f"{title_said(each.case.case, language)} {each.case.place}".rstrip(),
-        "what": each.printed.what,
-        "printed": each.printed.text,
+        "what": each.reference.what,
+        "given": say("validate.printed" if each.reference.printed else "validate.derived", number=number),
     }
     if each.trouble:
         return say("validate.trouble", sentence=in_language(each.trouble, language), **words)
-    ours = f"{each.value:.10g} {each.printed.text.partition(' ')[2]}".strip()
+    ours = f"{each.value:.10g} {number.partition(' ')[2]}".strip()
     if each.erratum:
         return say(
             "validate.erratum",
             ours=ours,
-            right=each.printed.right,
-            why=in_language(each.printed.why, language),
+            right=each.reference.right,
+            why=in_language(each.reference.why, language),
             **words,
         )
     return say(
@@ -139,7 +150,7 @@ def line(each: Checked, language: str) -> str:
 def validate(
     cases: Iterable[Published] | None = None, told: Callable[[int], None] | None = None
 ) -> Validation:
-    """Compares published numbers with those found here.
+    """Compares reference numbers, printed by their sources or derived from them, with those found here.
 
     Args:
         cases: which; by default all that the package holds.
@@ -165,23 +176,23 @@ def check(case: Published) -> list[Checked]:
     return [_checked(case, each, find) for each in case.numbers]
 
 
-def _checked(case: Published, printed: Printed, find: Callable[[str], float]) -> Checked:
-    number, _, name = (printed.right or printed.text).partition(" ")
+def _checked(case: Published, reference: Reference, find: Callable[[str], float]) -> Checked:
+    number, _, name = (reference.right or reference.text).partition(" ")
     factor = unit(name)[0] if name else 1.0
     expected = float(number)
     try:
-        value = find(printed.what) / factor
+        value = find(reference.what) / factor
     except (LinkwrightError, KeyError, StopIteration, AttributeError) as error:
-        return Checked(case, printed, math.nan, expected, math.inf, f"{type(error).__name__}: {error}")
+        return Checked(case, reference, math.nan, expected, math.inf, f"{type(error).__name__}: {error}")
     gap = value - expected
     if name in ("deg", "rad"):
         turn = 2.0 * math.pi / factor
         gap = math.remainder(gap, turn)
         value = expected + gap
-    return Checked(case, printed, value, expected, gap / last_digit(number))
+    return Checked(case, reference, value, expected, gap / last_digit(number))
 
 
 def last_digit(number: str) -> float:
-    """One unit of the last printed digit: 0.01 of ``3.14``, 1e-9 of ``7.41e-7``."""
+    """One unit of the last digit: 0.01 of ``3.14``, 1e-9 of ``7.41e-7``."""
     mantissa, _, power = number.lower().partition("e")
     return float(10.0 ** (int(power or 0) - len(mantissa.partition(".")[2])))

@@ -99,6 +99,16 @@ def in_words(subject: str, language: str) -> str:
     return say("nouns.joint_on_link", language).format(joint=joint, link=link) if on else told
 
 
+def link_said(name: str, language: str) -> str:
+    """A link's name; of the frame its word in a language."""
+    return say("nouns.frame", language) if name == "frame" else name
+
+
+def links_said(numbers: Mapping[str, int], language: str) -> list[str]:
+    """Links with their numbers: ``0 frame``, ``1 crank``."""
+    return [f"{number} {link_said(name, language)}" for name, number in numbers.items()]
+
+
 def together(items: Sequence[str]) -> str:
     """One or more texts as a list with "and" before the last."""
     *first, last = items

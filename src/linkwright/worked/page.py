@@ -6,12 +6,15 @@ from dataclasses import field, replace
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
+from linkwright.errors import SelfCheckError
 from linkwright.worked.digits import digits_needed, error_of, last_place, printed, put_in
 from linkwright.worked.render import latex, plain
 from linkwright.worked.terms import Pair, Term, symbol
 
 #: A result smaller than this (SI) whose formula gives nothing at all is zero but for rounding.
 FADED = 1e-9
+#: Errors of a formula's symbols, in those that its digits are counted by, up to which it gives the solver's number.
+OFF = 1e3
 
 
 @dataclass(frozen=True)
@@ -150,8 +153,12 @@ def _measured(result: Term, what: str | Output) -> tuple[str, float, Output | No
 
 
 def _equation(result: Term, formula: Term, what: str | Output) -> Equation:
-    value = result.amount
-    place = last_place(value, error_of(formula))
+    value, error = result.amount, error_of(formula)
+    if abs(value - formula.value) > OFF * error + FADED:
+        raise SelfCheckError(
+            "worked.off", symbol=plain(result), value=f"{value:.6g}", formula=f"{formula.value:.6g}"
+        )
+    place = last_place(value, error)
     text = "0" if formula.value == 0.0 and abs(value) < FADED else printed(value, place)
     digits = digits_needed(formula, text, place if text != "0" else max(place, -6))
     shown = (plain(formula), latex(formula), plain(formula, digits), latex(formula, digits))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -14,13 +14,18 @@ from linkwright.kinematics.groups import in_one_step
 from linkwright.kinetostatics.forces import Forces
 from linkwright.structure.group import Connection, Group, TreeJoint
 from linkwright.worked.applied_forces import Known, KnownForces
-from linkwright.worked.chains import ChainClosure, attach
+from linkwright.worked.chains import ChainClosure, Closure, attach
 from linkwright.worked.higher_pairs import closures
 from linkwright.worked.page import Step
-from linkwright.worked.rates import name_matrix, solve
+from linkwright.worked.rates import System, name_matrix, solve
 from linkwright.worked.symbols import Book, tex
 from linkwright.worked.terms import NOWHERE, ZERO, Pair, Term, direction, root, symbol, total
 from linkwright.worked.wheels import Wheels, tangential
+
+#: Unknowns of a system with their outputs, or units.
+Unknowns = list[tuple[Term, "str | Output"]]
+#: Share of the largest force up to which two are the same but for rounding.
+SAME = 1e-9
 
 
 @dataclass(frozen=True)
@@ -76,26 +81,37 @@ class Reactions:
         step.say(book.say("worked.cut_forces", joints=", ".join(dict.fromkeys(c.joint for c in group.cuts))))
         if any(cut.higher for cut in group.cuts):
             step.say(book.say("worked.pair_forces"))
-        right = [self._demand(step, group, joint, i) for i, joint in enumerate(group.unknowns, 1)]
+        right = self._demands(step, group)
         step.say(book.say("worked.same_matrix"))
         system = name_matrix(step, group, cuts)
-        values = np.linalg.solve(
-            np.array([[e.value for e in row] for row in system.entries], dtype=float).T,
-            np.array([r.value for r in right], dtype=float),
-        )
-        unknowns, outputs = self._multipliers(group, values)
-        rows = [
-            total([e * u for e, u in zip(column, unknowns, strict=True)])
-            for column in zip(*system.entries, strict=True)
-        ]
-        for row, goal in zip(rows, right, strict=True):
-            step.relate(row, goal)
-        solve(step, book, system, unknowns, right, outputs, transposed=True)
+        values = _transposed(system, right)
+        if self._pressed(group, system, values):
+            step.say(book.say("worked.rows_first"))
+            self._solved(step, system, self._by_rows(group, values), right)
+            self._press_all(step, group, values)
+            step.say(book.say("worked.pairs_known"))
+            right = self._demands(step, group, "'")
+            unknowns = self._multipliers(group, _transposed(system, right), pairs=False)
+            self._solved(step, system, unknowns, right)
+        else:
+            unknowns = self._multipliers(group, values)
+            self._solved(step, system, unknowns, right)
+            self._press_all(step, group, values)
+        self._noted(step, cuts, [term for term, _ in unknowns], group)
+
+    def _solved(self, step: Step, system: System, unknowns: Unknowns, right: list[Term]) -> None:
+        """The equations Jᵀ q = right and their solution."""
+        terms = [term for term, _ in unknowns]
+        for column, goal in zip(zip(*system.entries, strict=True), right, strict=True):
+            step.relate(total([e * u for e, u in zip(column, terms, strict=True)]), goal)
+        solve(step, self.book, system, terms, right, [output for _, output in unknowns], transposed=True)
+
+    def _noted(self, step: Step, cuts: Sequence[Closure], unknowns: list[Term], group: Group) -> None:
+        """The forces at the cuts of chains as what acts on the links."""
         place = 0
         for closure in cuts:
             cut = closure.cut
             if not isinstance(closure, ChainClosure):
-                self._press(step, cut, unknowns[place])
                 place += 1
                 continue
             if cut.turns:
@@ -110,12 +126,33 @@ class Reactions:
                 place += 1
             self.found.append(Found(cut, on, Known(force, closure.tip.place, NOWHERE)))
 
+    def _pressed(self, group: Group, system: System, values: Floats) -> bool:
+        """Whether pairs act on joints that are cut: what their rows leave there is not the whole force."""
+        if not any(cut.higher for cut in group.cuts):
+            return False
+        aside, known = Step("", ""), len(self.found)
+        self._press_all(aside, group, values)
+        again = _transposed(system, self._demands(aside, group))
+        del self.found[known:]
+        chains = [not cut.higher for cut, _ in _rows(group)]
+        return bool(np.abs(again - values)[chains].max() > SAME * np.abs(values).max())
+
+    def _press_all(self, step: Step, group: Group, values: Floats) -> None:
+        """The forces of all higher pairs of a group, from the tangential ones."""
+        for place, (cut, _) in enumerate(_rows(group)):
+            if cut.higher:
+                self._press(step, cut, tangential(cut, float(values[place])))
+
+    def _demands(self, step: Step, group: Group, mark: str = "") -> list[Term]:
+        """The right sides of all equations."""
+        return [self._demand(step, group, joint, f"{i}{mark}") for i, joint in enumerate(group.unknowns, 1)]
+
     def _wheels(self, step: Step, group: Group) -> None:
         """Tooth forces, pulls of belts and forces of cams, from what acts on wheels and followers."""
         book, wheels = self.book, Wheels(self.book)
         if wheels.alone(group) is None:
             step.say(book.say("worked.wheel_forces", joints=", ".join(cut.joint for cut in group.cuts)))
-        right = [self._demand(step, group, joint, i) for i, joint in enumerate(group.unknowns, 1)]
+        right = self._demands(step, group)
         for cut, force in zip(group.cuts, wheels.multipliers(step, group, right), strict=True):
             self._press(step, cut, force)
 
@@ -152,28 +189,35 @@ class Reactions:
         name, output = self._names(cut, cut.b)
         return step.find_pair(name, complex(formula.x.value, formula.y.value), formula, output)
 
-    def _multipliers(self, group: Group, values: Floats) -> tuple[list[Term], list[str | Output]]:
-        """Symbols of the unknown cut forces (on the first link; normal forces on blocks) with their outputs."""
-        unknowns: list[Term] = []
-        outputs: list[str | Output] = []
-        for cut in group.cuts:
-            place = len(unknowns)
+    def _multipliers(self, group: Group, values: Floats, *, pairs: bool = True) -> Unknowns:
+        """Symbols of the unknown cut forces (on the first link; normal forces on blocks) with their outputs; without
+        ``pairs`` what is left for these, which is nothing."""
+        found: Unknowns = []
+        for place, (cut, axis) in enumerate(_rows(group)):
+            value = float(values[place])
             if cut.higher:
-                unknowns.append(tangential(cut, float(values[place])))
-                outputs.append("N")
-                continue
-            if cut.slides:
-                unknowns.append(symbol(f"N_{cut.joint}", f"N_{{{tex(cut.joint)}}}", float(values[place])))
-                outputs.append("N")
-                continue
-            name, output = self._names(cut, cut.a)
-            parts = self._solver_force(cut, cut.a, complex(values[place], values[place + 1]))
-            for c, value in (("x", parts.real), ("y", parts.imag)):
-                unknowns.append(symbol(f"{name[0]}{c}", f"{name[1]}{c}}}", value))
-                outputs.append(replace(output, component=c) if output else "N")
-        return unknowns, outputs
+                rest = symbol(f"ΔT_{cut.joint}", rf"\Delta T_{{{tex(cut.joint)}}}", 0.0)
+                found.append((tangential(cut, value) if pairs else rest, "N"))
+            elif cut.slides:
+                found.append((symbol(f"N_{cut.joint}", f"N_{{{tex(cut.joint)}}}", value), "N"))
+            else:
+                name, output = self._names(cut, cut.a)
+                force = self._solver_force(cut, cut.a, complex(value, value))
+                value = force.real if axis == "x" else force.imag
+                term = symbol(f"{name[0]}{axis}", f"{name[1]}{axis}}}", value)
+                found.append((term, replace(output, component=axis) if output else "N"))
+        return found
 
-    def _demand(self, step: Step, group: Group, joint: TreeJoint, number: int) -> Term:
+    def _by_rows(self, group: Group, values: Floats) -> Unknowns:
+        """The same where only the pairs' forces are complete: λ of the rows of the other cuts."""
+        found: Unknowns = []
+        for (cut, axis), value in zip(_rows(group), values.tolist(), strict=True):
+            plain, latex = (f"{form(cut.joint)}{axis and ','}{axis}" for form in (str, tex))
+            own = symbol(f"λ_{plain}", rf"\lambda_{{{latex}}}", value)
+            found.append((tangential(cut, value) if cut.higher else own, "N"))
+        return found
+
+    def _demand(self, step: Step, group: Group, joint: TreeJoint, number: str) -> Term:
         """Right side of one equation: minus what the known forces do on an unknown coordinate."""
         book = self.book
         if joint.slides:
@@ -350,3 +394,14 @@ def subtree(group: Group, joint: TreeJoint) -> Iterator[str]:
         if step.parent in own and step.child not in own:
             own.add(step.child)
             yield step.child
+
+
+def _rows(group: Group) -> list[tuple[Connection, str]]:
+    """The cuts by the rows of their equations, of a pin with the axis."""
+    return [(cut, axis) for cut in group.cuts for axis in ("xy" if cut.turns else [""])]
+
+
+def _transposed(system: System, right: list[Term]) -> Floats:
+    """The solution of Jᵀ q = right."""
+    entries = np.array([[entry.value for entry in row] for row in system.entries], dtype=float)
+    return np.asarray(np.linalg.solve(entries.T, np.array([each.value for each in right], dtype=float)))

@@ -13,7 +13,8 @@ from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.structure.group import Group
-from linkwright.words import speaker
+from linkwright.words import language_of, speaker
+from linkwright.words.sentence import link_said, links_said
 from linkwright.worked.applied_forces import KnownForces
 from linkwright.worked.higher_pairs import closures
 from linkwright.worked.page import Equation, Step
@@ -175,7 +176,7 @@ def _refuse_missing(motion: Motion, position: int) -> None:
 
 def _legend(book: Book) -> list[str]:
     say = book.say
-    links = ", ".join(f"{number} {name}" for name, number in book.numbers.items())
+    links = ", ".join(links_said(book.numbers, language_of(say)))
     return [say("worked.links", links=links), say("worked.convention"), say("worked.digits")]
 
 
@@ -203,7 +204,8 @@ class _Kinematics:
             turning = book.mechanism.joints[driver.joint].coordinate == "turn"
             key = "worked.input_turn" if turning else "worked.input_slide"
             head = f"{name}: " if len(book.mechanism.drivers) > 1 else ""
-            step.say(say(key, head=head, link=driver.link, relative=driver.relative_to, joint=driver.joint))
+            relative = link_said(driver.relative_to, language_of(say))
+            step.say(say(key, head=head, link=driver.link, relative=relative, joint=driver.joint))
             unit = "rad" if turning else "m"
             measures: tuple[str | Output, ...] = (
                 Output("input", name, slides=not turning), f"{unit}/s", f"{unit}/s²"

@@ -77,7 +77,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     )
     with progress(session.say("animate.drawing")) as report:
         path = animation.save(
-            options.output, width=options.width or WIDTH, fonts=options.fonts, progress=report
+            options.output, width=options.width or WIDTH, fonts=options.fonts, progress=report, force=True
         )
     told(path, options, session)
     return int(not motion.whole)

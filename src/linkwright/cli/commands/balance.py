@@ -15,7 +15,7 @@ from linkwright.errors import about
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
-    from linkwright.kinetostatics.balancing import Balancing
+    from linkwright.machine.balancing import Balancing
     from linkwright.mechanism.mechanism import Mechanism
 
 ENDINGS = (".yaml", ".yml")
@@ -36,7 +36,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     """Prints the counterweights and their effect, and writes the balanced model."""
     from linkwright.cli.files import refuse_output, write_whole
     from linkwright.cli.source import read_model
-    from linkwright.kinetostatics.balancing import balance
+    from linkwright.machine.balancing import balance
 
     refuse_output(options.output, ENDINGS, force=options.force)
     share = _share(options.share)

@@ -52,6 +52,8 @@ def _write(design: CamDesign, options: argparse.Namespace, session: Session) -> 
     if options.profile is not None:
         written.append(design.save_profile(options.profile, options.points, force=options.force))
     if options.draw is not None:
-        written.append(design.draw(math.radians(options.at), session.language).save(Path(options.draw)))
+        written.append(
+            design.draw(math.radians(options.at), session.language).save(Path(options.draw), force=True)
+        )
     if not session.json:
         session.show_written(*written)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING
@@ -17,12 +17,15 @@ from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.fields.signals import MovingPhase, SwingPhase
+    from linkwright.kinematics.motion import Motion
     from linkwright.loads.base import Load
     from linkwright.mechanism.mechanism import Mechanism
     from linkwright.structure.group import Group, Structure
 
 #: Positions of the cycle that are tried.
 TRIED = 72
+#: Positions of the cycle that other commands solve unless asked for others; they may lie on change points.
+ASKED = 360
 #: A coefficient of friction that no pair of materials has.
 RUBS = 2.0
 
@@ -167,10 +170,24 @@ def _turned(name: str, mechanism: Mechanism) -> tuple[list[Finding], list[Findin
     from linkwright.kinematics.solve import try_motion
 
     motion = try_motion(mechanism, TRIED)
-    notes = [Finding("note", name, "", note, code="motion") for note in motion.notes]
+    if motion.whole and motion.notes:
+        motion = try_motion(mechanism, ASKED)
+    notes = [Finding("note", name, "", note, code="motion") for note in motion.notes if motion.ok.any()]
     if motion.whole:
-        return [], notes
+        return [], [*_hardly_determined(name, motion), *notes]
     return [Finding("error", name, "", refusal(motion).sentence, code="position")], notes
+
+
+def _hardly_determined(name: str, motion: Motion) -> Iterator[Finding]:
+    """Groups that are close to a singular position all the time."""
+    from linkwright.metrics.analysis import Analysis
+    from linkwright.metrics.singularity import Singularity
+
+    if motion.mechanism.drivers:
+        for group, best, limit in Singularity.throughout(Analysis.of(motion)):
+            said = {"links": group.links, "best": f"{best:.2g}", "limit": f"{limit:.2g}"}
+            told, remedy = Sentence("check.singular", **said), Sentence("check.singular_do")
+            yield Finding("warning", name, "", told, remedy, "singular")
 
 
 def _swings(mechanism: Mechanism) -> dict[str, MovingPhase | SwingPhase]:
@@ -192,7 +209,6 @@ def _of_loads(name: str, mechanism: Mechanism, loads: Sequence[str], varying: Se
     from linkwright.fields.signals import MovingPhase
     from linkwright.kinematics.solve import try_motion
     from linkwright.kinetostatics.signals import MotionSignals
-    from linkwright.loads.base import AT_REST
     from linkwright.loads.over_cycle import activity, magnitudes
 
     signals, found = MotionSignals(try_motion(mechanism, TRIED)), []
@@ -203,10 +219,7 @@ def _of_loads(name: str, mechanism: Mechanism, loads: Sequence[str], varying: Se
         except LinkwrightError as error:
             found.append(Finding("error", name, key, error.sentence, code="no-motion"))
             continue
-        if (
-            isinstance(phase, MovingPhase)
-            and not (acts & (abs(signals.output(phase.output)[1]) > AT_REST)).any()
-        ):
+        if isinstance(phase, MovingPhase) and not (acts & (signals.output(phase.output)[1] != 0.0)).any():
             told, remedy = (
                 Sentence(f"check.never_{phase.direction}", output=phase.output),
                 Sentence("check.never_do"),

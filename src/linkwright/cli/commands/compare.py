@@ -23,7 +23,7 @@ def arguments(option: Options) -> None:
     option("--metrics", "METRIC", nargs="+")
     option("--weights", "NAME=NUMBER", nargs="+")
     option("--of", "NAME", nargs="+")
-    option("--fluctuation", "δ", default="0.02")
+    option("--fluctuation", "δ")
     option.count("--steps", 360)
     option("--output", "FILE")
     option("--curves", "FILE")
@@ -76,7 +76,11 @@ def _weights(texts: list[str]) -> dict[str, float]:
     return found
 
 
-def _fluctuation(text: str) -> float:
+def _fluctuation(text: str | None) -> float:
+    from linkwright.machine.flywheel import FLUCTUATION
+
+    if text is None:
+        return FLUCTUATION
     value = number_of(text)
     if not 0.0 < value < float("inf"):
         raise UsageError("compare.bad_fluctuation", text=text)

@@ -15,8 +15,6 @@ if TYPE_CHECKING:
     from linkwright.machine.running import SteadyRunning
 
 ENDINGS = (".csv", ".json")
-#: Coefficient of speed fluctuation for a mechanism where none is asked for.
-FLUCTUATION = "0.02"
 CURVE_OPTIONS = ("scale", "load", "period", "speed", "inertia", "mass", "gyration")
 
 
@@ -47,8 +45,6 @@ def run(options: argparse.Namespace, session: Session) -> int:
     from linkwright.cli.machine_options import wanted
 
     _refuse_contradictions(options)
-    if options.file is not None and options.fluctuation is None:
-        options.fluctuation = FLUCTUATION
     asked = wanted(options)
     if options.file is not None:
         return _mechanism(options, asked, session)
@@ -82,6 +78,7 @@ def _mechanism(options: argparse.Namespace, asked: Wanted, session: Session) -> 
     from linkwright.cli.solve_remarks import closeness
     from linkwright.cli.source import read_model
     from linkwright.kinetostatics.forces import solve_forces
+    from linkwright.machine.flywheel import FLUCTUATION
     from linkwright.machine.running import steady_running
 
     refuse_output(options.output, ENDINGS, force=options.force)
@@ -89,7 +86,7 @@ def _mechanism(options: argparse.Namespace, asked: Wanted, session: Session) -> 
     forces = solve_forces(mechanism, steps=options.steps)
     running = steady_running(
         forces,
-        fluctuation=asked.fluctuation or 0.0,
+        fluctuation=FLUCTUATION if asked.fluctuation is None else asked.fluctuation,
         ratio=asked.ratio,
         efficiency=asked.efficiency,
         margin=asked.margin,
@@ -99,8 +96,7 @@ def _mechanism(options: argparse.Namespace, asked: Wanted, session: Session) -> 
     warnings = closeness(forces.motion, session.language)
     if running.exact_flywheel == 0:
         warnings.insert(0, session.say("machine.none_needed"))
-    if running.driven is not None:
-        warnings.insert(0, running.driven.say(session.language))
+    warnings[:0] = [each.say(session.language) for each in running.remarks]
     _show(mechanism.name, of_running(running, asked), warnings, session)
     if not session.json:
         session.show_written(options.output, apart=True)

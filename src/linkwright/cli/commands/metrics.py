@@ -142,12 +142,10 @@ def _remarks(row: MetricValue | None, language: str) -> str:
 
 
 def _data(table: MetricsTable, trouble: LinkwrightError | None, language: str) -> dict[str, Any]:
-    from linkwright.metrics.base import METRICS
-
     rows = []
     for row, plain in zip(table, table.data(), strict=True):
         remark = say("finding.semicolon", language).join(remark.text(language) for remark in row.remarks)
-        rows.append({**plain, "limit": METRICS[row.metric].limit, "remark": remark})
+        rows.append({**plain, "limit": row.limit, "remark": remark})
     found: dict[str, Any] = {
         "ok": trouble is None,
         "name": table.title,

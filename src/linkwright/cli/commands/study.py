@@ -23,7 +23,7 @@ def arguments(option: Options) -> None:
     option.count("--samples", 64)
     option("--seed", "N", type=int, default=0)
     option("--of", "NAME")
-    option("--fluctuation", "δ", type=float, default=0.02)
+    option("--fluctuation", "δ", type=float)
     option.count("--steps", 360)
     option.count("--rows", 40)
     option("--cluster", "ADDRESS", words="sweep.cluster_help")
@@ -39,6 +39,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     from linkwright.cli.long_commands import kept
     from linkwright.cli.source import read_model
     from linkwright.files.write import dump
+    from linkwright.machine.flywheel import FLUCTUATION
     from linkwright.study.cluster import on_cluster
     from linkwright.study.study import study
 
@@ -48,7 +49,8 @@ def run(options: argparse.Namespace, session: Session) -> int:
     mechanism, _ = read_model(options.file, session)
     settings = {
         "metrics": options.metrics, "sampling": options.sampling, "samples": options.samples, "seed": options.seed,
-        "output": options.of, "fluctuation": options.fluctuation, "steps": options.steps,
+        "output": options.of, "steps": options.steps,
+        "fluctuation": FLUCTUATION if options.fluctuation is None else options.fluctuation,
     }  # fmt: skip
     asked = dump(mechanism), vary, settings
     with kept(options.state, mechanism.name, asked, session) as report, on_cluster(options.cluster):

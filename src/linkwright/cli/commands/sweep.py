@@ -47,6 +47,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
 
 def _show(found: SweepParts, options: argparse.Namespace, session: Session) -> None:
     from linkwright.words.characters import aligned
+    from linkwright.words.sentence import in_language
 
     ranges = found.ranges()
     best = found.best(options.best) if options.best is not None else {}
@@ -56,7 +57,8 @@ def _show(found: SweepParts, options: argparse.Namespace, session: Session) -> N
             for name, (low, high, count) in ranges.items()
         }
         data = {"folder": str(found.folder), "designs": found.designs, "parts": found.parts, "skipped": found.skipped,
-                "columns": columns, "best": {name: column.tolist() for name, column in best.items()}}  # fmt: skip
+                "columns": columns, "best": {name: column.tolist() for name, column in best.items()},
+                "notes": [in_language(note, session.language) for note in found.notes]}  # fmt: skip
         session.show_data(data)
         return
     say = session.say
@@ -68,6 +70,8 @@ def _show(found: SweepParts, options: argparse.Namespace, session: Session) -> N
     rows = [[say(f"sweep.column.{name}") for name in ("number", "least", "greatest", "designs")]]
     rows += [[name, f"{low:.6g}", f"{high:.6g}", str(count)] for name, (low, high, count) in ranges.items()]
     session.show("\n" + "\n".join(aligned(rows, "<>>>")))
+    for note in found.notes:
+        session.show("\n" + say("solve.note", text=in_language(note, session.language)))
     if best:
         rows = [list(best)] + [[f"{value:.6g}" for value in row] for row in zip(*best.values(), strict=True)]
         session.show("\n" + say("sweep.best", number=options.best) + "\n")

@@ -32,10 +32,12 @@ def arguments(option: Options) -> None:
 def run(options: argparse.Namespace, session: Session) -> int:
     """Runs the task and shows or writes its candidates."""
     from linkwright.cli.files import PICTURES, refuse_output
+    from linkwright.synthesis.linkage import input_speed
     from linkwright.synthesis.result import SynthesisError
 
     refuse_output(options.plot, PICTURES, force=options.force)
     mass = _mass(options.mass)
+    input_speed(options.speed)
     task, demands = _asked(options, session)
     if options.output is not None:
         _refuse_folder(Path(options.output), task, force=options.force)
@@ -111,7 +113,8 @@ def _show(found: Synthesis, options: argparse.Namespace, mass: float | None, ses
         folder = make_folder(options.output)
         for index in range(len(found)):
             path = _model_file(folder, found.task, index)
-            write_whole(path, found.model_text(index, language=session.language), force=options.force)
+            text = found.model_text(index, language=session.language, speed=options.speed)
+            write_whole(path, text, force=options.force)
             written.append(path)
     if options.plot is not None:
         write_diagram(options.plot, found, session, force=options.force)

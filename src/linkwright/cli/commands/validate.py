@@ -1,4 +1,4 @@
-"""``linkwright validate``: published numbers beside ours."""
+"""``linkwright validate``: reference numbers and ours."""
 
 from __future__ import annotations
 

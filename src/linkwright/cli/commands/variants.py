@@ -40,7 +40,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     mechanism, _ = read_model(options.file, session)
     with progress(say("variants.working")) as told:
         found = variants(mechanism, options.count, seed=options.seed, told=told)
-        files = found.save(folder, options.to, session.language)
+        files = found.save(folder, options.to, session.language, force=True)
     if session.json:
         session.show_data({"ok": True, "files": [str(path) for path in files], "key": found.key()})
     else:

@@ -24,11 +24,11 @@ def save_profile(design: CamDesign, path: Path, points: int, *, force: bool) -> 
     """Writes the profile as the file's ending says; raises LinkwrightError where that cannot be."""
     if path.suffix.lower() not in ENDINGS:
         raise RequestError("cams.profile_ending", path=path, endings=tuple(ENDINGS))
-    refuse_target(path, force=force, remedy="force=True")
+    refuse_target(path, force=force)
     if path.suffix.lower() == ".dxf":
-        return write_whole(path, _drawing(design, points))
+        return write_whole(path, _drawing(design, points), force=force)
     text = _table(design, points) if path.suffix.lower() == ".csv" else _mill(design, points)
-    return write_whole(path, text.encode("utf-8"))
+    return write_whole(path, text.encode("utf-8"), force=force)
 
 
 def _drawing(design: CamDesign, points: int) -> bytes:

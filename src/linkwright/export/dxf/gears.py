@@ -24,7 +24,7 @@ def save_pair(pair: GearPair, path: Path, pinion_angle: float, points: int, *, f
 
     Raises LinkwrightError for a file that exists (without ``force``), a missing folder or package.
     """
-    refuse_target(path, force=force, remedy="force=True")
+    refuse_target(path, force=force)
     document = new_document(LAYERS)
     space = document.modelspace()
     for outline in pair.outlines(pinion_angle, points):
@@ -36,7 +36,7 @@ def save_pair(pair: GearPair, path: Path, pinion_angle: float, points: int, *, f
         space.add_circle((_MM * x, 0.0), 0.5 * _MM * gear.base_diameter, dxfattribs={"layer": "base"})
     start, end = (_MM * contact_line(pair)).tolist()
     space.add_line(start, end, dxfattribs={"layer": "contact"})
-    return write_whole(path, content_of(document))
+    return write_whole(path, content_of(document), force=force)
 
 
 def save_rack(rack: Rack, path: Path, points: int, *, force: bool) -> Path:
@@ -44,11 +44,11 @@ def save_rack(rack: Rack, path: Path, points: int, *, force: bool) -> Path:
 
     Raises LinkwrightError for a file that exists (without ``force``), a missing folder or package.
     """
-    refuse_target(path, force=force, remedy="force=True")
+    refuse_target(path, force=force)
     document = new_document(LAYERS)
     space = document.modelspace()
     outline = _MM * rack.outline(points)
     space.add_lwpolyline(outline.tolist(), close=True, dxfattribs={"layer": "outline"})
     left, right = outline[:, 0].min(), outline[:, 0].max()
     space.add_line((left, 0.0), (right, 0.0), dxfattribs={"layer": "rolling", "linetype": "DASHDOT"})
-    return write_whole(path, content_of(document))
+    return write_whole(path, content_of(document), force=force)

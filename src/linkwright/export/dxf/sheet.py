@@ -6,6 +6,7 @@ import io
 import math
 import re
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -15,8 +16,8 @@ from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
 from linkwright.export.base import package
 from linkwright.export.results import Results
-from linkwright.mechanism.mechanism import Link
-from linkwright.plot.drawing.labels import Obstacles, link_labels, place, point_labels
+from linkwright.plot.drawing.dimensions import Dimensioned, dimension_lines
+from linkwright.plot.drawing.labels import Candidate, Label, Obstacles, link_labels, place, point_labels
 from linkwright.plot.drawing.machine import Part
 from linkwright.plot.drawing.scene import laid_out
 from linkwright.plot.drawing.view import moved
@@ -30,6 +31,8 @@ LAYERS = {"frame": 8, "links": 150, "joints": 1, "paths": 92, "dimensions": 42, 
 #: Layer of each layer of the drawing on paper.
 _OF_PART = {"ground": "frame", "bodies": "links", "blocks": "joints", "tops": "joints"}
 STYLE = "LINKWRIGHT"
+#: Size of the numbers of dimensions on the paper, and the height of a capital letter in sizes.
+VALUE_SIZE, CAPITAL = 12.0, 0.7
 
 
 class Sheet:
@@ -40,8 +43,9 @@ class Sheet:
         self.results, self.index, self.factor = results, index, factor
         self.scene = laid_out(results.motion, index, inputs=False)
         self.unit = factor / self.scene.machine.view.scale
-        self.height = 10.0 * self.unit
+        self.height = CAPITAL * VALUE_SIZE * self.unit
         self.ink: list[Floats] = []
+        self.measures: list[Dimensioned] = []
 
     def machine(self) -> None:
         """Supports, links, blocks and pins."""
@@ -58,36 +62,76 @@ class Sheet:
             track = motion.point(name).position
             if names is None and not np.nanmax(np.ptp(track[motion.ok], axis=0), initial=0.0) > 0:
                 continue
+            self.ink.append(self.scene.trace(name))
             closed = motion.positions.closed and motion.whole
             for piece in unbroken(track):
                 self._path(self.factor * piece, closed, spline)
 
     def dimensions(self) -> None:
-        """A dimension line for every length that the model gives."""
-        for name, link in self.results.mechanism.links.items():
-            for first, second in _lengths(link):
-                a, b = _upright(self._world(name, first), self._world(name, second))
-                side = 1.0 if self._side(a, b) >= 0 else -1.0
-                line = self.space.add_aligned_dim(
-                    p1=a,
-                    p2=b,
-                    distance=-side * 2.4 * self.height,
-                    dimstyle=STYLE,
-                    dxfattribs={"layer": "dimensions"},
-                )
-                line.render()
-                self.ink.append(self._beside(a, b, -side * 2.4 * self.height))
+        """What places the points of all links and of the frame: dimension lines, and arcs of angles."""
+        ink = [*self.scene.ink(self.index), *self.ink]
+        self.measures = dimension_lines(self.scene.machine, True, self.index, ink)
+        self.ink += [line for each in self.measures for line in each.shape.ink]
 
-    def labels(self) -> None:
-        """Names of points and links clear of lines, and the name of the mechanism below."""
+    def labels(self, *, names: bool) -> None:
+        """Values of the dimensions and names of points and links, clear of lines; the name of the mechanism below."""
+        values = [self._value(each) for each in self.measures]
         wanted = [*point_labels(self.scene.machine, self.index), *link_labels(self.scene, self.index)]
         ink = [*self.scene.ink(self.index), *self.ink]
-        for label, chosen in zip(wanted, place(wanted, Obstacles.of(ink)), strict=True):
+        places = place([*values, *(wanted if names else ())], Obstacles.of(ink))
+        for measure, chosen in zip(self.measures, places, strict=False):
+            (self._line if measure.line else self._arc)(measure, chosen)
+        if not names:
+            return
+        for label, chosen in zip(wanted, places[len(values) :], strict=True):
             left, _, _, bottom = chosen.box
-            self._text(label.text, (left, bottom - 0.15 * label.size), 0.7 * label.size * self.unit)
+            self._text(label.text, (left, bottom - 0.15 * label.size), CAPITAL * label.size * self.unit)
         cloud = np.concatenate(ink)
-        corner = (float(cloud[:, 0].min()), float(cloud[:, 1].max()) + 60.0)
-        self._text(self.results.mechanism.name, corner, 1.2 * self.height)
+        corner = (float(np.nanmin(cloud[:, 0])), float(np.nanmax(cloud[:, 1])) + 60.0)
+        self._text(self.results.mechanism.name, corner, 1.5 * self.height)
+
+    def _value(self, measure: Dimensioned) -> Label:
+        """The label of a dimension with the number that DXF shows, without a unit."""
+        if measure.ends is None:
+            return measure.label
+        length = math.dist(*measure.ends if measure.line is None else measure.line) * self.unit
+        return replace(measure.label, text=f"{length:.{decimals_for(self.factor)}f}".rstrip("0").rstrip("."))
+
+    def _line(self, measure: Dimensioned, chosen: Candidate) -> None:
+        """A length with its number at the chosen place, to be read from below or from the right."""
+        assert measure.ends is not None and measure.line is not None
+        (a, b), (base, end) = self._units(points(measure.ends)), self._units(points(measure.line))
+        self.space.add_linear_dim(
+            base=base,
+            p1=a,
+            p2=b,
+            location=self._middle(chosen),
+            angle=math.degrees(math.atan2(*(end - base)[::-1])),
+            text_rotation=-chosen.turned,
+            dimstyle=STYLE,
+            dxfattribs={"layer": "dimensions"},
+        ).render()
+
+    def _arc(self, measure: Dimensioned, chosen: Candidate) -> None:
+        """An angle with its number at the chosen place."""
+        assert measure.arc is not None
+        arc, ends = measure.arc, (measure.arc.first, measure.arc.first + measure.arc.sweep)
+        first, last = sorted(-math.degrees(each) for each in ends)
+        self.space.add_angular_dim_cra(
+            center=self._units(points([arc.at]))[0],
+            radius=0.3 * arc.radius * self.unit,
+            start_angle=first,
+            end_angle=last,
+            distance=0.7 * arc.radius * self.unit,
+            location=self._middle(chosen),
+            text_rotation=0.0,
+            dimstyle=STYLE,
+            dxfattribs={"layer": "dimensions"},
+        ).render()
+
+    def _middle(self, chosen: Candidate) -> Floats:
+        left, top, right, bottom = chosen.box
+        return np.asarray(self._units(points([((left + right) / 2, (top + bottom) / 2)]))[0])
 
     def _text(self, text: str, paper: Vec, height: float) -> None:
         attributes = {
@@ -134,17 +178,6 @@ class Sheet:
         x, y = self.factor * self.scene.machine.placed[link].world(local)[self.index]
         return float(x), float(y)
 
-    def _beside(self, a: Vec, b: Vec, distance: float) -> Floats:
-        """A dimension line and the middle of its text, on the paper."""
-        length = math.dist(a, b)
-        left = np.array([a[1] - b[1], b[0] - a[0]]) / length
-        ends = np.array([a, b]) + distance * left
-        middle = ends.mean(axis=0)
-        along = 1.5 * self.height * (ends[1] - ends[0]) / length
-        text = [middle + shift * self.height * left for shift in (0.0, 0.7, 1.3)]
-        rows = np.concatenate([ends, *([row - along, row + along] for row in text)])
-        return points(rows) / (self.unit, -self.unit)
-
     def _path(self, track: Floats, closed: bool, spline: bool) -> None:
         attributes = {"layer": "paths"}
         if spline and len(track) > 3:
@@ -153,34 +186,12 @@ class Sheet:
         else:
             self.space.add_lwpolyline(track.tolist(), close=closed, dxfattribs=attributes)
 
-    def _side(self, a: Vec, b: Vec) -> float:
-        """On which side of a line most of the machine is; left is positive."""
-        cloud = self._units(np.concatenate(self.scene.ink(self.index)))
-        x, y = cloud.mean(axis=0)
-        return float((b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0]))
-
 
 def _strokes(part: Part) -> list[Stroke]:
     """Bars and plates from their exact lines, symbols from what they draw."""
     if part.layer == "bodies":
         return [Stroke(line) for line in part.shape.ink]
     return [stroke for element in part.shape.elements for stroke in strokes(element)]
-
-
-def _upright(a: Vec, b: Vec) -> tuple[Vec, Vec]:
-    """Ends of a dimension line in the order in which its text is read from below or from the right."""
-    tilt = math.atan2(b[1] - a[1], b[0] - a[0])
-    return (a, b) if -0.5 * math.pi + 1e-6 < tilt <= 0.5 * math.pi + 1e-6 else (b, a)
-
-
-def _lengths(link: Link) -> list[tuple[str, str]]:
-    """Pairs of points whose distance is a dimension of the link."""
-    names = list(link.points)
-    if link.geometry == "length":
-        return [(names[0], names[1])]
-    if link.geometry == "bent":
-        return [(names[0], names[1]), (names[0], names[2])]
-    return []
 
 
 def check_unit(unit: str) -> tuple[float, int]:
@@ -213,8 +224,9 @@ def prepare(document: Any, height: float, text: str, decimals: int) -> None:
     document.styles.add(STYLE, font="arial.ttf" if text.isascii() else "simsun.ttc")
     style = document.dimstyles.new(STYLE)
     for key, value in {"dimtxt": height, "dimasz": 0.8 * height, "dimexo": 0.4 * height, "dimexe": 0.5 * height,
-                       "dimgap": 0.3 * height, "dimdec": decimals, "dimzin": 8, "dimtad": 1, "dimlfac": 1.0,
-                       "dimscale": 1.0, "dimtxsty": STYLE}.items():  # fmt: skip
+                       "dimgap": 0.3 * height, "dimdec": decimals, "dimadec": 4, "dimzin": 8, "dimazin": 2,
+                       "dimdsep": ord("."), "dimtad": 1, "dimlfac": 1.0, "dimscale": 1.0,
+                       "dimtxsty": STYLE}.items():  # fmt: skip
         style.set_dxf_attrib(key, value)
 
 

@@ -32,8 +32,8 @@ def content(
 
     Coordinates are those of the frame, in ``unit`` (mm or m). Links, pins and paths are exact; the size of symbols
     goes with the machine. ``position``: index, default the first that was reached; ``paths``: points, default all
-    that move; ``curve``: ``polyline`` or ``spline`` through the solved positions; ``dimensions`` of the lengths in
-    the model.
+    that move; ``curve``: ``polyline`` or ``spline`` through the solved positions; ``dimensions`` of
+    what places the points of the links and of the frame.
     """
     factor, code = check_unit(unit)
     if curve not in ("polyline", "spline"):
@@ -47,8 +47,7 @@ def content(
     sheet.paths(paths, spline=curve == "spline")
     if dimensions:
         sheet.dimensions()
-    if labels:
-        sheet.labels()
+    sheet.labels(names=labels)
     return content_of(document)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from functools import cached_property
 from itertools import pairwise
 from typing import Any, ClassVar
@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.core.search import first_largest
 from linkwright.errors import Finding
 from linkwright.fields.base import Quantities, Quantity, Schema, Word, given, quantity_schema
 from linkwright.parts.base import Block, Problem, Result, Row, fault, number, put, shown
@@ -245,7 +246,7 @@ class BeamLine(Result):
 
     def largest(self, quantity: str) -> tuple[float, float]:
         """(place, value) of the value that is largest in size."""
-        return max(self.extremes(quantity), key=lambda each: abs(each[1]))
+        return _first_largest(self.extremes(quantity))
 
     @cached_property
     def reactions(self) -> dict[str, tuple[float, float]]:
@@ -265,11 +266,9 @@ class BeamLine(Result):
             inside = [
                 s for s in self.line.segments if start - 1e-12 <= s.start and s.end <= end * (1 + 1e-12)
             ]
-            place, moment = max(
-                ElasticLine(tuple(inside), ()).extremes("moment"), key=lambda each: abs(each[1])
-            )
+            place, moment = _first_largest(ElasticLine(tuple(inside), ()).extremes("moment"))
             found.append((place, abs(moment) / section.modulus))
-        return max(found, key=lambda each: each[1])
+        return _first_largest(found)
 
     @property
     def safety(self) -> float | None:
@@ -333,8 +332,11 @@ class BeamLine(Result):
             at = shown(x, "length")
             left, right = float(self.moment(x, "left")[0]), float(self.moment(x)[0])
             jump = abs(right - left) > 1e-9 * max(abs(left), abs(right), 1e-300)
-            text = f" | {number(right, 'torque')}" if jump and 0 < x < self.beam.length else ""
-            rows.append(Row(f"moment_{x:g}", left if x else right, "torque", f"M({at})", text.strip()))
+            if jump and 0 < x < self.beam.length:
+                rows.append(Row(f"moment_before_{x:g}", left, "torque", f"M({at}⁻)"))
+                rows.append(Row(f"moment_behind_{x:g}", right, "torque", f"M({at}⁺)"))
+            else:
+                rows.append(Row(f"moment_{x:g}", left if x else right, "torque", f"M({at})"))
             rows.append(Row(f"slope_{x:g}", float(self.slope(x)[0]), "slope", f"θ({at})"))
             rows.append(Row(f"deflection_{x:g}", float(self.deflection(x)[0]), "length", f"w({at})"))
         return rows
@@ -444,3 +446,9 @@ def _sum(parts: Sequence[float], dimension: str) -> str:
 def _rounded(parts: Sequence[float]) -> float:
     total = math.fsum(parts)
     return 0.0 if abs(total) < 1e-9 * max((abs(p) for p in parts), default=0.0) else total
+
+
+def _first_largest(found: Iterable[tuple[float, float]]) -> tuple[float, float]:
+    """Of pairs (place, value) the value of largest size, of equal ones the first."""
+    ordered = sorted(found)
+    return ordered[first_largest(np.abs([value for _, value in ordered]))]

@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.core.search import first_largest
 
 #: A value below this share of the largest along the beam is zero but for rounding.
 ROUNDING = 1e-13
@@ -92,12 +93,12 @@ class ElasticLine:
         for segment in self.segments:
             polynomial: Polynomial = getattr(segment, quantity)
             length = segment.end - segment.start
-            candidates = [0.0, length, *_roots_within(polynomial.deriv(), length)]
+            candidates = sorted([0.0, length, *_roots_within(polynomial.deriv(), length)])
             places += [segment.start + xi for xi in candidates]
             values += [float(polynomial(xi)) for xi in candidates]
         rounding = ROUNDING * max(abs(value) for value in values)
         values = [0.0 if abs(value) <= rounding else value for value in values]
-        low, high = int(np.argmin(values)), int(np.argmax(values))
+        low, high = first_largest(-np.array(values)), first_largest(np.array(values))
         return (places[low], values[low]), (places[high], values[high])
 
 

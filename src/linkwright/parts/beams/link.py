@@ -11,10 +11,11 @@ import numpy as np
 from linkwright.core.arrays import Floats, Indices
 from linkwright.core.dataclass import dataclass
 from linkwright.core.plane import cross
-from linkwright.errors import Finding, LinkwrightError
+from linkwright.errors import Finding, LinkwrightError, SelfCheckError
 from linkwright.fields.base import Quantity, Text, given
 from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.kinetostatics.link_balance import applied_rows
+from linkwright.kinetostatics.self_check import LIMIT
 from linkwright.mechanism.mechanism import Link, Mechanism
 from linkwright.parts.base import Block, Result, Row, fault, put, shown
 from linkwright.parts.beams.axis import LinkAxis, SpreadMass
@@ -251,7 +252,19 @@ class LinkStress(Result):
             force = force + below[:, :, None] * each.force[:, None]
             moment = moment + below * (cross(each.point, each.force) + each.couple)[:, None]
         left = cross(points[None], force) - moment
-        return (force * across).sum(axis=2), left, -(force * along).sum(axis=2)
+        found = (force * across).sum(axis=2), left, -(force * along).sum(axis=2)
+        self._require_closed(*found)
+        return found
+
+    def _require_closed(self, shear: Floats, moment: Floats, normal: Floats) -> None:
+        """Raises SelfCheckError where more than rounding is left beyond the last point."""
+        sizes = [np.abs(each) for each in (shear, moment / self.axis.length, normal)]
+        gap = max(float(each[:, -1].max()) for each in sizes)
+        most = max(float(each.max()) for each in sizes)
+        if gap > LIMIT * most:
+            raise SelfCheckError(
+                "beam.not_closed", link=self.problem.link, gap=f"{gap:.3g} N", size=f"{most:.3g} N"
+            )
 
     def _below(self, place: Floats) -> Floats:
         """1 where a force at ``place`` (n,) is below a station: of equal stations from the second on."""

@@ -89,7 +89,8 @@ def feasible(model: Model) -> bool:
 def solve_linear(model: Model) -> LinearOptimum | None:
     """The optimum; None where there is none (:func:`feasible` and :func:`runaway` say why)."""
     form = linear_form(model)
-    found = _run(form, form.costs)
+    size = _size(form.costs)
+    found = _run(form, form.costs / size)
     if found.status != 0:
         return None
     x = np.asarray(found.x)
@@ -99,7 +100,12 @@ def solve_linear(model: Model) -> LinearOptimum | None:
     prices = np.zeros(len(form.rows))
     prices[~form.equal] = found.ineqlin.marginals
     prices[form.equal] = found.eqlin.marginals
-    return LinearOptimum(x, prices / form.scales)
+    return LinearOptimum(x, size * prices / form.scales)
+
+
+def _size(costs: Floats) -> float:
+    """The largest cost, by which an objective is divided so that its unit does not matter."""
+    return float(np.abs(costs).max(initial=0.0)) or 1.0
 
 
 def runaway(model: Model) -> Floats:
@@ -112,7 +118,8 @@ def runaway(model: Model) -> Floats:
     ]
     up, eq = ~form.equal, form.equal
     found = linprog(
-        form.costs, form.rows[up] if up.any() else None, np.zeros(int(up.sum())) if up.any() else None,
+        form.costs / _size(form.costs),
+        form.rows[up] if up.any() else None, np.zeros(int(up.sum())) if up.any() else None,
         form.rows[eq] if eq.any() else None, np.zeros(int(eq.sum())) if eq.any() else None, ends, method="highs",
     )  # fmt: skip
     return np.asarray(found.x) * form.sizes

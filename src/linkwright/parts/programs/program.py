@@ -17,7 +17,19 @@ from linkwright.errors import Finding, ModelError, QuantityError
 from linkwright.fields.base import Field, Place, Reader, given
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar
-from linkwright.parts.base import UNITS, Block, Problem, Result, Row, fault, put, shown, si_unit
+from linkwright.parts.base import (
+    UNITS,
+    Block,
+    Problem,
+    Result,
+    Row,
+    fault,
+    in_si,
+    put,
+    shown,
+    si_unit,
+    unused,
+)
 from linkwright.parts.fields import AnyQuantity, Flag, Listed, Named, Table
 from linkwright.parts.programs.formula import Constraint, Formula, constraint, formula
 from linkwright.parts.programs.linear import conflict, feasible, runaway, solve_linear
@@ -289,11 +301,16 @@ class Optimum(Result):
         return constraint.sense == "=" or self.slack(constraint) <= ACTIVE * max(*sides, 1e-300)
 
     def blocks(self, say: Say) -> list[Block]:
-        objective = self.program.model.objective
-        rows = [Row(name, _si(value, self.program.variables[name].dimension), "", name, self._at_bound(name, say))
-                for name, value in self.x.items()]  # fmt: skip
+        rows = [
+            Row(name, value, label=name, note=self._at_bound(name, say), scale=in_si(self._kind(name)),
+                text=in_unit(value, self._kind(name)))
+            for name, value in self.x.items()
+        ]  # fmt: skip
         word = say("program.minimum" if self.program.minimize else "program.maximum")
-        rows.append(Row("objective", _si(self.value, objective.dimension), "", word))
+        kind = self.program.model.objective.dimension
+        rows.append(
+            Row("objective", self.value, label=word, scale=in_si(kind), text=in_unit(self.value, kind))
+        )
         found = [Block("optimum", say("program.optimum"), rows, (self._method(say),))]
         limits = [self._limit_row(c, say) for c in self.program.subject_to]
         if limits:
@@ -301,14 +318,38 @@ class Optimum(Result):
         return found
 
     def data(self) -> dict[str, Any]:
-        """Variables, objective, slacks and prices as numbers, SI."""
+        """Variables, objective, and of every constraint its sides, slack and price, SI, each with its unit."""
+        kind = self.program.model.objective.dimension
+        limits: dict[str, Any] = {}
+        for c in self.program.subject_to:
+            limits[unused(c.name, limits)] = self._limit_data(c)
         return {
-            "name": self.title, "way": self.way, "x": self.x, "objective": self.value,
-            "constraints": {
-                c.name: {"slack": self.slack(c), "active": self.active(c), "price": self.prices.get(c.name)}
-                for c in self.program.subject_to
+            "name": self.title,
+            "way": self.way,
+            "x": {name: _measured(value, self._kind(name)) for name, value in self.x.items()},
+            "objective": _measured(self.value, kind),
+            "constraints": limits,
+        }
+
+    def _limit_data(self, c: Constraint) -> dict[str, Any]:
+        """A constraint as data; the price is in units of the objective per unit of the constraint."""
+        sides = {"left": c.left, "right": c.right}
+        objective = self.program.model.objective.dimension
+        price = self.prices.get(c.name)
+        return {
+            **{
+                key: _measured(float(side.value(self.point)[0]), side.dimension)
+                for key, side in sides.items()
             },
-        }  # fmt: skip
+            "sense": c.sense,
+            "slack": _measured(self.slack(c), c.left.dimension),
+            "active": self.active(c),
+            "price": None if price is None else _measured(price, units.times(objective, _limit_kind(c), -1)),
+        }
+
+    def _kind(self, name: str) -> units.Dimension:
+        """The dimension of a variable."""
+        return self.program.variables[name].dimension
 
     def _method(self, say: Say) -> str:
         return say(f"program.{self.way}", agreed=self.agreed[0], starts=self.agreed[1], count=self.combinations,
@@ -330,7 +371,8 @@ class Optimum(Result):
             if self.active(c)
             else say("program.slack", slack=in_unit(self.slack(c), c.left.dimension, 4))
         )
-        return Row(c.name, f"{left} {c.sense} {right}", "", c.name, state)
+        text = f"{left} {c.sense} {right}"
+        return Row(c.name, self.slack(c), label=c.name, note=state, scale=in_si(c.left.dimension), text=text)
 
     def _explained(self, say: Say) -> tuple[str, ...]:
         """What one more unit of every active constraint is worth."""
@@ -338,8 +380,10 @@ class Optimum(Result):
         for c in self.program.subject_to:
             price = self.prices.get(c.name, 0.0)
             if price:
-                kind = c.right.dimension if c.left.dimension == units.NONE else c.left.dimension
-                (unit, factor), (own, size) = unit_of(kind), unit_of(self.program.model.objective.dimension)
+                (unit, factor), (own, size) = (
+                    unit_of(_limit_kind(c)),
+                    unit_of(self.program.model.objective.dimension),
+                )
                 gain = f"{price * size / factor:+.6g} {own}".rstrip()
                 lines.append(say("program.price", name=c.name, unit=unit or "1", price=gain))
         return tuple(lines)
@@ -374,7 +418,7 @@ class Optimum(Result):
         found.say(f"  f = {objective.text} = {in_unit(self.value, objective.dimension)}")
         for c in self.program.subject_to:
             row = self._limit_row(c, say)
-            test.say(f"  {c.name}: {row.value}   {row.note}")
+            test.say(f"  {c.name}: {row.text}   {row.note}")
         for line in self._explained(say):
             test.say(line)
         if self.way == "nonlinear":
@@ -383,5 +427,11 @@ class Optimum(Result):
         return [task, found, test]
 
 
-def _si(value: float, kind: units.Dimension) -> str:
-    return in_unit(value, kind)
+def _limit_kind(c: Constraint) -> units.Dimension:
+    """The dimension of a constraint's sides; a plain number may stand on the left."""
+    return c.right.dimension if c.left.dimension == units.NONE else c.left.dimension
+
+
+def _measured(value: float, kind: units.Dimension) -> dict[str, Any]:
+    """A value with its SI unit."""
+    return {"value": value, "unit": units.si_symbol(kind)}

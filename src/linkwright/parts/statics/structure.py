@@ -113,6 +113,7 @@ class StructureForces(Result):
                 rows.append(Row("couple", couple, "torque", f"{label} M"))
         for driver in self.forces.mechanism.drivers:
             rows.append(Row("effort", float(self.forces.driver_effort(driver)[0]), "torque", driver))
+        self.forces.solver.programs.checks.require_balance(self.forces)
         gap = float(self.forces.balance_residual.max())
         return [Block("reactions", say("statics.reactions"), rows, (say("statics.gap", gap=f"{gap:.1e}"),))]
 

@@ -14,7 +14,18 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding
 from linkwright.fields.base import Quantity, Text, Word, given
-from linkwright.parts.base import Block, Problem, Result, Row, Scale, fault, number, put
+from linkwright.parts.base import (
+    PARTS_PER_MILLION,
+    Block,
+    Problem,
+    Result,
+    Row,
+    Scale,
+    fault,
+    in_si,
+    number,
+    put,
+)
 from linkwright.parts.fields import AnyQuantity, Listed, Named, Numbers, Sample, Table, Whole
 from linkwright.parts.statistics.describe import (
     DISTRIBUTIONS,
@@ -245,6 +256,12 @@ class Samples(Problem):
             return np.stack([*first, *(x**p for p in powers)], axis=1), ("1", *names)
         return np.stack([*first, *(self.values(n) for n in fitting.on)], axis=1), ("1", *fitting.on)
 
+    def dimensions_of(self, fitting: Fitting) -> list[units.Dimension]:
+        """The dimensions of its coefficients: of y, then of y over each column."""
+        y, xs = self.samples[fitting.y].dimension, [self.samples[name].dimension for name in fitting.on]
+        powers = [(xs[0], p) for p in range(1, fitting.degree + 1)] if len(xs) == 1 else [(x, 1) for x in xs]
+        return [y, *(units.times(y, x, -power) for x, power in powers)]
+
     def regress(self, fitting: Fitting) -> Regression | None:
         """The least squares; None where the columns depend on each other."""
         columns, terms = self.columns_of(fitting)
@@ -305,8 +322,8 @@ class Statistics(Result):
     def scale(self, name: str) -> Scale:
         """The unit of a sample."""
         own = self.problem.samples[name]
-        si = units.si_symbol(own.dimension)
-        return Scale(own.unit, own.factor, si) if own.unit else Scale(si, 1.0, si)
+        si = in_si(own.dimension)
+        return Scale(own.unit, own.factor, si.unit) if own.unit else si
 
     def _in_unit(self, name: str, value: float) -> str:
         return f"{value / self.scale(name).factor:.6g}"
@@ -328,24 +345,16 @@ class Statistics(Result):
         if d.count > 1:
             rows.append(Row("deviation", d.deviation, scale=scale))
             level = f"{100 * self.problem.confidence:g} %"
-            ends = mean_interval(self.problem.values(name), self.problem.confidence)
-            rows.append(
-                Row(
-                    "mean_interval",
-                    self._interval(name, ends),
-                    "",
-                    say("statistics.mean_interval", level=level),
-                )
-            )
-            ends = deviation_interval(self.problem.values(name), self.problem.confidence)
-            label = say("statistics.deviation_interval", level=level)
-            rows.append(Row("deviation_interval", self._interval(name, ends), "", label))
+            for key, interval in (("mean", mean_interval), ("deviation", deviation_interval)):
+                low, high = interval(self.problem.values(name), self.problem.confidence)
+                label = say(f"statistics.{key}_interval", level=level)
+                rows.append(Row(f"{key}_interval", low, label=label, scale=scale, end=high))
         rows += [Row("least", d.least, scale=scale), Row("median", d.quartiles[1], scale=scale)]
-        rows.append(Row("quartiles", self._interval(name, (d.quartiles[0], d.quartiles[2]))))
+        rows.append(Row("quartiles", d.quartiles[0], scale=scale, end=d.quartiles[2]))
         rows.append(Row("largest", d.largest, scale=scale))
         if d.count > 2 and d.least < d.largest:
             rows += [Row("skewness", d.skewness), Row("kurtosis", d.kurtosis)]
-        return Block(name, say("statistics.sample", name=name), rows)
+        return Block(f"sample.{name}", say("statistics.sample", name=name), rows)
 
     def _interval(self, name: str, ends: tuple[float, float]) -> str:
         unit = self.scale(name).unit
@@ -368,16 +377,24 @@ class Statistics(Result):
         verdict = say("statistics.rejected" if rejected else "statistics.kept", hypothesis=hypothesis)
         return [
             Row(f"{name}.{outcome.symbol}", outcome.statistic, "", f"{name}: {outcome.symbol}{freedom}"),
-            Row(f"{name}.p", outcome.p if outcome.p >= TINY else f"< {TINY:g}", "", "  p", verdict),
+            Row(
+                f"{name}.p",
+                outcome.p,
+                "",
+                f"  {name}: p",
+                verdict,
+                text="" if outcome.p >= TINY else f"< {TINY:g}",
+            ),
         ]
 
     def _regressed(self, name: str, say: Say) -> Block:
         r, rows = self.regressions[name], []
-        for i, term in enumerate(r.terms):
+        kinds = self.problem.dimensions_of(self.problem.regressions[name])
+        for i, (term, kind) in enumerate(zip(r.terms, kinds, strict=True)):
             note = say("statistics.coefficient", error=number(float(r.errors[i])), low=number(float(r.low[i])),
                        high=number(float(r.high[i])), p=_probability(float(r.p[i])))  # fmt: skip
-            rows.append(Row(f"b_{term}", float(r.coefficients[i]), "", f"b({term})", note))
-        rows += [Row("determination", r.determination), Row("residual", r.deviation)]
+            rows.append(Row(f"b_{term}", float(r.coefficients[i]), "", f"b({term})", note, in_si(kind)))
+        rows += [Row("determination", r.determination), Row("residual", r.deviation, scale=in_si(kinds[0]))]
         y = self.problem.regressions[name].y
         return Block(
             f"regression.{name}", say("statistics.regression", name=name, y=y), rows, (say("statistics.si"),)
@@ -390,7 +407,7 @@ class Statistics(Result):
             rows.append(Row("cp", c.cp, "", f"{mark}p", f"{c.cp_interval[0]:.4g} … {c.cp_interval[1]:.4g}"))
         rows.append(Row("cpk", c.cpk, "", f"{mark}pk", f"{c.cpk_interval[0]:.4g} … {c.cpk_interval[1]:.4g}"))
         rows.append(Row("sigma", c.deviation, scale=self.scale(name)))
-        rows.append(Row("outside", 1e6 * c.outside, "", say("statistics.outside"), "ppm"))
+        rows.append(Row("outside", c.outside, label=say("statistics.outside"), scale=PARTS_PER_MILLION))
         remark = say("statistics.within" if c.within else "statistics.overall")
         return Block(f"capability.{name}", say("statistics.capability", name=name), rows, (remark,))
 

@@ -15,7 +15,7 @@ from linkwright.fields.base import Quantity, Text, given
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.parts.base import Block, Result, Row, fault, put, shown
+from linkwright.parts.base import PERCENT, Block, Result, Row, fault, put, shown
 from linkwright.parts.fields import Whole
 from linkwright.parts.mechanism_field import MECHANISM, OfMechanism
 from linkwright.parts.trajectories.transport import FLIGHT, MODES, Transported, Trough, transport
@@ -155,12 +155,14 @@ class Transport(Result):
         if math.isfinite(self.needed_friction):
             rows.append(Row("needed_friction", self.needed_friction))
         rows += [
-            Row(mode, 100 * share, "", say(f"trajectory.{mode}"), "%") for mode, share in self.shares.items()
+            Row(mode, share, label=say(f"trajectory.{mode}"), scale=PERCENT)
+            for mode, share in self.shares.items()
         ]
+        kind = self._input_kind
         phases = [
-            Row(f"{i}_{phase.mode}", self._input(phase.end), "", say(f"trajectory.{phase.mode}"),
-                say("trajectory.from", place=self._input(phase.start)))
-            for i, phase in enumerate(self.motion.phases)
+            Row(f"{i}_{phase.mode}", self._input(phase.start), kind, f"{i} {say(f'trajectory.{phase.mode}')}",
+                end=self._input(phase.end))
+            for i, phase in enumerate(self.motion.phases, 1)
         ]  # fmt: skip
         remarks = [] if self.motion.repeats else [say("trajectory.irregular")]
         if self.throw_number <= 1 and self.needed_friction <= self.conveyor.friction:
@@ -168,15 +170,18 @@ class Transport(Result):
         found = [Block("transport", "", rows, remarks)]
         return [*found, Block("phases", say("trajectory.phases"), phases[:24])]
 
-    def _input(self, time: float) -> str:
+    @property
+    def _input_kind(self) -> str:
+        """The dimension of the input."""
+        return "angle" if next(iter(self.conveyor.motion.positions.rotary.values())) else "length"
+
+    def _input(self, time: float) -> float:
         """The input at a time of the cycle."""
         motion = self.conveyor.motion
-        turning = next(iter(motion.positions.rotary.values()))
         period = self.conveyor.trough.period
         ends = np.append(motion.time - motion.time[0], period)
         last = motion.input[-1] + (motion.input[-1] - motion.input[-2])
-        place = float(np.interp(time, ends, np.append(motion.input, last)))
-        return shown(place, "angle" if turning else "length", 5)
+        return float(np.interp(time, ends, np.append(motion.input, last)))
 
     def steps(self, say: Say) -> list[Step]:
         trough, law, found = (
@@ -192,7 +197,10 @@ class Transport(Result):
             put(law, "μ", "max |f|/(N/m)", self.needed_friction)
         for phase in self.motion.phases[:24]:
             word = say(f"trajectory.{phase.mode}")
-            found.say(f"  {self._input(phase.start)} … {self._input(phase.end)}: {word}")
+            ends = " … ".join(
+                shown(self._input(time), self._input_kind, 5) for time in (phase.start, phase.end)
+            )
+            found.say(f"  {ends}: {word}")
         put(found, "Δs", "", self.motion.displacement, "length")
         put(found, "v", "Δs/T", self.speed, "velocity")
         if any(phase.mode == FLIGHT for phase in self.motion.phases):

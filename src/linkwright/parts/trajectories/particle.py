@@ -191,15 +191,21 @@ class Flight(Result):
         if p.height == 0.0 and v <= 0.0:
             return 0.0
         top, fall = self.top_time, math.sqrt(2 * self.top / p.gravity)
-        while self._height(min(top + fall, self._latest)) > 0:
+        while top + fall < self._latest and self._height(top + fall) > 0:
             fall *= 2
         end = min(top + fall, self._latest)
+        if self._height(end) >= 0.0:  # it lands there but for rounding
+            return end
         return float(brentq(self._height, top, end, xtol=1e-14, rtol=1e-14))
 
     @property
     def _latest(self) -> float:
         """A time by which it has landed, as far as it is integrated, s."""
         return float(self._integrated.t[-1]) if self.particle.quadratic else math.inf
+
+    def _rate(self, time: float) -> float:
+        """Vertical velocity, m/s."""
+        return float(self.state(np.array([time]))[3, 0])
 
     def _height(self, time: float) -> float:
         return float(self.state(np.array([time]))[1, 0])
@@ -214,7 +220,10 @@ class Flight(Result):
             return 0.0
         if not p.quadratic and not p.linear:
             return v / p.gravity
-        return float(brentq(lambda t: float(self.state(np.array([t]))[3, 0]), 0.0, v / p.gravity, xtol=1e-14))
+        latest = v / p.gravity
+        if self._rate(latest) >= 0.0:  # the drag is below rounding
+            return latest
+        return float(brentq(self._rate, 0.0, latest, xtol=1e-14))
 
     @property
     def range(self) -> float:

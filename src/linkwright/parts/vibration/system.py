@@ -19,7 +19,7 @@ from linkwright.parts.base import Block, Problem, Result, Row, fault, number, pu
 from linkwright.parts.fields import AnyQuantity, Listed, Named, Table
 from linkwright.parts.vibration.excitation import EXCITATION, Excitation, excitation_of, spread
 from linkwright.parts.vibration.linear import Linear, largest_between, tuned
-from linkwright.units import DIMENSIONS
+from linkwright.units import DIMENSIONS, SMALLEST
 from linkwright.words import Say
 from linkwright.worked.page import Step
 
@@ -136,7 +136,9 @@ class VibratingSystem(Problem):
 
     def findings(self) -> list[Finding]:
         found = [] if self.masses else [fault("vibration.no_mass", "masses")]
-        found += [fault("vibration.mass_above_zero", f"masses.{n}") for n, m in self.masses.items() if m <= 0]
+        found += [
+            fault("vibration.mass_above_zero", f"masses.{n}") for n, m in self.masses.items() if m <= SMALLEST
+        ]
         for what, ties in (("springs", self.springs), ("dampers", self.dampers)):
             for name, tie in ties.items():
                 found += self._tie_findings(f"{what}.{name}", tie)
@@ -379,9 +381,9 @@ class Vibration(Result):
                     say("vibration.shape", mode=mode),
                 )
             )
-            rows.append(Row(f"circular_{i + 1}", float(own), "angular_velocity", "  ω"))
+            rows.append(Row(f"circular_{i + 1}", float(own), "angular_velocity", f"  ω{i + 1}"))
             if self.linear.damping.any():
-                rows.append(Row(f"damping_{i + 1}", float(self.damping_ratios[i]), "", "  ζ"))
+                rows.append(Row(f"damping_{i + 1}", float(self.damping_ratios[i]), "", f"  ζ{i + 1}"))
         loose = int((self.frequencies == 0).sum())
         remarks = (say("vibration.loose", count=loose),) if loose else ()
         found = [Block("modes", say("vibration.modes"), rows, remarks)]

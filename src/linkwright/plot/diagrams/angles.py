@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.outputs import Output
 from linkwright.errors import RequestError
+from linkwright.kinematics.motion import Motion
 from linkwright.plot.diagrams.base import DIAGRAMS, Request
 from linkwright.plot.diagrams.outputs import known_link, main_output, turning_links
 from linkwright.plot.diagrams.panels import Curve, OverInput, Panel, look
@@ -37,15 +40,27 @@ class Angles(OverInput):
             values - values[np.isfinite(values)][0] if change else _near_zero(values) for values in shown
         ]
         return [
-            Panel(say("angle_change") if change else f"{say('angle')} θ", "angle", _curves(links, angle)),
-            Panel(f"{say('angular_velocity')} ω", "angular_velocity", _curves(links, omega)),
-            Panel(f"{say('angular_acceleration')} α", "angular_acceleration", _curves(links, alpha)),
-        ]
+            Panel(say("angle_change") if change else f"{say('angle')} θ", "angle",
+                  _curves(source, links, angle, "angle")),
+            Panel(f"{say('angular_velocity')} ω", "angular_velocity",
+                  _curves(source, links, omega, "angular_velocity")),
+            Panel(f"{say('angular_acceleration')} α", "angular_acceleration",
+                  _curves(source, links, alpha, "angular_acceleration")),
+        ]  # fmt: skip
 
 
-def _curves(links: list[str], values: list[Floats]) -> tuple[Curve, ...]:
-    peak, pairs = "both" if len(links) == 1 else "", enumerate(zip(links, values, strict=True))
-    return tuple(Curve(name, each, peak, *look(number)) for number, (name, each) in pairs)
+def _curves(source: Source, links: list[str], values: list[Floats], quantity: str) -> tuple[Curve, ...]:
+    if len(links) > 1:
+        pairs = enumerate(zip(links, values, strict=True))
+        return tuple(Curve(name, each, "", *look(number)) for number, (name, each) in pairs)
+    signal = partial(_of_link, name=links[0], quantity=quantity)
+    exact = source.angle_extremes(signal, values[0]) if quantity == "angle" else source.extremes(signal)
+    return (Curve(links[0], values[0], "both", *look(0), extremes=exact),)
+
+
+def _of_link(motion: Motion, name: str, quantity: str) -> Floats:
+    """Angle of a link or a rate of it, (n,)."""
+    return np.asarray(getattr(motion.link(name), quantity))
 
 
 def _flat(angles: list[Floats]) -> bool:

@@ -13,6 +13,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 from linkwright.core.dataclass import dataclass
+from linkwright.machine.flywheel import FLUCTUATION
 from linkwright.plot.diagrams.picture import Figure
 from linkwright.registry import Registry
 from linkwright.words import Say, say
@@ -44,7 +45,7 @@ class Request:
     on: str | None = None
     axes: str | None = None
     at: float | None = None
-    fluctuation: float = 0.03
+    fluctuation: float = FLUCTUATION
     marks: bool = True
     title: str | None = None
     size: tuple[float, float] | None = None

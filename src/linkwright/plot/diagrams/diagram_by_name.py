@@ -10,6 +10,7 @@ from linkwright.core.plot_method import Plotted
 from linkwright.errors import RequestError, about, require_language
 from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import Forces
+from linkwright.machine.flywheel import FLUCTUATION
 from linkwright.machine.running import SteadyRunning
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.plot.diagrams.base import DIAGRAMS, RESULT_DIAGRAMS, Request
@@ -54,7 +55,7 @@ def plot(
         joint, on: the joint of reactions and hodographs, and the link on which its force acts.
         axes: ``"frame"``, or a link in whose axes forces are resolved.
         at: the input of a polygon: rad, m or s, or a text with its unit (``"30 deg"``).
-        fluctuation: required δ of the flywheel in ``speed``, 0.03 unless given.
+        fluctuation: required δ of the flywheel in ``speed``, 0.02 unless given.
         static: leave the inertia forces out; of forces that are solved here.
         marks: limit positions, peaks, phases and inputs along curves.
         title: a title of your own; ``""`` for none.
@@ -95,7 +96,7 @@ def plot(
         on=on,
         axes=axes,
         at=_place(at, sources[0]) if sources else None,
-        fluctuation=0.03 if fluctuation is None else fluctuation,
+        fluctuation=FLUCTUATION if fluctuation is None else fluctuation,
         marks=marks,
         title=None if title is None else printable(str(title)).replace("\t", " "),
         size=size,

@@ -9,12 +9,13 @@ from linkwright.machine.energy import EnergyFluctuation
 from linkwright.machine.equivalent import Equivalent, equivalent
 from linkwright.machine.running import SteadyRunning
 from linkwright.machine.speed import SpeedCurve
+from linkwright.metrics.analysis import Analysis, Extreme, Kind
 from linkwright.metrics.true_speed import steady_cycle
 from linkwright.plot.diagrams.axes import significant, unit_of
 from linkwright.plot.diagrams.base import DIAGRAMS, Request
 from linkwright.plot.diagrams.panels import Curve, Level, OverInput, Panel, with_mean
 from linkwright.plot.diagrams.picture import COLOURS
-from linkwright.plot.diagrams.source import InputAxis, Source
+from linkwright.plot.diagrams.source import Extremes, InputAxis, Source
 
 
 @DIAGRAMS.register("energy")
@@ -37,12 +38,21 @@ class Energy(OverInput):
         steady = reduced.torque + 0.5 * reduced.slope * reduced.speed**2
         torque = reduced.direction * np.append(steady, steady[0])
         mean = reduced.direction * reduced.load.mean
-        title, curve = f"{say('input_torque')} T", Curve("", torque, x=place)
+        title = f"{say('input_torque')} T"
+        curve = Curve("", torque, x=place, extremes=_of_torque(reduced))
         change = say("energy_fluctuation", value=unit_of("energy", [found.energy]).text(found.value))
         return [
             with_mean(title, "torque", curve, mean, request, fill=True),
             Panel(f"{say('energy')} E", "energy", (Curve(change, found.energy),)),
         ]
+
+
+def _of_torque(reduced: Equivalent) -> Extremes | None:
+    """Extremes of the driver's torque at constant speed."""
+    forces = reduced.forces
+    if forces.static:
+        return None
+    return lambda kind: Analysis.of(forces).extreme(lambda each: each.input_torque, kind, of="forces")
 
 
 def _reduced(source: Source) -> tuple[Equivalent, EnergyFluctuation]:
@@ -82,7 +92,13 @@ def _curve(running: SteadyRunning, speed: SpeedCurve, flywheel: float, name: str
     inertia = f", J = {significant(flywheel)} kg·m²" if flywheel else ""
     label = f"{name}{inertia}: δ = {significant(speed.fluctuation, 3)}"
     reduced = running.equivalent
-    return Curve(label, speed.speed, colour=colour, x=reduced.start + reduced.direction * speed.angle)
+
+    def exact(kind: Kind) -> Extreme:
+        angle, value = speed.fastest if kind == "max" else speed.slowest
+        return Extreme(value, angle / reduced.speed, reduced.input_at(angle), True)
+
+    x = reduced.start + reduced.direction * speed.angle
+    return Curve(label, speed.speed, colour=colour, x=x, extremes=exact)
 
 
 def _alone(running: SteadyRunning) -> SpeedCurve | None:

@@ -35,6 +35,7 @@ from linkwright.plot.diagrams.scaled_page import (
 )
 from linkwright.plot.diagrams.source import Source
 from linkwright.plot.force_names import link_numbers, reaction_index
+from linkwright.words.sentence import links_said
 
 #: Longest extent of a polygon on the paper, mm, and how many pictures stand in a row.
 EXTENT, IN_ROW = 58.0, 3
@@ -162,13 +163,12 @@ class ForcePolygon(Kind):
 
 def _numbered(forces: Forces, request: Request, wide: float) -> Iterator[str]:
     """The links with their numbers, in lines that fit a width, mm."""
-    numbers = {**link_numbers(forces.mechanism)}
-    line = f"{numbers.pop('frame')} {request.say('frame')}"
-    for name, number in numbers.items():
-        longer = f"{line}, {number} {name}"
+    line, *more = links_said(link_numbers(forces.mechanism), request.language)
+    for each in more:
+        longer = f"{line}, {each}"
         if text_width(longer, 8.0) > wide - 8.0:
             yield f"{line},"
-            longer = f"{number} {name}"
+            longer = each
         line = longer
     yield line
 

@@ -7,6 +7,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from linkwright.core.arrays import Floats
+from linkwright.core.search import first_largest
+from linkwright.metrics.analysis import Analysis
+from linkwright.metrics.reactions import size as magnitude
 from linkwright.plot.diagrams.axes import Legend, Unit, equal, framed, unit_of
 from linkwright.plot.diagrams.base import DIAGRAMS, Kind, Request
 from linkwright.plot.diagrams.curve_marks import draw_curve, jumps, mark_inputs
@@ -72,7 +75,7 @@ def draw_hodograph(
         elif request.marks and curve.any():
             mark_inputs(noted, curve * unit.factor, source.axis, colour)
             if largest:
-                _largest(axes, curve, unit, legend, request)
+                _largest(axes, source, what, curve, unit, legend, request)
     names = ("x", "y") if view == "frame" else ("ξ", "η")
     axes.set_title(say("in_frame") if view == "frame" else say("in_link", link=view), color=INK)
     axes.set_xlabel(f"F{names[0]} ({unit.name})")
@@ -92,14 +95,29 @@ def _curve(source: Source, what: tuple[str, str, str]) -> Floats:
     return found if np.nanmax(np.abs(found), initial=0.0) > source.forces.rounding else np.zeros_like(found)
 
 
-def _largest(axes: Axes, curve: Floats, unit: Unit, legend: Legend, request: Request) -> None:
-    """The largest force as an arrow from the origin."""
-    length = np.hypot(curve[:, 0], curve[:, 1])
-    index = int(np.nanargmax(length))
-    x, y = curve[index] * unit.factor
+def _largest(
+    axes: Axes,
+    source: Source,
+    what: tuple[str, str, str],
+    curve: Floats,
+    unit: Unit,
+    legend: Legend,
+    request: Request,
+) -> None:
+    """The largest force as an arrow from the origin: between the positions, where it can be found there."""
+    joint, link, view = what
+    size = magnitude(joint, link)
+    found = source.extremes(size, "forces")("max")
+    if found is not None and np.isfinite(found.value):
+        forces, (row,) = Analysis.of(source.forces).resolver.forces_at([(size, found.time, found.value)])
+        force, length = forces.reaction(joint, on=link, axes=view)[row], found.value
+    else:
+        force = curve[first_largest(np.hypot(curve[:, 0], curve[:, 1]))]
+        length = float(np.hypot(*force))
+    x, y = force * unit.factor
     axes.annotate("", (x, y), (0, 0), arrowprops={"arrowstyle": "-|>", "color": FAINT, "linewidth": 1.1,
                   "mutation_scale": 11, "shrinkA": 0, "shrinkB": 0}, zorder=3)  # fmt: skip
-    legend.line(request.say("largest_force", value=unit.text(float(length[index]))), FAINT, "-")
+    legend.line(request.say("largest_force", value=unit.text(length)), FAINT, "-")
 
 
 #: Panels in a row, and inches of one.

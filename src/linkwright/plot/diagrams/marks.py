@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from linkwright.core.arrays import largest
+from linkwright.core.arrays import Floats, largest
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
+from linkwright.core.search import first_largest
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.limits import limit_positions
 from linkwright.kinetostatics.signals import MotionSignals
@@ -125,8 +126,22 @@ def _peaks(curve: Curve, axis: InputAxis) -> list[tuple[float, float, bool]]:
     """Place and value of the extremes that are marked, and whether their texts stand above."""
     high, low = _extreme(curve, axis, "max"), _extreme(curve, axis, "min")
     if curve.peak == "largest":
-        return [(*high, True)] if high[1] >= -low[1] else [(*low, False)]
+        first, last = sorted([(*high, True), (*low, False)])
+        return [(first, last)[first_largest(np.abs([first[1], last[1]]))]]
     return [(*high, True)] if curve.peak == "max" else [(*high, True), (*low, False)]
+
+
+def through_peaks(curve: Curve, axis: InputAxis) -> tuple[Floats, Floats]:
+    """Places and values of a curve with the extremes that are marked on it, so that the line passes them."""
+    x, values = (axis.values if curve.x is None else curve.x), curve.values
+    if not curve.peak or not np.isfinite(values).any():
+        return x, values
+    way = -1.0 if x[-1] < x[0] else 1.0
+    for place, value, _ in _peaks(curve, axis):
+        if np.isfinite(value):
+            at = int(np.searchsorted(way * x, way * place))
+            x, values = np.insert(x, at, place), np.insert(values, at, value)
+    return x, values
 
 
 def _extreme(curve: Curve, axis: InputAxis, kind: Kind) -> tuple[float, float]:
@@ -134,5 +149,5 @@ def _extreme(curve: Curve, axis: InputAxis, kind: Kind) -> tuple[float, float]:
     found = curve.extremes(kind) if curve.extremes is not None else None
     if found is not None:
         return (found.time if axis.dimension == "time" else found.input), found.value
-    index = int(np.nanargmax(curve.values) if kind == "max" else np.nanargmin(curve.values))
+    index = first_largest(curve.values if kind == "max" else -curve.values)
     return float((axis.values if curve.x is None else curve.x)[index]), float(curve.values[index])

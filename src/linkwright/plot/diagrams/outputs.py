@@ -6,6 +6,7 @@ import numpy as np
 
 from linkwright.core.arrays import largest
 from linkwright.core.outputs import Output
+from linkwright.core.search import first_largest
 from linkwright.errors import RequestError
 from linkwright.kinematics.limits import output_of
 from linkwright.kinematics.motion import Motion
@@ -131,7 +132,8 @@ def joint_and_link(forces: Forces, joint: str | None, on: str | None) -> tuple[s
             on_frame = pairs = [p for p in pairs if p[1] == known_link(mechanism, on)]
         if not pairs:
             raise RequestError("picture.no_force_there", name=mechanism.name)
-        return max(on_frame or pairs, key=lambda pair: largest(forces.reaction(pair[0], on=pair[1])))
+        pairs = on_frame or pairs
+        return pairs[first_largest(np.array([largest(forces.reaction(name, on=on)) for name, on in pairs]))]
     if on is None and joint in mechanism.joints:
         on = [link for link in mechanism.joints[joint].joined if link != "frame"][-1]
     forces.reaction(joint, on=on)

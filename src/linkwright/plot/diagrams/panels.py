@@ -13,7 +13,14 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.plot.diagrams.axes import Legend, Unit, framed, label_input, unit_of
 from linkwright.plot.diagrams.base import Kind, Request
-from linkwright.plot.diagrams.marks import LimitMark, PhaseMark, limit_marks, mark_peaks, phase_marks
+from linkwright.plot.diagrams.marks import (
+    LimitMark,
+    PhaseMark,
+    limit_marks,
+    mark_peaks,
+    phase_marks,
+    through_peaks,
+)
 from linkwright.plot.diagrams.picture import COLOURS, FAINT, INK, SHADE, Axes, Figure, new_figure
 from linkwright.plot.diagrams.source import Extremes, InputAxis, Source
 from linkwright.words import Say
@@ -173,9 +180,13 @@ def draw_panel(axes: Axes, panel: Panel, axis: InputAxis, request: Request, lege
     many = len(panel.curves) > 1
     axes.axhline(0.0, color="#9aa0a6", linewidth=0.7, zorder=1.2)
     for curve in panel.curves:
-        x = (axis.values if curve.x is None else curve.x) * axis.unit.factor
+        x, y = through_peaks(curve, axis)
         (line,) = axes.plot(
-            x, curve.values * unit.factor, color=curve.colour, linestyle=curve.dash, linewidth=curve.width
+            x * axis.unit.factor,
+            y * unit.factor,
+            color=curve.colour,
+            linestyle=curve.dash,
+            linewidth=curve.width,
         )
         if many or curve.label:
             legend.add(curve.label, line)

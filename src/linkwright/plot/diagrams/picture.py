@@ -6,7 +6,7 @@ import importlib
 import io
 import warnings
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.plot.svg.render import MOST_PIXELS
-from linkwright.whole_files import write_whole
+from linkwright.whole_files import refuse_target, write_whole
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
@@ -39,14 +39,22 @@ REMEDY = Sentence("picture.install_font")
 
 @lru_cache(maxsize=1)
 def chinese_font() -> str | None:
-    """Family of an installed font with Chinese characters."""
+    """Family of an installed font with Chinese characters, in its regular face.
+
+    What matplotlib noted of fonts earlier is completed with the files that lie in the system's folders now.
+    """
     from matplotlib import font_manager
 
-    installed = {font.name for font in font_manager.fontManager.ttflist}
-    for family in CHINESE:
-        if family in installed:
-            return family
-    return _registered()
+    from linkwright.plot.svg.text import chinese_fonts, system_fonts
+
+    manager, files = font_manager.fontManager, {str(file) for file in chinese_fonts(system_fonts())}
+    for file in sorted(files - {font.fname for font in manager.ttflist}):
+        with suppress(OSError, RuntimeError):
+            manager.addfont(file)
+    faces = [font for font in manager.ttflist if Path(font.fname).exists()]
+    names = {font.name for font in faces}
+    others = (font.name for font in faces if font.fname in files and "Mono" not in font.name)
+    return next((family for family in CHINESE if family in names), next(others, None))
 
 
 def families(language: str) -> list[str]:
@@ -60,21 +68,6 @@ def families(language: str) -> list[str]:
             raise LinkwrightError("picture.boxes", remedy=REMEDY)
         return [chinese, LATIN]
     return [LATIN] if chinese is None else [LATIN, chinese]
-
-
-def _registered() -> str | None:
-    """A Chinese font that was installed after matplotlib listed the fonts."""
-    from matplotlib import font_manager
-
-    from linkwright.plot.svg.text import chinese_fonts, system_fonts
-
-    for file in chinese_fonts(system_fonts()):
-        try:
-            font_manager.fontManager.addfont(str(file))
-        except (OSError, RuntimeError):
-            continue
-        return font_manager.fontManager.ttflist[-1].name
-    return None
 
 
 ENDINGS = (".svg", ".pdf", ".png")
@@ -132,11 +125,13 @@ class Diagram:
     figure: Figure
     language: str = "en"
 
-    def save(self, path: str | Path, *, dpi: float = 200.0) -> Path:
+    def save(self, path: str | Path, *, dpi: float = 200.0, force: bool = False) -> Path:
         """Write it as .svg, .pdf or .png (``dpi`` dots per inch), whole or not at all.
 
-        Raises LinkwrightError for another ending, a folder that cannot be written, a text that no font can write.
+        Raises LinkwrightError for another ending, a folder that cannot be written, a text that no font can write, and
+        for a file that is there already unless ``force``.
         """
+        refuse_target(path, force=force)
         return write_whole(path, self.content(Path(path).suffix.lower(), dpi=dpi))
 
     def content(self, ending: str, *, dpi: float = 200.0) -> bytes:

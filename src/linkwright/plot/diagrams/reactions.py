@@ -8,6 +8,7 @@ import numpy as np
 
 from linkwright.core.arrays import largest
 from linkwright.core.outputs import Output
+from linkwright.core.search import first_largest
 from linkwright.errors import RequestError
 from linkwright.kinetostatics.forces import Forces
 from linkwright.metrics.reactions import size as magnitude
@@ -57,7 +58,7 @@ def _of_all(source: Source, request: Request) -> Panel:
         shared = len(mechanism.joints[joint].joined) > 2
         label = f"{joint} ({link})" if shared else joint
         sizes[label], signals[label] = np.hypot(force[:, 0], force[:, 1]), magnitude(joint, link)
-    marked = max(sizes, key=lambda label: largest(sizes[label]))
+    marked = list(sizes)[first_largest(np.array([largest(each) for each in sizes.values()]))]
     curves = []
     for number, (label, values) in enumerate(sizes.items()):
         exact = source.extremes(signals[label], "forces")

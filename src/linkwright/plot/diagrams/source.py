@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import cached_property
 from typing import Any, Literal, TypeAlias, TypeVar, cast
 
@@ -134,13 +135,28 @@ class Source:
     def extremes(self, signal: Callable[[Any], Floats], of: str = "motion") -> Extremes:
         """Extremes over the cycle of a signal of the motion, or of the forces, as the design numbers have them."""
         loads = of == "forces"
-        analysis = self.once(
-            f"analysis of {of}", lambda: Analysis(self.motion, self.forces if loads else None)
-        )
+        analysis = Analysis.of(self.forces if loads else self.motion)
 
         def found(kind: Kind) -> Extreme | None:
             extreme = analysis.extreme(signal, kind, of="forces") if loads else analysis.extreme(signal, kind)
             return extreme if extreme is not None and extreme.exact else None
+
+        return found
+
+    def angle_extremes(self, signal: Callable[[Motion], Floats], shown: Floats) -> Extremes | None:
+        """The same of an angle, in the turn in which it is ``shown`` (n,); None of one that gains whole turns."""
+        if not abs(shown[-1] - shown[0]) < TURN / 2:
+            return None
+        between = self.extremes(signal)
+
+        def found(kind: Kind) -> Extreme | None:
+            extreme = between(kind)
+            if extreme is None:
+                return None
+            sample = np.nanmax(shown) if kind == "max" else np.nanmin(shown)
+            return replace(
+                extreme, value=extreme.value + TURN * float(np.round((sample - extreme.value) / TURN))
+            )
 
         return found
 

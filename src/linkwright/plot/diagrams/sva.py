@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 from operator import methodcaller
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.core.outputs import Output
+from linkwright.kinematics.motion import Motion
 from linkwright.plot.diagrams.base import DIAGRAMS, Request
 from linkwright.plot.diagrams.outputs import main_output, output_named
 from linkwright.plot.diagrams.panels import DASHES, Curve, OverInput, Panel
@@ -76,23 +79,30 @@ def _of_output(source: Source, output: Output, say: Say) -> list[Panel]:
     found = []
     for (word, symbol, dimension), each in zip(named, output.course, strict=True):
         shown = source.closed(source.motion.read(each), turns=word == "angle")
-        exact = None if word == "angle" else source.extremes(methodcaller("read", each))
+        read = methodcaller("read", each)
+        exact = source.angle_extremes(read, shown) if word == "angle" else source.extremes(read)
         found.append(Panel(f"{say(word)} {symbol}", dimension, (Curve("", shown, extremes=exact),)))
     return found
+
+
+def _size(motion: Motion, key: str, word: str) -> Floats:
+    """Size of the velocity or acceleration of a point, (n,)."""
+    return np.asarray(np.hypot(*getattr(motion.point_of(key), word).T))
 
 
 def _of_point(source: Source, key: str, say: Say) -> list[Panel]:
     point = source.motion.point_of(key)
     found = []
-    for word, symbol, dimension, values in (
-        ("position", "r", "length", point.position),
-        ("velocity", "v", "velocity", point.velocity),
-        ("acceleration", "a", "acceleration", point.acceleration),
+    for word, symbol, dimension in (
+        ("position", "r", "length"),
+        ("velocity", "v", "velocity"),
+        ("acceleration", "a", "acceleration"),
     ):
-        shown = source.closed(values)
+        shown = source.closed(getattr(point, word))
         curves = [Curve(axis, shown[:, i], "", COLOURS[i]) for i, axis in enumerate("xy")]
         if word != "position":
             length = np.hypot(shown[:, 0], shown[:, 1])
-            curves.append(Curve(say("magnitude"), length, "max", COLOURS[2]))
+            exact = source.extremes(partial(_size, key=key, word=word))
+            curves.append(Curve(say("magnitude"), length, "max", COLOURS[2], extremes=exact))
         found.append(Panel(f"{say(word)} {symbol}", dimension, tuple(curves)))
     return found

@@ -37,7 +37,7 @@ class Torque(OverInput):
             dimension = "torque" if turning else "force"
             title = f"{say(f'input_{dimension}')} {'T' if turning else 'F'}{f' {name}' if several else ''}"
             curve = Curve("", source.closed(effort), extremes=exact)
-            mean = Analysis(motion, forces).mean_of(partial(Forces.driver_effort, name=name))
+            mean = Analysis.of(forces).mean_of(partial(Forces.driver_effort, name=name))
             found.append(with_mean(title, dimension, curve, mean, request, f"{name}: " if several else ""))
         return found
 
@@ -54,7 +54,7 @@ class Power(OverInput):
     def panels(self, source: Source, request: Request) -> list[Panel]:
         power = source.forces.power
         curve = Curve("", source.closed(power), extremes=source.extremes(_total, "forces"))
-        mean = Analysis(source.motion, source.forces).mean_of(_total)
+        mean = Analysis.of(source.forces).mean_of(_total)
         return [with_mean(f"{request.say('power')} P", "power", curve, mean, request)]
 
 

@@ -24,10 +24,24 @@ _RADII = (34.0, 48.0, 64.0)
 
 @dataclass(frozen=True)
 class Dimensioned:
-    """A dimension and its label."""
+    """A dimension and its label: a length between the places ``ends`` with its dimension ``line``, or an ``arc``; all
+    on the paper."""
 
     shape: Shape
     label: Label
+    ends: tuple[Vec, Vec] | None = None
+    line: tuple[Vec, Vec] | None = None
+    arc: Arc | None = None
+
+
+@dataclass(frozen=True)
+class Arc:
+    """About a place of the paper, from one direction over a ``sweep`` (rad, clockwise on the paper)."""
+
+    at: Vec
+    radius: float
+    first: float
+    sweep: float
 
 
 @dataclass(frozen=True)
@@ -152,9 +166,11 @@ def _line(machine: Machine, measure: Distance, taken: Obstacles) -> Dimensioned:
     ]
     shape, _, place = min(shapes, key=lambda each: _crossing(each[0], taken) + 0.3 * abs(each[1]))
     length, direct = way(a, b)
+    ends = a, vec(placed([(length, rises[1])], a, direct)[0])
     first, last = (vec(row) for row in placed([(0.0, place), (length, place)], a, direct))
     text, anchors = length_text(length / machine.view.scale), _middle(a, b, place)
-    return Dimensioned(shape, Label(text, anchors, "lw-value", 12.0, 5.0, along=(first, last)))
+    label = Label(text, anchors, "lw-value", 12.0, 5.0, along=(first, last))
+    return Dimensioned(shape, label, ends, (first, last))
 
 
 def _arc(measure: Angle, taken: Obstacles) -> Dimensioned:
@@ -168,7 +184,8 @@ def _arc(measure: Angle, taken: Obstacles) -> Dimensioned:
     middle = measure.first + 0.5 * sweep
     x, y = measure.at[0] + radius * math.cos(middle), measure.at[1] + radius * math.sin(middle)
     text = f"{abs(math.degrees(measure.value)):.6g}°"
-    return Dimensioned(shape, Label(text, ((x, y),), "lw-value", 12.0, 5.0))
+    label = Label(text, ((x, y),), "lw-value", 12.0, 5.0)
+    return Dimensioned(shape, label, arc=Arc(measure.at, radius, measure.first, sweep))
 
 
 def _crossing(shape: Shape, taken: Obstacles) -> float:

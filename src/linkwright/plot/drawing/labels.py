@@ -94,19 +94,21 @@ class Obstacles:
     def under(self, boxes: Floats) -> Floats:
         """Length of ink in every box (k, 4), by clipping each segment to it."""
         near = self.segments[self._beside(boxes)]
-        if not len(near):
-            return np.zeros(len(boxes))
-        start, way = near[None, :, :2], near[None, :, 2:] - near[None, :, :2]
-        low, high = boxes[:, None, :2], boxes[:, None, 2:]
+        lows, highs = np.minimum(near[:, :2], near[:, 2:]), np.maximum(near[:, :2], near[:, 2:])
+        may = (highs[:, 0] >= boxes[:, :1]) & (lows[:, 0] <= boxes[:, 2:3])
+        may &= (highs[:, 1] >= boxes[:, 1:2]) & (lows[:, 1] <= boxes[:, 3:])
+        rows, which = np.nonzero(may)
+        start, way = near[which, :2], near[which, 2:] - near[which, :2]
+        low, high = boxes[rows, :2], boxes[rows, 2:]
         with np.errstate(all="ignore"):
             a, b = (low - start) / way, (high - start) / way
             inside = (start >= low) & (start <= high)
-            first = np.where(way == 0, np.where(inside, -np.inf, np.inf), np.minimum(a, b)).max(axis=2)
-            last = np.where(way == 0, np.where(inside, np.inf, -np.inf), np.maximum(a, b)).min(axis=2)
+            first = np.where(way == 0, np.where(inside, -np.inf, np.inf), np.minimum(a, b)).max(axis=1)
+            last = np.where(way == 0, np.where(inside, np.inf, -np.inf), np.maximum(a, b)).min(axis=1)
         share = np.clip(np.minimum(last, 1.0) - np.maximum(first, 0.0), 0.0, None)
         touched = share > 0
-        length: Floats = share * np.hypot(way[..., 0], way[..., 1]) + 4.0 * touched
-        return np.asarray(length.sum(axis=1))
+        length = share * np.hypot(way[:, 0], way[:, 1]) + 4.0 * touched
+        return np.bincount(rows, length, len(boxes))
 
     def _beside(self, boxes: Floats) -> Flags:
         """Which segments (m,) may touch one of the boxes: those whose own boxes touch the box of all."""
@@ -216,10 +218,11 @@ def _settled(covered: Sequence[Covered], own: Sequence[Floats], rounds: int = 4)
     """Which place every label takes: one after the other, then each anew while that changes anything."""
     chosen = [-1] * len(covered)
     order = sorted(range(len(covered)), key=lambda k: -float(own[k].min()))
+    meeting = _meeting(covered)
     for _ in range(rounds):
         before = list(chosen)
         for k in order:
-            taken = [covered[i].one(c) for i, c in enumerate(chosen) if i != k and c >= 0]
+            taken = [covered[i].one(chosen[i]) for i in meeting[k] if chosen[i] >= 0]
             shared = _overlap(covered[k].boxes, np.concatenate([*taken, np.zeros((0, 4))]))
             chosen[k] = int(np.argmin(own[k] + 3.0 * covered[k].summed(shared)))
         if chosen == before:
@@ -227,13 +230,27 @@ def _settled(covered: Sequence[Covered], own: Sequence[Floats], rounds: int = 4)
     return chosen
 
 
+def _meeting(covered: Sequence[Covered]) -> list[list[int]]:
+    """Of every label the others of which some place may overlap with one of its own."""
+    if not covered:
+        return []
+    low = np.array([each.boxes[:, :2].min(axis=0) for each in covered]) - _HAIR
+    high = np.array([each.boxes[:, 2:].max(axis=0) for each in covered])
+    meets = [((high >= low[k]) & (low <= high[k])).all(axis=1) for k in range(len(covered))]
+    return [[i for i in np.flatnonzero(row).tolist() if i != k] for k, row in enumerate(meets)]
+
+
+#: By how much overlapping boxes are grown, across and down.
+_HAIR = np.array([4.0, 2.0])
+
+
 def _overlap(boxes: Floats, others: Floats) -> Floats:
     """Area (k,) that boxes share with others, each grown by a hair's breadth."""
     if not len(others):
         return np.zeros(len(boxes))
     a, b = boxes[:, None, :], others[None, :, :]
-    wide = np.minimum(a[..., 2], b[..., 2]) - np.maximum(a[..., 0], b[..., 0]) + 4.0
-    high = np.minimum(a[..., 3], b[..., 3]) - np.maximum(a[..., 1], b[..., 1]) + 2.0
+    wide = np.minimum(a[..., 2], b[..., 2]) - np.maximum(a[..., 0], b[..., 0]) + _HAIR[0]
+    high = np.minimum(a[..., 3], b[..., 3]) - np.maximum(a[..., 1], b[..., 1]) + _HAIR[1]
     shared: Floats = np.where((wide > 0) & (high > 0), wide * high, 0.0)
     return np.asarray(shared.sum(axis=1))
 

@@ -15,7 +15,7 @@ from linkwright.plot.svg.text import name_width, text_element, width
 from linkwright.plot.symbols.base import SYMBOLS, points
 from linkwright.words import say
 from linkwright.words.characters import pieces
-from linkwright.words.sentence import Sentence
+from linkwright.words.sentence import Sentence, links_said
 
 if TYPE_CHECKING:
     from linkwright.mechanism.mechanism import Mechanism
@@ -68,9 +68,7 @@ class Legend:
 
     def numbers(self, mechanism: Mechanism, language: str) -> None:
         """What the indices of joint forces mean."""
-        named = {**link_numbers(mechanism)}
-        links = [f"{named.pop('frame')} {say('drawing.frame', language)}"]
-        links += [f"{number} {name}" for name, number in named.items()]
+        links = links_said(link_numbers(mechanism), language)
         self.text(Sentence("drawing.reaction", links=tuple(links)).say(language))
         if any(len(joint.joined) > 2 for joint in mechanism.joints.values()):
             self.text(say("drawing.pin", language))

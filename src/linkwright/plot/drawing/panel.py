@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 
 import numpy as np
 
@@ -44,17 +44,23 @@ class Panel:
 
 
 def panel(
-    results: Mapping[Output, Floats], wanted: Sequence[str], box: Box, language: str, *, alone: bool
+    results: Mapping[Output, Floats],
+    wanted: Sequence[str],
+    box: Box,
+    language: str,
+    *,
+    alone: bool,
+    ends: Callable[[Output], tuple[float, float]],
 ) -> Panel:
     """Rows of curves under the box; ``wanted``: names of columns, with or without the unit; ``alone``: whether there
-    is one driver."""
+    is one driver; ``ends``: smallest and largest value of a result."""
     left, span = box[0], max(box[2] - box[0], 260.0)
     y = box[3] + GAP
     elements: list[Element] = []
     right = left + span
     for name in wanted:
         output = named(results, name)
-        text = _caption(output, results[output], language, alone=alone)
+        text = _caption(output, results[output], ends(output), language, alone=alone)
         elements += _row(text, results[output], left, span, y)
         right = max(right, left + 4.0 + width(text, SIZE))
         y += HEIGHT + GAP
@@ -62,11 +68,11 @@ def panel(
     return Panel(tuple(elements), extent, left, span, box[3] + GAP, y - GAP)
 
 
-def _caption(output: Output, values: Floats, language: str, *, alone: bool) -> str:
+def _caption(output: Output, values: Floats, ends: tuple[float, float], language: str, *, alone: bool) -> str:
     """The quantity with its unit, and its ends."""
     said = output.sentence(alone=alone).say(language) if has(f"quantity.{output.kind}") else output.column
     unit = unit_of(output.dimension, [values])
-    low, high = (significant(float(end) * unit.factor) for end in (np.nanmin(values), np.nanmax(values)))
+    low, high = (significant(end * unit.factor) for end in ends)
     return say("drawing.curve", language, quantity=unit.label(said), low=low, high=high)
 
 

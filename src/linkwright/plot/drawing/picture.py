@@ -16,6 +16,7 @@ from linkwright.plot.svg.element import Element, element, number
 from linkwright.plot.svg.render import png, save_picture
 from linkwright.plot.svg.text import text_element
 from linkwright.plot.svg.text import width as text_width
+from linkwright.whole_files import refuse_target
 
 MARGIN, SIZE = 12.0, 13.0
 #: Smallest and largest longer side of a drawing, pixels.
@@ -32,12 +33,21 @@ class Drawing:
     svg: str
     notes: tuple[str, ...] = ()
 
-    def save(self, path: str | Path, *, fonts: Sequence[str | Path] = (), width: int | None = None) -> Path:
+    def save(
+        self,
+        path: str | Path,
+        *,
+        fonts: Sequence[str | Path] = (),
+        width: int | None = None,
+        force: bool = False,
+    ) -> Path:
         """Write it as .svg, .png (``width`` pixels across) or .pdf, whole or not at all.
 
         PNG and PDF need ``linkwright[plot]``; ``fonts``: font files used beside the system's.
-        Raises LinkwrightError for another suffix, a missing package or font, a folder that cannot be written.
+        Raises LinkwrightError for another suffix, a missing package or font, a folder that cannot be written, and for
+        a file that is there already unless ``force``.
         """
+        refuse_target(path, force=force)
         options: dict[str, object] = {}
         if Path(path).suffix.lower() != ".svg" and fonts:
             options["fonts"] = tuple(fonts)

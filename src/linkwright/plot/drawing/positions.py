@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.search import first_largest
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.cycle import at_inputs
 from linkwright.kinematics.limits import LimitPosition, limit_positions
@@ -84,7 +85,8 @@ def limits_of(motion: Motion, output: str | None = None) -> tuple[LimitPosition,
     found = limit_positions(motion, name)
     if not found:
         raise RequestError("picture.no_limit_positions", name=name)
-    high, low = max(found, key=lambda each: each.value), min(found, key=lambda each: each.value)
+    values = np.array([each.value for each in found])
+    high, low = found[first_largest(values)], found[first_largest(-values)]
     return (high,) if high is low else (high, low)
 
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.core.outputs import row_names
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.motion import Motion
 from linkwright.plot.symbols.base import Vec
@@ -34,7 +35,9 @@ def placements(motion: Motion) -> dict[str, Placement]:
     """Placement of every link, the frame included."""
     still = np.zeros((motion.steps, 2))
     found = {"frame": Placement(still, still + np.array([1.0, 0.0]))}
-    for name, link in motion.mechanism.links.items():
+    links = motion.mechanism.links
+    motion.evaluate_together(each for name in links for each in row_names("direction", name))
+    for name, link in links.items():
         direction = motion.link(name).direction
         point, (x, y) = next(iter(link.points.items()))
         c, s = direction[:, 0], direction[:, 1]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from linkwright.core.arrays import Floats, largest
-from linkwright.kinetostatics.balancing import Balancing
+from linkwright.machine.balancing import Balancing
 from linkwright.plot.diagrams.axes import Legend, equal, framed, label_input, unit_of
 from linkwright.plot.diagrams.base import Request, result_diagram
 from linkwright.plot.diagrams.panels import DASHES, Curve, Panel, draw_panel

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from linkwright.cams.report import RATES
-from linkwright.cams.result import CamDesign
+from linkwright.cams.result import CamDesign, Extreme
 from linkwright.errors import RequestError
 from linkwright.plot.diagrams.base import Request, result_diagram
 from linkwright.plot.diagrams.picture import FAINT, INK, Figure
@@ -30,9 +30,10 @@ def draw_cam_motion(result: CamDesign, request: Request) -> Figure:
     given = []
     for order, symbol in enumerate("svaj"):
         values = result.motion[order] * (speed**order if speed else 1.0)
-        marks = tuple(sorted({int(values.argmax()), int(values.argmin())}))
+        ends = [result.cam.program.extreme(order, kind) for kind in ("max", "min")]
+        peaks = tuple((each.place, each.value * (speed**order if speed else 1.0)) for each in ends)
         title = request.say(f"cam_{symbol}")
-        given.append(Pane(title, kinds[order], (Line(result.angles, values, marks=marks),)))
+        given.append(Pane(title, kinds[order], (Line(result.angles, values, peaks=peaks),)))
     return panes(result.title, (request.say("cam_angle"), "angle"), given, request)
 
 
@@ -40,18 +41,30 @@ def draw_cam_motion(result: CamDesign, request: Request) -> Figure:
 def draw_cam_checks(result: CamDesign, request: Request) -> Figure:
     """Pressure angle, radius of curvature, contact force, Hertz's pressure and torque over the cam's angle."""
     phi, contact = result.angles, result.contact
-    given = [Pane(request.say("cam_pressure_angle"), "angle", (Line(phi, contact.pressure_angle),))]
+    steepest = _peaks(result.pressure_angle_rise, result.pressure_angle_fall)
+    pressed = Line(phi, contact.pressure_angle, peaks=steepest if contact.pressure_angle.any() else ())
+    given = [Pane(request.say("cam_pressure_angle"), "angle", (pressed,))]
     largest = 5.0 * result.size
     with np.errstate(divide="ignore"):
         radius = 1.0 / contact.bend
     bent = np.where(np.abs(radius) < largest, radius, np.nan)
     given.append(Pane(request.say("cam_curvature"), "length", (Line(phi, bent),)))
     if result.loaded and result.cam.barrel_radius is None:
-        given.append(Pane(request.say("cam_force"), "force", (Line(phi, result.contact_force),)))
-        if result.pressure is not None:
-            given.append(Pane(request.say("cam_pressure"), "pressure", (Line(phi, result.pressure),)))
-        given.append(Pane(request.say("cam_torque"), "torque", (Line(phi, result.torque),)))
+        force, torque = (
+            _peaks(extreme("max"), extreme("min"))
+            for extreme in (result.extreme_force, result.extreme_torque)
+        )
+        given.append(Pane(request.say("cam_force"), "force", (Line(phi, result.contact_force, peaks=force),)))
+        if result.pressure is not None and result.largest_pressure is not None:
+            line = Line(phi, result.pressure, peaks=_peaks(result.largest_pressure))
+            given.append(Pane(request.say("cam_pressure"), "pressure", (line,)))
+        given.append(Pane(request.say("cam_torque"), "torque", (Line(phi, result.torque, peaks=torque),)))
     return panes(result.title, (request.say("cam_angle"), "angle"), given, request)
+
+
+def _peaks(*found: Extreme) -> tuple[tuple[float, float], ...]:
+    """Places and values of extremes, as the table has them."""
+    return tuple((each.place, each.value) for each in found)
 
 
 @result_diagram("cam_profile", CamDesign, usual=False)

@@ -36,26 +36,26 @@ def draw_metrics(result: MetricsTable, request: Request) -> Figure:
 
 
 def _groups(result: MetricsTable, request: Request) -> list[Group]:
-    """Rows that share an axis: of one metric, and of one dimension."""
+    """Rows that share an axis: of one metric, one dimension, and one limit."""
     names = request.of or tuple(name for name in result.names if METRICS[name].limit is not None)
     if not names:
         first = result.names[:1]
         hint = Sentence("picture.name_one", name=first[0]) if first else Sentence("picture.no_numbers")
         raise RequestError("picture.no_limit", hint=hint)
-    found: dict[tuple[str, str], list[MetricValue]] = {}
+    found: dict[tuple[str, str, float | None], list[MetricValue]] = {}
     for name in names:
         for row in result[name]:
             if np.isfinite(row.value):
-                found.setdefault((name, row.dimension), []).append(row)
+                found.setdefault((name, row.dimension, row.limit), []).append(row)
     if not found:
         raise RequestError("picture.not_finite", names=names)
-    return [(name, tuple(rows)) for (name, _), rows in found.items()]
+    return [(name, tuple(rows)) for (name, *_), rows in found.items()]
 
 
 def _draw(axes: Axes, name: str, rows: tuple[MetricValue, ...], request: Request, legend: Legend) -> None:
     metric = METRICS[name]()
     values = np.array([row.value for row in rows])
-    limit = metric.limit if rows[0].dimension == metric.dimension else None
+    limit = rows[0].limit
     unit = unit_of(rows[0].dimension, [values])
     shown, places = values * unit.factor, np.arange(len(rows))
     edges = [*shown.tolist(), *([] if limit is None else [limit * unit.factor])]

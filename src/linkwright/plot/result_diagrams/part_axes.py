@@ -20,13 +20,15 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Line:
-    """A curve: places and values, SI; ``label`` for the legend, ``marks`` indices that are named."""
+    """A curve: places and values, SI; ``label`` for the legend, ``marks`` indices that are named, ``peaks`` places
+    and values of extremes between them that are."""
 
     x: Floats
     y: Floats
     label: str = ""
     marks: tuple[int, ...] = ()
     dash: str = "-"
+    peaks: tuple[tuple[float, float], ...] = ()
 
 
 @dataclass(frozen=True)
@@ -85,12 +87,12 @@ def _pane(axes: Axes, pane: Pane, below: Unit, legend: Legend) -> None:
             legend.add(line.label, drawn)
         if pane.fill and number == 0:
             axes.fill_between(x, y, 0.0, color=colour, alpha=0.12, linewidth=0)
-        for index in line.marks:
-            axes.plot(x[index], y[index], "o", color=colour, markersize=3.5)
-            low = y[index] <= y.min() < y.max()
-            axes.annotate(shown.text(float(line.y[index])), (x[index], y[index]), (3, -4 if low else 4),
-                          textcoords="offset points", fontsize=7.5, color=INK,
-                          va="top" if low else "bottom")  # fmt: skip
+        for place, value in (*((float(line.x[k]), float(line.y[k])) for k in line.marks), *line.peaks):
+            at = place * below.factor, value * shown.factor
+            axes.plot(*at, "o", color=colour, markersize=3.5)
+            low = at[1] <= np.nanmin(y) < np.nanmax(y)
+            axes.annotate(shown.text(value), at, (3, -4 if low else 4), textcoords="offset points", fontsize=7.5,
+                          color=INK, va="top" if low else "bottom")  # fmt: skip
     if pane.log:
         axes.set_yscale("log")
         _plain_ticks(axes.yaxis, axes.get_ylim())

@@ -22,7 +22,7 @@ def draw_beam_line(result: BeamLine, request: Request) -> Figure:
     given = []
     for symbol, name, dimension in PANES:
         y = columns[name]
-        line = Line(x, y, marks=tuple({int(y.argmin()), int(y.argmax())}))
+        line = Line(x, y, peaks=tuple(dict.fromkeys(result.extremes(name.split(" ")[0]))))
         given.append(Pane(symbol, dimension, (line,), fill=symbol in "VM"))
     return panes(result.title, ("x", "length"), given, request)
 

@@ -16,8 +16,8 @@ def blocks(case: Case) -> Iterator[Block]:
     """Mean torque, motor, energy fluctuation, flywheel by the formula and exactly."""
     say, running = case.say, case.running
     yield Paragraph(say("report.flywheel_text", fluctuation=f"{running.required:g}"))
-    if running.driven is not None:
-        yield Paragraph(literal(running.driven.say(case.language)))
+    for remark in running.remarks:
+        yield Paragraph(literal(remark.say(case.language)))
     speed, energy, mean = running.equivalent.speed, running.energy.value, running.equivalent.mean_inertia
     numbers = rf"\frac{{{_plain(energy)}}}{{{running.required:g}\cdot {_plain(speed)}^2}} - {_plain(mean)}"
     symbols = r"\frac{\Delta E}{\delta\,\omega_{\mathrm{m}}^2} - J_{\mathrm{e,m}}"

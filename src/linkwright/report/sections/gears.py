@@ -13,6 +13,7 @@ from linkwright.report.document import Block, Figure, Formula, Heading, Paragrap
 from linkwright.report.machine_results import Case, Missing
 from linkwright.report.section import section
 from linkwright.structure.trains import GearTrain, written
+from linkwright.words.sentence import link_said
 from linkwright.worked.symbols import tex
 
 
@@ -63,13 +64,14 @@ def _train(case: Case, train: GearTrain) -> Iterator[Block]:
     """The table of the stopped carrier, and the equations that follow from it."""
     say, wheels = case.say, list(train.ratios)
     carrier = [train.carrier] if train.planetary else []
-    stopped = [say("structure_text.stopped", carrier=train.carrier), *map(written, train.ratios.values())]
+    held, frame = (link_said(name, case.language) for name in (train.carrier, "frame"))
+    stopped = [say("structure_text.stopped", carrier=held), *map(written, train.ratios.values())]
     rows = [(*stopped, "0") if carrier else tuple(stopped)]
     if carrier:
         rows.append((say("structure_text.as_one"), *["1"] * (len(wheels) + 1)))
     if speeds := train.speeds:
-        rows.append((say("structure_text.stopped", carrier="frame"), *map(written, speeds.values())))
-    caption = say("report.train_table", pairs=", ".join(train.pairs), carrier=train.carrier)
+        rows.append((say("structure_text.stopped", carrier=frame), *map(written, speeds.values())))
+    caption = say("report.train_table", pairs=", ".join(train.pairs), carrier=held)
     head = (say("report.motion"), *wheels, *carrier)
     yield Table(literal(caption), tuple(map(literal, head)),
                 tuple(tuple(map(literal, row)) for row in rows), "<" + ">" * (len(head) - 1))  # fmt: skip

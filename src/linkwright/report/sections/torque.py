@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from linkwright.metrics.analysis import Analysis
 from linkwright.report.document import Block, Formula, Paragraph, Table
 from linkwright.report.machine_results import Case, Missing
 from linkwright.report.numbers import column, small, typeset
@@ -41,7 +42,8 @@ def blocks(case: Case) -> Iterator[Block]:
         yield Table(say("report.torque_table"), head, body, ">>>>>", "torque-both", 2)
         known = forces.input_torque - forces.input_torque_from_power
         largest = float(np.nanmax(np.abs(known)))
-        top = float(np.nanmax(np.abs(forces.input_torque)))
+        (driver,) = case.mechanism.drivers
+        top = Analysis.of(forces).part(f"{driver}.effort peak").value
         yield Paragraph(
             say("report.torque_gap", gap=f"{_number(largest, 2)} {unit}", top=f"{_number(top, 6)} {unit}",
                 table="[[torque-both]]")

@@ -35,7 +35,7 @@ def free_curve(
     points: ArrayLike | None = None,
     *,
     file: str | Path | None = None,
-    file_unit: float = 1e-3,
+    file_unit: float | None = None,
     closed: bool | None = None,
     joints: int = 12,
     transmission_angle: float = math.radians(20),
@@ -52,7 +52,7 @@ def free_curve(
     Args:
         points: corners of the curve in order, (n, 2) or complex (n,), m; n ≥ 2.
         file: the curve in a file instead: two columns of numbers (``.csv``, ``.txt``), or the first path of an
-            ``.svg``; ``file_unit``: length of one unit there, m.
+            ``.svg``; ``file_unit``: length of one unit there, m (not given: 1 mm).
         closed: whether the last point joins the first; not given: where they are the same point.
         joints: most joints (pivots, pins, slides, points of links and the drawing point), 5 to 12: a four-bar, a
             slider-crank and a crank with a swinging block have 5, a six-bar up to 8; with 10 there are eight- and
@@ -104,10 +104,14 @@ def _bar() -> Callable[[float, float], None] | None:
 
 
 def _curve(
-    points: ArrayLike | None, file: str | Path | None, unit: float, closed: bool | None
+    points: ArrayLike | None, file: str | Path | None, unit: float | None, closed: bool | None
 ) -> tuple[Complexes, bool]:
     if (points is None) == (file is None):
         raise refuse("free_curve.no_curve")
+    if unit is not None and file is None:
+        raise refuse("task.only_with", demand="file_unit", needs="file")
+    unit = 1e-3 if unit is None else unit
+    positive(file_unit=unit)
     z = complex_points(points) if points is not None else unit * read_curve(Path(str(file)))
     if not len(z):
         raise refuse("free_curve.no_curve")

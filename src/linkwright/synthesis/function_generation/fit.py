@@ -9,14 +9,20 @@ from __future__ import annotations
 
 import numpy as np
 
-from linkwright.core.arrays import Floats, Whole
+from linkwright.core.arrays import Flags, Floats, Whole
 from linkwright.core.dataclass import dataclass
-from linkwright.synthesis.function_generation.generators import Generator
+from linkwright.synthesis.function_generation.generators import Generator, TurningFourBar
 from linkwright.synthesis.least_squares import minimise, with_differences
+from linkwright.synthesis.result import Candidate
 
 TRIED, KEPT, LEFT, STEPS = 12_000, 240, 24, 120
 #: Residual per unit of what is missing to assemble a position.
 PENALTY = 3.0
+#: Inputs of a range at which the demanded transmission angle is held, and by how much more of its sin² is aimed at:
+#: the optimum, which yields a little, then has it.
+HELD, MARGIN = 48, 1e-3
+#: Residual per unit of sin² that is missing: the next one where no optimum has the angle with the one before.
+HOLDS = (5.0, 40.0, 300.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,8 +62,55 @@ class FunctionDemand:
         return constant[:, None] + factor[:, None] * output - y, constant, factor
 
 
+@dataclass(frozen=True)
+class Quality:
+    """What is demanded beside a small error: an input that turns fully, a smallest transmission angle (rad)."""
+
+    turning: bool = False
+    transmission: float = 0.0
+
+    def met(self, turns: Flags, transmission: Floats) -> Flags:
+        """Which linkages have it."""
+        return np.asarray((turns | (not self.turning)) & (transmission >= self.transmission - 1e-9))
+
+    def reached(self, turns: Flags, transmission: Floats) -> Floats:
+        """The transmission angle, less half a turn where the input should turn and does not."""
+        return np.asarray(np.where(turns | (not self.turning), transmission, transmission - np.pi))
+
+    def of(self, each: Candidate) -> tuple[bool, float]:
+        """Whether a candidate has it, and its ``reached``."""
+        facts = np.array([each.turns]), np.array([each.transmission_angle])
+        return bool(self.met(*facts)[0]), float(self.reached(*facts)[0])
+
+    def missing(self, generator: Generator, x: Floats, signs: Floats, inputs: Floats) -> Floats:
+        """By how much sin² of the angle is too small over the demanded range and, of a linkage that turns, over its
+        whole turn (K, r); (K, 0) where nothing is demanded, or all have it."""
+        if isinstance(generator, TurningFourBar) or not (self.turning or self.transmission):
+            return np.empty((len(x), 0))
+        aim = min(np.sin(self.transmission) ** 2 + MARGIN, 1.0)
+        turn = _square_sines(generator, x, signs, float(inputs.min()), generator.turn())
+        lacking = np.maximum(aim - turn, 0.0)
+        if self.turning:
+            return np.asarray(lacking)
+        within = _square_sines(generator, x, signs, float(inputs.min()), float(np.ptp(inputs)))
+        turns = turn.min(1, keepdims=True) > 0
+        return np.concatenate([np.maximum(aim - within, 0.0), np.where(turns, lacking, 0.0)], 1)
+
+
+def _square_sines(generator: Generator, x: Floats, signs: Floats, first: float, length: float) -> Floats:
+    """sin² of the smallest angle at HELD inputs of a range (K, HELD), at its dips at their bottom; below 0 where the
+    linkage is not assembled."""
+    run = generator.run(x, signs, first + np.linspace(0.0, length, HELD))
+    square = run.sine**2 - run.missing**2 / 4
+    before, after = square[:, :-2], square[:, 2:]
+    bend, rise = before + after - 2 * square[:, 1:-1], after - before
+    dip = np.abs(rise) < 2 * bend
+    square[:, 1:-1] -= np.where(dip, rise**2 / np.where(dip, 8 * bend, 1.0), 0.0)
+    return np.asarray(square)
+
+
 def fit(
-    generator: Generator, demand: FunctionDemand, rng: np.random.Generator
+    generator: Generator, demand: FunctionDemand, quality: Quality, hold: float, rng: np.random.Generator
 ) -> tuple[Floats, Floats, Floats]:
     """Free numbers (K, m), signs (K, modes) and sums of squares (K,) of local optima, best first."""
     angle = column_of_zero(generator)
@@ -71,7 +124,9 @@ def fit(
     def residual_of(values: Floats, chosen: Floats) -> Floats:
         run = generator.run(values, chosen, demand.inputs)
         off = demand.matched(run.output * scale)[0]
-        return np.asarray(off + PENALTY * demand.size * run.missing)
+        off = off + PENALTY * demand.size * run.missing
+        held = quality.missing(generator, values, chosen, demand.inputs)
+        return np.concatenate([off, hold * demand.size * held], 1)
 
     first = residual_of(x, signs)
     best = np.argsort(np.einsum("ki,ki->k", first, first))[:KEPT]

@@ -14,7 +14,7 @@ from linkwright.core.given import real
 from linkwright.synthesis.assessment import assess_four_bars
 from linkwright.synthesis.build import four_bar_candidate
 from linkwright.synthesis.function_generation.exact import families, freudenstein
-from linkwright.synthesis.function_generation.fit import FunctionDemand, fit
+from linkwright.synthesis.function_generation.fit import HOLDS, FunctionDemand, Quality, fit
 from linkwright.synthesis.function_generation.generators import (
     KINDS,
     GearedFiveBar,
@@ -26,6 +26,7 @@ from linkwright.synthesis.merit import merit
 from linkwright.synthesis.result import (
     Candidate,
     Synthesis,
+    SynthesisError,
     allowed_transmission,
     different,
     note,
@@ -48,8 +49,8 @@ def function_generation(
     input_zero: float | None = None,
     output_zero: float | None = None,
     scale_free: bool = False,
-    frame: float = 1.0,
-    gear_ratio: float = -1.0,
+    frame: float | None = None,
+    gear_ratio: float | None = None,
     turning: bool = False,
     transmission_angle: float = 0.0,
     least_squares: bool = False,
@@ -62,16 +63,17 @@ def function_generation(
     Args:
         inputs: angles of the input link (n,), rad.
         outputs: angles of the output link, rad; with a ``slider_crank`` places of the slider, m.
-        places: another name for ``outputs`` of a slider, for files, where units are checked.
+        places: the outputs of a ``slider_crank``, m, instead of ``outputs``; for files, where units are checked.
         linkage: ``four_bar``, ``slider_crank``, ``watt``, ``stephenson`` (six-bars) or ``geared_five_bar``, whose
             output is the turn of the link that its input crank carries.
         input_zero, output_zero: angle (rad; place in m of a slider) of the frame's line O1→O2 (of the slider's zero)
             to the zero of inputs and outputs; None: free.
         scale_free: the output may be scaled; errors are then in units of the demanded output.
-        frame: length of O1 O2, m (not of a slider-crank, whose size follows from its travel).
-        gear_ratio: turns of the geared crank per turn of the input.
-        turning: the input of a four-bar must turn fully (in least squares).
-        transmission_angle: the smallest that is allowed over that turn, rad.
+        frame: length of O1 O2, m; not given: 1 m (not of a slider-crank, whose size follows from its travel).
+        gear_ratio: turns of the geared crank per turn of the input; not given: -1 (a geared five-bar's only).
+        turning: the input must turn fully.
+        transmission_angle: the smallest that is allowed, rad: over the whole turn of an input that turns fully, else
+            between the first and the last pair.
         least_squares: a four-bar of least squares even where 3 to 5 pairs can be met exactly.
         equation_error: the four-bar of least squares in Freudenstein's equation, for given zero angles: linear, as
             textbooks do it; its structural error is larger than that of the others.
@@ -83,27 +85,52 @@ def function_generation(
         rad or m; ``worst``: the greatest.
 
     Raises:
-        SynthesisError: pairs that do not fit; no real exact solution, or none that moves (``nearest``: the one of
-        least
-            squares, or the one with defects).
+        SynthesisError: pairs that do not fit; no real exact solution, none that moves, or none that turns or has
+            the transmission angle (``nearest``: the one of least squares, the one with defects, or the one with the
+            largest transmission angle).
     """
+    _applicable(linkage, outputs, places, frame, gear_ratio, equation_error)
     x, y = (_values(each) for each in (inputs, outputs if places is None else places))
+    frame = 1.0 if frame is None else frame
     _check(x, y, linkage, frame)
     whole(count=count)
     whole(least=0, seed=seed)
     allowed_transmission(transmission_angle)
+    quality = Quality(turning, transmission_angle)
     demand = FunctionDemand(x, y, input_zero, output_zero, scale_free)
     free = (input_zero is None) + (output_zero is None)
     fitting = linkage != "four_bar" or least_squares or equation_error
     _distinct(x, y, fitting or len(x) > 5)
     exact = len(x) == 3 or (len(x) == 4 and free) or (len(x) == 5 and free == 2)
-    if linkage == "four_bar" and equation_error:
-        return _by_equation(demand, frame)
+    if equation_error:
+        return _by_equation(demand, quality, frame)
     if linkage == "four_bar" and exact and not scale_free and not least_squares:
-        return _exact(demand, frame, count, seed)
-    generator = GearedFiveBar(gear_ratio) if linkage == "geared_five_bar" else KINDS[linkage]()
-    generator = TurningFourBar(transmission_angle) if turning and linkage == "four_bar" else generator
-    return _fitted(generator, demand, frame, count, seed)
+        return _exact(demand, quality, frame, count, seed)
+    generator = KINDS[linkage]()
+    if turning and linkage == "four_bar":
+        generator = TurningFourBar(transmission_angle)
+    if linkage == "geared_five_bar" and gear_ratio is not None:
+        generator = GearedFiveBar(gear_ratio)
+    return _fitted(generator, demand, quality, frame, count, seed)
+
+
+def _applicable(
+    linkage: str, outputs: ArrayLike, places: ArrayLike | None, frame: float | None, gear_ratio: float | None,
+    equation_error: bool,
+) -> None:  # fmt: skip
+    """Raises SynthesisError for a demand that the kind of linkage does not have."""
+    slider = linkage == "slider_crank"
+    if places is not None and np.size(outputs):
+        raise refuse("task.not_with", demand="places", other='"outputs"')
+    for demand, given, needs in (
+        ("gear_ratio", gear_ratio is not None and linkage != "geared_five_bar", "geared_five_bar"),
+        ("equation_error", equation_error and linkage != "four_bar", "four_bar"),
+        ("places", places is not None and not slider, "slider_crank"),
+    ):
+        if given:
+            raise refuse("task.only_with", demand=demand, needs=f"linkage: {needs}")
+    if frame is not None and slider:
+        raise refuse("task.not_with", demand="frame", other='"linkage: slider_crank"')
 
 
 def _values(given: ArrayLike) -> Floats:
@@ -143,13 +170,13 @@ def _distinct(x: Floats, y: Floats, fitting: bool) -> None:
         raise refuse("function.repeated", first=int(i) + 1, second=int(j) + 1, apart=f"{apart[i, j]:.4g}")
 
 
-def _exact(demand: FunctionDemand, frame: float, count: int, seed: int) -> Synthesis:
+def _exact(demand: FunctionDemand, quality: Quality, frame: float, count: int, seed: int) -> Synthesis:
     zeros, lengths = families(demand.inputs, demand.outputs, (demand.input_zero, demand.output_zero))
     usable = np.isfinite(lengths).all(1) & (np.abs(lengths) > 1e-3).all(1) & (np.abs(lengths) < 1e3).all(1)
     zeros, lengths = zeros[usable], lengths[usable]
     target = np.stack([demand.inputs, demand.outputs])
     if not len(zeros):
-        nearest = _fitted(KINDS["four_bar"](), demand, frame, count, seed)
+        nearest = _fitted(KINDS["four_bar"](), demand, Quality(), frame, count, seed)
         error = f"{nearest.best.error:.4g}"
         raise refuse(
             "function.exact", nearest, linkage=note("type.four_bar"), count=len(demand.inputs), error=error
@@ -159,7 +186,11 @@ def _exact(demand: FunctionDemand, frame: float, count: int, seed: int) -> Synth
     one: Complexes = np.ones(len(pin), complex)
     facts = assess_four_bars(0 * one, pin * frame, joint * frame, frame * one)
     merits = merit(facts.transmission, facts.ratio, facts.longest, 0.0)
-    order = np.lexsort((-merits, ~facts.sound))[: 40 * count]
+    met = quality.met(facts.turns, facts.transmission)
+    good = bool((met & facts.sound).any())
+    worth = merits if good else quality.reached(facts.turns, facts.transmission)
+    order = np.lexsort((-worth, ~facts.sound))
+    order = (order[met[order]] if good else order)[: 40 * count]
     made = []
     against = lengths[:, [0, 2]] < 0.0  # a negative length: the link points the other way
     links = np.where(against, (zeros + math.pi) % (2 * math.pi), zeros)
@@ -174,10 +205,12 @@ def _exact(demand: FunctionDemand, frame: float, count: int, seed: int) -> Synth
     if made[0].defects:
         why = note("motion.defects", defects=tuple(note(f"defect.{name}") for name in made[0].defects))
         raise refuse("function.no_movable", result, linkage=note("type.four_bar"), why=why)
+    if not good:
+        raise _short(quality, result, "four_bar", "exact")
     return result
 
 
-def _by_equation(demand: FunctionDemand, frame: float) -> Synthesis:
+def _by_equation(demand: FunctionDemand, quality: Quality, frame: float) -> Synthesis:
     """The four-bar of least squares in Freudenstein's equation, its structural error measured."""
     zeros = (demand.input_zero or 0.0, demand.output_zero or 0.0)
     given = replace(demand, input_zero=zeros[0], output_zero=zeros[1])
@@ -191,7 +224,24 @@ def _by_equation(demand: FunctionDemand, frame: float) -> Synthesis:
     chosen = ranked([each for each in sides if each is not None], demand.size)[:1]
     if not chosen:
         raise refuse("function.none", linkage=note("type.four_bar"))
-    return Synthesis("function", chosen, "angle", np.stack([demand.inputs, demand.outputs]))
+    result = Synthesis("function", chosen, "angle", np.stack([demand.inputs, demand.outputs]))
+    if not quality.of(chosen[0])[0]:
+        raise _short(quality, result, "four_bar", "equation")
+    return result
+
+
+def _short(quality: Quality, nearest: Synthesis, linkage: str, how: str) -> SynthesisError:
+    """The refusal of what no linkage has that was found: an input that turns, or the transmission angle."""
+    turned = quality.of(nearest.best)[1] > 0
+    rule = "function.transmission" if turned else "function.no_turn"
+    return refuse(
+        rule,
+        nearest,
+        linkage=note(f"type.{linkage}"),
+        asked=f"{math.degrees(quality.transmission):.5g}",
+        most=f"{math.floor(100 * math.degrees(nearest.best.transmission_angle)) / 100:g}",
+        hint=note(f"function.hint.{how}"),
+    )
 
 
 def _four_bar_curve(demand: FunctionDemand, pin: Complexes, joint: Complexes, zero: float) -> Floats:
@@ -212,21 +262,35 @@ def _small(angle: float) -> float:
     return (angle + math.pi / 2) % math.pi - math.pi / 2
 
 
-def _fitted(generator: Generator, demand: FunctionDemand, frame: float, count: int, seed: int) -> Synthesis:
-    x, signs, _ = fit(generator, demand, np.random.default_rng(seed))
+def _fitted(
+    generator: Generator, demand: FunctionDemand, quality: Quality, frame: float, count: int, seed: int
+) -> Synthesis:
     scale = frame if generator.output_is_angle else demand.size
-    made = [
-        found
-        for i in range(len(x))
-        if (found := _candidate(generator, demand, x[i : i + 1], signs[i : i + 1], scale)) is not None
-    ]
-    extent = 0.0 if generator.output_is_angle else float(np.ptp(demand.outputs))
-    chosen = different(ranked(made, demand.size, extent), DISTINCT * scale)[:count]
-    if not chosen:
+    made: list[Candidate] = []
+    good: list[Candidate] = []
+    for hold in HOLDS:
+        x, signs, _ = fit(generator, demand, quality, hold, np.random.default_rng(seed))
+        found = [_candidate(generator, demand, x[i : i + 1], signs[i : i + 1], scale) for i in range(len(x))]
+        made += [each for each in found if each is not None]
+        good = [each for each in made if quality.of(each)[0]]
+        if good or quality == Quality():
+            break
+    if not made:
         raise refuse("function.none", linkage=note(f"type.{generator.name}"))
+    extent = 0.0 if generator.output_is_angle else float(np.ptp(demand.outputs))
+    order = ranked(good, demand.size, extent) if good else _by_quality(made, quality)
+    chosen = different(order, DISTINCT * scale)[:count]
     name = "angle" if generator.output_is_angle else "length"
     target = np.stack([demand.inputs, demand.outputs])
-    return Synthesis("function", chosen, name, target, {"optima": len(made)}, extent=extent)
+    result = Synthesis("function", chosen, name, target, {"optima": len(made)}, extent=extent)
+    if not good:
+        raise _short(quality, result, generator.name, "fitted")
+    return result
+
+
+def _by_quality(made: list[Candidate], quality: Quality) -> tuple[Candidate, ...]:
+    """Those without defects first, then by what they have of the quality."""
+    return tuple(sorted(made, key=lambda each: (bool(each.defects), -quality.of(each)[1])))
 
 
 def _candidate(

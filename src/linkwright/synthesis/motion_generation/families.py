@@ -68,8 +68,12 @@ def dyads(p: Complexes, phi: Floats, window: Window) -> Dyads:
         found = join(circles(_grid(window, p), p, d, e), sliders(_sliders_of_three(d, e), p, d, e))
     else:
         found = _two(p, d, e, window)
-    inside = window.holds(found.positions[:, 0]) & (found.slides | window.holds(found.centre))
-    return found[np.flatnonzero(inside)]
+    return found[np.flatnonzero(held(found, window))]
+
+
+def held(found: Dyads, window: Window) -> Flags:
+    """Which dyads have their pivots within the window: the fixed one, and the moving one at the first pose."""
+    return np.asarray(window.holds(found.positions[:, 0]) & (found.slides | window.holds(found.centre)))
 
 
 def _five(p: Complexes, phi: Floats) -> Dyads:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import cmath
+import math
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -26,15 +27,18 @@ from linkwright.synthesis.motion_generation.families import (
     circle_points,
     dyads,
     fitted,
+    held,
     inverse_poses,
     on_lines,
     usual_window,
 )
 from linkwright.synthesis.motion_generation.mixed_poses import counted_solutions, mixed_solutions
 from linkwright.synthesis.path_generation.generate import complex_points
+from linkwright.synthesis.requirements.slider_crank import positive
 from linkwright.synthesis.result import (
     Candidate,
     Synthesis,
+    SynthesisError,
     different,
     merits,
     note,
@@ -47,6 +51,8 @@ from linkwright.synthesis.result import (
 Pose = Sequence[float]
 
 MOST_DYADS = 360
+#: Longest over shortest link up to which candidates are equally good where no ratio is demanded.
+USUAL_RATIO = 10.0
 #: Body points of the parallelograms for poses that do not turn.
 AROUND: Complexes = np.array([0, 1, 1j, -1, -1j, 1 + 1j], complex)
 
@@ -58,7 +64,7 @@ def motion_generation(
     fixed_pivots: Sequence[tuple[float, float]] = (),
     moving_pivots: Sequence[tuple[float, float]] = (),
     pivot_line: Sequence[Sequence[float]] | None = None,
-    link_ratio: float = 10.0,
+    link_ratio: float | None = None,
     count: int = 6,
 ) -> Synthesis:
     """Linkages whose coupler takes the poses: all dyads and all their pairs.
@@ -68,12 +74,12 @@ def motion_generation(
             to four: dyads sampled from their families; six and more: dyads of least squares. An angle that is NaN is
             free (mixed poses and points): all four-bars where 2 × poses + points is 10 (also nine points and one
             pose or none), else least squares from many starts, not provably all.
-        within: lower left and upper right corner (m) in which pivots lie at the first pose (n ≤ 4); default: three
-            times the extent of the poses.
+        within: lower left and upper right corner (m) in which all pivots lie at the first pose, but the one that
+            is given; not given: for up to four poses three times their extent.
         fixed_pivots, moving_pivots: pivots that dyads must have (n ≤ 3): places in the frame, moving ones at the
             first pose, m.
         pivot_line: two places (m) between which every fixed pivot must lie (three or four poses).
-        link_ratio: candidates with a larger ratio of longest to shortest link come last.
+        link_ratio: largest ratio of longest to shortest link; not given: candidates with more than 10 come last.
         count: candidates wanted.
 
     Returns:
@@ -82,10 +88,45 @@ def motion_generation(
 
     Raises:
         SynthesisError: fewer than two real dyads, or no pair that moves through the poses in order without being
-            dismantled; ``nearest`` has the best ones with their defects or errors.
+            dismantled, or none of the ``link_ratio``; ``nearest`` has the best ones with their defects or errors.
     """
     whole(count=count)
     p, phi = _read(poses)
+    _applicable(phi, within, pivot_line, fixed_pivots=fixed_pivots, moving_pivots=moving_pivots)
+    given = within, fixed_pivots, moving_pivots, pivot_line
+    if link_ratio is None:
+        return _guided(p, phi, *given, USUAL_RATIO, count)
+    positive(link_ratio=link_ratio)
+    try:
+        found = _guided(p, phi, *given, link_ratio, count)
+    except SynthesisError:
+        found = _guided(p, phi, *given, math.inf, count)
+    good = tuple(each for each in found if each.link_ratio <= link_ratio * (1 + 1e-12) and not each.defects)
+    if not good:
+        nearest = replace(found, candidates=tuple(sorted(found, key=lambda each: each.link_ratio)))
+        least = f"{math.ceil(1e3 * nearest.best.link_ratio) / 1e3:g}"
+        raise refuse("link_ratio_unmet", nearest, given=f"{link_ratio:g}", least=least)
+    return replace(found, candidates=good)
+
+
+def _applicable(phi: Floats, within: object, line: object, **pivots: Sequence[object]) -> None:
+    """Raises SynthesisError for demands that do not go together."""
+    named = [name for name, given in pivots.items() if len(given)]
+    lines = named + ["pivot_line"] * (line is not None) + ["within"] * (within is not None)
+    if lines and np.isnan(phi).any():
+        raise refuse("task.not_with", demand=lines[0], other=note("motion.free_angles"))
+    if line is not None and named:
+        raise refuse("task.not_with", demand="pivot_line", other=f'"{named[0]}"')
+    if within is not None and sum(len(given) for given in pivots.values()) > 1:
+        raise refuse("task.not_with", demand="within", other=note("motion.two_pivots"))
+
+
+def _guided(
+    p: Complexes, phi: Floats, within: tuple[tuple[float, float], tuple[float, float]] | None,
+    fixed_pivots: Sequence[tuple[float, float]], moving_pivots: Sequence[tuple[float, float]],
+    pivot_line: Sequence[Sequence[float]] | None, link_ratio: float, count: int,
+) -> Synthesis:  # fmt: skip
+    """The linkages that take the poses, those within the ratio of links first."""
     if np.isnan(phi).any():
         return _mixed(p, phi, link_ratio, count)
     _special(p, phi, link_ratio, count)
@@ -94,6 +135,9 @@ def motion_generation(
     counts = {"dyads": len(found), "sliders": int(found.slides.sum())}
     if len(found) < 2 and len(p) == 5:
         raise refuse("motion.no_dyads", _nearest(p, phi, link_ratio, count), real=len(found))
+    if within is not None and not len(fixed_pivots) + len(moving_pivots):
+        inside = np.flatnonzero(held(found, window))
+        found, error = found[inside], error[inside]
     chosen = _pairs(found, error, p, phi, link_ratio, count)
     counts["pairs"] = len(found) * (len(found) - 1) // 2
     curves = _curves(p, phi, window) if len(p) == 4 else {}

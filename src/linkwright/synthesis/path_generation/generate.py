@@ -72,6 +72,8 @@ def path_generation(
     allowed_transmission(transmission_angle)
     if bound is not None:
         positive(bound=bound)
+    if not phase and angles is None:
+        raise refuse("task.only_with", demand="phase: false", needs="angles")
     demand = _demand(points, angles, phase, pivot, direction)
     rng = np.random.default_rng(seed)
     candidates = _candidates(search(demand, bound, transmission_angle, False, rng))

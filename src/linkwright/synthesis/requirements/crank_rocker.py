@@ -22,6 +22,8 @@ from linkwright.synthesis.result import Candidate, Synthesis, SynthesisError, no
 SAMPLES = 20_001
 #: A rocker swings less than half a turn.
 LARGEST_SWING = math.pi
+#: Longest over shortest link, where nothing else is demanded and the family has it.
+USUAL_RATIO = 5.0
 #: How far below its border the nearest quick-return angle lies.
 BELOW = 2e-3
 #: Quick-return ratios of the nearest slotted levers, where a demand lies beyond what they can have.
@@ -34,21 +36,23 @@ def crank_rocker(
     frame: float = 0.0,
     *,
     rocker: float = 0.0,
-    link_ratio: float = 5.0,
+    link_ratio: float | None = None,
     count: int = 3,
 ) -> Synthesis:
     """The crank-rockers of a swing angle (rad), quick-return ratio K and length of the frame or the rocker (m).
 
     The first has the best smallest transmission angle of those whose longest link is at most ``link_ratio`` times the
-    shortest (without that limit the best may lie at infinity); the others stand evenly over the family. With both
-    lengths they are the few of the family that have them, whatever their ``link_ratio``.
+    shortest (without that limit the best may lie at infinity); the others stand evenly over the family. Where it is
+    not given the ratio is 5 if the family has that, else the smallest that it has. With both lengths they are the few
+    of the family that have them, and a ``link_ratio`` that is given.
 
     Raises:
         SynthesisError: no crank-rocker has this swing and K (0 < ψ < π, K ≥ 1); ``nearest``: those of the largest
-            K that the swing allows; or none has both lengths; ``nearest``: those of the frame alone.
+            K that the swing allows; or none has both lengths; ``nearest``: those of the frame alone; or none has the
+            ``link_ratio``; ``nearest``: that of the smallest ratio.
     """
     whole(count=count)
-    positive(swing_angle=swing_angle)
+    positive(swing_angle=swing_angle, **({} if link_ratio is None else {"link_ratio": link_ratio}))
     not_negative(frame=frame, rocker=rocker)
     if not frame and not rocker:
         raise refuse("crank_rocker.length")
@@ -59,21 +63,30 @@ def crank_rocker(
         chosen = _at_distance(swing_angle, theta, frame / rocker)
         if not len(chosen) or not _right(chosen, limits, swing_angle, theta).any():
             raise _not_both(swing_angle, quick_return_ratio, frame, rocker)
-        pivots, link_ratio = chosen, math.inf
+        pivots = chosen
     facts, pins = _assess(pivots, limits)
     lengths = np.abs(pivots)
     good = (facts.kind == 0) & _limit_positions_right(pivots, pins, swing_angle, theta)
     if swing_angle >= LARGEST_SWING or not good.any():
-        raise _none(swing_angle, quick_return_ratio, frame or rocker, link_ratio, count)
-    within = good & (facts.ratio <= link_ratio)
-    notes = () if within.any() else (note("link_ratio", least=f"{facts.ratio[good].min():.4g}"),)
+        raise _none(swing_angle, quick_return_ratio, frame or rocker, count)
+    least = float(facts.ratio[good].min())
+    usual = math.inf if both else USUAL_RATIO
+    within = good & (facts.ratio <= (usual if link_ratio is None else link_ratio * (1 + 1e-12)))
+    if not within.any() and link_ratio is not None:
+        nearest = crank_rocker(
+            swing_angle, quick_return_ratio, frame, rocker=rocker, link_ratio=least, count=1
+        )
+        raise refuse(
+            "link_ratio_unmet", nearest, given=f"{link_ratio:g}", least=f"{math.ceil(1e3 * least) / 1e3:g}"
+        )
+    notes = () if within.any() else (note("link_ratio", least=f"{least:.4g}"),)
     if not within.any():
-        within = good & (facts.ratio <= 1.05 * facts.ratio[good].min())
+        within = good & (facts.ratio <= 1.05 * least)
     score = np.where(within, facts.transmission, -1.0)
     best = int(score.argmax())
     usable = np.flatnonzero(within & (score > 0.5 * score[best]))
     evenly = np.linspace(0, len(usable) - 1, count + 1).astype(int)[1:-1]
-    others = np.flatnonzero(good) if both else usable[evenly]
+    others = np.flatnonzero(within) if both else usable[evenly]
     found = []
     for i in [best, *(int(each) for each in others if each != best)][:count]:
         scale = rocker or frame / lengths[i]
@@ -85,7 +98,7 @@ def crank_rocker(
     return Synthesis("crank_rocker", tuple(found), counts={"family": int(good.sum())}, notes=notes)
 
 
-def _none(swing: float, k: float, frame: float, link_ratio: float, count: int) -> SynthesisError:
+def _none(swing: float, k: float, frame: float, count: int) -> SynthesisError:
     """The refusal with the crank-rockers of the swing (or the largest that goes) and the largest K it allows.
 
     θ stays below π/2 + ψ/2: there the crank's pivot comes to lie on the rocker's circle.
@@ -96,7 +109,7 @@ def _none(swing: float, k: float, frame: float, link_ratio: float, count: int) -
     while not _good(possible, theta).any():
         theta *= 1 - BELOW
     near = _ratio(theta)
-    nearest = crank_rocker(possible, near, frame, link_ratio=link_ratio, count=count)
+    nearest = crank_rocker(possible, near, frame, count=count)
     rule = "crank_rocker.range" if possible < swing else "crank_rocker.none"
     said = {"swing": f"{math.degrees(swing):g}", "k": f"{k:g}", "most": f"{_ratio(border):.5g}"}
     return refuse(rule, nearest, near_swing=f"{math.degrees(possible):.5g}", near=f"{near:.5g}", **said)
@@ -200,10 +213,13 @@ def quick_return(
     ``frame``: distance of the pivots, m.
 
     Raises:
-        SynthesisError: K ≤ 1, or so large that the crank is as long as the frame; a rod that is too short.
+        SynthesisError: K ≤ 1, or so large that the crank is as long as the frame; a rod that is too short, or without
+            a stroke.
     """
     positive(frame=frame)
     not_negative(stroke=stroke, rod=rod)
+    if rod and not stroke:
+        raise refuse("task.only_with", demand="rod", needs="stroke")
     theta = angle_between_limits(quick_return_ratio)
     if theta <= 0:
         near = quick_return(LEAST_RATIO, frame, stroke=stroke)

@@ -64,6 +64,9 @@ and inertia, with stress, safety and the needed section over the cycle.""",
     "largest_stress": "largest stress |N|/A + |M|/W",
     "at_input": "at {at}, x = {x}",
     "largest_deflection": "largest deflection, from the line between the ends",
+    "not_closed": "the forces on {link!r} do not pass their own check: beyond its last point {gap} are left, beside "
+    "forces of up to {size}. This is an error of the program, and no result may be used: please report it with the "
+    "model file",
     "closure": "gap of forces at the far end",
     "negative_density": "Mass, centre and inertia of {link} cannot be spread along it without a negative "
     "density: the mass does not lie along the line, and the moments between the points are approximate.",

@@ -25,4 +25,7 @@ linkwright check crusher.yaml --json  findings for an editor or a script""",
     "rubs_do": "usual are 0.01 to 0.6; check it",
     "assumed": "group {signature} ({links}) has two assemblies, and neither assembly nor drawing says which: "
     '"{first}" is taken; write assembly: {{{joint}: {first}}} or {{{joint}: {second}}}',
+    "singular": "group ({links}) is close to a singular position all the time (determinant of its closure at most "
+    "{best}, limit {limit}): its motion is hardly determined, and forces grow very large",
+    "singular_do": "change the lengths of its links or where they are joined",
 }

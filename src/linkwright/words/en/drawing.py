@@ -16,5 +16,4 @@ WORDS = {
     "zero_velocity": "all velocities are zero at this position",
     "zero_acceleration": "all accelerations are zero at this position",
     "unmarked": "not drawn, as they name neither a point nor a link: {loads}",
-    "frame": "frame",
 }

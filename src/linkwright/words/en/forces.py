@@ -21,6 +21,15 @@ WORDS = {
     "self_locking": "{name!r} is self-locking by friction near {where}: the friction in joint "
     "{joint!r} grows without bound in the iteration, so no driver effort moves it; reduce the friction "
     "coefficient or the pin radius, or improve the transmission angle there",
+    "unbalanced": "the forces of {name!r} do not pass their own check at {where}: link {link!r} is out of balance at "
+    "joint {joint!r} by {gap}, beside forces of up to {size}. {check_failed}",
+    "results_unbalanced": "the forces of {name!r} do not pass their own check at {where}: forces, loads and inertia "
+    "put together leave a link out of balance by {gap}, beside forces of up to {size}. {check_failed}",
+    "powers_differ": "the forces of {name!r} do not pass their own check at {where}: the power of the drivers and "
+    "that of all other forces differ by {gap}, beside the {size} that forces and speeds of this size make. "
+    "{check_failed}",
+    "check_failed": "Next to a singular position the numbers may have no digits left: ask for positions away from "
+    "it. Elsewhere this is an error of the program, and no result may be used: please report it with the model file",
     "contact_lost": "the pair {name} ({kind}) can only push, but would have to pull {places}, with up to {most} at "
     "{where}; press its links together with a spring or a load",
     "contact_lost_cam": "the cam {name} cannot hold its follower {places}: it would have to pull, with up to "

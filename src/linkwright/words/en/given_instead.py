@@ -25,6 +25,7 @@ WORDS = {
     "name_for_text": 'the text of a model is needed, not the name of a file; write lw.load("{name}")',
     "no_whole": "{option} is {given}; give a whole number",
     "no_whole_from": "{option} is {given}; give a whole number, {least} or more",
+    "whole_beyond": "{option} is {given}; give at most {most}",
     "no_real": "{option} is {given}; give a finite number in SI units",
     "no_pair": "{option} is {given}; give two numbers, as in {option}=(1, 2)",
     "no_choice": "{option} is {given}; {hint}",

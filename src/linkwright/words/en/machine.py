@@ -33,6 +33,7 @@ torque diagram can be given by its areas or a torque as an expression of theta."
     "mean_torque": "mean torque",
     "mean_power": "mean power",
     "motor_power": "power of the motor, with efficiency and margin",
+    "motor_power_without_flywheel": "power of the motor without a flywheel, at constant speed",
     "energy_fluctuation": "energy fluctuation",
     "energy_lowest_at": "slowest running, approximately, at input",
     "energy_lowest": "  lowest energy, slowest running (approximately)",
@@ -78,7 +79,8 @@ torque diagram can be given by its areas or a torque as an expression of theta."
     '+390"',
     "no_number": '{option}: "{text}" is no number; write it with a point and without a unit, such as 0.9',
     "not_above_zero": '{option} is "{text}"; give a value above zero',
-    "not_finite": "{option}: {text} is not finite everywhere in the cycle; check divisions and roots",
+    "not_finite": "{option}: {text} is not finite somewhere in the cycle, or more than any machine has; check "
+    "numbers, divisions and roots",
     "mass_and_gyration": "--mass and --gyration belong together; give both, or --inertia",
     "bad_shape": '{option}: "{text}" says nothing about it; write KEY=VALUE with the keys {keys}',
     "no_mean_torque": "the mean of --torque over the cycle is {mean}, so it does no work that a motor or a "

@@ -158,6 +158,8 @@ WORDS = {
     "no_frame_do": "add frame: {{points: {{O1: [0 m, 0 m]}}}}",
     "frame_no_coordinates": "the frame's points have no coordinates",
     "frame_no_coordinates_do": "write points: {{O1: [0 m, 0 m], …}}",
+    "in_no_link": 'no link has the drawn point "{name}"',
+    "in_no_link_do": "add it to the points of a link, or remove it from the drawing",
     "frame_elsewhere": '"{name}" is a point of the frame and stands elsewhere there',
     "frame_elsewhere_do": "leave it out of the drawing",
     "no_links": "the model has no links",
@@ -239,7 +241,8 @@ WORDS = {
     "unconnected_do": "share a point with the frame or with a link that is connected",
     "driven_against": 'the pin "{pin}" joins "{link}" to "{other}", not to the frame, so its angle against '
     '"{other}" is driven',
-    "driven_against_do": "write relative_to: {other} if that is meant, else about: {held}",
+    "driven_against_do": "write relative_to: {other} to say so",
+    "driven_against_or": "write relative_to: {other} if that is meant, else about: {held}",
     "over_angle": '"{link}" is the angle of that link, and x are lengths',
     "over_guide": "for the way of the link write the name of its guide: over: {guide}",
     "over_point": "name a guide or a point's coordinate, such as C.x",

@@ -8,7 +8,7 @@ WORDS = {
     "output_help": "write curves to a .csv file or all numbers to a .json file",
     "other_command": "the file is of kind {kind}; call: linkwright {command} {file}",
     "no_curves": "{path}: this result has no curves to write; choose an ending .json",
-    "no_whole": '"{text}" is not a whole number of {least} or more',
+    "no_whole": '"{text}" is not a whole number from {least} to {most}',
     "no_whole_remedy": "write digits only",
     "no_values": 'the key "values" is missing',
     "no_values_remedy": "add it: values: [20.1, 19.9]",

@@ -26,4 +26,5 @@ WORDS = {
     "wheels": "the pairs {pairs} demand again what others demand already ({redundant})",
     "named": "'{name}'",
     "besides": "{cause}. {sentence}",
+    "singular": "At the start of the cycle {outcome}, whatever the count says",
 }

@@ -258,5 +258,5 @@ linkwright report crusher.yaml --sections task structure worked tables""",
     "not_a_mapping": "{place}: give keys with values",
     "lacks": "{place}: the key {name} is missing",
     "bad_positions": 'report.positions: "{text}" is no number of positions; give 2 to {most}',
-    "bad_fluctuation": 'report.fluctuation: "{text}" is no coefficient; give a number between 0 and 1, such as 0.03',
+    "bad_fluctuation": 'report.fluctuation: "{text}" is no coefficient; give a number between 0 and 1, such as 0.02',
 }

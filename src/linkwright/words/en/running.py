@@ -15,7 +15,7 @@ WORDS = {
     "cycle of it repeats; give teeth or radii in a ratio of smaller whole numbers",
     "not_all_reached": "{name!r} does not reach all positions of its cycle, so it cannot run steadily",
     "bad_inertia": "the moment of inertia is {inertia:g} kg·m²; give a value above zero",
-    "bad_ratio": "the speed ratio of the flywheel's shaft to the crank is zero; give another number",
+    "bad_ratio": "the speed ratio of the flywheel's shaft to the crank is zero or nearly so; give another one",
     "bad_size": "the {name} of the flywheel is {value:g}; give a value above zero",
     "bad_rim": "a rim cannot be {thickness_ratio:g} of its diameter thick; give 0.5 (a disk) or less",
     "bad_coefficient": "the coefficient of speed fluctuation is {fluctuation:g}; give a value above zero, "
@@ -27,6 +27,10 @@ WORDS = {
     "choose and no flywheel to lay out; give the machine a load that does work over a cycle (loads: …)",
     "driven": "the loads drive {name!r}, as the gas does an engine: a constant torque against them takes up their "
     "work; of a machine that should need a drive, check the direction of the loads",
+    "needs_flywheel": "The motor of {power} is sized by the mean power: it suffices only with the flywheel of "
+    "{inertia}. Without a flywheel, at constant speed, it must have {peak}.",
+    "evened_by_itself": "The motor of {power} is sized by the mean power: the machine's own inertia carries the "
+    "peaks. To hold the speed constant it must have {peak}.",
     "bad_speed": "the mean speed is {speed:g} rad/s; give a value above zero",
     "no_inertia": "the total moment of inertia is zero somewhere in the cycle; give masses or a flywheel",
     "no_flywheel": "no flywheel was found with which the speed fluctuates by just {fluctuation:g}; ask for another "

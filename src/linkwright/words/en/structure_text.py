@@ -33,6 +33,7 @@ WORDS = {
     "class": "It is a class {level} mechanism.",
     "parts": "These are {count} mechanisms that share nothing but the frame: {parts}.",
     "and": " and ",
+    "turned_against": "{driver}: turns {link} about {pin} against {other}, not against the frame.",
     "other_driver": "Another choice of driver leads to other groups, and may change the class.",
     "numerals": "I II III IV V VI VII VIII IX X",
 }

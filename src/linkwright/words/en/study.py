@@ -180,4 +180,9 @@ metrics of every design. Designs that cannot move are counted and explained.""",
     "the address",
     "no_column": 'the sweep has no column "{name}"; it has {names}',
     "other_sweep": 'the folder "{folder}" holds another sweep; name another folder, or remove it',
+    "of_positions": "minima, maxima and means of outputs are those of the {steps} positions; metrics, such as "
+    "peak_input_torque, are found between them",
+    "of_positions_off": "minima, maxima and means of outputs are those of the {steps} positions: {name} of the "
+    "machine as it is is {there} there, but {between} between them ({share} % of the largest value apart); use a "
+    "metric, such as peak_input_torque, which is found between the positions, or more steps",
 }

@@ -75,8 +75,10 @@ section "synthesis" of a file, or on the command line as KEY=VALUE.""",
     "and less than 90 deg",
     "quick_return_below_one": "the quick-return ratio {given} is below 1; it is slow time over fast time, 1 "
     "or more; with the crank turning the other way it is {inverse}",
-    "link_ratio": "no member of the family keeps the demanded ratio of longest to shortest link; the least "
-    "is {least}",
+    "link_ratio": "no member of the family has its longest link within five times its shortest; the "
+    "smallest ratio is {least}",
+    "link_ratio_unmet": "no linkage was found whose longest link is at most {given} times its shortest; the smallest "
+    "ratio found is {least} (the nearest solution has that): allow a larger link_ratio",
     "slider_crank.ratio": "rod ratio λ = {given} is too small for the crank to turn; it needs λ ≥ 1 + ε = "
     "{least} (the nearest solution has that)",
     "slider_crank.no_quick_return": "a slider-crank with offset has K > 1, and K = {given} is demanded; "
@@ -151,6 +153,8 @@ section "synthesis" of a file, or on the command line as KEY=VALUE.""",
     "circle: the nearest parallelogram is off by {off} m (shown); turn a pose or move it",
     "motion.pivots": "{poses} poses leave no pivot free to be given; give pivots for two or three poses",
     "motion.line": "{poses} poses do not fit pivots on a line; give three or four poses",
+    "motion.free_angles": "poses whose angle is free",
+    "motion.two_pivots": "two or more given pivots",
     "motion.mixed": "{poses} poses are too few where angles are free; give three or more",
     "motion.mixed_note": "{free} angles are free: solutions from many starts, not provably all",
     "motion.mixed_all": "{found} of {known} solutions were found, {real} of them real",
@@ -181,6 +185,13 @@ section "synthesis" of a file, or on the command line as KEY=VALUE.""",
     "solution has a greatest error of {error}",
     "function.no_movable": "every {linkage} that meets the positions exactly has defects; the best one has: "
     "{why}",
+    "function.transmission": "no {linkage} was found with a smallest transmission angle of {asked} deg; the largest "
+    "found is {most} deg (the nearest solution is shown): ask for less, or {hint}",
+    "function.no_turn": "no {linkage} was found whose input turns fully (the nearest solution is shown); leave "
+    '"turning" out, or {hint}',
+    "function.hint.exact": 'give "least_squares: true", which allows a small error',
+    "function.hint.equation": 'leave out "equation_error", which allows other link lengths',
+    "function.hint.fitted": "leave more numbers free or change the function",
     "function.free": "zero angles: input {input} deg, output {output}",
     "free_curve.turning": "The crank turns fully; transmission angle of every dyad at least {angle} deg over the "
     "whole turn, every joint within {size} rms radii of the curve's centroid.",
@@ -206,6 +217,8 @@ section "synthesis" of a file, or on the command line as KEY=VALUE.""",
     "task": 'there is no task "{task}"; known: {known}',
     "task.missing": 'the task "{task}" needs "{demand}": {form}',
     "task.unknown": '"{demand}" is no demand of the task "{task}"; known: {known}',
+    "task.only_with": '"{demand}" applies only with "{needs}"; leave it out or give that as well',
+    "task.not_with": '"{demand}" does not apply with {other}; leave out one of them',
     "task.unit_of_all": 'write units, or "{line}" beside the task for all bare numbers',
     "task.value": "{demand}: {form} is wanted; given: {given}",
     "task.section": 'the file has no section "synthesis"; add one with task: and its demands',

@@ -51,7 +51,7 @@ leaves behind in a follower; and what a mechanism's shaking force does on mounts
     "minute",
     "no_mass": "there is no mass",
     "no_mass_remedy": "write masses: {{body: 100 kg}}",
-    "mass_above_zero": "a mass of zero or less",
+    "mass_above_zero": "the mass is not above 1e-12 kg (kg·m²)",
     "mass_above_zero_remedy": "give a mass above zero",
     "no_such_mass": 'there is no mass "{name}"',
     "no_such_mass_remedy": "one of: {known}",

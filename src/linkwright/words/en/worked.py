@@ -38,6 +38,13 @@ WORDS = {
     "pair_forces": "T: tangential force of a pair. S acts along the line of centres (its direction: γ), does no work "
     "and follows from T: it presses teeth apart, |T| tan α with the pressure angle α, or is the pull of a belt's "
     "strands, which lie at the angle ψ to it.",
+    "rows_first": "The rows of the pairs hold for closed joints. So the pairs' forces T follow from these equations, "
+    "but the multipliers λ of the cut joints lack what the pairs do to these:",
+    "pairs_known": "With the forces of the pairs among the known ones, the same equations give the forces at the cut "
+    "joints, and nothing more for the pairs (ΔT = 0):",
+    "off": "the worked solution does not come out: {symbol} is {value} by the solver, but {formula} by its formula. "
+    "Next to a singular position the numbers may have no digits left: ask for a position away from it. Elsewhere "
+    "this is an error of the program: please report it with the model file",
     "passive": "Passive pairs {joints}",
     "passive_share": "How they share the load with others is not determined by rigid links; they count as unloaded.",
     "title": "{name}: worked solution of one position",

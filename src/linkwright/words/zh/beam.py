@@ -62,6 +62,8 @@ WORDS = {
     "largest_stress": "最大应力 |N|/A + |M|/W",
     "at_input": "在 {at}，x = {x}",
     "largest_deflection": "最大挠度（相对两端连线）",
+    "not_closed": "“{link}”的内力未通过自校核：末端以外尚余 {gap}，而最大的力为 {size}。这是程序的错误，"
+    "结果不可使用，请连同模型文件一并反馈",
     "closure": "远端力的残差",
     "negative_density": "{link} 的质量、质心与转动惯量不能沿杆长以非负密度分布：质量并不在轴线上，"
     "两点之间的弯矩是近似值。",

@@ -24,4 +24,7 @@ linkwright check crusher.yaml --json  供编辑器或脚本使用的结果""",
     "rubs_do": "常见为 0.01 至 0.6；请核对",
     "assumed": "{signature} 杆组（{links}）有两种装配模式，assembly 与 drawing 均未指明：取“{first}”；"
     "请写 assembly: {{{joint}: {first}}} 或 {{{joint}: {second}}}",
+    "singular": "杆组（{links}）始终接近奇异位置（封闭方程的行列式最大为 {best}，限值 {limit}）："
+    "其运动几乎不能确定，力会变得很大",
+    "singular_do": "请改变其构件的长度或连接位置",
 }

@@ -17,6 +17,14 @@ WORDS = {
     "全部由那些移动副的力偶承受",
     "self_locking": "“{name}”在{where} 附近因摩擦自锁：运动副“{joint}”中的摩擦在迭代中无限增大，"
     "任何平衡力矩（力）都不能使其运动；请减小摩擦系数或销轴半径，或改善该处的传动角",
+    "unbalanced": "“{name}”的受力结果在{where} 未通过自校核：构件“{link}”在运动副“{joint}”处不平衡，相差 {gap}，"
+    "而此处最大的力为 {size}。{check_failed}",
+    "results_unbalanced": "“{name}”的受力结果在{where} 未通过自校核：由反力、载荷与惯性力合计，有构件不平衡，"
+    "相差 {gap}，而此处最大的力为 {size}。{check_failed}",
+    "powers_differ": "“{name}”的受力结果在{where} 未通过自校核：驱动功率与其余各力的功率相差 {gap}，"
+    "而按此处力与速度的大小，功率可达 {size}。{check_failed}",
+    "check_failed": "若紧邻奇异位置，结果可能已无有效数字，请改取离开该处的位置；否则是程序的错误，结果不可使用，"
+    "请连同模型文件一并反馈",
     "contact_lost": "{kind} {name} 只能受压，在{places} 却需要拉力（{where} 处最大，为 {most}）；"
     "请用弹簧或载荷把两构件压紧",
     "contact_lost_cam": "凸轮 {name} 在{places} 不能保持与从动件接触：需要拉力（{where} 处最大，为 {most}）；"

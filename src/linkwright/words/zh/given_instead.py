@@ -25,6 +25,7 @@ WORDS = {
     "name_for_text": '这里需要模型的文字，而不是文件名；请写 lw.load("{name}")',
     "no_whole": "{option} 为 {given}；请给出整数",
     "no_whole_from": "{option} 为 {given}；请给出不小于 {least} 的整数",
+    "whole_beyond": "{option} 为 {given}；最多 {most}",
     "no_real": "{option} 为 {given}；请给出国际单位制中的有限数",
     "no_pair": "{option} 为 {given}；请给出两个数，如 {option}=(1, 2)",
     "no_choice": "{option} 为 {given}；{hint}",

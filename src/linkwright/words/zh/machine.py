@@ -32,6 +32,7 @@ WORDS = {
     "mean_torque": "平均力矩",
     "mean_power": "平均功率",
     "motor_power": "电动机功率（计入效率和裕量）",
+    "motor_power_without_flywheel": "不装飞轮、匀速运转时的电动机功率",
     "energy_fluctuation": "最大盈亏功",
     "energy_lowest_at": "最慢处的输入位置（近似）",
     "energy_lowest": "  能量最低，转速最慢处（近似）",
@@ -73,7 +74,7 @@ WORDS = {
     "bad_area": '--areas：“{text}”不是面积；请给出以逗号分隔的 mm² 数值，例如 "+295, -685, +390"',
     "no_number": "{option}：“{text}”不是数；请用小数点书写，不带单位，例如 0.9",
     "not_above_zero": '{option} 为 "{text}"；请给出大于零的值',
-    "not_finite": "{option}：{text} 在循环内不处处有限；请检查除法和开方",
+    "not_finite": "{option}：{text} 在循环内某处不是有限值，或超出任何机器可能的数值；请检查数值、除法和开方",
     "mass_and_gyration": "--mass 与 --gyration 须同时给出；或改用 --inertia",
     "bad_shape": "{option}：“{text}”无法识别；请写作 键=值，可用的键：{keys}",
     "no_mean_torque": "--torque 在一个循环内的平均值为 {mean}，不做功，无法选电动机或设计飞轮；"

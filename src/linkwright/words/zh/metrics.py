@@ -130,7 +130,7 @@ WORDS = {
     "dead_point.driver": "原动件在 {at} 处无法带动机构",
     "dead_point.output": "若以 {output} 为主动件，则在 {at} 处无法带动机构",
     "path_open": "{point} 的轨迹不封闭：请求解“{name}”的整个循环",
-    "too_many_turns": "“{name}”的循环有 {turns} 转，而设计参数最多在 {most} 转内求得；"
+    "too_many_turns": "“{name}”的循环有 {turns} 转，而设计指标最多在 {most} 转内求得；"
     "请不写 turns 或 duration（循环到全部回到起始位置为止），或减少转数：cycle: {{turns: {most}}}",
     "needs_forces": "“{name}”需要“{title}”的运动副反力；请给出 solve_forces 的结果",
     "unloaded": "无法求 {names}：“{title}”的构件没有质量，也没有载荷；请给出质量（mass: 5 kg）或载荷（loads: …）",

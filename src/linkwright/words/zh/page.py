@@ -18,7 +18,7 @@ WORDS = {
     "names": "名称",
     "velocities": "速度",
     "accelerations": "加速度",
-    "forces": "约束反力",
+    "forces": "运动副反力",
     "centres": "质心",
     "hodograph": "{name}的速端图",
     "hodographs": "速端图",

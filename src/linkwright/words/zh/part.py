@@ -8,7 +8,7 @@ WORDS = {
     "output_help": "把曲线写入 .csv 文件，或把全部数值写入 .json 文件",
     "other_command": "该文件的类型是 {kind}；请使用：linkwright {command} {file}",
     "no_curves": "{path}：该结果没有曲线可写；请使用 .json 后缀",
-    "no_whole": "“{text}”不是不小于 {least} 的整数",
+    "no_whole": "“{text}”不是 {least} 到 {most} 的整数",
     "no_whole_remedy": "请只写数字",
     "no_values": "缺少键“values”",
     "no_values_remedy": "请加上：values: [20.1, 19.9]",

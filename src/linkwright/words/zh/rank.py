@@ -23,4 +23,5 @@ WORDS = {
     "wheels": "高副 {pairs} 的约束与其他约束重复（{redundant}）",
     "named": "“{name}”",
     "besides": "{cause}。{sentence}",
+    "singular": "在循环的起点，{outcome}，与自由度的计算结果无关",
 }

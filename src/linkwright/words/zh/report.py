@@ -246,5 +246,5 @@ linkwright report crusher.yaml --sections task structure worked tables""",
     "not_a_mapping": "{place}：请给出键与值",
     "lacks": "{place}：缺少键 {name}",
     "bad_positions": 'report.positions："{text}" 不是位置数；请给出 2 至 {most}',
-    "bad_fluctuation": 'report.fluctuation："{text}" 不是系数；请给出 0 与 1 之间的数，例如 0.03',
+    "bad_fluctuation": 'report.fluctuation："{text}" 不是系数；请给出 0 与 1 之间的数，例如 0.02',
 }

@@ -12,7 +12,7 @@ WORDS = {
     "请使齿数或半径之比为较小整数之比",
     "not_all_reached": "“{name}”不能到达其循环的全部位置，因而不能稳定运转",
     "bad_inertia": "转动惯量为 {inertia:g} kg·m²；请给出大于零的值",
-    "bad_ratio": "飞轮轴与曲柄的转速比为零；请给出别的数",
+    "bad_ratio": "飞轮轴与曲柄的转速比为零或接近零；请给出别的数",
     "bad_size": "飞轮的{name}为 {value:g}；请给出大于零的值",
     "bad_rim": "轮缘厚度不能为直径的 {thickness_ratio:g}；请给出不大于 0.5（圆盘）的值",
     "bad_coefficient": "速度不均匀系数为 {fluctuation:g}；请给出大于零的值，如 0.02",
@@ -23,6 +23,10 @@ WORDS = {
     "请给机器加上在一个循环内做功的载荷（loads: …）",
     "driven": "载荷推动“{name}”，如同气体推动发动机：由与之相反的恒定力矩吸收其功；"
     "若机器本应由原动机驱动，请检查载荷的方向",
+    "needs_flywheel": "电动机功率 {power} 按平均功率选取，须配 {inertia} 的飞轮才够用；"
+    "不装飞轮而匀速运转时，电动机功率须为 {peak}。",
+    "evened_by_itself": "电动机功率 {power} 按平均功率选取，峰值由机器自身的惯量承担；"
+    "要保持匀速，电动机功率须为 {peak}。",
     "bad_speed": "平均转速为 {speed:g} rad/s；请给出大于零的值",
     "no_inertia": "总转动惯量在循环内某处为零；请给出质量或飞轮",
     "no_flywheel": "未能求出使速度不均匀系数恰为 {fluctuation:g} 的飞轮；请改用其他系数",

@@ -1,7 +1,7 @@
 """命令 ``solve``。"""
 
 WORDS = {
-    "summary": "一个循环内的运动、运动副反力与驱动力",
+    "summary": "一个循环内的运动、运动副反力与平衡力",
     "description": """\
 求解机构的一个循环，或给定输入、给定时刻的位置，并输出表格：
 输入、各构件的角度、角速度、角加速度，以及平衡力矩（力）。
@@ -22,7 +22,7 @@ linkwright solve gallery:excavator --times "0..8 s:0.5" --json""",
     "times_help": '时刻："0 s, 0.1 s" 或 "0..2 s:0.1"',
     "columns_help": '按名称选列："jaw.*"、"C.velocity.x"、"O5 on jaw"；--json 显示全部名称',
     "points_help": "点的位置、速度与加速度：C、jaw.D",
-    "forces_help": "运动副反力与驱动力（模型有质量或载荷时默认计算）",
+    "forces_help": "运动副反力与平衡力（模型有质量或载荷时默认计算）",
     "static_help": "不计惯性力",
     "mark_help": "到不了的位置留空并说明原因，而不是拒绝求解",
     "si_help": "角度用弧度",
@@ -38,7 +38,7 @@ linkwright solve gallery:excavator --times "0..8 s:0.5" --json""",
     "quantity.velocity": "速度",
     "quantity.acceleration": "加速度",
     "quantity.couple": "力偶",
-    "quantity.effort": "驱动力",
+    "quantity.effort": "平衡力",
     "quantity.torque": "力矩",
     "quantity.force": "力",
     "joint_forces": "各运动副的反力",

@@ -32,6 +32,7 @@ WORDS = {
     "class": "机构级别：{level}级机构。",
     "parts": "模型由 {count} 个只有机架相同的机构组成：{parts}。",
     "and": " 与 ",
+    "turned_against": "{driver}：使 {link} 绕 {pin} 相对 {other}（而不是机架）转动。",
     "other_driver": "改选原动件会得到不同的杆组，机构级别也可能改变。",
     "numerals": "Ⅰ Ⅱ Ⅲ Ⅳ Ⅴ Ⅵ Ⅶ Ⅷ Ⅸ Ⅹ",
 }

@@ -152,4 +152,8 @@ WORDS = {
     "no_cluster": '调度器 "{address}" 没有应答（{reason}）；请用 "dask scheduler" 启动，或检查地址',
     "no_column": '扫描没有列 "{name}"；有 {names}',
     "other_sweep": '文件夹 "{folder}" 中是另一次扫描；请另给文件夹，或删除它',
+    "of_positions": "各输出的最小值、最大值与平均值取自 {steps} 个位置；peak_input_torque 等指标则在位置之间求得",
+    "of_positions_off": "各输出的最小值、最大值与平均值取自 {steps} 个位置：原机构的 {name} 在这些位置上为 {there}，"
+    "在位置之间则为 {between}（相差最大值的 {share} %）；"
+    "请改用在位置之间求得的指标（如 peak_input_torque），或增加 steps",
 }

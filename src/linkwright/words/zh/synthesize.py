@@ -72,7 +72,9 @@ Grashof 类型、整个范围内的缺陷、最小传动角、最长与最短杆
     "transmission_range": "最小传动角不能为 {given} deg；应大于 0、小于 90 deg",
     "quick_return_below_one": "行程速比系数 {given} 小于 1；它是慢行程时间与快行程时间之比，应为 1 或更大；"
     "曲柄反转时即为 {inverse}",
-    "link_ratio": "解族中没有满足所给最长与最短杆之比的机构；最小为 {least}",
+    "link_ratio": "解族中没有最长杆不超过最短杆五倍的机构；最小杆长比为 {least}",
+    "link_ratio_unmet": "没有找到最长杆不超过最短杆 {given} 倍的机构；已找到的最小杆长比为 {least}"
+    "（最接近的方案即此值）：请放宽 link_ratio",
     "slider_crank.ratio": "λ = {given} 过小，曲柄不能整转；应有 λ ≥ 1 + ε = {least}（最近的解取此值）",
     "slider_crank.no_quick_return": "有偏距的曲柄滑块 K > 1，而要求 K = {given}；请取偏距 0 并给连杆比或"
     "传动角，或取更大的 K（最近的解 K = {near}，连杆越长越接近）",
@@ -130,6 +132,8 @@ Grashof 类型、整个范围内的缺陷、最小传动角、最长与最短杆
     "（已列出）；请转动或移动一个位姿",
     "motion.pivots": "{poses} 个位姿时铰点不能再给定；两个或三个位姿时可给定",
     "motion.line": "{poses} 个位姿不能要求铰点在一直线上；三个或四个位姿时可以",
+    "motion.free_angles": "转角不限的位姿",
+    "motion.two_pivots": "两个以上给定的铰链",
     "motion.mixed": "角度自由时 {poses} 个位姿太少；请给三个或更多",
     "motion.mixed_note": "{free} 个角度自由：由许多初值求得，不保证求全",
     "motion.mixed_all": "共 {known} 个解，求得 {found} 个，其中 {real} 个为实解",
@@ -149,6 +153,12 @@ Grashof 类型、整个范围内的缺陷、最小传动角、最长与最短杆
     "function.exact": "没有具有所给零位角、精确满足全部 {count} 个位置的实 {linkage}；最近的解最大误差 "
     "{error}",
     "function.no_movable": "精确满足各位置的 {linkage} 都有缺陷；最好的方案有：{why}",
+    "function.transmission": "没有找到最小传动角达到 {asked} deg 的 {linkage}；已找到的最大值为 {most} deg"
+    "（已列出最接近的方案）：请降低要求，或{hint}",
+    "function.no_turn": "没有找到输入构件能整周转动的 {linkage}（已列出最接近的方案）；请去掉 turning，或{hint}",
+    "function.hint.exact": "给出 least_squares: true，允许少许误差",
+    "function.hint.equation": "去掉 equation_error，允许取其他杆长",
+    "function.hint.fitted": "放开更多的量，或改变函数",
     "function.free": "零位角：输入 {input} deg，输出 {output}",
     "free_curve.turning": "曲柄整转；全周内每个杆组的传动角不小于 {angle} deg，各运动副距曲线形心"
     "不超过 {size} 个均方根半径。",
@@ -172,6 +182,8 @@ Grashof 类型、整个范围内的缺陷、最小传动角、最长与最短杆
     "task": '没有任务 "{task}"；已知：{known}',
     "task.missing": '任务 "{task}" 需要 "{demand}"：{form}',
     "task.unknown": '"{demand}" 不是任务 "{task}" 的要求；已知：{known}',
+    "task.only_with": '"{demand}" 只与 "{needs}" 一起使用；请去掉它，或同时给出 {needs}',
+    "task.not_with": '"{demand}" 不能与 {other} 同时使用；请去掉其中一个',
     "task.unit_of_all": "请写单位，或在任务旁写“{line}”，作为所有不带单位的数的单位",
     "task.value": "{demand}：应为{form}；所给：{given}",
     "task.section": '文件没有 "synthesis" 一节；请加上这一节，写明 task 及其要求',

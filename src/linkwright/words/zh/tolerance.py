@@ -34,7 +34,7 @@ WORDS = {
     "formula": "σ² = Σ (∂y/∂p)²·σ_p²，导数为名义机构处的精确值（SI）",
     "pressed": "销 {pin} 被自身反力压向孔壁",
     "at_positions": "{name} 取自循环的 {count} 个位置；"
-    "设计参数（`swing_angle`、`stroke`、`peak_…`）在位置之间也是精确的。",
+    "设计指标（`swing_angle`、`stroke`、`peak_…`）在位置之间也是精确的。",
     "agree": "{name}：线性法与蒙特卡洛法相差不超过 0.5 %。",
     "differ": "{name}：蒙特卡洛法的分散是线性法的 {ratio} 倍，因为该指标对公差不是线性的："
     "在 {dimension} 的 ±2σ 内它的弯曲达变化量的 {bend}。",
@@ -67,7 +67,7 @@ WORDS = {
     "limit_of_remedy": "请在 of 中也写上它",
     "few_samples": "机器太少，不能得出分散",
     "few_samples_remedy": "请至少给 {least}",
-    "pressed_number": "“{name}”是设计参数；压紧的销只使输出的汇总值移动",
+    "pressed_number": "“{name}”是设计指标；压紧的销只使输出的汇总值移动",
     "pressed_number_remedy": "请写汇总值，如 rocker.angle range，或去掉压紧的间隙",
     "no_number": "没有输出或设计指标“{name}”",
     "no_number_remedy": "是不是“{offer}”？",

@@ -49,7 +49,7 @@ WORDS = {
     "critical": "谐波与 {axis} 方向固有频率重合的转速：每分钟 {speeds} 个循环",
     "no_mass": "没有质量",
     "no_mass_remedy": "请写 masses: {{body: 100 kg}}",
-    "mass_above_zero": "质量为零或负",
+    "mass_above_zero": "质量不大于 1e-12 kg（kg·m²）",
     "mass_above_zero_remedy": "请给大于零的质量",
     "no_such_mass": "没有质量“{name}”",
     "no_such_mass_remedy": "可选：{known}",

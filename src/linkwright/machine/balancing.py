@@ -6,8 +6,6 @@ import cmath
 from collections.abc import Mapping
 from dataclasses import replace
 
-import numpy as np
-
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import real, require
 from linkwright.core.plot_method import Plotted
@@ -16,6 +14,7 @@ from linkwright.errors import LinkwrightError, RequestError
 from linkwright.joints.base import Joint
 from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.mechanism.mechanism import Link, Mechanism
+from linkwright.metrics.analysis import Analysis
 
 Radius = Mapping[str, float] | float
 
@@ -39,12 +38,16 @@ class Balancing(Plotted, Frozen):
     after: Forces
 
     def effect(self) -> Mapping[str, tuple[float, float]]:
-        """Peaks without and with: shaking force N, shaking moment N·m, input torque N·m."""
-        return {
-            "shaking force [N]": (_peak(self.before.shaking_force), _peak(self.after.shaking_force)),
-            "shaking moment [N·m]": (_peak(self.before.shaking_moment), _peak(self.after.shaking_moment)),
-            "input torque [N·m]": (_peak(self.before.input_torque), _peak(self.after.input_torque)),
+        """Peaks without and with, as the design numbers have them: shaking force N, shaking moment N·m, input torque
+        N·m."""
+        driver = next(iter(self.mechanism.drivers))
+        peaks = {
+            "shaking force [N]": "shaking_force max",
+            "shaking moment [N·m]": "shaking_moment peak",
+            "input torque [N·m]": f"{driver}.effort peak",
         }
+        both = [Analysis.of(forces) for forces in (self.before, self.after)]
+        return {name: (both[0].part(peak).value, both[1].part(peak).value) for name, peak in peaks.items()}
 
     def text(self) -> str:
         """Counterweights and their effect."""
@@ -177,8 +180,3 @@ def _shared_pin(mechanism: Mechanism, a: str, b: str) -> str:
 
 def _at(link: Link, point: str) -> complex:
     return complex(*link.points[point])
-
-
-def _peak(values: np.ndarray[tuple[int, ...], np.dtype[np.float64]]) -> float:
-    sizes = np.linalg.norm(values, axis=1) if values.ndim == 2 else np.abs(values)
-    return float(np.nanmax(sizes))

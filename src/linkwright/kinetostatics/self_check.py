@@ -1,0 +1,140 @@
+"""The check that every analysis of forces makes of its own numbers before it gives them away."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NoReturn
+
+import numpy as np
+
+from linkwright.core.arrays import Floats
+from linkwright.core.cached_property import cached_property
+from linkwright.core.dataclass import dataclass
+from linkwright.core.outputs import Output, kind_of
+from linkwright.errors import SelfCheckError
+from linkwright.kinematics.reach_sentences import input_at
+from linkwright.words.sentence import Sentence
+
+if TYPE_CHECKING:
+    from linkwright.kinematics.motion import Motion, Rows
+    from linkwright.kinematics.outputs import MotionOutputs
+    from linkwright.kinetostatics.forces import Forces
+    from linkwright.kinetostatics.outputs import ForceOutputs
+
+#: What a balance may be off, as share of the largest force of the machine at that position, and a power, as share of
+#: that force times the largest speed. Rounding leaves some 1e-15 of them, near singular positions as well, where the
+#: forces grow with it.
+LIMIT = 1e-9
+#: A share that is below the limit whatever the machine's size.
+PLAINLY = 1e-3 * LIMIT
+
+
+@dataclass(frozen=True)
+class ForceChecks:
+    """Which rows of forces and of their motion are checked, and what they are measured by.
+
+    ``size``: what turns moments into forces, m.
+    """
+
+    forces: ForceOutputs
+    motion: MotionOutputs
+    size: float
+
+    @cached_property
+    def names(self) -> tuple[str, ...]:
+        """Forces, what no joint supplies, and the two powers: rows that lie behind each other."""
+        return (*self.forces.standard, *self.forces.checks)
+
+    @cached_property
+    def _measures(self) -> Floats:
+        """Factors (rows, 1) that make a force of each row but those of the powers."""
+        turning = (self._turning(Output.of_row(name)) for name in self.names[:-2])
+        return np.array([[1.0 / self.size if each else 1.0] for each in turning]).reshape(-1, 1)
+
+    def _turning(self, output: Output) -> bool:
+        """Whether a row is a moment."""
+        if output.kind in ("reaction", "couple"):
+            return output.kind == "couple"
+        joints, drivers = self.forces.mechanism.joints, self.forces.mechanism.drivers
+        joint = drivers[output.owner].joint if output.kind == "effort" else output.owner
+        return joints[joint].coordinate == "turn"
+
+    @cached_property
+    def _speeds(self) -> tuple[tuple[str, ...], Floats]:
+        """Rows of the motion that are speeds, and the factors (rows, 1) that make them m/s."""
+        names = tuple(
+            name for name in self.motion.standard if kind_of(name) in ("velocity", "angular_velocity")
+        )
+        turning = (kind_of(name) == "angular_velocity" for name in names)
+        return names, np.array([[self.size if each else 1.0] for each in turning]).reshape(-1, 1)
+
+    def require(self, rows: Rows, motion: Motion) -> None:
+        """Raises SelfCheckError at the position where a check is off most, if one is by more than rounding."""
+        forces, left, (driving, needed) = self._parts(rows)
+        with np.errstate(all="ignore"):
+            apart = np.abs(driving - needed)
+            balanced = _squares(left) <= PLAINLY**2 * _squares(forces)
+            if balanced.all() and (apart <= LIMIT * np.abs(needed)).all():
+                return
+            largest = self._largest(forces)
+            left = np.abs(left) * self._measures[len(forces) :]
+            if (left > LIMIT * largest).any():
+                self._unbalanced(left, largest, motion)
+            names, factors = self._speeds
+            speed = (np.abs(motion.rows.fetch(names, motion.evaluate)) * factors).max(axis=0, initial=0.0)
+            if (apart > LIMIT * largest * speed).any():
+                _differ("forces.powers_differ", "W", apart, largest * speed, motion)
+
+    def require_balance(self, forces: Forces) -> None:
+        """Raises SelfCheckError where the links are out of balance under what is told of the forces."""
+        gap, largest = forces.balance_residual, self._largest(self._parts(forces.rows)[0])
+        with np.errstate(all="ignore"):
+            if (gap > LIMIT * largest).any():
+                _differ("forces.results_unbalanced", "N", gap, largest, forces.motion)
+
+    def _parts(self, rows: Rows) -> tuple[Floats, Floats, Floats]:
+        """The rows of forces, of what no joint supplies, and of the two powers."""
+        first, count = rows.index[self.names[0]], len(self.forces.standard)
+        block = rows.values[first : first + len(self.names)]
+        return block[:count], block[count:-2], block[-2:]
+
+    def _largest(self, forces: Floats) -> Floats:
+        """The largest force of every position, (n,) N."""
+        return np.asarray((np.abs(forces) * self._measures[: len(forces)]).max(axis=0, initial=0.0))
+
+    def _unbalanced(self, left: Floats, largest: Floats, motion: Motion) -> NoReturn:
+        row, place = _worst(left, largest)
+        at = Output.of_row(self.forces.checks[row])
+        raise SelfCheckError(
+            "forces.unbalanced",
+            name=motion.mechanism.name,
+            where=input_at(motion, place),
+            joint=at.owner,
+            link=at.on,
+            gap=f"{left[row, place]:.3g} N",
+            size=f"{largest[place]:.3g} N",
+            check_failed=Sentence("forces.check_failed"),
+        )
+
+
+def _differ(key: str, unit: str, gaps: Floats, sizes: Floats, motion: Motion) -> NoReturn:
+    _, place = _worst(gaps[None], sizes)
+    raise SelfCheckError(
+        key,
+        name=motion.mechanism.name,
+        where=input_at(motion, place),
+        gap=f"{gaps[place]:.3g} {unit}",
+        size=f"{sizes[place]:.3g} {unit}",
+        check_failed=Sentence("forces.check_failed"),
+    )
+
+
+def _squares(rows: Floats) -> Floats:
+    """Sum of the squares of rows (rows, n), (n,)."""
+    return np.asarray(np.einsum("ij,ij->j", rows, rows))
+
+
+def _worst(gaps: Floats, sizes: Floats) -> tuple[int, int]:
+    """Row and position of the gap (rows, n) that is the largest share of the sizes (n,)."""
+    shares = np.where(gaps > LIMIT * sizes, gaps / np.maximum(sizes, np.finfo(float).tiny), 0.0)
+    row, place = np.unravel_index(int(shares.argmax()), shares.shape)
+    return int(row), int(place)

@@ -1,0 +1,227 @@
+"""What is taken off the paper: links with what depends on them, pins whose links come apart, points, loads."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from linkwright.errors import LinkwrightError
+from linkwright.fields.nodes import Mapping as MappingNode
+from linkwright.fields.nodes import Node, Scalar, Sequence
+from linkwright.files.write import flow
+from linkwright.joints.base import JOINTS
+from linkwright.loads.base import LOADS
+from linkwright.server import request
+from linkwright.server.draft import Draft, fresh, picture, texts, word
+from linkwright.words.sentence import Sentence
+
+#: Keys of joints and loads whose words are no links.
+_NO_LINKS = ("kind", "at", "through")
+
+
+def remove(draft: Draft, action: Mapping[str, Any]) -> str:
+    """Takes a link, a joint or a load out; gives a sentence about the rest."""
+    removed = _REMOVED.get(request.text(action, "what")) or request.refuse("what", "name")
+    return removed(draft, request.name(action, "name"))
+
+
+def _load(draft: Draft, name: str) -> str:
+    loads = draft.section("loads")
+    if loads is None or loads.get(name) is None:
+        raise LinkwrightError("studio.no_load", name=name)
+    draft.take_out("loads", name)
+    return Sentence("studio.load_gone", name=name)
+
+
+def _link(draft: Draft, name: str) -> str:
+    """A link with its joints, loads and drivers, and the assembly of pins that are left with one link."""
+    draft.link(name)
+    draft.take_out("links", name)
+    _remove_what_names(draft, {name})
+    _remove_unused(draft)
+    return Sentence("studio.link_gone", name=name)
+
+
+def _joint(draft: Draft, point: str) -> str:
+    """A pin: its links come apart. A block goes with its guide, a point that joins nothing out of its link."""
+    shown = picture(draft.text)
+    links = [name for name, points in shown["links"].items() if point in points]
+    block = next((name for name in links if len(shown["links"][name]) == 1), None)
+    if block is not None:
+        return _link(draft, block)
+    joined = ["frame", *links] if point in shown["fixed"] else links
+    if len(joined) < 2:
+        return _point(draft, point, links)
+    for section in ("joints", "assembly"):
+        if (found := draft.section(section)) is not None and found.get(point) is not None:
+            draft.take_out(section, point)
+    driven = _remove_drives(draft, point)
+    named = {link: _renamed(draft, link, point) for link in joined[1:]}
+    apart = tuple(Sentence("studio.now_named", link=link, point=new) for link, new in named.items())
+    named_links = tuple(Sentence("nouns.frame") if link == "frame" else link for link in joined)
+    gone = Sentence("studio.pin_gone", point=point, links=named_links, apart=apart)
+    return Sentence("studio.both", first=gone, second=Sentence("studio.drive_gone")) if driven else gone
+
+
+def _remove_drives(draft: Draft, point: str) -> bool:
+    """Takes the drives about a pin out; whether there were any."""
+    before = draft.text
+    for name, driver in list(draft.section("drivers") or ()):
+        if isinstance(driver, MappingNode) and word(driver, "about") == point:
+            draft.take_out("drivers", name)
+    alone = draft.section("driver")
+    if alone is not None and word(alone, "about") == point:
+        draft.cut_top("driver")
+    return draft.text != before
+
+
+def _point(draft: Draft, point: str, links: list[str]) -> str:
+    """A point that joins nothing: of the frame, of one link or of none."""
+    for link in links:
+        _take_off(draft, point, link)
+    if not links:
+        for _, name, _ in _references(draft, "frame", point):
+            raise LinkwrightError("studio.point_of", point=point, name=name)
+        _take_fixed(draft, point)
+    _remove_unused(draft)
+    return Sentence("studio.point_gone", point=point)
+
+
+def _take_off(draft: Draft, point: str, link: str) -> None:
+    """A point off a link, with joints and loads there; raises LinkwrightError for one that gives it its lengths."""
+    entry = draft.link(link)
+    points, also = entry.get("points"), entry.get("also")
+    places = also if isinstance(also, MappingNode) and also.get(point) is not None else points
+    if isinstance(places, MappingNode) and (places is also or len(places.entries) > 2):
+        if len(places.entries) == 1:
+            draft.write(places, "{}")
+        else:
+            draft.cut(places, point)
+    elif isinstance(points, Sequence) and len(points.items) > 2 and _drawn(entry):
+        draft.write(points, flow([each for each in texts(points) if each != point]))
+    else:
+        raise LinkwrightError("studio.end_of_link", point=point, link=link)
+    gone = dict.fromkeys((section, name) for section, name, _ in _references(draft, link, point))
+    for section, name in gone:
+        draft.take_out(section, name)
+    _remove_what_names(draft, {name for section, name in gone if section == "joints"})
+
+
+def _renamed(draft: Draft, link: str, point: str) -> str:
+    """Gives a link's point a name of its own wherever it is named."""
+    shown = picture(draft.text)
+    new = fresh(
+        "P", {*shown["points"], *shown["fixed"], *(each for ends in shown["links"].values() for each in ends)}
+    )
+    nodes = [each for _, _, each in _references(draft, link, point)]
+    nodes += [each for each in _points_of(draft.link(link)) if each.text == point]
+    for node in sorted(nodes, key=lambda each: each.start, reverse=True):
+        draft.write(node, flow(node.text.removesuffix(point) + new))
+    if point in shown["points"] and _drawn(draft.link(link)):
+        place = [f"{1e3 * each:.10g} mm" for each in shown["points"][point]]
+        draft.put("drawing", new, place)
+    return new
+
+
+def _drawn(link: MappingNode) -> bool:
+    """Whether the drawing gives a link's lengths."""
+    return (
+        isinstance(link.get("points"), Sequence)
+        and link.get("length") is None
+        and link.get("lengths") is None
+    )
+
+
+def _points_of(link: MappingNode) -> Iterator[Scalar]:
+    """The words of a link's entry that name its points."""
+    for node in (link.get(key) for key in ("points", "also", "mass_centre")):
+        if isinstance(node, MappingNode):
+            yield from (entry.key for entry in node.entries)
+        elif node is not None:
+            yield from _scalars(node)
+
+
+def _references(draft: Draft, link: str, point: str) -> Iterator[tuple[str, str, Scalar]]:
+    """Where joints and loads name a link's point: section, name, word."""
+    kinds: dict[str, dict[str, Mapping[str, object]]] = {
+        "joints": {kind: JOINTS[kind].fields() for kind in JOINTS},
+        "loads": {kind: LOADS[kind].fields() for kind in LOADS},
+    }
+    for section, known in kinds.items():
+        for name, entry in draft.section(section) or ():
+            if not isinstance(entry, MappingNode):
+                continue
+            fields: Mapping[str, object] = known.get(word(entry, "kind"), {})
+            for key, node in entry:
+                owner = getattr(fields.get(key), "of", None)
+                own = owner is not None and word(entry, owner) == link
+                for each in _scalars(node):
+                    if each.text == f"{link}.{point}" or (own and each.text == point):
+                        yield section, name, each
+
+
+def _remove_what_names(draft: Draft, gone: set[str]) -> None:
+    """Joints, loads and drivers of links and joints that are gone, words about pins of no two links, and points of
+    the frame for their guides alone."""
+    guided = set()
+    for section in ("joints", "loads", "drivers"):
+        for key, node in list(draft.section(section) or ()):
+            if gone & set(_named(node)):
+                draft.take_out(section, key)
+                gone |= {key} if section == "joints" else set()
+                if section == "joints" and isinstance(node, MappingNode) and word(node, "guide") == "frame":
+                    guided.add(word(node, "through"))
+    driver = draft.root.get("driver")
+    if driver is not None and gone & set(_named(driver)):
+        draft.cut_top("driver")
+    shown = picture(draft.text)
+    ends = [*shown["fixed"], *(point for points in shown["links"].values() for point in points)]
+    names = {"frame", *shown["links"]}
+    joints = [key for key, node in draft.section("joints") or () if names & set(_named(node))]
+    for section in ("assembly", "joints"):
+        for key, _ in list(draft.section(section) or ()):
+            if ends.count(key) < 2 and key not in joints:
+                draft.take_out(section, key)
+    for point in guided:
+        if ends.count(point) == 1 and not any(_references(draft, "frame", point)):
+            _take_fixed(draft, point)
+
+
+def _remove_unused(draft: Draft) -> None:
+    """Drawn points that no link has."""
+    used = {point for points in picture(draft.text)["links"].values() for point in points}
+    for point, _ in list(draft.section("drawing") or ()):
+        if point not in used:
+            draft.take_out("drawing", point)
+
+
+def _take_fixed(draft: Draft, point: str) -> None:
+    frame = draft.section("frame")
+    points = frame.get("points") if frame is not None else None
+    if isinstance(points, MappingNode) and points.get(point) is not None:
+        if len(points.entries) == 1:
+            draft.cut_top("frame")
+        else:
+            draft.cut(points, point)
+
+
+def _named(node: Node) -> Iterator[str]:
+    """What may be links among the words of an entry: of ``link.point`` the link."""
+    if isinstance(node, MappingNode):
+        for key, value in node:
+            if key not in _NO_LINKS:
+                yield from _named(value)
+    else:
+        yield from (each.text.split(".")[0] for each in _scalars(node))
+
+
+def _scalars(node: Node) -> Iterator[Scalar]:
+    if isinstance(node, Scalar):
+        yield node
+    for each in node.items if isinstance(node, Sequence) else ():
+        yield from _scalars(each)
+    for _, value in node if isinstance(node, MappingNode) else ():
+        yield from _scalars(value)
+
+
+_REMOVED = {"link": _link, "joint": _joint, "load": _load}

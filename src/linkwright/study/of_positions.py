@@ -1,0 +1,66 @@
+"""How far summaries of positions are from those between the positions."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any
+
+import numpy as np
+
+from linkwright.core.arrays import Floats
+from linkwright.errors import LinkwrightError
+from linkwright.kinematics.solve import solve_motion
+from linkwright.kinetostatics.forces import Forces, solve_forces
+from linkwright.mechanism.mechanism import Mechanism
+from linkwright.metrics.analysis import Analysis
+from linkwright.metrics.quantities import shown
+from linkwright.metrics.summary import Summary
+from linkwright.words.sentence import Sentence
+
+#: What a summary is of the values at the positions.
+_OF: Mapping[str, Callable[[Floats], Any]] = {
+    "min": np.min,
+    "max": np.max,
+    "mean": np.mean,
+    "range": np.ptp,
+    "rms": lambda values: np.sqrt(np.mean(values * values)),
+    "peak": lambda values: np.max(np.abs(values)),
+}
+
+
+def note_of_positions(
+    mechanism: Mechanism, steps: int, summaries: Iterable[Summary], dimensions: Iterable[str]
+) -> Sentence | None:
+    """That summaries are those of the positions, with how far the worst one of the machine as it is is from the one
+    between them; None where none is asked."""
+    asked = [(each, kind) for each, kind in zip(summaries, dimensions, strict=True) if each.kind in _OF]
+    if not asked:
+        return None
+    worst, off = None, 0.0
+    try:
+        motion = solve_motion(mechanism, steps=steps, failures="mark")
+        forces = solve_forces(motion) if mechanism.has_loads else None
+        for summary, dimension in asked:
+            sampled, exact, size = _both(Analysis.of(forces or motion), summary, forces)
+            if size and abs(exact - sampled) > off * size:
+                worst, off = (summary, sampled, exact, dimension), abs(exact - sampled) / size
+    except LinkwrightError:
+        worst = None
+    if worst is None:
+        return Sentence("study.of_positions", steps=steps)
+    summary, sampled, exact, dimension = worst
+    values = {
+        "there": shown(sampled, dimension),
+        "between": shown(exact, dimension),
+        "share": f"{100.0 * off:.2g}",
+    }
+    return Sentence("study.of_positions_off", steps=steps, name=summary.name, **values)
+
+
+def _both(analysis: Analysis, summary: Summary, forces: Forces | None) -> tuple[float, float, float]:
+    """A summary of the positions, the same between them, and the size of the signal; size 0 where that is unknown."""
+    values: Floats = analysis.signal(summary.output)(forces or analysis.motion)
+    found = analysis.part(summary.name)
+    if not (found.exact and np.isfinite(found.value) and np.isfinite(values).all()):
+        return 0.0, 0.0, 0.0
+    return float(_OF[summary.kind](values)), found.value, float(np.abs(values).max())
