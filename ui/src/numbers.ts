@@ -44,7 +44,8 @@ export function extreme(model: Model, id: string, row: Float64Array, sign: 1 | -
   const turns = model.signals[id].form === "angle" && model.data.positions.closed && Math.abs(row[n - 1] - row[0]) > Math.PI;
   if (!(size > rounding(model, id)) || n < 3 || turns || searched(model, id) !== null) return { at, value: row[at] };
   const better = (place: number, value: number) => {
-    if (value < found.value - SAME * size) found = { at: place, value };
+    const at = place < 0 ? place + n : place, near = SAME * size;
+    if (value < found.value - near || (value <= found.value + near && at < found.at)) found = { at, value: Math.min(value, found.value) };
   };
   for (const i of brackets(f, model.data.positions.closed, f[at])) {
     const value = (place: number) => sign * between(model, id, place, row[i]);
@@ -74,7 +75,7 @@ function smoothly(solver: Solver, f: Float64Array, i: number, size: number): Ext
 }
 
 // Share of a signal's size within which values are equal; of the largest joint force, up to which others are rounding.
-const SAME = 1e-13, ROUNDING = 1e-12;
+const SAME = 1e-12, ROUNDING = 1e-12;
 
 const largest = (row: Float64Array) => row.reduce((most, x) => Math.max(most, Math.abs(x)), 0);
 

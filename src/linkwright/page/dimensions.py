@@ -9,6 +9,7 @@ import numpy as np
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.json_data import Plain
+from linkwright.errors import LinkwrightError
 from linkwright.files.check_mechanism import guides_at_odds
 from linkwright.files.document import Document
 from linkwright.joints.toothed import Numbers
@@ -92,10 +93,13 @@ def _refused(mechanism: Mechanism, address: str) -> bool:
         return address.startswith("cycle.")
     if isinstance(mechanism.declared(address), Numbers) or last == "teeth":
         return True
+    try:
+        other = _with(mechanism, address)
+    except LinkwrightError:
+        return True
     if last in _ANGLES:
-        turned = _with(mechanism, address)
-        return any(guides_at_odds(turned)) or any(each.misfit(turned) for each in turned.joints.values())
-    return joint.higher and last != "phase" and time_span(_with(mechanism, address)) != time_span(mechanism)
+        return any(guides_at_odds(other)) or any(each.misfit(other) for each in other.joints.values())
+    return joint.higher and last != "phase" and time_span(other) != time_span(mechanism)
 
 
 def _with(mechanism: Mechanism, address: str) -> Mechanism:
