@@ -14,6 +14,7 @@ from tests.ui.browser import Opened, browser, needs_chromium
 from tests.unit import test_drawing_cams as drawn_cams
 
 import linkwright as lw
+from linkwright import units
 from linkwright.joints.cam_shape import CamShape
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.page import content
@@ -337,7 +338,7 @@ def test_friction_is_solved_again(opened: Opened, tmp_path: Path) -> None:
     assert changed
     agrees(opened, mechanism.with_dimensions(changed), forces=True, tolerance=1e-10)
     assert opened.tab.locator(".note").count() == 0
-    assert f"those of the {STEPS} positions" in opened.tab.locator(".results .hint").inner_text()
+    assert opened.tab.locator(".results .hint").count() == 0
     opened.run("s => { for (const term of s.data.friction) term.arm *= 400; s.take({...s.model.values}); }")
     assert opened.run("s => s.model.row('effort:driver').every(Number.isNaN)")
     assert "locks" in opened.tab.locator(".note").first.inner_text()
@@ -430,7 +431,8 @@ def test_a_phase_that_cannot_be_found_hides_the_forces(kept_open: Opened, tmp_pa
 def test_the_changed_file_keeps_comments_and_units(opened: Opened, tmp_path: Path) -> None:
     mechanism, path = made(tmp_path, "jaw_crusher_sixbar")
     opened.open(path)
-    opened.run("s => s.take({...s.model.values, 'pitman.length': 1.2, 'driver.speed': -8.9011791851710809})")
+    changes = {"pitman.length": 1.2, "driver.speed": -85 * units.unit("rpm")[0]}
+    opened.run("(s, changes) => s.take({...s.model.values, ...changes})", changes)
     with opened.tab.expect_download() as waiting:
         opened.tab.get_by_role("button", name="Download the model").click()
     saved = tmp_path / "saved.yaml"

@@ -26,12 +26,14 @@ from tests.ui.studio import asked, saving, serving
 
 import linkwright as lw
 from linkwright.errors import LinkwrightError
+from linkwright.files.document import Document
+from linkwright.files.model_file import read_text
 from linkwright.server import edits, search, work
 from linkwright.server.address import recalled
-from linkwright.server.edits import with_values
 from linkwright.server.files import Files
 from linkwright.server.web import Studio
 from linkwright.server.work import new_text
+from linkwright.study.changed_text import changed_text
 
 NEW = new_text()
 
@@ -182,9 +184,9 @@ def test_drawing_writes_what_a_person_would() -> None:
     mechanism = lw.loads(text)
     assert mechanism.dimension("crank.A.x") == pytest.approx(0.05)
     assert lw.structure(mechanism).mobility == 1
-    moved = lw.loads(with_values(text, {"crank.A.x": 0.045}))
-    assert moved.dimension("crank.A.x") == pytest.approx(0.045, rel=1e-8)
-    assert moved.dimension("coupler.B.x") == pytest.approx(mechanism.dimension("coupler.B.x"), rel=1e-8)
+    moved = lw.loads(changed_text(Document(text, "drawn", read_text), {"crank.A.x": 0.045}))
+    assert moved.dimension("crank.A.x") == pytest.approx(0.045, rel=1e-13)
+    assert moved.dimension("coupler.B.x") == pytest.approx(mechanism.dimension("coupler.B.x"), rel=1e-13)
     bare = edited(text, {"do": "remove", "what": "link", "name": "crank"})
     assert "crank" not in bare
     assert "rocker" in bare

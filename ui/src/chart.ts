@@ -1,13 +1,14 @@
 // Curves over the input, painted on a canvas; hodographs as SVG paths.
+import type { Extreme } from "./numbers";
 import { colours, painted } from "./palette";
 import { element, thinned } from "./strokes";
 import { digits } from "./words";
 
 // The picture in its own units, about pixels.
 const W = 360, H = 132, LEFT = 60, RIGHT = 8, TOP = 8, BOTTOM = 24;
-// How far a curve may leave its places, in these units; the least size of letters, in pixels and in these units, and the
-// largest for which there is room.
-const FLAT = 0.08, LEAST = 10.5, SMALL = 10, LARGE = 15;
+// Share of an axis up to which its end is zero; how far a curve may leave its places, in these units; the least size of
+// letters, in pixels and in these units, and the largest for which there is room.
+const ZERO = 1e-9, FLAT = 0.08, LEAST = 10.5, SMALL = 10, LARGE = 15;
 // Where the numbers at the axes stand, low, high, left and right, by which side, and what they may cover: x, y, width,
 // height. The curves and the dot keep off it.
 const FREE = 4.5, MIDDLE = (LEFT + W) / 2;
@@ -18,13 +19,16 @@ const TEXTS: { x: number; y: number; side: CanvasTextAlign; box: [number, number
   { x: W - RIGHT, y: H - 4, side: "right", box: [MIDDLE, H - 17, W - MIDDLE, 17] },
 ];
 
+/** Values at the places, and extremes between them. */
 export interface Curve {
   style: "now" | "original" | number;
   values: ArrayLike<number>;
+  peaks?: Extreme[];
 }
 
 interface Written {
   values: ArrayLike<number>;
+  peaks?: Extreme[];
   low: number;
   high: number;
   path: Path2D;
@@ -71,20 +75,23 @@ export class Chart {
       this.written = [];
     }
     let [low, high] = [Infinity, -Infinity];
-    for (const { values } of curves)
-      for (let i = 0; i < x.length; i++) {
-        const y = this.value(values, i);
-        if (y < low) low = y;
-        if (y > high) high = y;
-      }
+    const reach = (y: number) => {
+      if (y < low) low = y;
+      if (y > high) high = y;
+    };
+    for (const { values, peaks } of curves) {
+      for (let i = 0; i < x.length; i++) reach(this.value(values, i));
+      peaks?.forEach(({ value }) => reach(value));
+    }
     if (!(high >= low)) [low, high] = [0, 1];
     if (high - low < 1e-9 * Math.max(Math.abs(high), Math.abs(low), 1e-9)) [low, high] = [low - 0.5 * Math.abs(low || 1), high + 0.5 * Math.abs(high || 1)];
     [this.low, this.high, this.curves] = [low, high, curves];
-    this.written = curves.map(({ values }, k) => {
-      const before = this.written[k];
-      return before?.values === values && before.low === low && before.high === high ? before : { values, low, high, path: this.path(values) };
+    this.written = curves.map(({ values, peaks }, k) => {
+      const before = this.written[k], same = before?.values === values && before.peaks === peaks;
+      return same && before.low === low && before.high === high ? before : { values, peaks, low, high, path: this.path(values, peaks) };
     });
-    this.ticks = [digits(low / factor, 3), digits(high / factor, 3), ...ends];
+    const tick = (y: number) => digits(Math.abs(y) < ZERO * (high - low) ? 0 : y / factor, 3);
+    this.ticks = [tick(low), tick(high), ...ends];
   }
 
   cursor(i: number, value: number): void {
@@ -164,14 +171,21 @@ export class Chart {
   }
 
   /** Runs without gaps, each with as few corners as it takes. */
-  private path(values: ArrayLike<number>): Path2D {
-    const path = new Path2D(), n = this.x.length, heights = this.places.map((_, i) => this.v(this.value(values, i)));
+  private path(values: ArrayLike<number>, peaks: Extreme[] = []): Path2D {
+    const path = new Path2D(), last = this.x.length - 1;
+    const between = peaks.filter(({ at }) => at > 0 && at < last && !Number.isInteger(at)).sort((a, b) => a.at - b.at);
+    const all = [...this.places.keys()].map((i) => [i, this.places[i], this.v(this.value(values, i))]);
+    for (const { at, value } of between) {
+      const i = Math.floor(at), place = this.places[i] + (at - i) * (this.places[i + 1] - this.places[i]);
+      all.splice(all.findIndex(([k]) => k > at), 0, [at, place, this.v(value)]);
+    }
+    const places = Float64Array.from(all, ([, place]) => place), heights = Float64Array.from(all, ([, , height]) => height), n = all.length;
     for (let begin = 0; begin < n; ) {
       while (begin < n && !(heights[begin] === heights[begin])) begin++;
       let end = begin;
       while (end < n && heights[end] === heights[end]) end++;
-      const places = this.places.subarray(begin, end), run = heights.subarray(begin, end);
-      for (const i of thinned(places, run, FLAT)) path[i ? "lineTo" : "moveTo"](places[i], run[i]);
+      const way = places.subarray(begin, end), run = heights.subarray(begin, end);
+      for (const i of thinned(way, run, FLAT)) path[i ? "lineTo" : "moveTo"](way[i], run[i]);
       begin = end;
     }
     return path;

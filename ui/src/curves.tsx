@@ -3,7 +3,7 @@ import { effect } from "@preact/signals";
 import { useLayoutEffect, useRef } from "preact/hooks";
 import { Chart, type Curve, Hodograph } from "./chart";
 import type { Page } from "./living";
-import { TURN } from "./numbers";
+import { type Extreme, TURN } from "./numbers";
 import type { Session } from "./session";
 import { write } from "./strokes";
 import { quantity, unitFor } from "./words";
@@ -15,13 +15,16 @@ function Plot({ page, session, id, place }: { page: Page; session: Session; id: 
   const { model } = session, language = page.language.value, signal = model.signals[id];
   useLayoutEffect(() => {
     const drawn = (chart.current = new Chart(host.current!));
-    let seen = "", row: Float64Array = new Float64Array(1), kept: unknown = null;
+    let [seen, rested, shown] = [-1, -1, ""], row: Float64Array = new Float64Array(1), peaks: Extreme[] = [], kept: unknown = null;
     const stop = effect(() => {
-      const state = `${session.version.value} ${page.language.value}`, variants = session.variants.value, i = page.index(session);
-      if (state !== seen || variants !== kept) {
-        row = model.row(id);
-        plot(drawn, page, session, id, row);
-        [seen, kept] = [state, variants];
+      const version = session.version.value, calm = session.calm.value, state = `${version} ${calm} ${page.language.value}`;
+      const variants = session.variants.value, i = page.index(session);
+      if (version !== seen) [seen, row, peaks] = [version, model.row(id), []];
+      // Extremes between the positions are sought when a hand rests.
+      if (calm !== rested) [rested, peaks] = [calm, row.some(Number.isNaN) ? [] : [model.extreme(id, row, 1), model.extreme(id, row, -1)]];
+      if (state !== shown || variants !== kept) {
+        plot(drawn, page, session, id, { style: "now", values: row, peaks });
+        [shown, kept] = [state, variants];
       }
       drawn.cursor(i, row[i]);
     });
@@ -65,13 +68,13 @@ function largest({ model }: Session, id: string): number {
 }
 
 /** The present curve over those of the original and of the variants. */
-function plot(chart: Chart, page: Page, session: Session, id: string, row: Float64Array): void {
+function plot(chart: Chart, page: Page, session: Session, id: string, now: Curve): void {
   const { model } = session, { x, kind } = model.axis, signal = model.signals[id];
   const unit = unitFor(signal.kind, largest(session, id));
   const ends = [0, x.length - 1].map((k) => quantity(x[k], kind, kind === "length" ? model.size : 1, 3)) as [string, string];
   const kept = session.variants.value.map((each, k) => ({ style: k + 1, values: each.design.rows[id] }));
   const old: Curve[] = model.differs ? [{ style: "original", values: model.original.rows[id] }] : [];
-  chart.set(x, [...old, ...kept, { style: "now", values: row }], unit.factor, ends, signal.form === "angle" ? TURN : 0);
+  chart.set(x, [...old, ...kept, now], unit.factor, ends, signal.form === "angle" ? TURN : 0);
   chart.label(page.say("curve", { name: signal.name[page.language.value] }));
 }
 

@@ -4,14 +4,29 @@ import type { Program, Stage } from "./engine";
 export type Language = "en" | "zh";
 export type Said = Record<Language, string>;
 
+/** How a text holds a number: the first offset of what stands there, the one behind it, what is written before the number
+ *  and after it. */
+export type Written = [number, number, string, string];
+
+/** `written`: how the text holds it, null: it does not, or, `drawn`, by its drawing; `moves`: it may move what is drawn. */
 export interface Dimension {
   address: string;
   value: number;
   unit: string;
   factor: number;
-  span: [number, number] | null;
+  written: Written | null;
   positive: boolean;
   geometry: boolean;
+  moves: boolean;
+  drawn: boolean;
+}
+
+/** The text's drawing: the input of a steady driver in it, or the nearest position; of its coordinates the rows, how it
+ *  holds them, and the SI value of a unit. */
+export interface Drawing {
+  input: number | null;
+  at: number;
+  places: [string, Written, number][];
 }
 
 export interface Signal {
@@ -90,9 +105,10 @@ export interface Glyph {
   crossed?: boolean;
 }
 
-/** `on`: links whose reactions add up to the size of that on b; `arm`: friction over the pressing force. */
+/** `rate`: the row of the joint's rate, zero at rest; `on`: links whose reactions add up to the size of that on b; `arm`: friction over the pressing force. */
 export interface FrictionTerm {
   field: string;
+  rate: string;
   joint: string;
   a: string;
   b: string;
@@ -163,12 +179,15 @@ export interface ModelData {
   tables: Record<string, number[]>;
   sizes: string;
   dimensions: Dimension[];
+  drawing: Drawing;
   positions: {
     count: number;
     closed: boolean;
     period: number | null;
     steady: Steady | null;
     modes: Record<string, number>;
+    /** Places among the positions where laws that are not steady go over; null: nothing is known between the positions. */
+    breaks: number[] | null;
     time: string | null;
     arrays: Record<string, string>;
     inputs: { name: string; turns: boolean; values: string | null }[];

@@ -2,11 +2,11 @@
 import type { FrictionTerm } from "./data";
 import type { Call } from "./engine";
 
-const STEPS = 400, CHANGE = 1e-12, GROWING = 25, STILL = 1e-12;
+const STEPS = 400, CHANGE = 1e-12, GROWING = 25;
 
 /** Runs a program until its friction agrees with its reactions; false where it locks. The first run is done. */
 export function settle(call: Call, terms: FrictionTerm[]): boolean {
-  const rates = terms.map((term) => rate(call, term)), arm = Math.max(...terms.map((term) => term.arm));
+  const rates = terms.map((term) => call.row(term.rate).slice()), arm = Math.max(...terms.map((term) => term.arm));
   const reactions = call.program.outputs.filter((name) => name.startsWith("r:"));
   let previous = Infinity, growing = 0;
   for (let step = 0; step < STEPS; step++) {
@@ -28,13 +28,6 @@ export function settle(call: Call, terms: FrictionTerm[]): boolean {
   for (const { field } of terms) call.fields[field].fill(0);
   call.run();
   return false;
-}
-
-function rate(call: Call, { joint, a, b, slides }: FrictionTerm): Float64Array {
-  const spin = (link: string, i: number) => (call.has(`w:${link}`) ? call.row(`w:${link}`)[i] : 0);
-  const found = Float64Array.from({ length: call.n }, (_, i) => (slides ? call.row(`sv:${joint}`)[i] : spin(b, i) - spin(a, i)));
-  const largest = found.reduce((most, x) => Math.max(most, Math.abs(x)), 0);
-  return found.map((x) => (Math.abs(x) < STILL * largest ? 0 : x));
 }
 
 /** Size of the force that presses the two parts together. */

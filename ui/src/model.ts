@@ -3,7 +3,7 @@ import type { Branch } from "./branch";
 import { floats, type ModelData, type Signal } from "./data";
 import type { Call, Code } from "./engine";
 import { unwrap } from "./loads";
-import { formed, isForce, number } from "./numbers";
+import { type Extreme, extreme, formed, isForce, number, roundingOf } from "./numbers";
 import { leastChange } from "./search";
 import { mixed, Solver, type Values, type Wall } from "./solver";
 
@@ -22,6 +22,8 @@ export class Model {
   readonly solver: Solver;
   private readonly branch: Branch | null;
   private certified: { values: Values; uncertain: number | null } | null = null;
+  /** What has been found of the machine with these values. */
+  private found: { values: Values; rounding: number; size: number; extremes: Record<string, Extreme> } | null = null;
   original: Design;
   readonly signals: Record<string, Signal>;
   /** What curves run over: the input where it goes one way, else the time; with the end of a closed cycle. */
@@ -152,13 +154,6 @@ export class Model {
     if (!this.wall && !moves) this.wall = { kind: "still", name: key, group: null, input: 0, facts: {} };
   }
 
-  /** About how large the machine is, m. */
-  get size(): number {
-    const rows = this.data.points.map(({ key }) => [this.main.row(`p:${key}.x`)[0], this.main.row(`p:${key}.y`)[0]]);
-    const spread = [0, 1].map((axis) => Math.max(...rows.map((r) => r[axis])) - Math.min(...rows.map((r) => r[axis])));
-    return Math.hypot(spread[0], spread[1]) || 1;
-  }
-
   private slopes(values: Values, key: string, i: number, [px, py]: [number, number], free: string[], steps: number[]): [number[], number[]] {
     const jx: number[] = [], jy: number[] = [];
     free.forEach((address, j) => {
@@ -185,6 +180,32 @@ export class Model {
     for (let i = 0; i < this.n; i++) out[i] = formed(signal, rows[0][i], rows[1]?.[i] ?? 0);
     if (signal.form === "angle") unwrap(out);
     return out;
+  }
+
+  /** The least (`sign` 1) or largest (-1) value of a signal with this row over the cycle. */
+  extreme(id: string, row: Float64Array, sign: 1 | -1): Extreme {
+    return (this.known.extremes[`${sign} ${id}`] ??= extreme(this, id, row, sign));
+  }
+
+  /** Size up to which a force, N, is but rounding. */
+  get rounding(): number {
+    return this.known.rounding;
+  }
+
+  /** About how large the machine is, m. */
+  get size(): number {
+    return this.known.size;
+  }
+
+  private get known(): NonNullable<Model["found"]> {
+    if (this.found?.values === this.values) return this.found;
+    return (this.found = { values: this.values, rounding: roundingOf(this), size: this.spread(), extremes: {} });
+  }
+
+  private spread(): number {
+    const rows = this.data.points.map(({ key }) => [this.main.row(`p:${key}.x`)[0], this.main.row(`p:${key}.y`)[0]]);
+    const spread = [0, 1].map((axis) => Math.max(...rows.map((r) => r[axis])) - Math.min(...rows.map((r) => r[axis])));
+    return Math.hypot(spread[0], spread[1]) || 1;
   }
 
   design(): Design {

@@ -6,6 +6,7 @@ import type { Values } from "./solver";
 import type { Code } from "./engine";
 import { History } from "./history";
 import type { Shown, View } from "./view";
+import { written } from "./written";
 
 export interface Variant {
   number: number;
@@ -223,14 +224,7 @@ export class Session {
 
   /** The model's text with the changed numbers in their places, and the names of those that have none. */
   text(): { text: string; missing: string[] } {
-    let { text } = this.data;
-    const missing: string[] = [];
-    const changed = this.data.dimensions.filter((d) => this.model.values[d.address] !== d.value);
-    for (const d of [...changed].sort((a, b) => (b.span?.[0] ?? 0) - (a.span?.[0] ?? 0))) {
-      if (!d.span) missing.push(d.address);
-      else text = splice(text, d.span, written(this.model.values[d.address] / d.factor));
-    }
-    return { text, missing };
+    return written(this.model);
   }
 }
 
@@ -238,16 +232,6 @@ export class Session {
 function idle(work: () => void): void {
   if ("requestIdleCallback" in window) requestIdleCallback(work, { timeout: REST });
   else work();
-}
-
-/** Offsets count characters beyond the basic plane as one, as Python does. */
-function splice(text: string, [start, end]: [number, number], by: string): string {
-  const all = [...text];
-  return all.slice(0, start).join("") + by + all.slice(end).join("");
-}
-
-function written(value: number): string {
-  return String(Number(value.toPrecision(12)));
 }
 
 function same(a: Values, b: Values): boolean {

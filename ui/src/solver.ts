@@ -1,8 +1,9 @@
 // One machine solved at all its positions by its programs, and what is in the way where it cannot be.
 import { bytes, floats, type Group, type ModelData } from "./data";
 import { Call, Cycle, Kernels, type Code } from "./engine";
+import { Drive } from "./drive";
 import { settle } from "./friction";
-import { type Course, follow } from "./loads";
+import { type Between, type Course, follow } from "./loads";
 import { least } from "./search";
 
 export type Values = Record<string, number>;
@@ -32,7 +33,10 @@ export class Solver {
   /** Friction for which no finite effort is found. */
   locking = false;
   private readonly one: Call;
+  /** What loads take between the positions; null where they take nothing, or not as the rows have it. */
+  private between: Between | null = null;
   private readonly cycle: Cycle | null;
+  private drive: Drive | null = null;
   private readonly arrays: Record<string, Float64Array> = {};
   private readonly coordinates: Float64Array[] = [];
   private found: Values = {};
@@ -97,23 +101,33 @@ export class Solver {
     this.steady(values);
     if (Object.keys(this.data.positions.modes).length) this.setModes(values);
     this.doubtful = false;
+    this.found = this.paces(values);
     if (this.cycle) {
-      this.found = this.cycle.run(values, this.arrays);
+      Object.assign(this.found, this.cycle.run({ ...values, ...this.found }, this.arrays));
       this.doubtful = Object.entries(this.found).some(([name, x]) => name.startsWith("doubt:") && !(x === 0));
     }
     this.main.set({ ...values, ...this.found });
     this.main.give(this.arrays);
     if (this.iterated && !this.approach(values)) return this.lost(0);
     this.main.run();
+    [this.between, this.locking] = [null, false];
     const wall = this.reached(values), { friction, phases, angles } = this.data;
     if (wall) return wall;
     if (phases.length + angles.length) {
-      this.doubtful ||= !follow(this.main, phases, angles, values, this.course);
+      this.between = follow(this.main, phases, angles, values, this.course);
+      this.doubtful ||= !this.between;
       this.main.run();
     }
     this.locking = friction.length > 0 && !settle(this.main, friction);
     if (this.main.has(this.data.sizes)) this.doubtful ||= !this.main.row(this.data.sizes).every(Number.isFinite);
     return null;
+  }
+
+  /** Rates beside which others are rest, with the speed of a steady driver. */
+  private paces(values: Values): Values {
+    const law = this.data.positions.steady, share = law ? Math.abs((values[`${law.driver}.speed`] ?? law.speed) / law.speed) : 1;
+    const names = Object.keys(this.data.values).filter((name) => name.startsWith("pace:"));
+    return Object.fromEntries(names.map((name) => [name, share * this.data.values[name]]));
   }
 
   /** The cycle as the phases of loads see it. */
@@ -124,7 +138,7 @@ export class Solver {
       inputs, closed, drift,
       time: (i) => given?.[i] ?? (steady ? (steady.begin * steady.speed + i * steady.step) / this.speed : 0),
       period: steady ? drift / this.speed : 0,
-      at: (input, value) => this.valueAt(input, value),
+      at: (input, value) => this.valueAt((input - inputs[0]) / steady!.step, value),
     };
   }
 
@@ -168,7 +182,7 @@ export class Solver {
         const before = row[i > 0 ? i - 1 : closed ? this.n - 1 : 0], after = row[i < this.n - 1 ? i + 1 : closed ? 0 : i];
         const here = row[i], change = Math.max(before, after) - here;
         if (here > before || here > after || here > Math.max(NEAR, change)) continue;
-        const found = this.between(name, i, before, here, after);
+        const found = this.lowest(name, i, before, here, after);
         if (found.value >= TOUCH) continue;
         const facts = Object.fromEntries(group.facts.map((fact) => [fact, this.one.row(`fact:${group.name}|${fact}`)[0]]));
         return { kind: found.value < -TOUCH && found.exact ? "apart" : "change", name: group.name, group, input: found.at, facts };
@@ -178,14 +192,14 @@ export class Solver {
   }
 
   /** The least value near position i: found with the program, or by a parabola where the input's law is data. */
-  private between(name: string, i: number, before: number, here: number, after: number) {
+  private lowest(name: string, i: number, before: number, here: number, after: number) {
     if (!this.data.positions.steady || this.iterated) {
       const bend = before - 2 * here + after, slope = 0.5 * (after - before);
       return { at: this.inputs[i], value: bend > 0 ? here - (0.5 * slope * slope) / bend : here, exact: false };
     }
-    const found = this.refined((call) => call.row(name)[0], i, here);
+    const found = this.refined((place) => this.valueAt(place, (call) => call.row(name)[0]), i, here), { start, step } = this.data.positions.steady;
     this.valueAt(found.at, () => 0);
-    return { ...found, exact: true };
+    return { at: start + found.at * step, value: found.value, exact: true };
   }
 
   // groups without closed form -------------------------------------------------------------
@@ -292,45 +306,62 @@ export class Solver {
     }
   }
 
-  /** The least value near position i, at most one step away; at the position where the input's law is data. */
-  refined(value: (call: Call) => number, i: number, here: number): { at: number; value: number } {
-    const law = this.data.positions.steady, q = this.inputs[i];
-    if (!law || this.n < 3) return { at: q, value: here };
-    const open = !this.data.positions.closed, last = this.n - 1, h = Math.abs(law.step);
-    const low = q - (open && (law.step > 0 ? i === 0 : i === last) ? 0 : h);
-    const high = q + (open && (law.step > 0 ? i === last : i === 0) ? 0 : h);
-    const found = least((x) => this.valueAt(x, value), low, 0.5 * (low + high), high);
-    return found.value < here ? found : { at: q, value: here };
+  /** The least value near position i, at most one step away. */
+  refined(at: (place: number) => number, i: number, here: number): { at: number; value: number } {
+    const { closed } = this.data.positions, low = i - Number(closed || i > 0), high = i + Number(closed || i < this.n - 1);
+    const found = least((place) => (Number.isFinite((place = at(place))) ? place : Infinity), low, 0.5 * (low + high), high);
+    return found.value < here ? found : { at: i, value: here };
   }
 
-  /** A value of the present machine at any input of a steady driver. */
-  valueAt(q: number, value: (call: Call) => number): number {
-    const law = this.data.positions.steady!, call = this.one;
+  /** A value of the present machine at any place among the positions, of which the first is 0. */
+  valueAt(place: number, value: (call: Call) => number): number {
+    const call = this.one, at = this.within(place), near = this.near(at), given = this.inputsAt(at);
+    if (!given) return NaN;
     call.parameters.set(this.main.parameters);
-    const speed = this.main.program.parameters.includes(`${law.driver}.speed`) ? this.speed : law.speed;
-    const put = (name: string, x: number) => call.positions[name]?.fill(x);
-    put("input", q);
-    put(`cos:${law.driver}`, Math.cos(q));
-    put(`sin:${law.driver}`, Math.sin(q));
-    put(`slide:${law.driver}`, q);
-    put(`turn:${law.driver}`, q);
-    put("time", law.begin * (law.speed / speed) + (q - law.start) / speed);
-    const near = this.index(q);
-    for (const name in this.data.positions.modes) put(name, this.arrays[name][near]);
+    for (const name in given) call.positions[name]?.fill(given[name]);
+    for (const name in this.data.positions.modes) call.positions[name]?.fill(this.arrays[name][near]);
     for (const name in call.fields) call.fields[name].fill(this.main.fields[name][near]);
     if (this.iterated) this.settle(call, this.statesAt(near));
     else call.run();
     return value(call);
   }
 
-  private get speed(): number {
-    const { driver } = this.data.positions.steady!;
-    return this.main.parameters[this.main.program.parameters.indexOf(`${driver}.speed`)];
+  /** The same of a force. */
+  forceAt(place: number, value: (call: Call) => number): number {
+    const { friction, positions } = this.data, call = this.one, at = this.within(place);
+    if (Number.isNaN(this.valueAt(place, () => 0))) return NaN;
+    const input = positions.steady ? positions.steady.start + at * positions.steady.step : NaN;
+    const found = this.between?.(call, input, this.near(at));
+    for (const name in found) call.fields[name]?.fill(found[name]);
+    if (found) call.run();
+    return friction.length && !this.locking && !settle(call, friction) ? NaN : value(call);
   }
 
-  private index(q: number): number {
-    const law = this.data.positions.steady!;
-    return ((Math.round((q - law.start) / law.step) % this.n) + this.n) % this.n;
+  /** The drivers' inputs at a place; null where they are not known. */
+  private inputsAt(place: number): Values | null {
+    const { steady, breaks } = this.data.positions;
+    if (!steady) return breaks && (this.drive ??= new Drive(this.data.positions)).at(place);
+    const { driver, begin, step, start } = steady, q = start + place * step, speed = this.speed;
+    return {
+      input: q, time: (begin * steady.speed + place * step) / speed, [`cos:${driver}`]: Math.cos(q), [`sin:${driver}`]: Math.sin(q),
+      [`slide:${driver}`]: q, [`turn:${driver}`]: q,
+    };
+  }
+
+  /** The speed of a steady driver. */
+  private get speed(): number {
+    const { driver, speed } = this.data.positions.steady!, place = this.main.program.parameters.indexOf(`${driver}.speed`);
+    return place < 0 ? speed : this.main.parameters[place];
+  }
+
+  /** The position nearest to a place within the cycle. */
+  private near(place: number): number {
+    return Math.min(this.n - 1, Math.max(0, Math.round(place)));
+  }
+
+  /** The place within the cycle that a closed one has for any. */
+  private within(place: number): number {
+    return this.data.positions.closed ? place - this.n * Math.floor(place / this.n) : place;
   }
 }
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from functools import partial
 
 from linkwright.core.outputs import Output
@@ -124,6 +125,26 @@ def _guides_at_odds(reader: Reader, root: MappingNode, mechanism: Mechanism) -> 
     that fits.
     """
     carriers = {guide.guide for guide in mechanism.guides.values()}
+    for name, block, off in guides_at_odds(mechanism):
+        key, given = f"joints.{name}.block_angle", below(root, "joints", name, "block_angle")
+        if given is None and len(mechanism.links[block].points) == 1 and block not in carriers:
+            continue
+        node = given or below(root, "joints", name)
+        fitting = math.remainder(mechanism.guides[name].block_angle + off, math.tau)
+        reader.finding(
+            node,
+            key,
+            "guides_at_odds",
+            "at-odds",
+            name=name,
+            link=block,
+            off=number(math.degrees(abs(off)), 6),
+            fitting=number(math.degrees(fitting), 9),
+        )
+
+
+def guides_at_odds(mechanism: Mechanism) -> Iterator[tuple[str, str, float]]:
+    """Guides that hold their blocks at another angle than other guides and welds do, and by how much, rad."""
     held: dict[str, tuple[str, float]] = {}
     for name, joint in sorted(mechanism.joints.items(), key=lambda each: not each[1].ties):
         if not joint.ties:
@@ -138,21 +159,7 @@ def _guides_at_odds(reader: Reader, root: MappingNode, mechanism: Mechanism) -> 
             continue
         off = math.remainder(turn - (angle_b - angle_a), math.pi)
         if joint.coordinate == "slide" and abs(off) > SAME_ANGLE:
-            key, given = f"joints.{name}.block_angle", below(root, "joints", name, "block_angle")
-            if given is None and len(mechanism.links[b].points) == 1 and b not in carriers:
-                continue
-            node = given or below(root, "joints", name)
-            fitting = math.remainder(mechanism.guides[name].block_angle + off, math.tau)
-            reader.finding(
-                node,
-                key,
-                "guides_at_odds",
-                "at-odds",
-                name=name,
-                link=b,
-                off=number(math.degrees(abs(off)), 6),
-                fitting=number(math.degrees(fitting), 9),
-            )
+            yield name, b, off
 
 
 def _unlikely_inertias(reader: Reader, root: MappingNode, mechanism: Mechanism) -> None:
@@ -188,7 +195,7 @@ def _discs(mechanism: Mechanism) -> list[Mark]:
     return [mark for mark in marks if mark.symbol in ("gear", "disc", "cam")]
 
 
-def _unsaid(*_: object) -> None:
+def _unsaid(*_: object, **__: object) -> None:
     """Findings that are told when the whole model is read."""
 
 

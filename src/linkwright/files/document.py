@@ -20,7 +20,7 @@ _AXES = {"x": "0", "y": "1"}
 ReadText = Callable[[str, str], tuple[Mechanism | None, list[Finding]]]
 
 
-class _Edit(NamedTuple):
+class Edit(NamedTuple):
     """What takes the place of a part of a text; ``adds``: a key that was not there."""
 
     start: int
@@ -28,7 +28,7 @@ class _Edit(NamedTuple):
     written: str
     adds: bool = False
 
-    def overlaps(self, other: _Edit) -> bool:
+    def overlaps(self, other: Edit) -> bool:
         """Whether both change the same characters."""
         return self.start < other.end and other.start < self.end
 
@@ -43,6 +43,7 @@ class Document:
     def __init__(self, text: str, name: str, read_text: ReadText) -> None:
         self.name, self._read_text = name, read_text
         self.text, self.mechanism = text, self._checked(text)
+        self._composed = "", Mapping(0, 0, 0, 0, [])
 
     def __repr__(self) -> str:
         return f"Document({self.name!r}: {self.mechanism!r})"
@@ -76,7 +77,7 @@ class Document:
         """The same for texts by address, all or none of them: the new text is checked once."""
         text, left = self.text, list(values.items())
         while left:
-            root, edits = _root(text), list[_Edit]()
+            root, edits = _root(text), list[Edit]()
             while left:
                 edit = self._edit(text, root, *left[0])
                 if edits and (edit.adds or any(edit.overlaps(each) for each in edits)):
@@ -89,7 +90,7 @@ class Document:
                 text = edit.made(text)
         self.mechanism, self.text = self._checked(text), text
 
-    def _edit(self, text: str, root: Mapping, address: str, value: str) -> _Edit:
+    def _edit(self, text: str, root: Mapping, address: str, value: str) -> Edit:
         for path in _paths(address, root):
             node, rest = _follow(root, path)
             if not rest:
@@ -106,13 +107,30 @@ class Document:
     def place(self, address: str) -> tuple[int, int] | None:
         """Where the value at an address stands in the text: its first offset and the one behind it; None where the
         file has no such place."""
-        root = _root(self.text)
+        root = self._tree
         offset = 1 if self.text.startswith("\ufeff") else 0
         for path in _paths(address, root):
             node, rest = _follow(root, path)
             if not rest and isinstance(node, Scalar):
                 return node.start + offset, node.end + offset
         return None
+
+    def edit(self, address: str, value: str) -> Edit | None:
+        """What :meth:`set` would do to the text; None for a place that the file does not have."""
+        try:
+            return self._edit(self.text, self._tree, address, value)
+        except LinkwrightError:
+            return None
+
+    def with_text(self, text: str) -> Document:
+        """A document of another text; raises ModelError where that is not a model."""
+        return Document(text, self.name, self._read_text)
+
+    @property
+    def _tree(self) -> Mapping:
+        if self._composed[0] != self.text:
+            self._composed = self.text, _root(self.text)
+        return self._composed[1]
 
     def save(self, path: str | Path, *, force: bool = False) -> None:
         """Write the text to a file, whole or not at all.
@@ -121,7 +139,7 @@ class Document:
         """
         write_whole(path, self.text.encode(), force=force)
 
-    def _replaced(self, text: str, node: Node, value: str) -> _Edit:
+    def _replaced(self, text: str, node: Node, value: str) -> Edit:
         offset = 1 if text.startswith("\ufeff") else 0
         start, end = node.start + offset, node.end + offset
         while end > start and text[end - 1] in " \r\n":
@@ -129,23 +147,23 @@ class Document:
         written = self._written(value)
         if isinstance(node, Scalar) and node.empty and start == end:
             written = f" {written}"
-        return _Edit(start, end, written)
+        return Edit(start, end, written)
 
-    def _added(self, text: str, node: Mapping, key: str, value: str) -> _Edit:
+    def _added(self, text: str, node: Mapping, key: str, value: str) -> Edit:
         offset = 1 if text.startswith("\ufeff") else 0
         name = json.dumps(key) if self._json else key
         entry = f"{name}: {self._written(value)}"
         if not node.entries or node.flow:
             place = _flow_end(node, text, offset)
             glue = ", " if node.entries else ""
-            return _Edit(place, place, glue + entry, adds=True)
+            return Edit(place, place, glue + entry, adds=True)
         last = node.entries[-1]
         line_end = text.find("\n", content_end(last) + offset)
         at = len(text) if line_end < 0 else line_end
         if text[at - 1 : at] == "\r":
             at -= 1
         newline = "\r\n" if "\r\n" in text else "\n"
-        return _Edit(at, at, newline + " " * last.key.column + entry, adds=True)
+        return Edit(at, at, newline + " " * last.key.column + entry, adds=True)
 
     @property
     def _json(self) -> bool:

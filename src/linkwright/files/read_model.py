@@ -11,7 +11,7 @@ from functools import partial
 from linkwright import units
 from linkwright.core import expressions
 from linkwright.core.expression_tree import Derived, derived
-from linkwright.errors import Finding, QuantityError
+from linkwright.errors import Finding, QuantityError, Severity
 from linkwright.fields.base import Count, Field, Free, WordedText
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar, below
@@ -114,11 +114,17 @@ def _sections(reader: Reader, root: MappingNode, source: str) -> Mechanism:
 
 
 def _report(
-    reader: Reader, root: MappingNode, joint: str, key: str, problem: Sentence, remedy: Sentence
+    reader: Reader,
+    root: MappingNode,
+    joint: str,
+    key: str,
+    problem: Sentence,
+    remedy: Sentence,
+    severity: Severity = "error",
 ) -> None:
     """A finding about a key of a joint."""
     at = below(root, "joints", joint, key) or below(root, "joints", joint)
-    reader.error(at, f"joints.{joint}.{key}", problem, remedy, "range")
+    reader.error(at, f"joints.{joint}.{key}", problem, remedy, "range", severity=severity)
 
 
 def _only(root: MappingNode, fields: Mapping[str, Field]) -> MappingNode:

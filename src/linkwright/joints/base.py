@@ -9,11 +9,11 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import fields, replace
+from dataclasses import MISSING, fields, replace
 from typing import TYPE_CHECKING, Any, ClassVar, Protocol, Self
 
 from linkwright.core.dataclass import dataclass
-from linkwright.errors import LinkwrightError
+from linkwright.errors import LinkwrightError, Severity
 from linkwright.fields.base import Field, Schema
 from linkwright.registry import Registry
 from linkwright.words import has
@@ -161,10 +161,26 @@ class Entry:
     values: dict[str, Any]
     links: Mapping[str, Link]
 
-    def say(self, key: str, problem: Sentence, remedy: Sentence, code: str = "reference") -> None:
+    def say(
+        self,
+        key: str,
+        problem: Sentence,
+        remedy: Sentence,
+        code: str = "reference",
+        severity: Severity = "error",
+    ) -> None:
         """Adds a finding at one of the keys, or with ``""`` at the entry itself."""
         place = self.place.child(key) if key else self.place
-        self.reader.error((key and self.node.get(key)) or self.node, place, problem, remedy, code)
+        node = (key and self.node.get(key)) or self.node
+        self.reader.error(node, place, problem, remedy, code, severity=severity)
+
+
+class Report(Protocol):
+    """Adds a finding about a key of a joint."""
+
+    def __call__(
+        self, key: str, problem: Sentence, remedy: Sentence, severity: Severity = "error"
+    ) -> None: ...
 
 
 @dataclass(frozen=True)
@@ -227,9 +243,8 @@ class Joint(ABC):
         anew."""
         return self
 
-    def settled(self, mechanism: Mechanism, report: Callable[[str, Sentence, Sentence], None]) -> Joint:
-        """The same joint, with what follows from the joints around it; ``report(key, problem, remedy)`` adds a
-        finding."""
+    def settled(self, mechanism: Mechanism, report: Report) -> Joint:
+        """The same joint, with what follows from the joints around it."""
         return self
 
     def drawn(self, drawing: Drawing) -> Joint:
@@ -254,14 +269,14 @@ class Joint(ABC):
         return None
 
     def written(self) -> dict[str, Any]:
-        """Values of the keys that a file needs, as plain data: those that must be there, and those that are neither
-        zero nor the default."""
+        """Values of the keys that a file needs, as plain data: those that must be there, and those that are not the
+        default, which is zero where there is none."""
         usual = {each.name: each.default for each in fields(self)}
         values = {key: (field, getattr(self, key)) for key, field in self.fields().items()}
         return {
             key: field.written(value)
             for key, (field, value) in values.items()
-            if field.required or (value and value != usual[key])
+            if field.required or ((value or usual[key] is not MISSING) and value != usual[key])
         }
 
     # structure --------------------------------------------------------------------------------

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -21,6 +21,7 @@ from linkwright.joints.base import (
     HigherPair,
     Joint,
     LackingError,
+    Report,
     carried_steadily,
 )
 from linkwright.laws.program_fields import ProgramField
@@ -171,7 +172,7 @@ class CamJoint(HigherPair):
             return cls(name, **given, curve=LiftCurve.through(x, y).text, angles=x, lifts=y)
         return None
 
-    def settled(self, mechanism: Mechanism, report: Callable[[str, Sentence, Sentence], None]) -> Joint:
+    def settled(self, mechanism: Mechanism, report: Report) -> Joint:
         for name, pin in mechanism.joints.items():
             if pin.coordinate != "turn" or self.cam not in pin.joined:
                 continue
@@ -195,7 +196,7 @@ class CamJoint(HigherPair):
                 return name
         return ""
 
-    def _check(self, mechanism: Mechanism, report: Callable[[str, Sentence, Sentence], None]) -> None:
+    def _check(self, mechanism: Mechanism, report: Report) -> None:
         from linkwright.joints.cam_cuts import Geometry
 
         found = Geometry.of(self, mechanism)

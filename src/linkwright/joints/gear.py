@@ -77,10 +77,9 @@ class GearPair(RollingPair):
         a, b = self.teeth
         return 0.5 * (self.module or 0.0) * abs(a - self.sense * b)
 
-    def misfit(self, mechanism: Mechanism) -> Sentence | None:
-        distance = abs(self.line(mechanism))
+    def _slack(self, distance: float) -> float:
         base = self.asked * cos_of(self.pressure_angle) if self.involute else 0.0
-        return self._apart(distance, CLEARANCE * (self.module or 0.0) if distance >= base else 0.0)
+        return CLEARANCE * (self.module or 0.0) if distance >= base else 0.0
 
     @property
     def involute(self) -> bool:

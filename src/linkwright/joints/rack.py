@@ -24,6 +24,7 @@ from linkwright.joints.base import (
     HigherPair,
     Joint,
     Poses,
+    Report,
     States,
     carried_steadily,
 )
@@ -121,7 +122,7 @@ class RackPair(HigherPair):
         values.setdefault("centre", "")
         return cls(entry.name, direction=direction, side=1, radius=radius, **values)
 
-    def settled(self, mechanism: Mechanism, report: Callable[[str, Sentence, Sentence], None]) -> Joint:
+    def settled(self, mechanism: Mechanism, report: Report) -> Joint:
         way = self._way(mechanism)
         elsewhere = None if way is not None else replace(self, centre="")._way(mechanism)
         if elsewhere is not None:
@@ -138,7 +139,9 @@ class RackPair(HigherPair):
         wrong = self._misplaced(way)
         if wrong is not None:
             key, problem = wrong
-            report(key, problem, Sentence("joints.guide_along" if key == "direction" else "joints.fit_rack"))
+            remedy = Sentence("joints.guide_along" if key == "direction" else "joints.fit_rack")
+            loose = self._misplaced(way, self._slack) is None
+            report(key, problem, remedy, "warning" if loose else "error")
         off = way.gap.imag
         return replace(self, direction=way.direction, centre=way.centre, side=1 if off > 0 else -1)
 
@@ -154,9 +157,14 @@ class RackPair(HigherPair):
         key = "module" if self.module is not None else "radius"
         return key, Sentence("joints.rack_misfit", centre=way.centre, distance=apart, radius=radius)
 
+    @property
+    def _slack(self) -> float:
+        """By how much the pinion may be off its place, m."""
+        return CLEARANCE * (self.module or 0.0)
+
     def misfit(self, mechanism: Mechanism) -> Sentence | None:
         way = self._way(mechanism)
-        wrong = None if way is None else self._misplaced(way, CLEARANCE * (self.module or 0.0))
+        wrong = None if way is None else self._misplaced(way, self._slack)
         return None if wrong is None else wrong[1]
 
     def fits(self, dimensions: Dimensions) -> Mask:

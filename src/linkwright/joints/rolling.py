@@ -87,13 +87,19 @@ class RollingPair(WheelPair):
             return
         apart = self._apart(distance)
         if apart is not None:
-            entry.say("radii" if self.radii else "module", apart, Sentence("joints.fit_distance"), "range")
+            loose = self._apart(distance, self._slack(distance)) is None
+            key, remedy = "radii" if self.radii else "module", Sentence("joints.fit_distance")
+            entry.say(key, apart, remedy, "range", "warning" if loose else "error")
 
     @property
     def asked(self) -> float:
         """The distance of the centres that the sizes ask for, m; 0 where they take any."""
         a, b = self.radii or (0.0, 0.0)
         return abs(a - self.sense * b)
+
+    def _slack(self, distance: float) -> float:
+        """By how much the centres may be off the distance that the sizes ask for, m."""
+        return 0.0
 
     def _apart(self, distance: float, slack: float = 0.0) -> Sentence | None:
         """What is wrong where the sizes ask for another distance of the centres, by more than the slack, m."""
@@ -110,7 +116,8 @@ class RollingPair(WheelPair):
         )
 
     def misfit(self, mechanism: Mechanism) -> Sentence | None:
-        return self._apart(abs(self.line(mechanism)))
+        distance = abs(self.line(mechanism))
+        return self._apart(distance, self._slack(distance))
 
     def traced_line(self, dimensions: Dimensions) -> Vec:
         """From the centre of a to that of b in the carrier's axes, traced, m."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from copy import copy
 from dataclasses import field
 from pathlib import Path
 from typing import Any
@@ -19,6 +18,7 @@ from linkwright.errors import LinkwrightError
 from linkwright.files.document import Document
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.optimisation.problem import Problem
+from linkwright.study.changed_text import changed_text
 from linkwright.words.sentence import Sentence
 
 
@@ -95,14 +95,7 @@ class Optimum(Plotted, Frozen):
             from linkwright.files.write import dump
 
             return dump(self.mechanism(index))
-        texts = {}
-        for variable in self.problem.variables:
-            factor, unit = (units.unit(variable.unit)[0], f" {variable.unit}") if variable.unit else (1.0, "")
-            value = self.choices[index].values[variable.address]
-            texts[variable.address] = f"{value / factor:.12g}{unit}"
-        changed = copy(self.document)
-        changed.set_all(texts)
-        return changed.text
+        return changed_text(self.document, self.choices[index].values)
 
     def write(self, path: str | Path, index: int = 0, *, force: bool = False) -> Path:
         """Writes the model file of one design, whole or not at all.

@@ -26,10 +26,11 @@ from linkwright.files.document import Document
 from linkwright.files.model_file import read_text
 from linkwright.files.write import dump
 from linkwright.joints.marks import RackWay, Wheels
+from linkwright.kinematics.cycle import Positions
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.page.dimensions import dimensions
+from linkwright.page.dimensions import dimensions, drawn
 from linkwright.page.glyphs import glyphs, undrawn
 from linkwright.page.loops import loops
 from linkwright.page.programs import PagePrograms
@@ -87,7 +88,8 @@ def _model(motion: Motion, text: str | None, number: int) -> tuple[Plain, str]:
     values = programs.values()
     known = signals(programs)
     machine = _machine(motion)
-    changeable = dimensions(Document(text, "model", read_text), set(values))
+    document = Document(text, "model", read_text)
+    changeable = dimensions(document, set(values))
     data = {
         **_said(motion.mechanism, text),
         "module": None if module is None else base64.b64encode(module).decode(),
@@ -98,6 +100,7 @@ def _model(motion: Motion, text: str | None, number: int) -> tuple[Plain, str]:
         "tables": {name: table.numbers.tolist() for name, table in programs.tables.items()},
         "sizes": SIZES,
         "dimensions": [each.data() for each in changeable],
+        "drawing": drawn(document, motion),
         "positions": _positions(programs),
         "fields": {name: _packed(row) for name, row in programs.fields().items()},
         "starts": programs.starts if programs.iterated else {},
@@ -169,6 +172,7 @@ def _positions(programs: PagePrograms) -> Plain:
             "speed": drivers[0].law.constant_speed, "begin": float(positions.time[0]),
         }  # fmt: skip
         arrays = {each: row for each, row in arrays.items() if each in modes}
+    found["breaks"] = None if found["steady"] else _breaks(mechanism, positions)
     found["time"] = None if found["steady"] else _packed(positions.time)
     found["arrays"] = {name: _packed(row) for name, row in arrays.items()}
     found["inputs"] = [
@@ -180,6 +184,16 @@ def _positions(programs: PagePrograms) -> Plain:
         for each, rows in positions.coordinates.items()
     ]
     return found
+
+
+def _breaks(mechanism: Mechanism, positions: Positions) -> list[float] | None:
+    """Places among the positions of a cycle where a driver's law goes over; None of other positions."""
+    if not positions.cycle or positions.count < 3 or not mechanism.drivers:
+        return None
+    start, end = float(positions.around[0]), float(positions.around[-1])
+    breaks = np.unique(np.concatenate([each.law.breaks(start, end) for each in mechanism.drivers.values()]))
+    inside = breaks[(breaks > start) & (breaks < end)]
+    return [float(each) for each in (inside - start) / (positions.time[1] - start)]
 
 
 def _groups(programs: PagePrograms) -> list[Plain]:

@@ -2,37 +2,56 @@
 
 from __future__ import annotations
 
-import re
+import math
 from dataclasses import asdict
 
-from linkwright import units
-from linkwright.core.dataclass import dataclass
-from linkwright.errors import QuantityError
-from linkwright.files.document import Document
-from linkwright.mechanism.mechanism import Mechanism
-from linkwright.study.ranges import dimension_of
+import numpy as np
 
-_NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*([^\s\"'#,\]}]*)")
-_LONG, _SHORT = 1.0, "mm"
-_DEGREES = "deg"
+from linkwright.core.dataclass import dataclass
+from linkwright.core.json_data import Plain
+from linkwright.errors import LinkwrightError
+from linkwright.files.check_mechanism import guides_at_odds
+from linkwright.files.document import Document
+from linkwright.joints.toothed import Numbers
+from linkwright.kinematics.cycle import time_span
+from linkwright.kinematics.motion import Motion
+from linkwright.mechanism.drawing import Drawing
+from linkwright.mechanism.mechanism import Mechanism
+from linkwright.study.changed_text import (
+    Written,
+    drawn_dimensions,
+    drawn_places,
+    factor_of,
+    moves,
+    usual_unit,
+    written,
+)
 
 
 @dataclass(frozen=True)
 class Dimension:
-    """``factor``: SI value of one ``unit``; ``span``: the number's place in the text (None: it has none);
-    ``positive``: it must stay above zero; ``geometry``: it places points or guides."""
+    """``factor``: SI value of one ``unit``; ``written``: how the text holds it (None: it does not); ``positive``: it
+    must stay above zero; ``geometry``: it places points or guides; ``moves``: it may move what is drawn; ``drawn``:
+    the text holds it by its drawing."""
 
     address: str
     value: float
     unit: str
     factor: float
-    span: tuple[int, int] | None
+    written: Written | None
     positive: bool
     geometry: bool
+    moves: bool
+    drawn: bool
 
     def data(self) -> dict[str, object]:
         """As plain data."""
-        return asdict(self)
+        return {**asdict(self), "written": None if self.written is None else _plain(self.written)}
+
+
+def _plain(how: Written) -> list[object]:
+    """Where it stands, what is before it and behind it."""
+    return [*how.span, how.before, how.after]
 
 
 def geometry_addresses(mechanism: Mechanism) -> list[str]:
@@ -47,7 +66,8 @@ def geometry_addresses(mechanism: Mechanism) -> list[str]:
 
 
 #: What of a joint places a guide or a link.
-_PLACING = ("offset", "direction", "block_angle", "angle")
+_ANGLES = ("direction", "block_angle", "angle")
+_PLACING = ("offset", *_ANGLES)
 
 
 def dimensions(document: Document, parameters: set[str]) -> list[Dimension]:
@@ -63,44 +83,56 @@ def dimensions(document: Document, parameters: set[str]) -> list[Dimension]:
 
 
 def _refused(mechanism: Mechanism, address: str) -> bool:
-    """Whether a page does not change it: the cycle, where a driver starts, speeds of several drivers."""
+    """Whether a page does not change it: the cycle, a ratio of wheels that changes it too, where a driver starts,
+    speeds of several drivers, numbers of teeth, angles of guides that other guides or racks give."""
     owner, _, last = address.rpartition(".")
     if owner in mechanism.drivers:
         return last != "speed" or len(mechanism.drivers) > 1 or mechanism.cycle is not None
-    return address.startswith("cycle.")
+    joint = mechanism.joints.get(address.partition(".")[0])
+    if joint is None:
+        return address.startswith("cycle.")
+    if isinstance(mechanism.declared(address), Numbers) or last == "teeth":
+        return True
+    try:
+        other = _with(mechanism, address)
+    except LinkwrightError:
+        return True
+    if last in _ANGLES:
+        return any(guides_at_odds(other)) or any(each.misfit(other) for each in other.joints.values())
+    return joint.higher and last != "phase" and time_span(other) != time_span(mechanism)
+
+
+def _with(mechanism: Mechanism, address: str) -> Mechanism:
+    """The mechanism with a dimension a little larger."""
+    value = mechanism.dimension(address)
+    return mechanism.with_dimensions({address: value + math.copysign(0.01 + 0.01 * abs(value), value)})
 
 
 def _dimension(document: Document, address: str, value: float, geometry: bool) -> Dimension:
     mechanism = document.mechanism
-    kind = dimension_of(mechanism, address)
-    unit, span = "", None
-    place = document.place(address)
-    if place is not None:
-        match = _NUMBER.search(document.text, *place)
-        written = match and _written(match[1], match[2], value)
-        if match and written is not None:
-            unit, span = written, match.span(1)
-    if span is None:
-        unit = _usual(kind, value)
-    factor = units.unit(unit)[0] if unit else 1.0
+    how = written(document, address, value)
+    unit = usual_unit(mechanism, address, value) if how is None else how.unit
     declared = mechanism.declared(address)
     positive = declared is not None and all(declared.limit(each) is not None for each in (0.0, -1.0))
-    return Dimension(address, value, unit, factor, span, positive, geometry)
+    return Dimension(
+        address, value, unit, factor_of(unit), how, positive, geometry,
+        moves(mechanism, address), how is None and address in drawn_dimensions(mechanism),
+    )  # fmt: skip
 
 
-def _written(number: str, unit: str, value: float) -> str | None:
-    """The unit behind a number of the text, if both give the value; a bare zero has none to go by."""
-    try:
-        factor = units.unit(unit)[0] if unit else 1.0
-    except QuantityError:
-        return None
-    same = abs(float(number) * factor - value) <= 1e-12 * abs(value)
-    return unit if same and (unit or value != 0.0) else None
-
-
-def _usual(kind: units.Dimension | None, value: float) -> str:
-    if kind == units.DIMENSIONS["length"]:
-        return "m" if abs(value) >= _LONG else _SHORT
-    if kind == units.DIMENSIONS["angle"]:
-        return _DEGREES
-    return units.si_symbol(kind) if kind else ""
+def drawn(document: Document, motion: Motion) -> Plain:
+    """The coordinates of a document's drawing, and where its drivers are in it: the ``input`` of a single one that
+    turns or slides steadily and gets there, the position (``at``) nearest to it."""
+    mechanism, positions = document.mechanism, motion.positions
+    drawing = Drawing(mechanism)
+    away, alone = np.zeros(positions.count), None
+    for name, (course, *_) in positions.coordinates.items():
+        q = drawing.driver(name)
+        if q is not None:
+            away = away + np.abs(course - q)
+            alone = q if course.min() <= q <= course.max() else None
+    return {
+        "input": alone if len(positions.coordinates) == 1 else None,
+        "at": int(np.argmin(away)),
+        "places": [[f"p:{key}", _plain(how), how.factor] for how, key in drawn_places(document).values()],
+    }  # fmt: skip

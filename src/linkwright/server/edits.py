@@ -12,8 +12,6 @@ from linkwright import units
 from linkwright.errors import LinkwrightError, QuantityError
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar
-from linkwright.files.document import Document
-from linkwright.files.model_file import read_text
 from linkwright.files.write import flow
 from linkwright.joints.gear import GearPair
 from linkwright.joints.prismatic import PrismaticJoint
@@ -191,42 +189,3 @@ _ACTIONS: dict[str, Callable[[Draft, Mapping[str, Any]], str | None]] = {
     "slot": _slot, "gear": _gear, "cam": add_cam, "rack": add_rack, "optimize": _optimize,
     "remove": remove,
 }  # fmt: skip
-
-
-def with_values(text: str, values: Mapping[str, float]) -> str:
-    """The text with changed dimensions (SI): numbers written where they stand, drawn links by their drawing.
-
-    Raises LinkwrightError where the file has no place for one.
-    """
-    from linkwright.page.dimensions import dimensions
-
-    document = Document(text, "model", read_text)
-    mechanism = document.mechanism.with_dimensions(values)
-    drawn = [name for name, link in mechanism.links.items() if link.geometry == "drawing"]
-    rest = {address: value for address, value in values.items() if address.split(".")[0] not in drawn}
-    known = {each.address: each for each in dimensions(document, set(rest))}
-    for address, value in rest.items():
-        if address in known:
-            said = f"{number(value / known[address].factor, 10)} {known[address].unit}"
-        else:
-            said = f"{number(value)} {units.si_symbol(_kind(document, address))}"
-        document.set(address, said.strip())
-    if len(rest) == len(values):
-        return document.text
-    from linkwright.kinematics.solve import solve_motion
-    from linkwright.mechanism.drawing import Drawing
-
-    drawing = Drawing(document.mechanism)
-    at = {name: drawing.driver(name) for name in mechanism.drivers}
-    motion = solve_motion(mechanism, at={name: 0.0 if q is None else q for name, q in at.items()})
-    draft = Draft(document.text)
-    for point in mechanism.drawing:
-        x, y = motion.point(point).position[0]
-        draft.put("drawing", point, [f"{number(float(1e3 * each), 10)} mm" for each in (x, y)])
-    return draft.text
-
-
-def _kind(document: Document, address: str) -> units.Dimension:
-    from linkwright.study.ranges import dimension_of
-
-    return dimension_of(document.mechanism, address) or units.NONE

@@ -17,7 +17,7 @@ from linkwright.files.model_file import gallery_names, read_text
 from linkwright.files.source import read_source
 from linkwright.server.background import Background
 from linkwright.server.draft import completed, picture
-from linkwright.server.edits import edited, with_values
+from linkwright.server.edits import edited
 from linkwright.server.files import Files
 from linkwright.server.request import mapping, number, numbers, text
 from linkwright.server.search import linkages
@@ -61,7 +61,7 @@ class Work:
             "candidates": lambda a: self.background.state(),
             "enough": lambda a: self.background.end(),
             "take": self._take,
-            "set": lambda a: {"text": with_values(text(a, "text"), numbers(a, "values"))},
+            "set": lambda a: {"text": _changed(text(a, "text"), numbers(a, "values"))},
         }  # fmt: skip
 
     def _open(self, asked: Plain) -> Plain:
@@ -147,6 +147,13 @@ class Work:
 def new_text(language: str = "en") -> str:
     """The text of a new file."""
     return NEW.format(name=say("studio.new_name", language))
+
+
+def _changed(text: str, values: Mapping[str, float]) -> str:
+    """The text with changed dimensions, SI."""
+    from linkwright.study.changed_text import changed_text
+
+    return changed_text(Document(text, "model", read_text), values)
 
 
 def solved(text: str, language: str) -> Plain:

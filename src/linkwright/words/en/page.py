@@ -66,7 +66,7 @@ WORDS = {
     "followed": "The assembly is followed from position to position, but not certified (margin {value}); "
     "`linkwright solve` certifies it.",
     "sampled_forces": "Largest forces and torques are those of the {count} positions, not of what lies between "
-    "them: friction or loads on parts of the cycle are found there.",
+    "them: loads without a formula are known only there.",
     "sampled_all": "Least and largest values are those of the {count} positions, not of what lies between them.",
     "undrawn": "Not drawn here, but part of all numbers: {names}.",
     "text_kernel": "This page evaluates JavaScript text, as no WebAssembly module could be made.",
