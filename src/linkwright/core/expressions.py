@@ -164,17 +164,11 @@ def parse_quantity(
     text: str, dimension: str, kinds: Mapping[str, units.Dimension] | None = None
 ) -> float | Expression:
     """A quantity as a file gives it: a number with its unit (SI float), or an expression of the names in
-    ``kinds``.
-
-    An expression without names is evaluated at once. Raises QuantityError.
-    """
+    ``kinds``. Raises QuantityError."""
     value = (
         units.plain_quantity(text, dimension) if not kinds or kinds.keys().isdisjoint(units.UNITS) else None
     )
-    if value is not None:
-        return value
-    expression = parse_as(text, dimension, kinds or {})
-    return expression if expression.names else expression.evaluate({})
+    return parse_as(text, dimension, kinds or {}) if value is None else value
 
 
 def amount(text: str, dimension: str) -> float:

@@ -125,6 +125,10 @@ class Reader(PlainReader):
         if value.names & self.broken:
             self.unread += 1
             return None
+        if isinstance(node, Scalar) and value.text != units.tidy(node.text):
+            self.finding(node, place, "read_as", "read-as", severity="note", text=node.text, read=value.text)
+        if not value.names:
+            return value.evaluate({})
         if self._plain:
             self.finding(node, place, "no_parameter", "expression", text=value.text, what=self._plain)
             return None

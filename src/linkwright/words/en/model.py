@@ -301,6 +301,8 @@ WORDS = {
     "no_regular_file": "this is neither a file nor a pipe",
     "gives_nothing": "nothing comes from it",
     "name_model_file": "name a model file",
+    "read_as": '"{text}" is read as {read}',
+    "read_as_do": "write it this way if it may be misread",
     "beyond": "{shown} is more than any machine has",
     "beyond_do": "check the number and its unit; at most {limit}",
     "set_beyond": "{address} is set to {value:g}, which is more than any machine has; check the number",

@@ -296,6 +296,8 @@ WORDS = {
     "no_regular_file": "这既不是文件也不是管道",
     "gives_nothing": "从中读不到任何内容",
     "name_model_file": "请给出模型文件",
+    "read_as": "“{text}”读作 {read}",
+    "read_as_do": "若可能引起误解，请这样写",
     "beyond": "{shown} 超出了任何机器可能的数值",
     "beyond_do": "请检查数值和单位；最大 {limit}",
     "set_beyond": "{address} 设为 {value:g}，超出了任何机器可能的数值；请检查",
