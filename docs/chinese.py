@@ -228,6 +228,7 @@ NAMES = {
     "Motion": "运动结果：点、构件、运动副的位置、速度、加速度",
     "Outcome": "一个位置的求解情况",
     "PositionError": "某个位置到不了",
+    "SelfCheckError": "结果未通过自校核（力的平衡、功率平衡）",
     "solve_motion": "运动分析",
     "input_range": "输入能走的范围及两端的杆组",
     "LimitPosition": "一个极限位置",
