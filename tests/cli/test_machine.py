@@ -274,3 +274,26 @@ def test_torques_that_jump_accelerate_no_more_than_they_are(
     inertia = found["flywheel"]["value"]
     assert found["acceleration_smallest"]["value"] * inertia == pytest.approx(least, rel=1e-9)
     assert found["acceleration_largest"]["value"] * inertia == pytest.approx(most, rel=1e-9)
+
+
+def test_a_motor_against_a_load_that_varies_says_what_it_must_have_without_a_flywheel(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    """(100 + 50) N·m · 10 rad/s · 1.2 / 0.8; an engine, whose own torque varies, is no motor."""
+    words = [
+        "machine",
+        "--load",
+        "100 + 50*sin(theta)",
+        "--speed",
+        "10 rad/s",
+        "--margin",
+        "1.2",
+        "--efficiency",
+        "0.8",
+    ]
+    assert main([*words, "--torque", "100", "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["motor_power"]["value"] == pytest.approx(1500.0)
+    assert found["motor_power_without_flywheel"]["value"] == pytest.approx(2250.0)
+    assert main([*words, "--torque", "100 + 20*cos(theta)", "--json"]) == 0
+    assert "motor_power_without_flywheel" not in json.loads(capsys.readouterr().out)

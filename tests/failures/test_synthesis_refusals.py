@@ -121,6 +121,11 @@ def test_five_poses_without_two_real_dyads_give_the_nearest_linkage() -> None:
         ("task: slider_crank\n  stroke: 40", "unit"),
         ("task: slider_crank\n  strok: 40 mm", '"strok" is no demand'),
         ("task: path\n  points: 3 mm", "a list of points"),
+        (
+            "task: function\n  linkage: slider_crank\n  inputs: [0 deg, 20 deg, 40 deg]\n"
+            "  outputs: [0 deg, 9 deg, 20 deg]",
+            "give them as places",
+        ),
         ("task: path\n  points: [[1 mm, 2 mm, 3 mm]]", "a list of points"),
     ],
 )

@@ -121,6 +121,11 @@ def of_curves(driver: TorqueCurve, load: TorqueCurve | None, wanted: Wanted, say
         first.append(Row("mean_power", found.mean_power, "power"))
         if found.power != found.mean_power:
             first.append(Row("motor_power", found.power, "power"))
+        if load is not None and highest - lowest <= NOTHING * highest:
+            alone = motor(
+                load.extremes()[1][1], wanted.speed, efficiency=wanted.efficiency, margin=wanted.margin
+            )
+            first.append(Row("motor_power_without_flywheel", alone.power, "power"))
     second = [
         Row("energy_fluctuation", energy.value, "energy"),
         Row("energy_lowest", float(energy.energy.min()), "energy", energy.low),

@@ -27,12 +27,16 @@ def progress(say: Say, what: str) -> Iterator[Progress | None]:
     if not stream.isatty():
         yield None
         return
-    begun, title = time.monotonic(), say(what)
+    begun, before, title = time.monotonic(), 0, say(what)
 
     def report(done: int, total: int) -> None:
+        nonlocal begun, before
         full = BAR * done // max(total, 1)
         bar = f"{title} [{'#' * full}{' ' * (BAR - full)}] {done}/{total}"
-        spent = time.monotonic() - begun
+        now = time.monotonic()
+        if done < before:  # the next one of several works
+            begun = now
+        before, spent = done, now - begun
         if done and spent > KNOWN:
             bar += f"  {say('cli.time_left', time=_time(spent * (total - done) / done))}"
         stream.write(CLEAR + (bar if done < total else ""))  # results may be shown at once

@@ -13,6 +13,7 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import one_or_more, real, require, whole
 from linkwright.core.outputs import Output
+from linkwright.core.progress import Progress, current_progress
 from linkwright.errors import RequestError, require_language
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import point_key, result_meant
@@ -38,7 +39,6 @@ from linkwright.words import say
 from linkwright.words.sentence import in_language
 
 if TYPE_CHECKING:
-    from linkwright.core.progress import Progress
     from linkwright.kinetostatics.forces import Forces
 
 FILM_RATE = 25
@@ -240,6 +240,7 @@ class Animation:
     def _pictures(
         self, run: Sequence[int], width: int, fonts: Sequence[str | Path], progress: Progress | None
     ) -> Iterator[bytes]:
+        progress = progress or current_progress()
         for done, index in enumerate(run, start=1):
             yield png(self.frame(index), width=width, fonts=fonts)
             if progress is not None:

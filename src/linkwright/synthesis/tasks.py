@@ -204,6 +204,9 @@ def read_section(section: MappingNode, name: str) -> tuple[str, dict[str, Any]]:
             reader.add(entry.key, f"synthesis.{key}", sentence)
             continue
         demands[key] = reader.value(entry.value, key, known[task].demands[key])
+    angles = section.get("outputs")
+    if angles is not None and demands.get("linkage") == "slider_crank":
+        reader.add(angles, "synthesis.outputs", note("function.places"))
     if reader.findings:
         raise ModelError(reader.findings)
     return task, demands

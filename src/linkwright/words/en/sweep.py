@@ -14,7 +14,7 @@ workers of a Dask scheduler, to the same bits; workers may die.""",
     "cluster_help": "address of a Dask scheduler, such as tcp://host:8786 (extra cluster); else threads here",
     "best_help": "also the ten designs best in this number: the greatest where more is better, as of a "
     "transmission angle, else the least",
-    "computing": "parts",
+    "computing": "designs",
     "done": "{designs} designs in {parts} parts in {folder} ({skipped} were there already); values in SI",
     "column.number": "column",
     "column.least": "least",

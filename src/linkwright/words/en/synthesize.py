@@ -177,6 +177,7 @@ section "synthesis" of a file, or on the command line as KEY=VALUE.""",
     "function.repeated": "pairs {first} and {second} have the same input, and their outputs are {apart} apart, "
     "half of which every linkage is off at one of them; leave one out",
     "function.same": "pairs {first} and {second} are the same; leave one out",
+    "function.places": "the outputs of a slider_crank are lengths; give them as places: [30 mm, 60 mm, 80 mm]",
     "function.linkage": 'there is no function generator "{linkage}"; known: {known}',
     "function.none": "no {linkage} was found that moves through all positions; leave more numbers free or "
     "change the function",

@@ -11,7 +11,7 @@ WORDS = {
     "part_help": "每份的设计数，进位到二的幂（默认 16384）",
     "cluster_help": "Dask 调度器的地址，如 tcp://host:8786（附加项 cluster）；否则用本机线程",
     "best_help": "另列出此数最优的十个设计：越大越好者（如传动角）取最大，其余取最小",
-    "computing": "份",
+    "computing": "方案",
     "done": "{folder} 中有 {designs} 个设计，共 {parts} 份（其中 {skipped} 份已有）；数值为 SI",
     "column.number": "列",
     "column.least": "最小",

@@ -148,6 +148,7 @@ Grashof 类型、整个范围内的缺陷、最小传动角、最长与最短杆
     "function.repeated": "第 {first} 对与第 {second} 对的输入相同，而输出相差 {apart}，任何机构在其中之一至少差一半；"
     "请去掉一对",
     "function.same": "第 {first} 对与第 {second} 对相同；请去掉一对",
+    "function.places": "slider_crank 的输出是长度；请写成 places: [30 mm, 60 mm, 80 mm]",
     "function.linkage": '没有函数发生机构 "{linkage}"；已知：{known}',
     "function.none": "未求得能通过全部位置的 {linkage}；请放开更多的量或改变函数",
     "function.exact": "没有具有所给零位角、精确满足全部 {count} 个位置的实 {linkage}；最近的解最大误差 "
