@@ -877,9 +877,11 @@ def test_saving_asks_before_it_overwrites_and_a_drag_that_the_file_refuses_goes_
         tab.wait_for_function(agreed)
         tab.locator("summary", has_text="Show").click()
         tab.evaluate("() => (window.before = desk.session.value, null)")
+        # A number that no file takes.
+        tab.evaluate("() => before.data.dimensions.find(d => d.address === 'frame.O2.x').written[3] = ' xx'")
         tab.locator('.handle[data-key="O2"]').focus()
         tab.keyboard.press("Shift+ArrowRight")
-        tab.locator(".said", has_text="the external pair needs 0.18 m").wait_for()
+        tab.locator(".said", has_text="unknown unit").wait_for()
         tab.wait_for_function("() => desk.session.value !== before")
         tab.wait_for_function(agreed)
         tab.evaluate("() => new Promise((go) => requestAnimationFrame(() => requestAnimationFrame(go)))")

@@ -61,7 +61,7 @@ export function extreme(model: Model, id: string, row: Float64Array, sign: 1 | -
 
 // Positions on each side of one through which polynomials go, of a higher and of a lower degree; the share of a signal's
 // size up to which both may differ at its extreme, so that the higher one meets the signal.
-const [WIDE, NARROW] = [4, 3], MET = 1e-9;
+const [WIDE, NARROW] = [4, 3], MET = 1e-12;
 
 /** The least value near a position by a polynomial through the positions beside it; null where it may not meet the signal. */
 function smoothly(solver: Solver, f: Float64Array, i: number, size: number): Extreme | null {
