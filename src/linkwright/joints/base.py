@@ -236,6 +236,14 @@ class Joint(ABC):
         """The same joint, with what its file leaves to the drawing."""
         return self
 
+    def rotation_sum(self, drawing: Drawing) -> tuple[Mapping[str, float], float] | None:
+        """The rotations that the joint ties, as they are drawn: factors of links' rotations (rad, with turns) and a
+        constant, together zero; None where it ties none or the drawing does not tell."""
+        if not self.ties:
+            return None
+        a, b = self.ties
+        return {b: 1.0, a: -1.0}, -self.turn_of(b, drawing.mechanism)
+
     # the model file ---------------------------------------------------------------------------
     @classmethod
     def fields(cls) -> Mapping[str, Field]:

@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from linkwright.kinetostatics.forces import Forces
     from linkwright.laws.program import MotionProgram
     from linkwright.laws.traced import LiftCurve
+    from linkwright.mechanism.drawing import Drawing
     from linkwright.mechanism.mechanism import Mechanism
     from linkwright.structure.group import Connection, Group
     from linkwright.worked.wheels import OwnForm, Wheels
@@ -58,7 +59,8 @@ class CamJoint(HigherPair):
     flat face: d = r_b). With ``side`` the follower oscillates: its arm, from its pivot to ``at``, lies to the
     ``left`` or ``right`` of the line from the pivot to the cam's centre, and the lift is the angle by which it turns
     away from the angle ψ₀ of the base circle. The multiplier is the force along the way of ``at`` (of an oscillating
-    flat face: over the distance of the axes); contact force and pressure angle follow from it.
+    flat face: over the distance of the axes); contact force and pressure angle follow from it. ``half_turns``: the
+    angle between the line of a pivot to the cam's centre and the follower's arm, in half turns.
     """
 
     letter: ClassVar[str] = "C"
@@ -81,6 +83,7 @@ class CamJoint(HigherPair):
     carrier: str = ""
     centre: str = ""
     holder: str = ""
+    half_turns: int = 0
 
     @property
     def joined(self) -> tuple[str, ...]:
@@ -179,8 +182,8 @@ class CamJoint(HigherPair):
                 holder = self._held(mechanism, carrier) if carrier not in (self.cam, self.follower) else ""
                 if holder:
                     found = replace(self, carrier=carrier, centre=name, holder=holder)
-                    found._check(mechanism, report)
-                    return found
+                    held = found._check(mechanism, report)
+                    return replace(found, half_turns=round((held.own - held.along) / math.pi))
         word = "cam_pivot" if self.side else "cam_guide"
         values = {"follower": self.follower, "cam": self.cam}
         report("follower", Sentence(f"joints.{word}", **values), Sentence(f"joints.{word}_remedy", **values))
@@ -195,7 +198,7 @@ class CamJoint(HigherPair):
                 return name
         return ""
 
-    def _check(self, mechanism: Mechanism, report: Callable[[str, Sentence, Sentence], None]) -> None:
+    def _check(self, mechanism: Mechanism, report: Callable[[str, Sentence, Sentence], None]) -> Geometry:
         from linkwright.joints.cam_cuts import Geometry
 
         found = Geometry.of(self, mechanism)
@@ -207,6 +210,7 @@ class CamJoint(HigherPair):
                 Sentence("joints.cam_reach"),
                 Sentence(f"joints.{word}", least=least, most=most),
             )
+        return found
 
     def written(self) -> dict[str, Any]:
         if self.program is None:
@@ -219,6 +223,17 @@ class CamJoint(HigherPair):
         if self.touch == "roller":
             found["roller_radius"] = self.roller_radius
         return {f"{self.name}.{key}": value for key, value in found.items()}
+
+    def rotation_sum(self, drawing: Drawing) -> tuple[Mapping[str, float], float] | None:
+        """That of an oscillating follower, as its row has it at the cam's angle."""
+        cam, carrier = drawing.angle(self.cam), drawing.angle(self.carrier) if self.carrier else None
+        if not self.side or cam is None or carrier is None:
+            return None
+        side, held = (1.0 if self.side == "left" else -1.0), self.geometry(drawing.mechanism)
+        lift = float(self.lift.curves(self.sense * (cam - carrier - self.phase))[0])
+        nominal = math.pi * self.half_turns
+        between = nominal + math.remainder(held.own - held.along - nominal, 2.0 * math.pi)
+        return {self.follower: 1.0, self.carrier: -1.0}, between - side * (held.start + lift)
 
     # motion -----------------------------------------------------------------------------------
     def marks(self, mechanism: Mechanism, tooth: dict[tuple[str, str], float]) -> Iterable[Mark]:

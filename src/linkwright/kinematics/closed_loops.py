@@ -12,6 +12,7 @@ that the arms bound, which is what :mod:`linkwright.kinematics.certificate` live
 from __future__ import annotations
 
 import cmath
+import math
 from collections.abc import Iterable, Mapping
 from copy import copy
 
@@ -19,6 +20,7 @@ import numpy as np
 
 from linkwright.core.arrays import Complexes, Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.core.linear_sums import LinearSums
 from linkwright.kinematics.angles import counted_links, geared
 from linkwright.kinematics.groups import iterated, whole_form
 from linkwright.mechanism.geometry import mechanism_size
@@ -29,8 +31,6 @@ from linkwright.structure.group import Group, Structure
 Key = tuple[str, str]
 #: Factors by key, and a constant: together zero.
 Sum = tuple[dict[Key, float], float]
-#: Factors (rad, or radii in m) below this make no unknown depend on others.
-DEPENDENT = 1e-12
 #: Coefficients of a place, by rotation and slide (-1: of no slide).
 Terms = dict[tuple[int, int], complex]
 
@@ -55,11 +55,9 @@ class Turned:
 
 
 def counted(structure: Structure, mechanism: Mechanism) -> list[str]:
-    """Links placed by closed forms whose turns a higher pair counts."""
+    """Links placed by closed forms or as directions whose turns a higher pair counts."""
     pairs = {name: joint.turning for name, joint in mechanism.joints.items() if joint.higher}
-    found = counted_links(structure.groups, pairs, _adds_up) if pairs else []
-    followed = {link for group in iterated(structure) for link in group.links}
-    return [link for link in found if link not in followed]
+    return counted_links(structure.groups, pairs, _adds_up) if pairs else []
 
 
 def _adds_up(group: Group) -> bool:
@@ -351,17 +349,14 @@ class LoopBuilder:
         Every sum gives one up: one that no loop holds if there is one, and of those with the largest factor.
         """
         looped = self._looped()
-        solved: dict[Key, tuple[dict[Key, float], float]] = {}
+
+        def order(key: Key) -> float:
+            return -math.inf if key[0] == "drive" else float(key not in looped)
+
+        found: LinearSums[Key] = LinearSums()
         for terms, rest in self.sums:
-            terms, rest = _replaced(terms, rest, solved)
-            mine = [key for key in terms if key[0] != "drive" and abs(terms[key]) > DEPENDENT]
-            if not mine:
-                continue
-            given = max(mine, key=lambda key: (key not in looped, abs(terms[key])))
-            lead = terms.pop(given)
-            solved[given] = ({key: -factor / lead for key, factor in terms.items()}, -rest / lead)
-            solved = {key: _replaced(*found, {given: solved[given]}) for key, found in solved.items()}
-        return [key for key in self.unknowns if key not in solved], solved
+            found.add(terms, rest, order)
+        return [key for key in self.unknowns if key not in found.solved], found.solved
 
     def _looped(self) -> set[Key]:
         found: set[Key] = set()
@@ -371,19 +366,6 @@ class LoopBuilder:
                 if slide >= 0:
                     found.add(self.slides[slide][0])
         return found
-
-
-def _replaced(
-    terms: Mapping[Key, float], rest: float, solved: Mapping[Key, tuple[dict[Key, float], float]]
-) -> tuple[dict[Key, float], float]:
-    """A sum with the unknowns that depend on others replaced."""
-    found: dict[Key, float] = {}
-    for key, factor in terms.items():
-        inner, constant = solved.get(key, ({key: 1.0}, 0.0))
-        rest += factor * constant
-        for each, share in inner.items():
-            found[each] = found.get(each, 0.0) + factor * share
-    return found, rest
 
 
 def _added(a: Mapping[tuple[int, int], complex], b: Mapping[tuple[int, int], complex], sign: float) -> Terms:

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from functools import cached_property
 
+from linkwright.core.linear_sums import SMALL, LinearSums
+from linkwright.joints.base import Joint
 from linkwright.joints.lower import SlidingJoint
 from linkwright.mechanism.mechanism import Mechanism
 
@@ -16,6 +19,7 @@ class Drawing:
 
     def __init__(self, mechanism: Mechanism) -> None:
         self.mechanism = mechanism
+        self._sums: LinearSums[str] | None = None
 
     @cached_property
     def points(self) -> dict[str, Vec]:
@@ -26,19 +30,31 @@ class Drawing:
         return bool(self.mechanism.drawing)
 
     @cached_property
-    def _angles(self) -> dict[str, float | None]:
+    def _directions(self) -> dict[str, float | None]:
+        """Directions of links without turns, rad; None of those that nothing drawn tells."""
         found: dict[str, float | None] = {"frame": 0.0}
         found |= {name: self._from_points(name) for name in self.mechanism.links}
         self._spread_along_guides(found)
-        self._count_turns(found)
         return found
 
     def angle(self, link: str) -> float | None:
         """Direction of a link's x axis, rad; None where the drawing does not tell.
 
-        Of a driven link with the turns of its driver at the start, of the others in [-π, π].
+        With the turns that it has in the motion where drivers, guides, welds and higher pairs of known phase give
+        them, of a driver those at the start of its law; else in [-π, π].
         """
-        return self._angles[link]
+        if self._sums is None:
+            self._count_turns()
+        assert self._sums is not None
+        terms, total = self._sums.reduced({link: 1.0})
+        for each, factor in terms.items():
+            own = self._directions[each] if abs(factor) > SMALL else 0.0
+            if own is None:
+                terms, total = {}, 0.0
+                break
+            total += factor * math.remainder(own, 2.0 * math.pi)
+        own = self._directions[link]
+        return total if own is None else total + math.remainder(own - total, 2.0 * math.pi)
 
     def driver(self, name: str) -> float | None:
         """A driver's coordinate in the drawing."""
@@ -89,15 +105,51 @@ class Drawing:
                 return base[0] + c * dx - s * dy, base[1] + s * dx + c * dy
         return None
 
-    def _count_turns(self, angles: dict[str, float | None]) -> None:
-        for name, angle in angles.items():
-            if angle is not None:
-                angles[name] = math.remainder(angle, 2 * math.pi)
+    def _count_turns(self) -> None:
+        """Sums of rotations that hold in the motion, in the order in which chains hang on joints: a link whose
+        direction the others do not fit follows none of them."""
+        self._sums = LinearSums()
+        self._add({"frame": 1.0}, 0.0)
+        joints = [each for each in self.mechanism.joints.values() if each.ties or each.higher]
+        joints.sort(key=lambda each: (each.higher, each.freedoms))
+        while joints and not joints[0].freedoms:
+            self._hold(joints.pop(0))
         for driver in self.mechanism.drivers.values():
-            turned, base = angles[driver.link], angles[driver.relative_to]
-            if driver.law.rotary and turned is not None and base is not None:
-                start = base + driver.law.at(0.0)
-                angles[driver.link] = start + math.remainder(turned - start, 2 * math.pi)
+            if driver.law.rotary:
+                start, turned, base = (
+                    driver.law.at(0.0),
+                    self._directions[driver.link],
+                    self._directions[driver.relative_to],
+                )
+                if turned is not None and base is not None:
+                    start += math.remainder(turned - base - start, 2.0 * math.pi)
+                self._add({driver.link: 1.0, driver.relative_to: -1.0}, -start)
+        while len(left := [each for each in joints if not self._hold(each)]) < len(joints):
+            joints = left
+
+    def _hold(self, joint: Joint) -> bool:
+        """Adds what a joint holds; whether the drawing tells it so far."""
+        held = joint.rotation_sum(self)
+        if held is not None:
+            self._add(*held)
+        return held is not None
+
+    def _add(self, terms: Mapping[str, float], rest: float) -> None:
+        """Adds a sum, solved for a link that is not drawn, or whose direction the others fit best."""
+        assert self._sums is not None
+        left, constant = self._sums.reduced(terms, rest)
+        directions = {link: self._directions[link] for link, factor in left.items() if abs(factor) > SMALL}
+
+        def order(link: str) -> float:
+            own = directions.get(link)
+            if own is None:
+                return 1.0
+            total = constant + sum(
+                left[each] * math.remainder(a or 0.0, 2.0 * math.pi) for each, a in directions.items()
+            )
+            return -round(abs(math.remainder(total / left[link], 2.0 * math.pi)), 1)
+
+        self._sums.add(terms, rest, order)
 
     def _spread_along_guides(self, angles: dict[str, float | None]) -> None:
         """A link without two drawn points takes its direction from a guide, or from where its block is drawn."""
