@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from copy import copy
 
 import numpy as np
@@ -89,7 +89,7 @@ class ClosedLoops:
         self.mechanism = mechanism
         self.size = mechanism_size(mechanism)
         self.drivers = list(mechanism.drivers)
-        build = LoopBuilder(mechanism)
+        self._build = build = LoopBuilder(mechanism)
         for group in upstream(structure, mechanism):
             build.add(group)
         self.unknowns, self.sums = build.independent()
@@ -105,30 +105,34 @@ class ClosedLoops:
         self._columns = {
             key: i for i, key in enumerate([*self.unknowns, *(("drive", d) for d in self.drivers)])
         }
-        self.turning, phase = np.zeros((self.C, len(self._columns))), np.zeros(self.C)
+        self.turning, self._phase = np.zeros((self.C, len(self._columns))), np.zeros(self.C)
         for c, (unknown, turns) in enumerate(build.rotations):
             if unknown:
-                self.turning[c], phase[c] = self.share(("turn", unknown))
+                self.turning[c], self._phase[c] = self.share(("turn", unknown))
             for driver, sign in turns:
                 self.turning[c, self._columns["drive", driver]] += sign
-        self.sliding, start = np.zeros((self.S, len(self._columns))), np.zeros(self.S)
+        self.sliding, self._start = np.zeros((self.S, len(self._columns))), np.zeros(self.S)
         self.owner = np.array([owner for _, owner in build.slides], dtype=int)
         for j, (key, _) in enumerate(build.slides):
-            self.sliding[j], start[j] = self.share(key)
-        self.a = np.zeros((self.C, self.K), complex)
-        self.b = np.zeros((self.S, self.K), complex)
-        for k, (_, terms) in enumerate(build.loops):
-            for (c, j), value in terms.items():
-                turned = value * cmath.exp(1j * phase[c]) if phase[c] else value
-                if j < 0:
-                    self.a[c, k] += turned
-                else:
-                    self.b[j, k] += turned
-                    self.a[c, k] += start[j] * turned
+            self.sliding[j], self._start[j] = self.share(key)
+        self.a, self.b = self._arms([terms for _, terms in build.loops])
         self.loop_groups = [group for group, _ in build.loops]
         self.own = np.zeros((self.S, self.C))
         self.own[np.arange(self.S), self.owner] = 1.0
         self.coordinates = np.concatenate([self.turning, self.sliding])
+
+    def _arms(self, gaps: Sequence[Terms]) -> tuple[Complexes, Complexes]:
+        """Arms (C, K) and turned directions of slides (S, K) of K places."""
+        a, b = np.zeros((self.C, len(gaps)), complex), np.zeros((self.S, len(gaps)), complex)
+        for k, terms in enumerate(gaps):
+            for (c, j), value in terms.items():
+                turned = value * cmath.exp(1j * self._phase[c]) if self._phase[c] else value
+                if j < 0:
+                    a[c, k] += turned
+                else:
+                    b[j, k] += turned
+                    a[c, k] += self._start[j] * turned
+        return a, b
 
     def share(self, key: Key) -> tuple[Floats, float]:
         """A coordinate of the mechanism as a sum of y: factors (n + d,) and a constant, rad or m."""
@@ -143,18 +147,12 @@ class ClosedLoops:
         row, rest = self.share(key)
         return np.asarray(y[:, : len(row)] @ row + rest)
 
-    def with_gap(self, gap: Complexes) -> ClosedLoops:
-        """The same loops open by ``gap`` (K,) times one more driver coordinate, the last of y."""
+    def to_places(self, places: Mapping[tuple[str, str], complex]) -> ClosedLoops:
+        """Loops in the same coordinates from points (link, name) to places in frame axes, x + iy (m)."""
+        gaps = [_added(self._build.place(*point), {(0, -1): at}, -1.0) for point, at in places.items()]
         other = copy(self)
-        other.d, other.S = self.d + 1, self.S + 1
-        other.turning = np.pad(self.turning, ((0, 0), (0, 1)))
-        other.sliding = np.pad(self.sliding, ((0, 1), (0, 1)))
-        other.sliding[-1, -1] = 1.0
-        other.owner = np.append(self.owner, 0)
-        other.b = np.concatenate([self.b, -gap[None, :]])
-        other.own = np.pad(self.own, ((0, 1), (0, 0)))
-        other.own[-1, 0] = 1.0
-        other.coordinates = np.concatenate([other.turning, other.sliding])
+        other.K = len(gaps)
+        other.a, other.b = self._arms(gaps)
         return other
 
     # values ---------------------------------------------------------------------------------
@@ -180,6 +178,11 @@ class ClosedLoops:
             columns.append(at.slides)
         found: Complexes = self.coordinates.T @ np.concatenate(columns, axis=-2)
         return found
+
+    def linear(self, y: Floats) -> tuple[Floats, Floats]:
+        """F (2K,) at coordinates y (n + d,), and its derivatives ∂F/∂y, (n + d, 2K)."""
+        at = self.turned(y)
+        return self.gap(at), _real(self.slopes(at))
 
     def jacobian(self, slopes: Complexes) -> Floats:
         """∂F/∂z (…, n, n), real parts above imaginary parts."""

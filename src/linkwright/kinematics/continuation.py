@@ -20,9 +20,9 @@ from linkwright.kinematics.branch import Branch, Way, follow, lawful, straight
 from linkwright.kinematics.certificate import distance_to_others
 from linkwright.kinematics.closed_loops import ClosedLoops, counted
 from linkwright.kinematics.cycle import Positions, coordinate_text, off_law, rotary
+from linkwright.kinematics.drawn_assembly import nearest_assembly
 from linkwright.kinematics.followed_way import Followed, Stop
 from linkwright.kinematics.groups import iterated, state_name
-from linkwright.mechanism.drawing import Drawing
 
 if TYPE_CHECKING:
     from linkwright.kinematics.design import Design
@@ -30,6 +30,8 @@ if TYPE_CHECKING:
 
 #: What a drawing may leave open (share of the size) to count as exact.
 EXACT = 1e-13
+#: Dyads this near (rad, or share of the size) to where their modes put them are in these modes.
+SAME = 1e-6
 
 
 class Follower:
@@ -69,55 +71,70 @@ class Follower:
         return found
 
     # the drawing --------------------------------------------------------------------------------
-    @cached_property
+    @property
     def drawn(self) -> Floats:
-        """Unknowns (n,) of the assembled mechanism that the drawing shows, at the drawing's inputs.
-
-        What the drawing leaves open, as its coordinates are rounded, is closed on a way of its own.
+        """Unknowns (n,) of the assembled mechanism that the drawing shows, at the inputs ``drawn_inputs``.
 
         Raises:
             AssemblyError: the drawing is too far from any assembly.
         """
-        loops, inputs = self.loops, self.drawn_inputs
-        rough = self._rough()
-        gap = loops.gap(loops.turned(np.concatenate([rough, inputs])))
-        exact = None
-        if np.isfinite(gap).all():
-            if np.abs(gap).max() > EXACT * loops.size:
-                exact = self._closed(rough, gap)
-            if exact is None:
-                root = loops.newton(np.concatenate([rough, inputs]), 40)
-                exact = None if root is None else root[: loops.n]
-        if exact is None:
+        return self._drawn[: self.loops.n]
+
+    @property
+    def drawn_inputs(self) -> Floats:
+        """The drivers' coordinates (d,) of the assembled mechanism that the drawing shows."""
+        return self._drawn[self.loops.n :]
+
+    @cached_property
+    def _drawn(self) -> Floats:
+        """Coordinates (n + d,) of the assembly that the drawing shows: of the nearest one where it does not close."""
+        loops, assembly = self.loops, self.solver.assembly
+        inputs = np.array([assembly.inputs[name] for name in loops.drivers])
+        rough = np.concatenate([self._rough(inputs), inputs])
+        gap = float(np.abs(loops.gap(loops.turned(rough))).max(initial=0.0))
+        found = None
+        if gap <= EXACT * loops.size:
+            found = loops.newton(rough, 40)
+        elif math.isfinite(gap):
+            found = self._nearest(rough)
+        if found is None:
             turns = rotary(self.mechanism)
             known = zip(loops.drivers, inputs.tolist(), strict=True)
             said = tuple(coordinate_text(name, q, turns[name]) for name, q in known)
             raise AssemblyError("motion.not_near_drawing", name=self.mechanism.name, inputs=said)
-        return exact
+        return found
 
-    @property
-    def drawn_inputs(self) -> Floats:
-        """The drivers' coordinates in the drawing, (d,)."""
-        return np.array([self.solver.assembly.inputs[name] for name in self.loops.drivers])
+    def _nearest(self, rough: Floats) -> Floats | None:
+        """The assembly nearest to the drawing, if its dyads are in their modes there."""
+        loops, drawing = self.loops, self.solver.assembly.drawing
+        places = {
+            (link, point): complex(*at)
+            for link in loops.links
+            for point in self.mechanism.link(link).points
+            if (at := drawing.drawn(link, point)) is not None
+        }
+        drivers = [drawing.driver(name) is not None for name in loops.drivers]
+        free = np.array([True] * loops.n + drivers, dtype=bool)
+        scale = np.concatenate([loops.scale, self.unit])
+        found = nearest_assembly(loops, loops.to_places(places), rough, scale, free)
+        root = None if found is None else loops.newton(found)
+        if root is None:
+            return None
+        own = {group.name for group in self.groups}
+        gone = self.nearest_way(self._rough(root[loops.n :]) - root[: loops.n]) / loops.scale
+        same = [abs(gap) < SAME for gap, group in zip(gone, loops.groups, strict=True) if group not in own]
+        return root if all(same) else None
 
-    def _closed(self, rough: Floats, gap: Floats) -> Floats | None:
-        loops, inputs = self.loops, self.drawn_inputs
-        opened = loops.with_gap(gap[: loops.K] + 1j * gap[loops.K :])
-        begin, end = np.append(inputs, 1.0), np.append(inputs, 0.0)
-        largest = float(np.abs(gap).max()) / loops.size
-        branch = follow(opened, straight(begin, end, np.append(self.unit, 1.0 / max(largest, 1e-9))), rough)
-        return branch.last[: loops.n] if branch.complete else None
-
-    def _rough(self) -> Floats:
+    def _rough(self, drawn_inputs: Floats) -> Floats:
         """The unknowns as drawn; those of dyads by their closed form."""
-        solver, loops, drawing = self.solver, self.loops, Drawing(self.mechanism)
+        solver, loops, drawing = self.solver, self.loops, self.solver.assembly.drawing
         own = {link for group in self.groups for link in group.links}
         names = tuple(
             each for n in loops.links if n not in ("frame", *own) for each in row_names("direction", n)
         )
         slides = [key for kind, key in loops.unknowns if kind == "slide" and not self._drawn_slide(key)]
         program = solver.program((*names, *(row_name("displacement", key) for key in slides))).program
-        inputs = _named(dict(zip(loops.drivers, self.drawn_inputs, strict=True)), self.rotary)
+        inputs = _named(dict(zip(loops.drivers, drawn_inputs, strict=True)), self.rotary)
         parameters, drawn = self.design.parameters, solver.assembly.states
         outputs, _ = ScalarProgram(program).step(
             [parameters[name] for name in program.parameters],
@@ -167,8 +184,8 @@ class Follower:
         return np.asarray(way - np.where(self.rotary, _turns(way), 0.0))
 
     def nearest_way(self, way: Floats) -> Floats:
-        """Differences of coordinates (m, n + d) without whole turns."""
-        turning = np.append([kind == "turn" for kind, _ in self.loops.unknowns], self.rotary)
+        """Differences of coordinates (…, n + d), or of the unknowns (…, n), without whole turns."""
+        turning = np.append([kind == "turn" for kind, _ in self.loops.unknowns], self.rotary)[: way.shape[-1]]
         return np.asarray(way - np.where(turning, _turns(way), 0.0))
 
     def lawful(self, begin: float, end: float, times: Floats, shift: float) -> Way:

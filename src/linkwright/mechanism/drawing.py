@@ -61,7 +61,10 @@ class Drawing:
         driver = self.mechanism.drivers[name]
         if driver.joint in self.mechanism.guides:
             return self.slide(self.mechanism.guides[driver.joint])
-        turned, base = self.angle(driver.link), self.angle(driver.relative_to)
+        ends = driver.link, driver.relative_to
+        if any(self._directions[link] is None for link in ends):
+            return None
+        turned, base = (self.angle(link) for link in ends)
         return None if turned is None or base is None else turned - base
 
     def slide(self, joint: SlidingJoint) -> float | None:
@@ -75,12 +78,12 @@ class Drawing:
 
     def _from_points(self, link: str) -> float | None:
         local = self.mechanism.links[link].points
-        drawn = [name for name in local if self._drawn(link, name) is not None]
+        drawn = [name for name in local if self.drawn(link, name) is not None]
         best: tuple[float, float] | None = None
         for i, first in enumerate(drawn):
             for second in drawn[i + 1 :]:
                 a, b = local[first], local[second]
-                p, q = self._drawn(link, first), self._drawn(link, second)
+                p, q = self.drawn(link, first), self.drawn(link, second)
                 assert p is not None and q is not None
                 length = math.hypot(b[0] - a[0], b[1] - a[1])
                 if length > 0 and (best is None or length > best[0]):
@@ -88,17 +91,18 @@ class Drawing:
                     best = (length, world - math.atan2(b[1] - a[1], b[0] - a[0]))
         return None if best is None else best[1]
 
-    def _drawn(self, link: str, point: str) -> Vec | None:
+    def drawn(self, link: str, point: str) -> Vec | None:
+        """Where a point of a link is drawn, m."""
         return self.points.get(f"{link}.{point}", self.points.get(point))
 
     def place(self, link: str, point: str) -> Vec | None:
-        drawn = self._drawn(link, point)
+        drawn = self.drawn(link, point)
         if drawn is not None:
             return drawn
         angle = self.angle(link)
         local = self.mechanism.link(link).points
         for name, (x, y) in local.items():
-            base = self._drawn(link, name)
+            base = self.drawn(link, name)
             if base is not None and angle is not None:
                 dx, dy = local[point][0] - x, local[point][1] - y
                 c, s = math.cos(angle), math.sin(angle)
@@ -177,7 +181,7 @@ class Drawing:
 
         The block is behind where the assembly's word or the start of its driver says so.
         """
-        through, at = self._drawn(joint.guide, joint.through), self._drawn(joint.block, joint.at)
+        through, at = self.drawn(joint.guide, joint.through), self.drawn(joint.block, joint.at)
         if through is None or at is None:
             return None
         dx, dy = at[0] - through[0], at[1] - through[1]
