@@ -10,7 +10,7 @@ from math import cos, hypot, pi, sin
 
 import numpy as np
 from tests.reference.formulas import gravity
-from tests.reference.geared import Geared, Rack, Wheels, belt, gear
+from tests.reference.geared import Geared, Rack, Row, belt, gear
 from tests.reference.multibody import (
     FRAME,
     Array,
@@ -37,10 +37,11 @@ class GearedDraft:
     poses: dict[str, tuple[float, float, float]] = field(default_factory=lambda: {FRAME: (0.0, 0.0, 0.0)})
     points: dict[str, dict[str, Vec]] = field(default_factory=lambda: {FRAME: {}})
     constraints: list[Constraint] = field(default_factory=list)
-    rolling: list[Wheels | Rack] = field(default_factory=list)
+    rolling: list[Row] = field(default_factory=list)
     joints: list[str] = field(default_factory=list)
     pins: list[tuple[str, str, str]] = field(default_factory=list)  # point, carrier, wheel
     kinds: list[str] = field(default_factory=list)
+    welded: list[str] = field(default_factory=list)  # points that are no pins
 
     def link(self, at: Vec) -> str:
         name = f"l{len(self.poses)}"
@@ -67,6 +68,21 @@ class GearedDraft:
         self.mark(b, at, name)
         self.pins.append((name, a, b))
         return name
+
+    def guide(
+        self, name: str, guide: str, through: Vec, direction: float, block: str, at: str, offset: float = 0.0
+    ) -> None:
+        """A guide of one link in a direction, and a point of another that slides along it."""
+        lean, own = direction - self.poses[guide][2], direction - self.poses[block][2]
+        ends = (
+            (guide, self.local(guide, through), lean),
+            (block, self.local(block, self.points[block][at]), own),
+        )
+        self.constraints += prismatic(name, *ends, offset)
+        self.joints.append(
+            f"  {name}: {{kind: prismatic, guide: {guide}, through: {self.mark(guide, through)}, "
+            f"direction: {lean!r} rad, block: {block}, at: {at}, offset: {offset!r} m, block_angle: {own!r} rad}}"
+        )
 
     def some(self, items: list[str]) -> str:
         return items[int(self.rng.integers(len(items)))]
@@ -108,7 +124,7 @@ def geared_case(seed: int) -> GearedCase:
         kind = d.some(list(PIECES))
         _ADD[kind](d)
         d.kinds.append(kind)
-    return _case(d)
+    return finished(d)
 
 
 def _wheel_on(d: GearedDraft) -> tuple[str, str, str, str, Vec, Vec]:
@@ -127,39 +143,53 @@ def _add_gear(d: GearedDraft) -> None:
     carrier, _, wheel, new, at, there = _wheel_on(d)
     d.pin(carrier, new, there)
     ratio = float(d.some(["-1", "-0.5", "-2", "-1.5", "0.4", "2.5", "3"]))
-    _mesh(d, carrier, (wheel, new), (at, there), ratio)
+    mesh(d, carrier, (wheel, new), (at, there), ratio)
 
 
-def _mesh(d: GearedDraft, carrier: str, wheels: tuple[str, str], at: tuple[Vec, Vec], ratio: float) -> None:
+def mesh(
+    d: GearedDraft,
+    carrier: str,
+    wheels: tuple[str, str],
+    at: tuple[Vec, Vec],
+    ratio: float,
+    kind: str = "gear",
+) -> None:
+    """Two gears, or wheels that roll on each other."""
     name, (a, b), (p, q) = f"g{len(d.rolling)}", wheels, at
-    alpha = float(d.rng.uniform(0.0, 0.5))
+    alpha = float(d.rng.uniform(0.0, 0.5)) if kind == "gear" else 0.0
+    teeth = f", pressure_angle: {alpha!r} rad" if kind == "gear" else ""
     row = gear(name, a, d.local(a, p), b, d.local(b, q), hypot(q[0] - p[0], q[1] - p[1]), ratio, alpha, 0.0)
     d.rolling.append(row)
     d.joints.append(
-        f"  {name}: {{kind: gear, links: [{a}, {b}], ratio: {ratio!r}, carrier: {carrier}, "
-        f"pressure_angle: {alpha!r} rad}}"
+        f"  {name}: {{kind: {kind}, links: [{a}, {b}], ratio: {ratio!r}, carrier: {carrier}{teeth}}}"
     )
 
 
 def _add_belt(d: GearedDraft) -> None:
     carrier, _, wheel, new, at, there = _wheel_on(d)
     d.pin(carrier, new, there)
-    name, far = f"g{len(d.rolling)}", hypot(there[0] - at[0], there[1] - at[1])
+    wrap(d, "belt", carrier, (wheel, new), (at, there))
+
+
+def wrap(d: GearedDraft, kind: str, carrier: str, wheels: tuple[str, str], at: tuple[Vec, Vec]) -> None:
+    """A belt or a chain around two wheels."""
+    name, (a, b), (p, q) = f"g{len(d.rolling)}", wheels, at
+    far = hypot(q[0] - p[0], q[1] - p[1])
     radii = (float(d.rng.uniform(0.1, 0.45)) * far, float(d.rng.uniform(0.1, 0.45)) * far)
-    crossed = bool(d.rng.random() < 0.5)
-    d.rolling.append(
-        belt(name, wheel, d.local(wheel, at), new, d.local(new, there), far, radii, crossed, 0.0)
-    )
-    run = "crossed" if crossed else "open"
+    crossed = kind == "belt" and bool(d.rng.random() < 0.5)
+    d.rolling.append(belt(name, a, d.local(a, p), b, d.local(b, q), far, radii, crossed, 0.0))
     d.joints.append(
-        f"  {name}: {{kind: belt, links: [{wheel}, {new}], radii: [{radii[0]!r} m, {radii[1]!r} m], "
-        f"carrier: {carrier}, run: {run}}}"
+        f"  {name}: {{kind: {kind}, links: [{a}, {b}], radii: [{radii[0]!r} m, {radii[1]!r} m], "
+        f"carrier: {carrier}{', run: crossed' if crossed else ''}}}"
     )
 
 
 def _add_rack(d: GearedDraft) -> None:
+    lay_rack(d, *d.pins[int(d.rng.integers(len(d.pins)))])
+
+
+def lay_rack(d: GearedDraft, name: str, carrier: str, wheel: str) -> None:
     """A rack beside a wheel, guided on the wheel's carrier."""
-    name, carrier, wheel = d.pins[int(d.rng.integers(len(d.pins)))]
     at = d.points[carrier][name]
     direction, radius = float(d.rng.uniform(-pi, pi)), float(d.rng.uniform(0.1, 0.4))
     side = 1.0 if d.rng.random() < 0.5 else -1.0
@@ -170,16 +200,9 @@ def _add_rack(d: GearedDraft) -> None:
     t = d.mark(rack, on_line)
     d.mark(rack, (on_line[0] + 0.3 * u[0], on_line[1] + 0.3 * u[1]))
     off = float(d.rng.uniform(-0.2, 0.2))
-    through = d.mark(carrier, (on_line[0] - 0.1 * u[0] + off * n[0], on_line[1] - 0.1 * u[1] + off * n[1]))
-    guide, row = f"s{len(d.rolling)}", f"g{len(d.rolling)}"
-    lean, own = direction - d.poses[carrier][2], direction - d.poses[rack][2]
-    d.constraints += prismatic(
-        guide,
-        (carrier, d.local(carrier, d.points[carrier][through]), lean),
-        (rack, d.local(rack, on_line), own),
-        -off,
-    )
-    alpha = float(d.rng.uniform(0.0, 0.5))
+    through = (on_line[0] - 0.1 * u[0] + off * n[0], on_line[1] - 0.1 * u[1] + off * n[1])
+    d.guide(f"s{len(d.rolling)}", carrier, through, direction, rack, t, -off)
+    row, own, alpha = f"g{len(d.rolling)}", direction - d.poses[rack][2], float(d.rng.uniform(0.0, 0.5))
     d.rolling.append(
         Rack(
             row,
@@ -193,12 +216,10 @@ def _add_rack(d: GearedDraft) -> None:
             float(np.tan(alpha)),
         )
     )
-    d.joints += [
-        f"  {guide}: {{kind: prismatic, guide: {carrier}, through: {through}, direction: {lean!r} rad, "
-        f"block: {rack}, at: {t}, offset: {-off!r} m, block_angle: {own!r} rad}}",
+    d.joints.append(
         f"  {row}: {{kind: rack, pinion: {wheel}, rack: {rack}, through: {t}, centre: {name}, "
-        f"direction: {own!r} rad, radius: {radius!r} m, pressure_angle: {alpha!r} rad}}",
-    ]
+        f"direction: {own!r} rad, radius: {radius!r} m, pressure_angle: {alpha!r} rad}}"
+    )
 
 
 def _add_dyad(d: GearedDraft) -> None:
@@ -226,7 +247,7 @@ def _add_loop(d: GearedDraft) -> None:
     a, b = d.link(p), d.link(q)
     d.pin(carrier, a, p)
     d.pin(carrier, b, q)
-    _mesh(d, carrier, (a, b), (p, q), float(d.some(["-1", "-2", "0.5", "2"])))
+    mesh(d, carrier, (a, b), (p, q), float(d.some(["-1", "-2", "0.5", "2"])))
     ends = d.near(p, 0.2, 0.4), d.near(q, 0.2, 0.4)
     inner = d.near(((ends[0][0] + ends[1][0]) / 2, (ends[0][1] + ends[1][1]) / 2), 0.4, 0.7)
     bars = [d.link(each) for each in (*ends, inner)]
@@ -241,13 +262,14 @@ def _add_loop(d: GearedDraft) -> None:
 _ADD = {"gear": _add_gear, "belt": _add_belt, "rack": _add_rack, "dyad": _add_dyad, "loop": _add_loop}
 
 
-def _case(d: GearedDraft) -> GearedCase:
+def finished(d: GearedDraft) -> GearedCase:
+    """File and reference of what is put down."""
     order = [name for name in d.poses if name != FRAME]
     everywhere = list(dict.fromkeys(p for each in d.points.values() for p in each))
     parts = list(d.constraints)
     for p in everywhere:
         ends = [(k, d.local(k, d.points[k][p])) for k in d.poses if p in d.points[k]]
-        parts += revolute(p, ends) if len(ends) > 1 else []
+        parts += revolute(p, ends) if len(ends) > 1 and p not in d.welded else []
     crank_turn = d.poses["l1"][2]
     parts += turn("driver driver", FRAME, "l1", 0)
     masses = {name: (round(d.rng.uniform(0.2, 5.0), 3), round(d.rng.uniform(0.01, 0.5), 4)) for name in order}
