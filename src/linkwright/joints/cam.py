@@ -230,10 +230,8 @@ class CamJoint(HigherPair):
         if not self.side or cam is None or carrier is None:
             return None
         side, held = (1.0 if self.side == "left" else -1.0), self.geometry(drawing.mechanism)
-        lift = float(self.lift.curves(self.sense * (cam - carrier - self.phase))[0])
-        nominal = math.pi * self.half_turns
-        between = nominal + math.remainder(held.own - held.along - nominal, 2.0 * math.pi)
-        return {self.follower: 1.0, self.carrier: -1.0}, between - side * (held.start + lift)
+        lift = float(self._lifted(cam - carrier)[0])
+        return {self.follower: 1.0, self.carrier: -1.0}, self._between(held) - side * (held.start + lift)
 
     # motion -----------------------------------------------------------------------------------
     def marks(self, mechanism: Mechanism, tooth: dict[tuple[str, str], float]) -> Iterable[Mark]:
@@ -268,13 +266,30 @@ class CamJoint(HigherPair):
         return cut(self, connection, dimensions)
 
     def close_loop(self, build: LoopBuilder, cut: Connection, group: str) -> None:
-        """A lift gains nothing over whole turns of the cam; where it is within one no sum of rotations says."""
-        if not build.gains:
-            raise LackingError("joints.cam_sums")
+        """The follower's coordinate and the lift, which gains nothing over whole turns of the cam."""
+        if build.gains:
+            turning = {self.follower: 1.0, self.carrier: -1.0} if self.side else {}
+            build.sum(turning, {} if self.side else {self.holder: 1.0}, 0.0)
+            return
+        held = self.geometry(build.mechanism)
+        unit = 1.0 if self.side else build.mechanism.size
+        lift = build.lifted(self.name, self.cam, self.carrier, self._lifted, unit)
         if self.side:
-            build.sum({self.follower: 1.0, self.carrier: -1.0}, {}, 0.0)
+            side = 1.0 if self.side == "left" else -1.0
+            turning = {self.follower: 1.0, self.carrier: -1.0}
+            build.sum(turning, {}, self._between(held) - side * held.start, {lift: -side})
         else:
-            build.sum({}, {self.holder: 1.0}, 0.0)
+            build.sum({}, {self.holder: 1.0}, held.ahead - held.start, {lift: -1.0})
+
+    def _lifted(self, turn: Any) -> tuple[Any, Any, Any]:
+        """The lift with two derivatives by the cam's angle to its carrier."""
+        lift, slope, bend = self.lift.curves(self.sense * (turn - self.phase))
+        return lift, slope * self.sense, bend
+
+    def _between(self, held: Geometry) -> float:
+        """The angle from the line of a pivot to the cam's centre to the follower's arm in its axes, rad."""
+        nominal = math.pi * self.half_turns
+        return nominal + math.remainder(held.own - held.along - nominal, 2.0 * math.pi)
 
     def pulls(self, forces: Forces) -> Any:
         if self.closure == "groove":

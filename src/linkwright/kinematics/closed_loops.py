@@ -5,7 +5,8 @@ the driver's angle. So every closed loop is, as complex numbers,
 
     F = Σ_c e^{iθ_c} (a_c + Σ_{j on c} b_j s_j) = 0,      θ_c = φ_c + (turns of drivers),
 
-with as many unknown rotations φ and slides s as real equations. Terms of one rotation each have second derivatives
+with as many unknown rotations φ and slides s as real equations. Lifts of cams that drivers turn are known as the
+drivers' coordinates are, and have columns behind these. Terms of one rotation each have second derivatives
 that the arms bound, which is what :mod:`linkwright.kinematics.certificate` lives on.
 """
 
@@ -13,21 +14,22 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from copy import copy
 
 import numpy as np
 
 from linkwright.core.arrays import Complexes, Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.core.linear_sums import LinearSums
+from linkwright.core.linear_sums import SMALL, LinearSums
+from linkwright.joints.base import LackingError
 from linkwright.kinematics.angles import counted_links, geared
 from linkwright.kinematics.groups import iterated, whole_form
 from linkwright.mechanism.geometry import mechanism_size
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.structure.group import Group, Structure
 
-#: ``turn`` of a link, ``slide`` of a guide or ``drive`` of a driver.
+#: ``turn`` of a link, ``slide`` of a guide, ``drive`` of a driver, or ``lift`` of a cam.
 Key = tuple[str, str]
 #: Factors by key, and a constant: together zero.
 Sum = tuple[dict[Key, float], float]
@@ -43,6 +45,20 @@ class Body:
     offset: float
     anchor: complex
     place: Terms
+
+
+#: Of a lift: itself and its first two derivatives by the cam's angle to the carrier (m,).
+Curve = Callable[[Floats], tuple[Floats, Floats, Floats]]
+
+
+@dataclass(frozen=True)
+class Lift:
+    """A cam's lift: ``row`` (d,) and ``rest`` give the cam's angle to its carrier from drivers and lifts, rad."""
+
+    row: Floats
+    rest: float
+    curve: Curve
+    unit: float
 
 
 @dataclass(frozen=True)
@@ -96,14 +112,15 @@ class ClosedLoops:
         owners = dict(zip(build.unknowns, build.groups, strict=True))
         self.groups = [owners[key] for key in self.unknowns]
         self.links = {name: (body.rotation, body.offset) for name, body in build.bodies.items()}
-        self.n, self.d = len(self.unknowns), len(self.drivers)
+        self.n, self.d = len(self.unknowns), len(self.drivers) + len(build.lifts)
         self.C, self.S, self.K = len(build.rotations), len(build.slides), len(build.loops)
         self._matrices(build)
         self.scale = np.where([kind == "turn" for kind, _ in self.unknowns], 1.0, self.size)
 
     def _matrices(self, build: LoopBuilder) -> None:
         self._columns = {
-            key: i for i, key in enumerate([*self.unknowns, *(("drive", d) for d in self.drivers)])
+            key: i
+            for i, key in enumerate([*self.unknowns, *(("drive", d) for d in self.drivers), *build.lifts])
         }
         self.turning, self._phase = np.zeros((self.C, len(self._columns))), np.zeros(self.C)
         for c, (unknown, turns) in enumerate(build.rotations):
@@ -120,6 +137,28 @@ class ClosedLoops:
         self.own = np.zeros((self.S, self.C))
         self.own[np.arange(self.S), self.owner] = 1.0
         self.coordinates = np.concatenate([self.turning, self.sliding])
+        self.lifts = [self._lift(build, *each) for each in build.lifts.values()]
+
+    def _lift(self, build: LoopBuilder, cam: str, carrier: str, curve: Curve, unit: float) -> Lift:
+        """Raises LackingError where the cam turns with unknowns."""
+        rows = [
+            (self.turning[body.rotation], self._phase[body.rotation] + body.offset)
+            for body in (build.bodies[cam], build.bodies[carrier])
+        ]
+        row, rest = (a - b for a, b in zip(*rows, strict=True))
+        if np.abs(row[: self.n]).max(initial=0.0) > SMALL:
+            raise LackingError("joints.cam_sums")
+        return Lift(row[self.n :], float(rest), curve, unit)
+
+    def driven(self, q: Floats, first: Floats, second: Floats) -> tuple[Floats, Floats, Floats]:
+        """Coordinates of drivers with two derivatives (m, drivers) and behind them those of lifts, (m, d)."""
+        rows = [np.pad(each, ((0, 0), (0, len(self.lifts)))) for each in (q, first, second)]
+        for place, lift in enumerate(self.lifts, len(self.drivers)):
+            turn, rate, bend = (row @ lift.row for row in rows)
+            value, slope, curved = lift.curve(turn + lift.rest)
+            for row, own in zip(rows, (value, slope * rate, curved * rate**2 + slope * bend), strict=True):
+                row[:, place] = own
+        return rows[0], rows[1], rows[2]
 
     def _arms(self, gaps: Sequence[Terms]) -> tuple[Complexes, Complexes]:
         """Arms (C, K) and turned directions of slides (S, K) of K places."""
@@ -271,6 +310,7 @@ class LoopBuilder:
         self.slides: list[tuple[Key, int]] = []
         self.loops: list[tuple[str, Terms]] = []
         self.sums: list[Sum] = []
+        self.lifts: dict[Key, tuple[str, str, Curve, float]] = {}
         self.bodies = {"frame": Body(0, 0.0, 0j, {})}
 
     def add(self, group: Group) -> None:
@@ -312,9 +352,20 @@ class LoopBuilder:
         """Two places that coincide."""
         self.loops.append((group, _added(start, end, -1.0)))
 
-    def sum(self, rotations: Mapping[str, float], slides: Mapping[str, float], rest: float) -> None:
-        """Σ factor · rotation of a link + Σ factor · displacement of a guide + ``rest`` = 0."""
-        terms: dict[Key, float] = {}
+    def lifted(self, name: str, cam: str, carrier: str, curve: Curve, unit: float) -> Key:
+        """The lift of a cam by its angle to the carrier; ``unit``: 1 rad, or the mechanism's size."""
+        self.lifts["lift", name] = cam, carrier, curve, unit
+        return "lift", name
+
+    def sum(
+        self,
+        rotations: Mapping[str, float],
+        slides: Mapping[str, float],
+        rest: float,
+        lifts: Mapping[Key, float] | None = None,
+    ) -> None:
+        """Σ factor · rotation of a link + Σ factor · displacement of a guide + Σ factor · lift + ``rest`` = 0."""
+        terms: dict[Key, float] = dict(lifts or {})
         for link, factor in rotations.items():
             body = self.bodies[link]
             unknown, turns = self.rotations[body.rotation]
@@ -354,7 +405,7 @@ class LoopBuilder:
         looped = self._looped()
 
         def order(key: Key) -> float:
-            return -math.inf if key[0] == "drive" else float(key not in looped)
+            return -math.inf if key[0] in ("drive", "lift") else float(key not in looped)
 
         found: LinearSums[Key] = LinearSums()
         for terms, rest in self.sums:

@@ -47,12 +47,14 @@ class Follower:
         rotary = [
             solver.mechanism.joints[d.joint].coordinate == "turn" for d in self.mechanism.drivers.values()
         ]
-        self.rotary = np.array(rotary, dtype=bool)
-        self.unit = np.where(self.rotary, 1.0, self.loops.size)
+        lifts = self.loops.lifts
+        self.rotary = np.array([*rotary, *[False] * len(lifts)], dtype=bool)
+        own = np.where(self.rotary[: len(rotary)], 1.0, self.loops.size)
+        self.unit = np.append(own, [lift.unit for lift in lifts])
 
     # states -----------------------------------------------------------------------------------
     def states(self, coordinates: Floats, inputs: Floats) -> dict[str, Floats]:
-        """Chain coordinates by name (m,) from unknowns of the loops (m, n) and the drivers' coordinates (m, d)."""
+        """Chain coordinates by name (m,) from unknowns of the loops (m, n) and what is driven (m, d)."""
         y = np.concatenate([coordinates, inputs], axis=1)
         found: dict[str, Floats] = {}
         for group in self.groups:
@@ -82,7 +84,7 @@ class Follower:
 
     @property
     def drawn_inputs(self) -> Floats:
-        """The drivers' coordinates (d,) of the assembled mechanism that the drawing shows."""
+        """Coordinates (d,) of drivers and lifts of the assembled mechanism that the drawing shows."""
         return self._drawn[self.loops.n :]
 
     @cached_property
@@ -90,7 +92,7 @@ class Follower:
         """Coordinates (n + d,) of the assembly that the drawing shows: of the nearest one where it does not close."""
         loops, assembly = self.loops, self.solver.assembly
         inputs = np.array([assembly.inputs[name] for name in loops.drivers])
-        rough = np.concatenate([self._rough(inputs), inputs])
+        rough = np.concatenate([self._rough(inputs), self.driven(inputs[None, :])[0]])
         gap = float(np.abs(loops.gap(loops.turned(rough))).max(initial=0.0))
         found = None
         if gap <= EXACT * loops.size:
@@ -113,15 +115,16 @@ class Follower:
             for point in self.mechanism.link(link).points
             if (at := drawing.drawn(link, point)) is not None
         }
-        drivers = [drawing.driver(name) is not None for name in loops.drivers]
-        free = np.array([True] * loops.n + drivers, dtype=bool)
+        drawn = [drawing.driver(name) is not None and not loops.lifts for name in loops.drivers]
+        free = np.array([*[True] * loops.n, *drawn, *[False] * len(loops.lifts)], dtype=bool)
         scale = np.concatenate([loops.scale, self.unit])
         found = nearest_assembly(loops, loops.to_places(places), rough, scale, free)
         root = None if found is None else loops.newton(found)
         if root is None:
             return None
         own = {group.name for group in self.groups}
-        gone = self.nearest_way(self._rough(root[loops.n :]) - root[: loops.n]) / loops.scale
+        again = self._rough(root[loops.n :][: len(loops.drivers)])
+        gone = self.nearest_way(again - root[: loops.n]) / loops.scale
         same = [abs(gap) < SAME for gap, group in zip(gone, loops.groups, strict=True) if group not in own]
         return root if all(same) else None
 
@@ -134,7 +137,9 @@ class Follower:
         )
         slides = [key for kind, key in loops.unknowns if kind == "slide" and not self._drawn_slide(key)]
         program = solver.program((*names, *(row_name("displacement", key) for key in slides))).program
-        inputs = _named(dict(zip(loops.drivers, drawn_inputs, strict=True)), self.rotary)
+        inputs = _named(
+            dict(zip(loops.drivers, drawn_inputs, strict=True)), self.rotary[: len(loops.drivers)]
+        )
         parameters, drawn = self.design.parameters, solver.assembly.states
         outputs, _ = ScalarProgram(program).step(
             [parameters[name] for name in program.parameters],
@@ -177,7 +182,11 @@ class Follower:
 
     def between(self, begin: Floats, end: Floats, start: Floats) -> Branch:
         """The straight way from driver coordinates (d,) to others, from the unknowns ``start`` (n,)."""
-        return follow(self.loops, straight(begin, end, self.unit), start)
+        return follow(self.loops, straight(self.loops, begin, end, self.unit), start)
+
+    def driven(self, q: Floats) -> Floats:
+        """Coordinates of the drivers (m, drivers), and behind them those of lifts (m, d)."""
+        return self.loops.driven(q, np.zeros_like(q), np.zeros_like(q))[0]
 
     def nearest_drive(self, way: Floats) -> Floats:
         """Differences of driver coordinates (…, d) without whole turns."""
@@ -191,7 +200,7 @@ class Follower:
     def lawful(self, begin: float, end: float, times: Floats, shift: float) -> Way:
         """The way by the drivers' laws, see :func:`branch.lawful`."""
         laws = [driver.law for driver in self.mechanism.drivers.values()]
-        return lawful(laws, self.unit, begin, end, times, shift)
+        return lawful(self.loops, laws, self.unit, begin, end, times, shift)
 
     def moved(self, unknowns: Floats, start: float, time: Floats) -> dict[str, Floats]:
         """States at some times (m,), s, followed by the drivers' laws from the unknowns (n,) at the time ``start``;
@@ -229,7 +238,7 @@ class _Journey:
         loops = follower.loops
         n = positions.count
         rows = [positions.coordinates[name][0] for name in loops.drivers]
-        self.q = np.stack(rows, axis=1) if rows else np.zeros((n, 0))
+        self.q = follower.driven(np.stack(rows, axis=1) if rows else np.zeros((n, 0)))
         self.coordinates = np.full((n, loops.n), math.nan)
         self.certified = np.zeros(n, dtype=bool)
         self.stops: list[Stop] = []
@@ -284,18 +293,18 @@ class _Journey:
         """Whether the drivers' coordinates follow each other on one straight line."""
         if self.positions.count < 3 or self.positions.closed:
             return False
-        share = self._shares()
-        on_line = self.q[0] + share[:, None] * (self.q[-1] - self.q[0])
-        return bool((np.diff(share) > 0.0).all() and np.allclose(on_line, self.q, rtol=1e-14, atol=1e-14))
+        share, q = self._shares(), self.q[:, : len(self.follower.loops.drivers)]
+        on_line = q[0] + share[:, None] * (q[-1] - q[0])
+        return bool((np.diff(share) > 0.0).all() and np.allclose(on_line, q, rtol=1e-14, atol=1e-14))
 
     def _shares(self) -> Floats:
-        way = self.q[-1] - self.q[0]
-        lead = int(np.argmax(np.abs(way / self.follower.unit)))
+        way, count = self.q[-1] - self.q[0], len(self.follower.loops.drivers)
+        lead = int(np.argmax(np.abs(way / self.follower.unit)[:count]))
         return np.asarray((self.q[:, lead] - self.q[0, lead]) / (way[lead] or 1.0))
 
     def _along_line(self, start: tuple[Floats, bool]) -> None:
         follower, n = self.follower, self.positions.count
-        way = straight(self.q[0], self.q[-1], follower.unit)
+        way = straight(follower.loops, self.q[0], self.q[-1], follower.unit)
         branch = follow(follower.loops, replace(way, places=self._shares()), start[0])
         k = len(branch.found)
         self.coordinates[:k] = branch.found[:, : follower.loops.n]
@@ -344,7 +353,8 @@ class _Journey:
         last = branch.last
         known = np.isfinite(last).all()
         group = loops.weakest_group(last) if known else loops.groups[-1]
-        self.stops.append(Stop(last[loops.n :] if known else self.q[index[0]], group))
+        inputs = last[loops.n :] if known else self.q[index[0]]
+        self.stops.append(Stop(inputs[: len(loops.drivers)], group))
         self.stop_of[index] = len(self.stops) - 1
 
     # a way by the laws -----------------------------------------------------------------------------
