@@ -313,7 +313,9 @@ def test_cylinders_are_drawn_by_their_two_pins(way: str, sign: str) -> None:
 def walk(motion: Motion, steps: float = 1.0) -> tuple[_Walk, End, End]:
     """A walk at the beginning of one step, and both its ends."""
     loops, q = motion.solver.follower().loops, motion.positions.coordinates["driver"][0]
-    way = straight(q[:1], q[:1] + steps * (q[1:2] - q[:1]), motion.solver.follower().unit)
+    way = straight(
+        motion.solver.follower().loops, q[:1], q[:1] + steps * (q[1:2] - q[:1]), motion.solver.follower().unit
+    )
     found = _Walk(loops, way, followed(motion).coordinates[0])
     assert found.here is not None
     end = found._end(1.0, (found.here.y + found.here.rate)[: loops.n], found.here.sign)
@@ -392,7 +394,7 @@ def test_singular_ends_have_no_certificate(triad: Motion) -> None:
 @pytest.mark.parametrize("count", [2, 7])
 def test_a_way_keeps_every_place_asked_for_in_order(triad: Motion, count: int) -> None:
     follower, way = triad.solver.follower(), followed(triad)
-    straight_way = straight(way.inputs[0], way.inputs[9], follower.unit)
+    straight_way = straight(follower.loops, way.inputs[0], way.inputs[9], follower.unit)
     places = np.linspace(0.0, 1.0, count)
     branch = follow(follower.loops, replace(straight_way, places=places), way.coordinates[0])
     assert branch.complete and branch.certified.all() and branch.reached == 1.0
@@ -408,7 +410,7 @@ def test_a_way_keeps_every_place_asked_for_in_order(triad: Motion, count: int) -
 
 def test_a_way_that_stands_still_is_complete(triad: Motion) -> None:
     follower, way = triad.solver.follower(), followed(triad)
-    here = straight(way.inputs[4], way.inputs[4], follower.unit)
+    here = straight(follower.loops, way.inputs[4], way.inputs[4], follower.unit)
     branch = follow(follower.loops, here, way.coordinates[4])
     assert branch.complete and branch.last[:-1] == pytest.approx(way.coordinates[4], abs=1e-13)
 

@@ -8,10 +8,12 @@ from linkwright.core.arrays import Flags, Floats
 from linkwright.kinematics.closed_loops import ClosedLoops
 
 #: Largest change of a coordinate in one step, and the change at which it is found: rad, or share of the size.
-LARGEST, FOUND = 0.3, 1e-11
-STEPS = 40
+LARGEST, FOUND = 0.3, 1e-6
+STEPS = 100
 #: Weight of the changes of coordinates against the squared distances of points, which holds what no point shows.
 HOLD = 1e-6
+#: Share of the promised descent that a step must bring (Armijo), and the smallest part of a step that is tried.
+DESCENT, SMALLEST = 1e-4, 2.0**-12
 
 
 def nearest_assembly(
@@ -21,26 +23,36 @@ def nearest_assembly(
     None where none are found. ``scale`` (n + d,): unit of every coordinate; ``free`` (n + d,): which of them may
     change.
 
-    Gauss–Newton with the closed loops as equality constraints (Björck, Numerical Methods for Least Squares Problems,
-    ch. 9.3).
+    Gauss–Newton with the closed loops as equality constraints, along which the exact penalty falls (Björck, Numerical
+    Methods for Least Squares Problems, ch. 9.3; Nocedal and Wright, Numerical Optimization, ch. 18.4).
     """
-    y, unit = rough.copy(), (scale * free)[:, None]
+    y, unit, penalty = rough.copy(), scale * free, 0.0
     count, rows = len(y), 2 * loops.K
     matrix = np.zeros((count + rows, count + rows))
+
+    def worth(y: Floats) -> float:
+        off, gap = points.linear(y)[0] / loops.size, loops.linear(y)[0] / loops.size
+        return float(0.5 * off @ off + penalty * np.abs(gap).sum())
+
     for _ in range(STEPS):
         off, slopes = (each / loops.size for each in points.linear(y))
         gap, closing = (each / loops.size for each in loops.linear(y))
-        slopes, closing = slopes * unit, closing * unit
+        slopes, closing = slopes * unit[:, None], closing * unit[:, None]
         matrix[:count, :count] = slopes @ slopes.T + HOLD * np.eye(count)
         matrix[:count, count:], matrix[count:, :count] = closing, closing.T
         try:
-            step = np.linalg.solve(matrix, -np.concatenate([slopes @ off, gap]))[:count]
+            solved = np.linalg.solve(matrix, -np.concatenate([slopes @ off, gap]))
         except np.linalg.LinAlgError:
             return None
-        size = float(np.abs(step).max())
+        step, size = solved[:count], float(np.abs(solved[:count]).max())
         if not np.isfinite(size):
             return None
-        y += step * min(1.0, LARGEST / max(size, LARGEST)) * unit[:, 0]
         if size < FOUND:
-            return y
+            return np.asarray(y + step * unit)
+        penalty = max(penalty, 2.0 * float(np.abs(solved[count:]).max(initial=0.0)))
+        falls, here = float(slopes @ off @ step) - penalty * float(np.abs(gap).sum()), worth(y)
+        share = min(1.0, LARGEST / size)
+        while share > SMALLEST and worth(y + share * step * unit) > here + DESCENT * share * falls:
+            share *= 0.5
+        y += share * step * unit
     return None
