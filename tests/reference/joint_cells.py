@@ -279,8 +279,8 @@ def _add_cam(d: GearedDraft, seat: Seat) -> None:
     d.kinds.append(at)
     d.joints.append(
         f"  {row.name}: {{kind: cam, cam: {cam}, follower: {follower}, at: {at}, touch: roller, closure: groove, "
-        f"base_radius: {0.5 * far!r} m, roller_radius: {reach - 0.5 * far!r} m, side: {'left' if side > 0 else 'right'}, "
-        f"turn: {'counterclockwise' if sense > 0 else 'clockwise'}, phase: {phase!r} rad, "
+        f"base_radius: {0.5 * far!r} m, roller_radius: {reach - 0.5 * far!r} m, phase: {phase!r} rad, "
+        f"side: {'left' if side > 0 else 'right'}, turn: {'counterclockwise' if sense > 0 else 'clockwise'}, "
         f"program: [{{rise: {rise} rad, over: 120 deg, law: cycloidal}}, {{dwell: 60 deg}}, "
         f"{{fall: {rise} rad, over: 120 deg, law: cycloidal}}, {{dwell: 60 deg}}]}}"
     )
