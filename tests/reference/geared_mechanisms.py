@@ -6,7 +6,7 @@ They are put down assembled: a driven crank, then pieces hung on what is there; 
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from math import cos, hypot, pi, sin
+from math import cos, hypot, pi, remainder, sin
 
 import numpy as np
 from tests.reference.formulas import gravity
@@ -73,7 +73,7 @@ class GearedDraft:
         self, name: str, guide: str, through: Vec, direction: float, block: str, at: str, offset: float = 0.0
     ) -> None:
         """A guide of one link in a direction, and a point of another that slides along it."""
-        lean, own = direction - self.poses[guide][2], direction - self.poses[block][2]
+        lean, own = (remainder(direction - self.poses[link][2], 2 * pi) for link in (guide, block))
         ends = (
             (guide, self.local(guide, through), lean),
             (block, self.local(block, self.points[block][at]), own),
