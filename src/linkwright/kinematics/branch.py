@@ -231,8 +231,8 @@ def lawful(
 ) -> Way:
     """The way of drivers by their laws from one time to another, s, through some between in this order.
 
-    ``unit`` (d,): of each driver or lift, rad or size; ``shift``: of all times, by a period, with coordinates as they were
-    before it.
+    ``unit`` (d,): of each driver or lift, rad or size; ``shift``: of all times, by a period, with coordinates as they
+    were before it.
     """
     sense = 1.0 if end >= begin else -1.0
     lap = np.array([float(np.diff(law.coordinate(np.array([begin, begin + shift]))[0])[0]) for law in laws])

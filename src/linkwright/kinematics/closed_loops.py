@@ -147,7 +147,7 @@ class ClosedLoops:
         ]
         row, rest = (a - b for a, b in zip(*rows, strict=True))
         if np.abs(row[: self.n]).max(initial=0.0) > SMALL:
-            raise LackingError("joints.cam_sums")
+            raise LackingError("joints.cam_turned", cam=cam)
         return Lift(row[self.n :], float(rest), curve, unit)
 
     def driven(self, q: Floats, first: Floats, second: Floats) -> tuple[Floats, Floats, Floats]:

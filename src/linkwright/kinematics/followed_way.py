@@ -35,13 +35,14 @@ class Stop:
 class Followed(Frozen):
     """The way of the groups without closed form through n positions.
 
-    ``inputs`` (n, d): coordinates of drivers and lifts; ``states``: their chain coordinates (n,) by name, NaN where the way
-    is barred; ``coordinates`` (n, unknowns): the same as unknowns of the closed loops; ``certified`` (n,): whether it
-    is proved that the assembly is the one of the drawing; ``margin`` (n,): no other assembly lies nearer (rad, or
-    share of the mechanism's size); ``stops`` and ``stop_of`` (n,): where the way to a position ends, -1 for none;
-    ``breaks``: positions after which it ends before the next one; ``closed``: whether the first position follows the
-    last one; ``returns``: whether such a cycle comes back to its first assembly (None: it was not passed);
-    ``positions``: where the drivers follow their laws from each to the next.
+    ``inputs`` (n, d): coordinates of drivers and lifts; ``states``: their chain coordinates (n,) by name, NaN
+    where the way is barred; ``coordinates`` (n, unknowns): the same as unknowns of the closed loops;
+    ``certified`` (n,): whether it is proved that the assembly is the one of the drawing; ``margin`` (n,): no
+    other assembly lies nearer (rad, or share of the mechanism's size); ``stops`` and ``stop_of`` (n,): where the
+    way to a position ends, -1 for none; ``breaks``: positions after which it ends before the next one;
+    ``closed``: whether the first position follows the last one; ``returns``: whether such a cycle comes back to
+    its first assembly (None: it was not passed); ``positions``: where the drivers follow their laws from each to
+    the next.
     """
 
     follower: Follower
