@@ -33,7 +33,9 @@ class LinearSums(Generic[Key]):
         pivot = max(free, key=lambda key: (order(key), abs(left[key])))
         lead = left.pop(pivot)
         self.solved[pivot] = {key: -factor / lead for key, factor in left.items()}, -rest / lead
-        self.solved = {key: self.reduced(*found) for key, found in self.solved.items()}
+        for key, found in self.solved.items():
+            if pivot in found[0]:
+                self.solved[key] = self.reduced(*found)
         return True
 
     def reduced(self, terms: Mapping[Key, float], rest: float = 0.0) -> tuple[dict[Key, float], float]:

@@ -239,10 +239,7 @@ class Joint(ABC):
     def rotation_sum(self, drawing: Drawing) -> tuple[Mapping[str, float], float] | None:
         """The rotations that the joint ties, as they are drawn: factors of links' rotations (rad, with turns) and a
         constant, together zero; None where it ties none or the drawing does not tell."""
-        if not self.ties:
-            return None
-        a, b = self.ties
-        return {b: 1.0, a: -1.0}, -self.turn_of(b, drawing.mechanism)
+        return None
 
     # the model file ---------------------------------------------------------------------------
     @classmethod
