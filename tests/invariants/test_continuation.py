@@ -547,3 +547,28 @@ def test_a_drawing_two_millimetres_off_shows_the_assembly_that_was_drawn(seed: i
     assert branch.complete
     gap = rough.nearest_way(branch.last[: rough.loops.n] - exact.drawn)
     assert np.abs(gap / rough.loops.scale).max() < 1e-9
+
+
+def test_a_machine_that_is_singular_everywhere_is_not_blamed_on_its_drawing() -> None:
+    """Two straight-line linkages of 200 mm with a platform pinned on both, drawn to 0.1 mm: at one input the platform
+    may be anywhere along its line (jgerstmayr/EXUDYN, issue 39)."""
+    text = """format: 1
+frame: {points: {OL: [0 mm, 0 mm], OR: [1000 mm, 0 mm]}}
+links:
+  crankL: {points: [OL, AL], length: 200 mm}
+  barL: {points: [CL, AL, BL], lengths: [200 mm, 400 mm], angle: 0 deg}
+  shoeL: {points: [CL]}
+  crankR: {points: [OR, AR], length: 200 mm}
+  barR: {points: [CR, AR, BR], lengths: [200 mm, 400 mm], angle: 0 deg}
+  shoeR: {points: [CR]}
+  platform: {points: [BL, BR], length: 1000 mm}
+joints:
+  floorL: {kind: prismatic, guide: frame, through: OL, direction: 0 deg, block: shoeL, at: CL}
+  floorR: {kind: prismatic, guide: frame, through: OR, direction: 0 deg, block: shoeR, at: CR}
+drawing: {AL: [-173.2 mm, 100 mm], CL: [-346.4 mm, 0 mm], BL: [0 mm, 200 mm], AR: [1173.2 mm, 100 mm],
+  CR: [1346.4 mm, 0 mm], BR: [1000 mm, 200 mm]}
+driver: {slide: floorL, position: "-346.4 mm + 10 mm/s*t"}
+cycle: {duration: 5 s}
+"""
+    with pytest.raises(lw.LinkwrightError, match="singular"):
+        lw.solve_motion(lw.loads(text), steps=5)

@@ -30,6 +30,8 @@ if TYPE_CHECKING:
 
 #: What a drawing may leave open (share of the size) to count as exact.
 EXACT = 1e-13
+#: What may be left open where Newton's method cannot close it, as everything is singular.
+SINGULAR = 1e-9
 #: Dyads this near (rad, or share of the size) to where their modes put them are in these modes.
 SAME = 1e-6
 
@@ -93,10 +95,9 @@ class Follower:
         loops, assembly = self.loops, self.solver.assembly
         inputs = np.array([assembly.inputs[name] for name in loops.drivers])
         rough = np.concatenate([self._rough(inputs), self.driven(inputs[None, :])[0]])
-        gap = float(np.abs(loops.gap(loops.turned(rough))).max(initial=0.0))
-        found = None
-        if gap <= EXACT * loops.size:
-            found = loops.newton(rough, 40)
+        gap, found = self._open(rough), None
+        if gap <= EXACT:
+            found = self._closed(rough)
         elif math.isfinite(gap):
             found = self._nearest(rough)
         if found is None:
@@ -105,6 +106,15 @@ class Follower:
             said = tuple(coordinate_text(name, q, turns[name]) for name, q in known)
             raise AssemblyError("motion.not_near_drawing", name=self.mechanism.name, inputs=said)
         return found
+
+    def _open(self, y: Floats) -> float:
+        """What coordinates (n + d,) leave open, as share of the size."""
+        return float(np.abs(self.loops.gap(self.loops.turned(y))).max(initial=0.0)) / self.loops.size
+
+    def _closed(self, y: Floats) -> Floats | None:
+        """The root at coordinates that nearly close; these themselves where the loops are singular there."""
+        root = self.loops.newton(y, 40)
+        return y if root is None and self._open(y) < SINGULAR else root
 
     def _nearest(self, rough: Floats) -> Floats | None:
         """The assembly nearest to the drawing, if its dyads are in their modes there."""
@@ -119,7 +129,7 @@ class Follower:
         free = np.array([*[True] * loops.n, *drawn, *[False] * len(loops.lifts)], dtype=bool)
         scale = np.concatenate([loops.scale, self.unit])
         found = nearest_assembly(loops, loops.to_places(places), rough, scale, free)
-        root = None if found is None else loops.newton(found)
+        root = None if found is None else self._closed(found)
         if root is None:
             return None
         own = {group.name for group in self.groups}

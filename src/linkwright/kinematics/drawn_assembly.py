@@ -10,6 +10,8 @@ from linkwright.kinematics.closed_loops import ClosedLoops
 #: Largest change of a coordinate in one step, and the change at which it is found: rad, or share of the size.
 LARGEST, FOUND = 0.3, 1e-6
 STEPS = 100
+#: Below this share of the largest singular value the loops depend on each other.
+RANK = 1e-14
 #: Weight of the changes of coordinates against the squared distances of points, which holds what no point shows.
 HOLD = 1e-6
 #: Share of the promised descent that a step must bring (Armijo), and the smallest part of a step that is tried.
@@ -40,13 +42,8 @@ def nearest_assembly(
         slopes, closing = slopes * unit[:, None], closing * unit[:, None]
         matrix[:count, :count] = slopes @ slopes.T + HOLD * np.eye(count)
         matrix[:count, count:], matrix[count:, :count] = closing, closing.T
-        try:
-            solved = np.linalg.solve(matrix, -np.concatenate([slopes @ off, gap]))
-        except np.linalg.LinAlgError:
-            return None
+        solved = np.asarray(np.linalg.lstsq(matrix, -np.concatenate([slopes @ off, gap]), rcond=RANK)[0])
         step, size = solved[:count], float(np.abs(solved[:count]).max())
-        if not np.isfinite(size):
-            return None
         if size < FOUND:
             return np.asarray(y + step * unit)
         penalty = max(penalty, 2.0 * float(np.abs(solved[count:]).max(initial=0.0)))
