@@ -47,13 +47,12 @@ class Drawing:
             self._count_turns()
         assert self._sums is not None
         terms, total = self._sums.reduced({link: 1.0})
-        for each, factor in terms.items():
-            own = self._directions[each] if abs(factor) > SMALL else 0.0
-            if own is None:
-                terms, total = {}, 0.0
-                break
-            total += factor * math.remainder(own, 2.0 * math.pi)
         own = self._directions[link]
+        for each, factor in terms.items():
+            other = self._directions[each] if abs(factor) > SMALL else 0.0
+            if other is None:
+                return None if own is None else math.remainder(own, 2.0 * math.pi)
+            total += factor * math.remainder(other, 2.0 * math.pi)
         return total if own is None else total + math.remainder(own - total, 2.0 * math.pi)
 
     def driver(self, name: str) -> float | None:
@@ -120,11 +119,8 @@ class Drawing:
             self._hold(joints.pop(0))
         for driver in self.mechanism.drivers.values():
             if driver.law.rotary:
-                start, turned, base = (
-                    driver.law.at(0.0),
-                    self._directions[driver.link],
-                    self._directions[driver.relative_to],
-                )
+                start = driver.law.at(0.0)
+                turned, base = (self._directions[each] for each in (driver.link, driver.relative_to))
                 if turned is not None and base is not None:
                     start += math.remainder(turned - base - start, 2.0 * math.pi)
                 self._add({driver.link: 1.0, driver.relative_to: -1.0}, -start)
