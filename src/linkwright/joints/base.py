@@ -223,8 +223,7 @@ class Joint(ABC):
         return None if field is None else field.limit(value)
 
     def aligned(self, points: Mapping[str, tuple[float, float]]) -> Joint:
-        """The same joint, with what follows from the points of its first link (a guide's direction) made
-        anew."""
+        """The same joint, with what follows from its first link's points (a guide's direction) made anew."""
         return self
 
     def settled(self, mechanism: Mechanism, report: Callable[[str, Sentence, Sentence], None]) -> Joint:
@@ -237,8 +236,7 @@ class Joint(ABC):
         return self
 
     def rotation_sum(self, drawing: Drawing) -> tuple[Mapping[str, float], float] | None:
-        """The rotations that the joint ties, as they are drawn: factors of links' rotations (rad, with turns) and a
-        constant, together zero; None where it ties none or the drawing does not tell."""
+        """Factors of links' rotations as drawn (rad, with turns) and a constant, together zero; None if unknown."""
         return None
 
     # the model file ---------------------------------------------------------------------------
