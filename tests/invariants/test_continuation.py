@@ -17,9 +17,8 @@ import linkwright as lw
 from linkwright.cycle_programs import iterated_groups
 from linkwright.kinematics.assembly import AssemblyError
 from linkwright.kinematics.between_positions import Between
-from linkwright.kinematics.branch import CORRECTION, MISFIT, Branch, Way, _Walk, follow, straight
+from linkwright.kinematics.branch import CORRECTION, MISFIT, _Walk, follow, straight
 from linkwright.kinematics.certificate import End, certify, cubic
-from linkwright.kinematics.closed_loops import ClosedLoops
 from linkwright.kinematics.continuation import Follower, _Journey
 from linkwright.kinematics.design import Design
 from linkwright.kinematics.followed_way import Followed
@@ -313,7 +312,9 @@ def test_cylinders_are_drawn_by_their_two_pins(way: str, sign: str) -> None:
 def walk(motion: Motion, steps: float = 1.0) -> tuple[_Walk, End, End]:
     """A walk at the beginning of one step, and both its ends."""
     loops, q = motion.solver.follower().loops, motion.positions.coordinates["driver"][0]
-    way = straight(q[:1], q[:1] + steps * (q[1:2] - q[:1]), motion.solver.follower().unit)
+    way = straight(
+        motion.solver.follower().loops, q[:1], q[:1] + steps * (q[1:2] - q[:1]), motion.solver.follower().unit
+    )
     found = _Walk(loops, way, followed(motion).coordinates[0])
     assert found.here is not None
     end = found._end(1.0, (found.here.y + found.here.rate)[: loops.n], found.here.sign)
@@ -392,7 +393,7 @@ def test_singular_ends_have_no_certificate(triad: Motion) -> None:
 @pytest.mark.parametrize("count", [2, 7])
 def test_a_way_keeps_every_place_asked_for_in_order(triad: Motion, count: int) -> None:
     follower, way = triad.solver.follower(), followed(triad)
-    straight_way = straight(way.inputs[0], way.inputs[9], follower.unit)
+    straight_way = straight(follower.loops, way.inputs[0], way.inputs[9], follower.unit)
     places = np.linspace(0.0, 1.0, count)
     branch = follow(follower.loops, replace(straight_way, places=places), way.coordinates[0])
     assert branch.complete and branch.certified.all() and branch.reached == 1.0
@@ -408,7 +409,7 @@ def test_a_way_keeps_every_place_asked_for_in_order(triad: Motion, count: int) -
 
 def test_a_way_that_stands_still_is_complete(triad: Motion) -> None:
     follower, way = triad.solver.follower(), followed(triad)
-    here = straight(way.inputs[4], way.inputs[4], follower.unit)
+    here = straight(follower.loops, way.inputs[4], way.inputs[4], follower.unit)
     branch = follow(follower.loops, here, way.coordinates[4])
     assert branch.complete and branch.last[:-1] == pytest.approx(way.coordinates[4], abs=1e-13)
 
@@ -490,35 +491,3 @@ def test_another_design_has_a_way_of_its_own(triad: Motion) -> None:
     there = followed(lw.solve_motion(triad.mechanism.with_dimensions(changes), steps=36))
     agree(other, there)
     agree(solver.states(triad.positions), followed(triad))
-
-
-def test_a_rough_drawing_is_closed_along_loops_that_it_closes(
-    triad: Motion, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """The way from a drawing to its assembly begins where the opened loops are closed as drawn, and ends where the
-    loops themselves are: with wrong openings it began anywhere."""
-    ways = []
-
-    def noted(loops: ClosedLoops, way: Way, begin: Floats) -> Branch:
-        ways.append((loops, way, begin))
-        return follow(loops, way, begin)
-
-    monkeypatch.setattr("linkwright.kinematics.continuation.follow", noted)
-    shift = {"A": (-0.004, 0.015), "P": (0.012, -0.02), "Q": (-0.015, 0.01), "R": (0.004, 0.018)}
-    drawing = {
-        name: (x + shift.get(name, (0, 0))[0], y + shift.get(name, (0, 0))[1])
-        for name, (x, y) in triad.mechanism.drawing.items()
-    }
-    follower = MotionSolver(replace(triad.mechanism, drawing=drawing)).follower()
-    exact = follower.drawn
-    ((opened, way, begin),) = ways
-    ends = way.drive(np.array([0.0, 1.0]))[0]
-    largest = np.abs(follower.loops.gap(follower.loops.turned(np.concatenate([begin, ends[0, :-1]])))).max()
-    assert largest > 0.001
-    closed = opened.gap(opened.turned(np.concatenate([begin, ends[0]])))
-    assert np.abs(closed).max() < 1e-12
-    at_the_end = opened.gap(opened.turned(np.concatenate([exact, ends[1]])))
-    assert np.abs(at_the_end).max() < 1e-12
-    assert (
-        np.abs(follower.loops.gap(follower.loops.turned(np.concatenate([exact, ends[1, :-1]])))).max() < 1e-12
-    )

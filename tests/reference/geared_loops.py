@@ -154,7 +154,7 @@ def _guided(
         f"g{len(d.rolling)}", new, d.local(new, at), cam, 0.0, carrier, lift, phase, sense, touch == "flat",
         (cos(lean), sin(lean)), d.local(carrier, centre),
     )  # fmt: skip
-    _put_cam(d, row, p, touch, radius, f"{lift.height!r} m", "")
+    put_cam(d, row, p, touch, radius, f"{lift.height!r} m", "")
     return new
 
 
@@ -185,11 +185,12 @@ def _swinging(
         f"g{len(d.rolling)}", new, d.local(new, at), cam, 0.0, carrier, lift, phase, sense, touch == "flat",
         d.local(new, pivot), side,
     )  # fmt: skip
-    _put_cam(d, row, p, touch, radius, f"{lift.height!r} rad", f", side: {'left' if side > 0 else 'right'}")
+    put_cam(d, row, p, touch, radius, f"{lift.height!r} rad", f", side: {'left' if side > 0 else 'right'}")
     return new
 
 
-def _put_cam(d: GearedDraft, row: CamRow, at: str, touch: str, radius: float, lift: str, side: str) -> None:
+def put_cam(d: GearedDraft, row: CamRow, at: str, touch: str, radius: float, lift: str, side: str) -> None:
+    """Row and file of a cam; ``radius``: from its centre to the roller's, to the edge or the face at no lift."""
     roller = 0.2 * radius if touch == "roller" else 0.0
     more = f", roller_radius: {roller!r} m" if roller else ""
     rise = round(row.lift.rise * 180 / pi)

@@ -6,7 +6,7 @@ They are put down assembled: a driven crank, then pieces hung on what is there; 
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from math import cos, hypot, pi, sin
+from math import cos, hypot, pi, remainder, sin
 
 import numpy as np
 from tests.reference.formulas import gravity
@@ -41,6 +41,7 @@ class GearedDraft:
     joints: list[str] = field(default_factory=list)
     pins: list[tuple[str, str, str]] = field(default_factory=list)  # point, carrier, wheel
     kinds: list[str] = field(default_factory=list)
+    welded: list[str] = field(default_factory=list)  # points that are no pins
 
     def link(self, at: Vec) -> str:
         name = f"l{len(self.poses)}"
@@ -67,6 +68,21 @@ class GearedDraft:
         self.mark(b, at, name)
         self.pins.append((name, a, b))
         return name
+
+    def guide(
+        self, name: str, guide: str, through: Vec, direction: float, block: str, at: str, offset: float = 0.0
+    ) -> None:
+        """A guide of one link in a direction, and a point of another that slides along it."""
+        lean, own = (remainder(direction - self.poses[link][2], 2 * pi) for link in (guide, block))
+        ends = (
+            (guide, self.local(guide, through), lean),
+            (block, self.local(block, self.points[block][at]), own),
+        )
+        self.constraints += prismatic(name, *ends, offset)
+        self.joints.append(
+            f"  {name}: {{kind: prismatic, guide: {guide}, through: {self.mark(guide, through)}, "
+            f"direction: {lean!r} rad, block: {block}, at: {at}, offset: {offset!r} m, block_angle: {own!r} rad}}"
+        )
 
     def some(self, items: list[str]) -> str:
         return items[int(self.rng.integers(len(items)))]
@@ -138,30 +154,33 @@ def add_mesh(
     ratio: float,
     kind: str = "gear",
 ) -> None:
-    """Two wheels on a carrier; those that roll on each other have no teeth that press them apart."""
+    """Two gears, or wheels that roll on each other."""
     name, (a, b), (p, q) = f"g{len(d.rolling)}", wheels, at
     alpha = float(d.rng.uniform(0.0, 0.5)) if kind == "gear" else 0.0
-    leaning = f", pressure_angle: {alpha!r} rad" if kind == "gear" else ""
+    teeth = f", pressure_angle: {alpha!r} rad" if kind == "gear" else ""
     row = gear(name, a, d.local(a, p), b, d.local(b, q), hypot(q[0] - p[0], q[1] - p[1]), ratio, alpha, 0.0)
     d.rolling.append(row)
     d.joints.append(
-        f"  {name}: {{kind: {kind}, links: [{a}, {b}], ratio: {ratio!r}, carrier: {carrier}{leaning}}}"
+        f"  {name}: {{kind: {kind}, links: [{a}, {b}], ratio: {ratio!r}, carrier: {carrier}{teeth}}}"
     )
 
 
 def _add_belt(d: GearedDraft) -> None:
     carrier, _, wheel, new, at, there = _wheel_on(d)
     d.pin(carrier, new, there)
-    name, far = f"g{len(d.rolling)}", hypot(there[0] - at[0], there[1] - at[1])
+    wrap(d, "belt", carrier, (wheel, new), (at, there))
+
+
+def wrap(d: GearedDraft, kind: str, carrier: str, wheels: tuple[str, str], at: tuple[Vec, Vec]) -> None:
+    """A belt or a chain around two wheels."""
+    name, (a, b), (p, q) = f"g{len(d.rolling)}", wheels, at
+    far = hypot(q[0] - p[0], q[1] - p[1])
     radii = (float(d.rng.uniform(0.1, 0.45)) * far, float(d.rng.uniform(0.1, 0.45)) * far)
-    crossed = bool(d.rng.random() < 0.5)
-    d.rolling.append(
-        belt(name, wheel, d.local(wheel, at), new, d.local(new, there), far, radii, crossed, 0.0)
-    )
-    run = "crossed" if crossed else "open"
+    crossed = kind == "belt" and bool(d.rng.random() < 0.5)
+    d.rolling.append(belt(name, a, d.local(a, p), b, d.local(b, q), far, radii, crossed, 0.0))
     d.joints.append(
-        f"  {name}: {{kind: belt, links: [{wheel}, {new}], radii: [{radii[0]!r} m, {radii[1]!r} m], "
-        f"carrier: {carrier}, run: {run}}}"
+        f"  {name}: {{kind: {kind}, links: [{a}, {b}], radii: [{radii[0]!r} m, {radii[1]!r} m], "
+        f"carrier: {carrier}{', run: crossed' if crossed else ''}}}"
     )
 
 
@@ -181,16 +200,9 @@ def add_rack(d: GearedDraft, name: str, carrier: str, wheel: str) -> str:
     t = d.mark(rack, on_line)
     d.mark(rack, (on_line[0] + 0.3 * u[0], on_line[1] + 0.3 * u[1]))
     off = float(d.rng.uniform(-0.2, 0.2))
-    through = d.mark(carrier, (on_line[0] - 0.1 * u[0] + off * n[0], on_line[1] - 0.1 * u[1] + off * n[1]))
-    guide, row = f"s{len(d.rolling)}", f"g{len(d.rolling)}"
-    lean, own = direction - d.poses[carrier][2], direction - d.poses[rack][2]
-    d.constraints += prismatic(
-        guide,
-        (carrier, d.local(carrier, d.points[carrier][through]), lean),
-        (rack, d.local(rack, on_line), own),
-        -off,
-    )
-    alpha = float(d.rng.uniform(0.0, 0.5))
+    through = (on_line[0] - 0.1 * u[0] + off * n[0], on_line[1] - 0.1 * u[1] + off * n[1])
+    d.guide(f"s{len(d.rolling)}", carrier, through, direction, rack, t, -off)
+    row, own, alpha = f"g{len(d.rolling)}", direction - d.poses[rack][2], float(d.rng.uniform(0.0, 0.5))
     d.rolling.append(
         Rack(
             row,
@@ -204,12 +216,10 @@ def add_rack(d: GearedDraft, name: str, carrier: str, wheel: str) -> str:
             float(np.tan(alpha)),
         )
     )
-    d.joints += [
-        f"  {guide}: {{kind: prismatic, guide: {carrier}, through: {through}, direction: {lean!r} rad, "
-        f"block: {rack}, at: {t}, offset: {-off!r} m, block_angle: {own!r} rad}}",
+    d.joints.append(
         f"  {row}: {{kind: rack, pinion: {wheel}, rack: {rack}, through: {t}, centre: {name}, "
-        f"direction: {own!r} rad, radius: {radius!r} m, pressure_angle: {alpha!r} rad}}",
-    ]
+        f"direction: {own!r} rad, radius: {radius!r} m, pressure_angle: {alpha!r} rad}}"
+    )
     return rack
 
 
@@ -254,13 +264,13 @@ _ADD = {"gear": _add_gear, "belt": _add_belt, "rack": _add_rack, "dyad": add_dya
 
 
 def case_of(d: GearedDraft) -> GearedCase:
-    """The draft as file and reference."""
+    """File and reference of what is put down."""
     order = [name for name in d.poses if name != FRAME]
     everywhere = list(dict.fromkeys(p for each in d.points.values() for p in each))
     parts = list(d.constraints)
     for p in everywhere:
         ends = [(k, d.local(k, d.points[k][p])) for k in d.poses if p in d.points[k]]
-        parts += revolute(p, ends) if len(ends) > 1 else []
+        parts += revolute(p, ends) if len(ends) > 1 and p not in d.welded else []
     crank_turn = d.poses["l1"][2]
     parts += turn("driver driver", FRAME, "l1", 0)
     masses = {name: (round(d.rng.uniform(0.2, 5.0), 3), round(d.rng.uniform(0.01, 0.5), 4)) for name in order}

@@ -275,7 +275,7 @@ def test_a_position_between_lies_near_the_way_without_a_certificate(bend: float,
     cubic's t (1 - t)² at 1/2); a tenth is allowed."""
     motion = lw.solve_motion(lw.load("gallery:triad"), steps=36)
     follower, q = motion.solver.follower(), motion.positions.coordinates["driver"][0]
-    way = replace(straight(q[:1], q[1:2], follower.unit), places=np.array([0.5, 1.0]))
+    way = replace(straight(follower.loops, q[:1], q[1:2], follower.unit), places=np.array([0.5, 1.0]))
     assert motion.followed is not None
     walk = _Walk(follower.loops, way, motion.followed.coordinates[0])
     begin = walk.here

@@ -15,7 +15,7 @@ from linkwright.engine.program import Program
 from linkwright.engine.vector import Vec
 from linkwright.kinematics.branch import CORRECTION, MISFIT
 from linkwright.kinematics.cycle import at_times
-from linkwright.kinematics.step_rule import LARGEST, StepRule, _angle
+from linkwright.kinematics.step_rule import LARGEST, ROOM, StepRule, _angle
 from linkwright.mechanism.geometry import mechanism_size
 
 BEGIN = 0.21
@@ -87,7 +87,7 @@ def margin(h: float, rows: dict[str, tuple[np.ndarray, np.ndarray]], gaps: list[
     found = parts(h, rows)
     change = max(abs(way) for way, _, _ in found.values())
     off = max(abs(each) for _, each, _ in found.values())
-    return 1.0 - max(off / (CORRECTION * change + 1e-10), max(gaps) / (MISFIT * change + 1e-10))
+    return 1.0 - max(off / (CORRECTION * change + ROOM), max(gaps) / (MISFIT * change + ROOM))
 
 
 @pytest.mark.parametrize("h", [-0.004, 0.002, 0.006, 0.012])
@@ -112,7 +112,7 @@ def test_rates_that_do_not_fit_the_way_are_refused(which: str, share: float) -> 
     size = mechanism_size(traced()[0].mechanism)
     for name, (_, _, gap) in parts(h, rows).items():
         scale = size if name.startswith("slot:") else 1.0
-        wrong = share * MISFIT * change * scale / (0.5 * h if which == "rate" else h * h / 12.0)
+        wrong = share * (MISFIT * change + ROOM) * scale / (0.5 * h if which == "rate" else h * h / 12.0)
         found = evaluated(BEGIN + h, h, {**carried, f"{which}:{name}": carried[f"{which}:{name}"] + wrong})
         assert abs(gap) < 0.05 * MISFIT * change
         assert found["margin"] == pytest.approx(1.0 - abs(share), abs=0.06)
@@ -125,7 +125,7 @@ def test_starts_far_from_the_root_are_refused(share: float) -> None:
     h = 0.006
     rows, carried = coordinates(h), before(h)
     change = max(abs(way) for way, _, _ in parts(h, rows).values())
-    size, wrong = mechanism_size(traced()[0].mechanism), share * CORRECTION * change
+    size, wrong = mechanism_size(traced()[0].mechanism), share * (CORRECTION * change + ROOM)
     for name in rows:
         given = dict(carried)
         if name.startswith("slot:"):
@@ -133,7 +133,7 @@ def test_starts_far_from_the_root_are_refused(share: float) -> None:
             far = {**carried, f"before:{name}.s": carried[f"before:{name}.s"] + 10.0 * change * size}
             way, _, gap = (abs(each - 10.0 * change) for each in parts(h, rows)[name])
             assert evaluated(BEGIN + h, h, far)["margin"] == pytest.approx(
-                1.0 - gap / (MISFIT * way), rel=1e-4
+                1.0 - gap / (MISFIT * way + ROOM), rel=1e-4
             )
         else:
             start = complex(carried[f"{name}.x"], carried[f"{name}.y"]) * np.exp(1j * wrong)

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from math import pi
+
 from linkwright.core.dataclass import dataclass
-from linkwright.engine.trace import Mask, Scalar, Value, reciprocal, select
+from linkwright.engine.trace import Mask, Scalar, Value, angle, reciprocal, select
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,6 +33,11 @@ class Vec:
     def perp(self) -> Vec:
         """Turned by a right angle, counter-clockwise."""
         return Vec(-self.y, self.x)
+
+    def angle(self, half_turns: int = 0) -> Scalar:
+        """Direction from the x axis, counter-clockwise, within half a turn of so many half turns, rad."""
+        ahead = -self if half_turns % 2 else self
+        return angle(ahead.y, ahead.x) + pi * half_turns
 
     @property
     def square(self) -> Scalar:

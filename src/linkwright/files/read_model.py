@@ -106,11 +106,13 @@ def _sections(reader: Reader, root: MappingNode, source: str) -> Mechanism:
     check_whole(reader, root, mechanism)
     if unread:
         return mechanism
-    drawing = Drawing(mechanism)
     for name, joint in joints.items():
-        report = partial(_report, reader, root, name)
-        joints[name] = joint.settled(mechanism, report).drawn(drawing)
-    return replace(mechanism, joints=joints)
+        joints[name] = joint.settled(mechanism, partial(_report, reader, root, name))
+    mechanism = replace(mechanism, joints=joints)
+    if reader.error_count or not mechanism.higher:
+        return mechanism
+    drawing = Drawing(mechanism)
+    return replace(mechanism, joints={name: joint.drawn(drawing) for name, joint in joints.items()})
 
 
 def _report(

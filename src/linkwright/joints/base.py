@@ -239,8 +239,7 @@ class Joint(ABC):
         return None if field is None else field.limit(value)
 
     def aligned(self, points: Mapping[str, tuple[float, float]]) -> Joint:
-        """The same joint, with what follows from the points of its first link (a guide's direction) made
-        anew."""
+        """The same joint, with what follows from its first link's points (a guide's direction) made anew."""
         return self
 
     def settled(self, mechanism: Mechanism, report: Report) -> Joint:
@@ -250,6 +249,10 @@ class Joint(ABC):
     def drawn(self, drawing: Drawing) -> Joint:
         """The same joint, with what its file leaves to the drawing."""
         return self
+
+    def rotation_sum(self, drawing: Drawing) -> tuple[Mapping[str, float], float] | None:
+        """Factors of links' rotations as drawn (rad, with turns) and a constant, together zero; None if unknown."""
+        return None
 
     # the model file ---------------------------------------------------------------------------
     @classmethod

@@ -36,6 +36,7 @@ if TYPE_CHECKING:
     from linkwright.kinetostatics.forces import Forces
     from linkwright.laws.program import MotionProgram
     from linkwright.laws.traced import LiftCurve
+    from linkwright.mechanism.drawing import Drawing
     from linkwright.mechanism.mechanism import Mechanism
     from linkwright.structure.group import Connection, Group
     from linkwright.worked.wheels import OwnForm, Wheels
@@ -59,7 +60,8 @@ class CamJoint(HigherPair):
     flat face: d = r_b). With ``side`` the follower oscillates: its arm, from its pivot to ``at``, lies to the
     ``left`` or ``right`` of the line from the pivot to the cam's centre, and the lift is the angle by which it turns
     away from the angle ψ₀ of the base circle. The multiplier is the force along the way of ``at`` (of an oscillating
-    flat face: over the distance of the axes); contact force and pressure angle follow from it.
+    flat face: over the distance of the axes); contact force and pressure angle follow from it. ``half_turns``: the
+    angle between the line of a pivot to the cam's centre and the follower's arm, in half turns.
     """
 
     letter: ClassVar[str] = "C"
@@ -82,6 +84,7 @@ class CamJoint(HigherPair):
     carrier: str = ""
     centre: str = ""
     holder: str = ""
+    half_turns: int = 0
 
     @property
     def joined(self) -> tuple[str, ...]:
@@ -180,8 +183,8 @@ class CamJoint(HigherPair):
                 holder = self._held(mechanism, carrier) if carrier not in (self.cam, self.follower) else ""
                 if holder:
                     found = replace(self, carrier=carrier, centre=name, holder=holder)
-                    found._check(mechanism, report)
-                    return found
+                    held = found._check(mechanism, report)
+                    return replace(found, half_turns=round((held.own - held.along) / math.pi))
         word = "cam_pivot" if self.side else "cam_guide"
         values = {"follower": self.follower, "cam": self.cam}
         report("follower", Sentence(f"joints.{word}", **values), Sentence(f"joints.{word}_remedy", **values))
@@ -196,7 +199,7 @@ class CamJoint(HigherPair):
                 return name
         return ""
 
-    def _check(self, mechanism: Mechanism, report: Report) -> None:
+    def _check(self, mechanism: Mechanism, report: Report) -> Geometry:
         from linkwright.joints.cam_cuts import Geometry
 
         found = Geometry.of(self, mechanism)
@@ -208,6 +211,7 @@ class CamJoint(HigherPair):
                 Sentence("joints.cam_reach"),
                 Sentence(f"joints.{word}", least=least, most=most),
             )
+        return found
 
     def written(self) -> dict[str, Any]:
         if self.program is None:
@@ -220,6 +224,15 @@ class CamJoint(HigherPair):
         if self.touch == "roller":
             found["roller_radius"] = self.roller_radius
         return {f"{self.name}.{key}": value for key, value in found.items()}
+
+    def rotation_sum(self, drawing: Drawing) -> tuple[Mapping[str, float], float] | None:
+        """That of an oscillating follower, as its row has it at the cam's angle."""
+        cam, carrier = drawing.angle(self.cam), drawing.angle(self.carrier) if self.carrier else None
+        if not self.side or cam is None or carrier is None:
+            return None
+        side, held = (1.0 if self.side == "left" else -1.0), self.geometry(drawing.mechanism)
+        lift = float(self._lifted(cam - carrier)[0])
+        return {self.follower: 1.0, self.carrier: -1.0}, self._between(held) - side * (held.start + lift)
 
     # motion -----------------------------------------------------------------------------------
     def marks(self, mechanism: Mechanism, tooth: dict[tuple[str, str], float]) -> Iterable[Mark]:
@@ -254,13 +267,30 @@ class CamJoint(HigherPair):
         return cut(self, connection, dimensions)
 
     def close_loop(self, build: LoopBuilder, cut: Connection, group: str) -> None:
-        """A lift gains nothing over whole turns of the cam; where it is within one no sum of rotations says."""
-        if not build.gains:
-            raise LackingError("joints.cam_sums")
+        """The follower's coordinate and the lift, which gains nothing over whole turns of the cam."""
+        if build.gains:
+            turning = {self.follower: 1.0, self.carrier: -1.0} if self.side else {}
+            build.sum(turning, {} if self.side else {self.holder: 1.0}, 0.0)
+            return
+        held = self.geometry(build.mechanism)
+        unit = 1.0 if self.side else build.mechanism.size
+        lift = build.lifted(self.name, self.cam, self.carrier, self._lifted, unit)
         if self.side:
-            build.sum({self.follower: 1.0, self.carrier: -1.0}, {}, 0.0)
+            side = 1.0 if self.side == "left" else -1.0
+            turning = {self.follower: 1.0, self.carrier: -1.0}
+            build.sum(turning, {}, self._between(held) - side * held.start, {lift: -side})
         else:
-            build.sum({}, {self.holder: 1.0}, 0.0)
+            build.sum({}, {self.holder: 1.0}, held.ahead - held.start, {lift: -1.0})
+
+    def _lifted(self, turn: Any) -> tuple[Any, Any, Any]:
+        """The lift with two derivatives by the cam's angle to its carrier."""
+        lift, slope, bend = self.lift.curves(self.sense * (turn - self.phase))
+        return lift, slope * self.sense, bend
+
+    def _between(self, held: Geometry) -> float:
+        """The angle from the line of a pivot to the cam's centre to the follower's arm in its axes, rad."""
+        nominal = math.pi * self.half_turns
+        return nominal + math.remainder(held.own - held.along - nominal, 2.0 * math.pi)
 
     def pulls(self, forces: Forces) -> Any:
         if self.closure == "groove":

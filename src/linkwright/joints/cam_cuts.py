@@ -115,6 +115,7 @@ def cut(joint: CamJoint, connection: Connection, dimensions: Dimensions) -> Cut:
         radius,
         joint.touch,
         1.0 if joint.side == "left" else -1.0,
+        joint.half_turns,
     )
 
 
@@ -210,6 +211,7 @@ class SwingingCut(Cut):
     radius: Scalar
     touch: str
     side: float
+    half_turns: int
 
     @property
     def ends(self) -> tuple[str, ...]:
@@ -230,9 +232,8 @@ class SwingingCut(Cut):
         return acos((self.line.square + arm - self.radius * self.radius) / (2.0 * c * sqrt(arm)))
 
     def residual(self, poses: Poses, angles: Angles) -> list[Scalar]:
-        arm = self.at - self.pivot
-        between = arm.turn(self.line.conjugate)
-        turned = angles(self.on) - angles(self.carrier) + angle(between.y, between.x)
+        between = (self.at - self.pivot).turn(self.line.conjugate).angle(self.half_turns)
+        turned = angles(self.on) - angles(self.carrier) + between
         return [self._scale * (self.side * turned - self._start() - self._lift(poses)[0])]
 
     def _factor(self, end: str, poses: Poses) -> Scalar:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, ClassVar
 
 from linkwright.core.dataclass import dataclass
@@ -9,6 +10,7 @@ from linkwright.errors import LinkwrightError
 from linkwright.joints.base import Joint
 
 if TYPE_CHECKING:
+    from linkwright.mechanism.drawing import Drawing
     from linkwright.mechanism.mechanism import Mechanism
 
 
@@ -37,8 +39,22 @@ class TurningJoint(Joint):
         return self.friction * (self.pin_radius or 0.0)
 
 
+class TyingJoint(Joint):
+    """Two links that do not turn against each other."""
+
+    couples: ClassVar[bool] = True
+
+    @property
+    def ties(self) -> tuple[str, ...]:
+        return self.joined
+
+    def rotation_sum(self, drawing: Drawing) -> tuple[Mapping[str, float], float]:
+        a, b = self.joined
+        return {b: 1.0, a: -1.0}, -self.turn_of(b, drawing.mechanism)
+
+
 @dataclass(frozen=True)
-class SlidingJoint(Joint):
+class SlidingJoint(TyingJoint):
     """A guide line fixed in link ``guide`` and a block, link ``block``, that slides along it without turning.
 
     The line goes through the point ``through`` of the guide link; its direction is the angle ``direction``
@@ -48,7 +64,6 @@ class SlidingJoint(Joint):
     Coordinate: displacement s of ``at`` from ``through`` along the direction, in m.
     """
 
-    couples: ClassVar[bool] = True
     freedoms: ClassVar[int] = 1
     coordinate: ClassVar[str] = "slide"
     guide: str
@@ -63,10 +78,6 @@ class SlidingJoint(Joint):
 
     @property
     def joined(self) -> tuple[str, ...]:
-        return (self.guide, self.block)
-
-    @property
-    def ties(self) -> tuple[str, ...]:
         return (self.guide, self.block)
 
     @property
@@ -86,10 +97,9 @@ class SlidingJoint(Joint):
 
 
 @dataclass(frozen=True)
-class RigidJoint(Joint):
+class RigidJoint(TyingJoint):
     """Links (a, b) fixed to each other at their common point ``at``, b's x axis at ``angle`` (rad) to a's."""
 
-    couples: ClassVar[bool] = True
     freedoms: ClassVar[int] = 0
     links: tuple[str, str]
     at: str
@@ -97,10 +107,6 @@ class RigidJoint(Joint):
 
     @property
     def joined(self) -> tuple[str, ...]:
-        return self.links
-
-    @property
-    def ties(self) -> tuple[str, ...]:
         return self.links
 
     @property

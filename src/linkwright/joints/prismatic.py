@@ -9,7 +9,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.core.dataclass import dataclass
-from linkwright.engine.trace import Scalar, angle, reciprocal, sqrt
+from linkwright.engine.trace import Scalar, reciprocal, sqrt
 from linkwright.engine.vector import Vec
 from linkwright.fields.base import Field, Quantity
 from linkwright.fields.references import Direction, LinkName, PointName
@@ -47,7 +47,8 @@ class PrismaticJoint(SlidingJoint):
         if self.direction_points is None:
             return self
         (px, py), (qx, qy) = (points[name] for name in self.direction_points)
-        return replace(self, direction=math.atan2(qy - py, qx - px))
+        turned = math.remainder(math.atan2(qy - py, qx - px) - self.direction, 2.0 * math.pi)
+        return replace(self, direction=self.direction + turned)
 
     # the model file ---------------------------------------------------------------------------
     @classmethod
@@ -155,7 +156,7 @@ class PrismaticJoint(SlidingJoint):
         if self.direction_points is None:
             along = dimensions(f"{self.name}.direction")
         else:
-            along = angle((way := self.slide_direction(dimensions)).y, way.x)
+            along = self.slide_direction(dimensions).angle(round(self.direction / math.pi))
         turn = along - dimensions(f"{self.name}.block_angle")
         return turn if step.child == self.block else -turn
 

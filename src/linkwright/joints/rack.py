@@ -185,13 +185,26 @@ class RackPair(HigherPair):
     def drawn(self, drawing: Drawing) -> Joint:
         if self.phase is not None:
             return self
+        rolled = self._rolled(drawing)
         pinion, rack = drawing.angle(self.pinion), drawing.angle(self.rack)
-        centre = drawing.place(self.pinion, self.centre)
-        start = drawing.place(self.rack, self.through)
-        if pinion is None or rack is None or centre is None or start is None:
+        if not drawing or rolled is None or pinion is None or rack is None:
             return replace(self, phase=0.0)
+        return replace(self, phase=pinion - rack + rolled)
+
+    def rotation_sum(self, drawing: Drawing) -> tuple[Mapping[str, float], float] | None:
+        rolled = self._rolled(drawing)
+        if self.phase is None or rolled is None:
+            return None
+        return {self.pinion: 1.0, self.rack: -1.0}, rolled - self.phase
+
+    def _rolled(self, drawing: Drawing) -> float | None:
+        """The angle, rad, that the pinion rolls back from where it is drawn until its centre is at ``through``."""
+        rack = drawing.angle(self.rack)
+        centre, start = drawing.place(self.pinion, self.centre), drawing.place(self.rack, self.through)
+        if rack is None or centre is None or start is None:
+            return None
         along = cmath.exp(1j * (rack + self.direction)).conjugate() * (complex(*centre) - complex(*start))
-        return replace(self, phase=pinion - rack + self.side * along.real / self.radius)
+        return self.side * along.real / self.radius
 
     def written(self) -> dict[str, Any]:
         """Teeth of a module tell the radius."""

@@ -116,9 +116,15 @@ class WheelPair(HigherPair):
         if self.phase is not None:
             return self
         a, b, c = (drawing.angle(link) for link in self.turning)
-        if a is None or b is None or c is None:
+        if not drawing or a is None or b is None or c is None:
             return replace(self, phase=0.0)
         return replace(self, phase=(b - c) - self.transmission * (a - c))
+
+    def rotation_sum(self, drawing: Drawing) -> tuple[Mapping[str, float], float] | None:
+        if self.phase is None:
+            return None
+        factors, _, rest = self.sums(drawing.mechanism)
+        return factors, rest
 
     def dimensions(self) -> Mapping[str, float]:
         found: dict[str, float] = {}

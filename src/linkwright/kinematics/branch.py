@@ -201,24 +201,38 @@ def _share(certificate: Certificate, passed: bool) -> float:
     return 0.8 * float(np.sqrt(WANTED / max(contraction, 1e-9)))
 
 
-def straight(begin: Floats, end: Floats, pace: Floats) -> Way:
-    """The straight way between two sets of driver coordinates (d,); ``pace`` (d,): unit of each, rad or size."""
-    delta = end - begin
+def straight(loops: ClosedLoops, begin: Floats, end: Floats, unit: Floats) -> Way:
+    """The straight way of the drivers between two sets of coordinates (d,); ``unit`` (d,): of each, rad or size."""
+    count = len(loops.drivers)
+    delta = (end - begin)[:count]
 
     def drive(x: Floats) -> tuple[Floats, Floats, Floats]:
-        still = np.zeros((len(x), len(delta)))
-        return begin + x[:, None] * delta, still + delta, still
+        still = np.zeros((len(x), count))
+        return loops.driven(begin[:count] + x[:, None] * delta, still + delta, still)
 
-    return Way(drive, 0.0, 1.0, np.array([1.0]), float(np.abs(delta / pace).max(initial=0.0)))
+    checks = np.linspace(0.0, 1.0, CHECKS + 1) if loops.lifts else np.zeros(0)
+    samples = np.append(checks, 1.0)
+    return Way(drive, 0.0, 1.0, np.array([1.0]), _pace(drive, samples, unit), checks)
+
+
+def _pace(drive: Drive, samples: Floats, unit: Floats) -> float:
+    """The largest rate of a driver or lift at some places."""
+    return float(np.abs(drive(samples)[1] / unit).max(initial=0.0))
 
 
 def lawful(
-    laws: Sequence[Law], unit: Floats, begin: float, end: float, times: Floats, shift: float = 0.0
+    loops: ClosedLoops,
+    laws: Sequence[Law],
+    unit: Floats,
+    begin: float,
+    end: float,
+    times: Floats,
+    shift: float = 0.0,
 ) -> Way:
     """The way of drivers by their laws from one time to another, s, through some between in this order.
 
-    ``unit`` (d,): of each driver, rad or size; ``shift``: of all times, by a period, with coordinates as they were
-    before it.
+    ``unit`` (d,): of each driver or lift, rad or size; ``shift``: of all times, by a period, with coordinates as they
+    were before it.
     """
     sense = 1.0 if end >= begin else -1.0
     lap = np.array([float(np.diff(law.coordinate(np.array([begin, begin + shift]))[0])[0]) for law in laws])
@@ -227,12 +241,11 @@ def lawful(
         t = sense * x
         rows = [law.coordinate(t + shift) for law in laws]
         q, first, second = (np.stack([row[k] for row in rows], axis=1) for k in range(3))
-        return q - lap, sense * first, second
+        return loops.driven(q - lap, sense * first, second)
 
     checks: Floats = np.zeros(0)
     samples = times * sense
-    if not all(law.constant_speed is not None for law in laws):
+    if loops.lifts or not all(law.constant_speed is not None for law in laws):
         checks = np.linspace(sense * begin, sense * end, CHECKS + 1)
         samples = np.concatenate([samples, checks])
-    pace = float(np.abs(drive(samples)[1] / unit).max(initial=0.0))
-    return Way(drive, sense * begin, sense * end, sense * times, pace, checks)
+    return Way(drive, sense * begin, sense * end, sense * times, _pace(drive, samples, unit), checks)

@@ -5,32 +5,34 @@ the driver's angle. So every closed loop is, as complex numbers,
 
     F = Σ_c e^{iθ_c} (a_c + Σ_{j on c} b_j s_j) = 0,      θ_c = φ_c + (turns of drivers),
 
-with as many unknown rotations φ and slides s as real equations. Terms of one rotation each have second derivatives
+with as many unknown rotations φ and slides s as real equations. Lifts of cams that drivers turn are known as the
+drivers' coordinates are, and have columns behind these. Terms of one rotation each have second derivatives
 that the arms bound, which is what :mod:`linkwright.kinematics.certificate` lives on.
 """
 
 from __future__ import annotations
 
 import cmath
-from collections.abc import Iterable, Mapping
+import math
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from copy import copy
 
 import numpy as np
 
 from linkwright.core.arrays import Complexes, Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.core.linear_sums import SMALL, LinearSums
+from linkwright.joints.base import LackingError
 from linkwright.kinematics.angles import counted_links, geared
 from linkwright.kinematics.groups import iterated, whole_form
 from linkwright.mechanism.geometry import mechanism_size
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.structure.group import Group, Structure
 
-#: ``turn`` of a link, ``slide`` of a guide or ``drive`` of a driver.
+#: ``turn`` of a link, ``slide`` of a guide, ``drive`` of a driver, or ``lift`` of a cam.
 Key = tuple[str, str]
 #: Factors by key, and a constant: together zero.
 Sum = tuple[dict[Key, float], float]
-#: Factors (rad, or radii in m) below this make no unknown depend on others.
-DEPENDENT = 1e-12
 #: Coefficients of a place, by rotation and slide (-1: of no slide).
 Terms = dict[tuple[int, int], complex]
 
@@ -45,6 +47,20 @@ class Body:
     place: Terms
 
 
+#: Of a lift: itself and its first two derivatives by the cam's angle to the carrier (m,).
+Curve = Callable[[Floats], tuple[Floats, Floats, Floats]]
+
+
+@dataclass(frozen=True)
+class Lift:
+    """A cam's lift: ``row`` (d,) and ``rest`` give the cam's angle to its carrier from drivers and lifts, rad."""
+
+    row: Floats
+    rest: float
+    curve: Curve
+    unit: float
+
+
 @dataclass(frozen=True)
 class Turned:
     """Loops at some coordinates: unit vectors (…, C), arms (…, C, K), turned directions of slides (…, S, K)."""
@@ -55,11 +71,9 @@ class Turned:
 
 
 def counted(structure: Structure, mechanism: Mechanism) -> list[str]:
-    """Links placed by closed forms whose turns a higher pair counts."""
+    """Links placed by closed forms or as directions whose turns a higher pair counts."""
     pairs = {name: joint.turning for name, joint in mechanism.joints.items() if joint.higher}
-    found = counted_links(structure.groups, pairs, _adds_up) if pairs else []
-    followed = {link for group in iterated(structure) for link in group.links}
-    return [link for link in found if link not in followed]
+    return counted_links(structure.groups, pairs, _adds_up) if pairs else []
 
 
 def _adds_up(group: Group) -> bool:
@@ -91,46 +105,73 @@ class ClosedLoops:
         self.mechanism = mechanism
         self.size = mechanism_size(mechanism)
         self.drivers = list(mechanism.drivers)
-        build = LoopBuilder(mechanism)
+        self._build = build = LoopBuilder(mechanism)
         for group in upstream(structure, mechanism):
             build.add(group)
         self.unknowns, self.sums = build.independent()
         owners = dict(zip(build.unknowns, build.groups, strict=True))
         self.groups = [owners[key] for key in self.unknowns]
         self.links = {name: (body.rotation, body.offset) for name, body in build.bodies.items()}
-        self.n, self.d = len(self.unknowns), len(self.drivers)
+        self.n, self.d = len(self.unknowns), len(self.drivers) + len(build.lifts)
         self.C, self.S, self.K = len(build.rotations), len(build.slides), len(build.loops)
         self._matrices(build)
         self.scale = np.where([kind == "turn" for kind, _ in self.unknowns], 1.0, self.size)
 
     def _matrices(self, build: LoopBuilder) -> None:
         self._columns = {
-            key: i for i, key in enumerate([*self.unknowns, *(("drive", d) for d in self.drivers)])
+            key: i
+            for i, key in enumerate([*self.unknowns, *(("drive", d) for d in self.drivers), *build.lifts])
         }
-        self.turning, phase = np.zeros((self.C, len(self._columns))), np.zeros(self.C)
+        self.turning, self._phase = np.zeros((self.C, len(self._columns))), np.zeros(self.C)
         for c, (unknown, turns) in enumerate(build.rotations):
             if unknown:
-                self.turning[c], phase[c] = self.share(("turn", unknown))
+                self.turning[c], self._phase[c] = self.share(("turn", unknown))
             for driver, sign in turns:
                 self.turning[c, self._columns["drive", driver]] += sign
-        self.sliding, start = np.zeros((self.S, len(self._columns))), np.zeros(self.S)
+        self.sliding, self._start = np.zeros((self.S, len(self._columns))), np.zeros(self.S)
         self.owner = np.array([owner for _, owner in build.slides], dtype=int)
         for j, (key, _) in enumerate(build.slides):
-            self.sliding[j], start[j] = self.share(key)
-        self.a = np.zeros((self.C, self.K), complex)
-        self.b = np.zeros((self.S, self.K), complex)
-        for k, (_, terms) in enumerate(build.loops):
-            for (c, j), value in terms.items():
-                turned = value * cmath.exp(1j * phase[c]) if phase[c] else value
-                if j < 0:
-                    self.a[c, k] += turned
-                else:
-                    self.b[j, k] += turned
-                    self.a[c, k] += start[j] * turned
+            self.sliding[j], self._start[j] = self.share(key)
+        self.a, self.b = self._arms([terms for _, terms in build.loops])
         self.loop_groups = [group for group, _ in build.loops]
         self.own = np.zeros((self.S, self.C))
         self.own[np.arange(self.S), self.owner] = 1.0
         self.coordinates = np.concatenate([self.turning, self.sliding])
+        self.lifts = [self._lift(build, *each) for each in build.lifts.values()]
+
+    def _lift(self, build: LoopBuilder, cam: str, carrier: str, curve: Curve, unit: float) -> Lift:
+        """Raises LackingError where the cam turns with unknowns."""
+        rows = [
+            (self.turning[body.rotation], self._phase[body.rotation] + body.offset)
+            for body in (build.bodies[cam], build.bodies[carrier])
+        ]
+        row, rest = (a - b for a, b in zip(*rows, strict=True))
+        if np.abs(row[: self.n]).max(initial=0.0) > SMALL:
+            raise LackingError("joints.cam_turned", cam=cam)
+        return Lift(row[self.n :], float(rest), curve, unit)
+
+    def driven(self, q: Floats, first: Floats, second: Floats) -> tuple[Floats, Floats, Floats]:
+        """Coordinates of drivers with two derivatives (m, drivers) and behind them those of lifts, (m, d)."""
+        rows = [np.pad(each, ((0, 0), (0, len(self.lifts)))) for each in (q, first, second)]
+        for place, lift in enumerate(self.lifts, len(self.drivers)):
+            turn, rate, bend = (row @ lift.row for row in rows)
+            value, slope, curved = lift.curve(turn + lift.rest)
+            for row, own in zip(rows, (value, slope * rate, curved * rate**2 + slope * bend), strict=True):
+                row[:, place] = own
+        return rows[0], rows[1], rows[2]
+
+    def _arms(self, gaps: Sequence[Terms]) -> tuple[Complexes, Complexes]:
+        """Arms (C, K) and turned directions of slides (S, K) of K places."""
+        a, b = np.zeros((self.C, len(gaps)), complex), np.zeros((self.S, len(gaps)), complex)
+        for k, terms in enumerate(gaps):
+            for (c, j), value in terms.items():
+                turned = value * cmath.exp(1j * self._phase[c]) if self._phase[c] else value
+                if j < 0:
+                    a[c, k] += turned
+                else:
+                    b[j, k] += turned
+                    a[c, k] += self._start[j] * turned
+        return a, b
 
     def share(self, key: Key) -> tuple[Floats, float]:
         """A coordinate of the mechanism as a sum of y: factors (n + d,) and a constant, rad or m."""
@@ -145,18 +186,12 @@ class ClosedLoops:
         row, rest = self.share(key)
         return np.asarray(y[:, : len(row)] @ row + rest)
 
-    def with_gap(self, gap: Complexes) -> ClosedLoops:
-        """The same loops open by ``gap`` (K,) times one more driver coordinate, the last of y."""
+    def to_places(self, places: Mapping[tuple[str, str], complex]) -> ClosedLoops:
+        """Loops in the same coordinates from points (link, name) to places in frame axes, x + iy (m)."""
+        gaps = [_added(self._build.place(*point), {(0, -1): at}, -1.0) for point, at in places.items()]
         other = copy(self)
-        other.d, other.S = self.d + 1, self.S + 1
-        other.turning = np.pad(self.turning, ((0, 0), (0, 1)))
-        other.sliding = np.pad(self.sliding, ((0, 1), (0, 1)))
-        other.sliding[-1, -1] = 1.0
-        other.owner = np.append(self.owner, 0)
-        other.b = np.concatenate([self.b, -gap[None, :]])
-        other.own = np.pad(self.own, ((0, 1), (0, 0)))
-        other.own[-1, 0] = 1.0
-        other.coordinates = np.concatenate([other.turning, other.sliding])
+        other.K = len(gaps)
+        other.a, other.b = self._arms(gaps)
         return other
 
     # values ---------------------------------------------------------------------------------
@@ -182,6 +217,11 @@ class ClosedLoops:
             columns.append(at.slides)
         found: Complexes = self.coordinates.T @ np.concatenate(columns, axis=-2)
         return found
+
+    def linear(self, y: Floats) -> tuple[Floats, Floats]:
+        """F (2K,) at coordinates y (n + d,), and its derivatives ∂F/∂y, (n + d, 2K)."""
+        at = self.turned(y)
+        return self.gap(at), _real(self.slopes(at))
 
     def jacobian(self, slopes: Complexes) -> Floats:
         """∂F/∂z (…, n, n), real parts above imaginary parts."""
@@ -270,6 +310,7 @@ class LoopBuilder:
         self.slides: list[tuple[Key, int]] = []
         self.loops: list[tuple[str, Terms]] = []
         self.sums: list[Sum] = []
+        self.lifts: dict[Key, tuple[str, str, Curve, float]] = {}
         self.bodies = {"frame": Body(0, 0.0, 0j, {})}
 
     def add(self, group: Group) -> None:
@@ -311,9 +352,20 @@ class LoopBuilder:
         """Two places that coincide."""
         self.loops.append((group, _added(start, end, -1.0)))
 
-    def sum(self, rotations: Mapping[str, float], slides: Mapping[str, float], rest: float) -> None:
-        """Σ factor · rotation of a link + Σ factor · displacement of a guide + ``rest`` = 0."""
-        terms: dict[Key, float] = {}
+    def lifted(self, name: str, cam: str, carrier: str, curve: Curve, unit: float) -> Key:
+        """The lift of a cam by its angle to the carrier; ``unit``: 1 rad, or the mechanism's size."""
+        self.lifts["lift", name] = cam, carrier, curve, unit
+        return "lift", name
+
+    def sum(
+        self,
+        rotations: Mapping[str, float],
+        slides: Mapping[str, float],
+        rest: float,
+        lifts: Mapping[Key, float] | None = None,
+    ) -> None:
+        """Σ factor · rotation of a link + Σ factor · displacement of a guide + Σ factor · lift + ``rest`` = 0."""
+        terms: dict[Key, float] = dict(lifts or {})
         for link, factor in rotations.items():
             body = self.bodies[link]
             unknown, turns = self.rotations[body.rotation]
@@ -351,17 +403,14 @@ class LoopBuilder:
         Every sum gives one up: one that no loop holds if there is one, and of those with the largest factor.
         """
         looped = self._looped()
-        solved: dict[Key, tuple[dict[Key, float], float]] = {}
+
+        def order(key: Key) -> float:
+            return -math.inf if key[0] in ("drive", "lift") else float(key not in looped)
+
+        found: LinearSums[Key] = LinearSums()
         for terms, rest in self.sums:
-            terms, rest = _replaced(terms, rest, solved)
-            mine = [key for key in terms if key[0] != "drive" and abs(terms[key]) > DEPENDENT]
-            if not mine:
-                continue
-            given = max(mine, key=lambda key: (key not in looped, abs(terms[key])))
-            lead = terms.pop(given)
-            solved[given] = ({key: -factor / lead for key, factor in terms.items()}, -rest / lead)
-            solved = {key: _replaced(*found, {given: solved[given]}) for key, found in solved.items()}
-        return [key for key in self.unknowns if key not in solved], solved
+            found.add(terms, rest, order)
+        return [key for key in self.unknowns if key not in found.solved], found.solved
 
     def _looped(self) -> set[Key]:
         found: set[Key] = set()
@@ -371,19 +420,6 @@ class LoopBuilder:
                 if slide >= 0:
                     found.add(self.slides[slide][0])
         return found
-
-
-def _replaced(
-    terms: Mapping[Key, float], rest: float, solved: Mapping[Key, tuple[dict[Key, float], float]]
-) -> tuple[dict[Key, float], float]:
-    """A sum with the unknowns that depend on others replaced."""
-    found: dict[Key, float] = {}
-    for key, factor in terms.items():
-        inner, constant = solved.get(key, ({key: 1.0}, 0.0))
-        rest += factor * constant
-        for each, share in inner.items():
-            found[each] = found.get(each, 0.0) + factor * share
-    return found, rest
 
 
 def _added(a: Mapping[tuple[int, int], complex], b: Mapping[tuple[int, int], complex], sign: float) -> Terms:

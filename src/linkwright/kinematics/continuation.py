@@ -20,9 +20,9 @@ from linkwright.kinematics.branch import Branch, Way, follow, lawful, straight
 from linkwright.kinematics.certificate import distance_to_others
 from linkwright.kinematics.closed_loops import ClosedLoops, counted
 from linkwright.kinematics.cycle import Positions, coordinate_text, off_law, rotary
+from linkwright.kinematics.drawn_assembly import nearest_assembly
 from linkwright.kinematics.followed_way import Followed, Stop
 from linkwright.kinematics.groups import iterated, state_name
-from linkwright.mechanism.drawing import Drawing
 
 if TYPE_CHECKING:
     from linkwright.kinematics.design import Design
@@ -30,6 +30,10 @@ if TYPE_CHECKING:
 
 #: What a drawing may leave open (share of the size) to count as exact.
 EXACT = 1e-13
+#: What may be left open where Newton's method cannot close it, as everything is singular.
+SINGULAR = 1e-9
+#: Dyads this near (rad, or share of the size) to where their modes put them are in these modes.
+SAME = 1e-6
 
 
 class Follower:
@@ -45,12 +49,14 @@ class Follower:
         rotary = [
             solver.mechanism.joints[d.joint].coordinate == "turn" for d in self.mechanism.drivers.values()
         ]
-        self.rotary = np.array(rotary, dtype=bool)
-        self.unit = np.where(self.rotary, 1.0, self.loops.size)
+        lifts = self.loops.lifts
+        self.rotary = np.array([*rotary, *[False] * len(lifts)], dtype=bool)
+        own = np.where(self.rotary[: len(rotary)], 1.0, self.loops.size)
+        self.unit = np.append(own, [lift.unit for lift in lifts])
 
     # states -----------------------------------------------------------------------------------
     def states(self, coordinates: Floats, inputs: Floats) -> dict[str, Floats]:
-        """Chain coordinates by name (m,) from unknowns of the loops (m, n) and the drivers' coordinates (m, d)."""
+        """Chain coordinates by name (m,) from unknowns of the loops (m, n) and what is driven (m, d)."""
         y = np.concatenate([coordinates, inputs], axis=1)
         found: dict[str, Floats] = {}
         for group in self.groups:
@@ -69,55 +75,81 @@ class Follower:
         return found
 
     # the drawing --------------------------------------------------------------------------------
-    @cached_property
+    @property
     def drawn(self) -> Floats:
-        """Unknowns (n,) of the assembled mechanism that the drawing shows, at the drawing's inputs.
-
-        What the drawing leaves open, as its coordinates are rounded, is closed on a way of its own.
+        """Unknowns (n,) of the assembled mechanism that the drawing shows, at the inputs ``drawn_inputs``.
 
         Raises:
             AssemblyError: the drawing is too far from any assembly.
         """
-        loops, inputs = self.loops, self.drawn_inputs
-        rough = self._rough()
-        gap = loops.gap(loops.turned(np.concatenate([rough, inputs])))
-        exact = None
-        if np.isfinite(gap).all():
-            if np.abs(gap).max() > EXACT * loops.size:
-                exact = self._closed(rough, gap)
-            if exact is None:
-                root = loops.newton(np.concatenate([rough, inputs]), 40)
-                exact = None if root is None else root[: loops.n]
-        if exact is None:
+        return self._drawn[: self.loops.n]
+
+    @property
+    def drawn_inputs(self) -> Floats:
+        """Coordinates (d,) of drivers and lifts of the assembled mechanism that the drawing shows."""
+        return self._drawn[self.loops.n :]
+
+    @cached_property
+    def _drawn(self) -> Floats:
+        """Coordinates (n + d,) of the assembly that the drawing shows: of the nearest one where it does not close."""
+        loops, assembly = self.loops, self.solver.assembly
+        inputs = np.array([assembly.inputs[name] for name in loops.drivers])
+        rough = np.concatenate([self._rough(inputs), self.driven(inputs[None, :])[0]])
+        gap, found = self._open(rough), None
+        if gap <= EXACT:
+            found = self._closed(rough)
+        elif math.isfinite(gap):
+            found = self._nearest(rough)
+        if found is None:
             turns = rotary(self.mechanism)
             known = zip(loops.drivers, inputs.tolist(), strict=True)
             said = tuple(coordinate_text(name, q, turns[name]) for name, q in known)
             raise AssemblyError("motion.not_near_drawing", name=self.mechanism.name, inputs=said)
-        return exact
+        return found
 
-    @property
-    def drawn_inputs(self) -> Floats:
-        """The drivers' coordinates in the drawing, (d,)."""
-        return np.array([self.solver.assembly.inputs[name] for name in self.loops.drivers])
+    def _open(self, y: Floats) -> float:
+        """What coordinates (n + d,) leave open, as share of the size."""
+        return float(np.abs(self.loops.gap(self.loops.turned(y))).max(initial=0.0)) / self.loops.size
 
-    def _closed(self, rough: Floats, gap: Floats) -> Floats | None:
-        loops, inputs = self.loops, self.drawn_inputs
-        opened = loops.with_gap(gap[: loops.K] + 1j * gap[loops.K :])
-        begin, end = np.append(inputs, 1.0), np.append(inputs, 0.0)
-        largest = float(np.abs(gap).max()) / loops.size
-        branch = follow(opened, straight(begin, end, np.append(self.unit, 1.0 / max(largest, 1e-9))), rough)
-        return branch.last[: loops.n] if branch.complete else None
+    def _closed(self, y: Floats) -> Floats | None:
+        """The root at coordinates that nearly close; these themselves where the loops are singular there."""
+        root = self.loops.newton(y, 40)
+        return y if root is None and self._open(y) < SINGULAR else root
 
-    def _rough(self) -> Floats:
+    def _nearest(self, rough: Floats) -> Floats | None:
+        """The assembly nearest to the drawing, if its dyads are in their modes there."""
+        loops, drawing = self.loops, self.solver.assembly.drawing
+        places = {
+            (link, point): complex(*at)
+            for link in loops.links
+            for point in self.mechanism.link(link).points
+            if (at := drawing.drawn(link, point)) is not None
+        }
+        drawn = [drawing.driver(name) is not None and not loops.lifts for name in loops.drivers]
+        free = np.array([*[True] * loops.n, *drawn, *[False] * len(loops.lifts)], dtype=bool)
+        scale = np.concatenate([loops.scale, self.unit])
+        found = nearest_assembly(loops, loops.to_places(places), rough, scale, free)
+        root = None if found is None else self._closed(found)
+        if root is None:
+            return None
+        own = {group.name for group in self.groups}
+        again = self._rough(root[loops.n :][: len(loops.drivers)])
+        gone = self.nearest_way(again - root[: loops.n]) / loops.scale
+        same = [abs(gap) < SAME for gap, group in zip(gone, loops.groups, strict=True) if group not in own]
+        return root if all(same) else None
+
+    def _rough(self, drawn_inputs: Floats) -> Floats:
         """The unknowns as drawn; those of dyads by their closed form."""
-        solver, loops, drawing = self.solver, self.loops, Drawing(self.mechanism)
+        solver, loops, drawing = self.solver, self.loops, self.solver.assembly.drawing
         own = {link for group in self.groups for link in group.links}
         names = tuple(
             each for n in loops.links if n not in ("frame", *own) for each in row_names("direction", n)
         )
         slides = [key for kind, key in loops.unknowns if kind == "slide" and not self._drawn_slide(key)]
         program = solver.program((*names, *(row_name("displacement", key) for key in slides))).program
-        inputs = _named(dict(zip(loops.drivers, self.drawn_inputs, strict=True)), self.rotary)
+        inputs = _named(
+            dict(zip(loops.drivers, drawn_inputs, strict=True)), self.rotary[: len(loops.drivers)]
+        )
         parameters, drawn = self.design.parameters, solver.assembly.states
         outputs, _ = ScalarProgram(program).step(
             [parameters[name] for name in program.parameters],
@@ -160,21 +192,25 @@ class Follower:
 
     def between(self, begin: Floats, end: Floats, start: Floats) -> Branch:
         """The straight way from driver coordinates (d,) to others, from the unknowns ``start`` (n,)."""
-        return follow(self.loops, straight(begin, end, self.unit), start)
+        return follow(self.loops, straight(self.loops, begin, end, self.unit), start)
+
+    def driven(self, q: Floats) -> Floats:
+        """Coordinates of the drivers (m, drivers), and behind them those of lifts (m, d)."""
+        return self.loops.driven(q, np.zeros_like(q), np.zeros_like(q))[0]
 
     def nearest_drive(self, way: Floats) -> Floats:
         """Differences of driver coordinates (…, d) without whole turns."""
         return np.asarray(way - np.where(self.rotary, _turns(way), 0.0))
 
     def nearest_way(self, way: Floats) -> Floats:
-        """Differences of coordinates (m, n + d) without whole turns."""
-        turning = np.append([kind == "turn" for kind, _ in self.loops.unknowns], self.rotary)
+        """Differences of coordinates (…, n + d), or of the unknowns (…, n), without whole turns."""
+        turning = np.append([kind == "turn" for kind, _ in self.loops.unknowns], self.rotary)[: way.shape[-1]]
         return np.asarray(way - np.where(turning, _turns(way), 0.0))
 
     def lawful(self, begin: float, end: float, times: Floats, shift: float) -> Way:
         """The way by the drivers' laws, see :func:`branch.lawful`."""
         laws = [driver.law for driver in self.mechanism.drivers.values()]
-        return lawful(laws, self.unit, begin, end, times, shift)
+        return lawful(self.loops, laws, self.unit, begin, end, times, shift)
 
     def moved(self, unknowns: Floats, start: float, time: Floats) -> dict[str, Floats]:
         """States at some times (m,), s, followed by the drivers' laws from the unknowns (n,) at the time ``start``;
@@ -212,7 +248,7 @@ class _Journey:
         loops = follower.loops
         n = positions.count
         rows = [positions.coordinates[name][0] for name in loops.drivers]
-        self.q = np.stack(rows, axis=1) if rows else np.zeros((n, 0))
+        self.q = follower.driven(np.stack(rows, axis=1) if rows else np.zeros((n, 0)))
         self.coordinates = np.full((n, loops.n), math.nan)
         self.certified = np.zeros(n, dtype=bool)
         self.stops: list[Stop] = []
@@ -267,18 +303,18 @@ class _Journey:
         """Whether the drivers' coordinates follow each other on one straight line."""
         if self.positions.count < 3 or self.positions.closed:
             return False
-        share = self._shares()
-        on_line = self.q[0] + share[:, None] * (self.q[-1] - self.q[0])
-        return bool((np.diff(share) > 0.0).all() and np.allclose(on_line, self.q, rtol=1e-14, atol=1e-14))
+        share, q = self._shares(), self.q[:, : len(self.follower.loops.drivers)]
+        on_line = q[0] + share[:, None] * (q[-1] - q[0])
+        return bool((np.diff(share) > 0.0).all() and np.allclose(on_line, q, rtol=1e-14, atol=1e-14))
 
     def _shares(self) -> Floats:
-        way = self.q[-1] - self.q[0]
-        lead = int(np.argmax(np.abs(way / self.follower.unit)))
+        way, count = self.q[-1] - self.q[0], len(self.follower.loops.drivers)
+        lead = int(np.argmax(np.abs(way / self.follower.unit)[:count]))
         return np.asarray((self.q[:, lead] - self.q[0, lead]) / (way[lead] or 1.0))
 
     def _along_line(self, start: tuple[Floats, bool]) -> None:
         follower, n = self.follower, self.positions.count
-        way = straight(self.q[0], self.q[-1], follower.unit)
+        way = straight(follower.loops, self.q[0], self.q[-1], follower.unit)
         branch = follow(follower.loops, replace(way, places=self._shares()), start[0])
         k = len(branch.found)
         self.coordinates[:k] = branch.found[:, : follower.loops.n]
@@ -327,7 +363,8 @@ class _Journey:
         last = branch.last
         known = np.isfinite(last).all()
         group = loops.weakest_group(last) if known else loops.groups[-1]
-        self.stops.append(Stop(last[loops.n :] if known else self.q[index[0]], group))
+        inputs = last[loops.n :] if known else self.q[index[0]]
+        self.stops.append(Stop(inputs[: len(loops.drivers)], group))
         self.stop_of[index] = len(self.stops) - 1
 
     # a way by the laws -----------------------------------------------------------------------------

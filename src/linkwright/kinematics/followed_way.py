@@ -25,7 +25,7 @@ ENOUGH = 720
 
 @dataclass(frozen=True)
 class Stop:
-    """Where a way ends: the drivers' coordinates (d,), and the name of the group that becomes singular."""
+    """Where a way ends: the drivers' coordinates, and the name of the group that becomes singular."""
 
     inputs: Floats
     group: str
@@ -35,13 +35,14 @@ class Stop:
 class Followed(Frozen):
     """The way of the groups without closed form through n positions.
 
-    ``inputs`` (n, d): the drivers' coordinates; ``states``: their chain coordinates (n,) by name, NaN where the way
-    is barred; ``coordinates`` (n, unknowns): the same as unknowns of the closed loops; ``certified`` (n,): whether it
-    is proved that the assembly is the one of the drawing; ``margin`` (n,): no other assembly lies nearer (rad, or
-    share of the mechanism's size); ``stops`` and ``stop_of`` (n,): where the way to a position ends, -1 for none;
-    ``breaks``: positions after which it ends before the next one; ``closed``: whether the first position follows the
-    last one; ``returns``: whether such a cycle comes back to its first assembly (None: it was not passed);
-    ``positions``: where the drivers follow their laws from each to the next.
+    ``inputs`` (n, d): coordinates of drivers and lifts; ``states``: their chain coordinates (n,) by name, NaN
+    where the way is barred; ``coordinates`` (n, unknowns): the same as unknowns of the closed loops;
+    ``certified`` (n,): whether it is proved that the assembly is the one of the drawing; ``margin`` (n,): no
+    other assembly lies nearer (rad, or share of the mechanism's size); ``stops`` and ``stop_of`` (n,): where the
+    way to a position ends, -1 for none; ``breaks``: positions after which it ends before the next one;
+    ``closed``: whether the first position follows the last one; ``returns``: whether such a cycle comes back to
+    its first assembly (None: it was not passed); ``positions``: where the drivers follow their laws from each to
+    the next.
     """
 
     follower: Follower
@@ -71,11 +72,12 @@ class Followed(Frozen):
         )  # fmt: skip
 
     def between(self, places: Floats, inputs: Floats) -> dict[str, Floats]:
-        """States (m,) at places (numbers of positions, counted on in between) with given drivers (m, d).
+        """States (m,) at places (numbers of positions, counted on in between) with given drivers (m, drivers).
 
         NaN where one of the two neighbours is not reached.
         """
-        return self.follower.states(self._unknowns(places, inputs), inputs)
+        q = self.follower.driven(inputs)
+        return self.follower.states(self._unknowns(places, q), q)
 
     def _unknowns(self, places: Floats, inputs: Floats) -> Floats:
         n = len(self.inputs)
@@ -147,7 +149,7 @@ class Followed(Frozen):
         q = self.inputs[a] + follower.nearest_drive(q - self.inputs[a])
         order = np.argsort(share, kind="stable")
         places, back = np.unique(share[order], return_inverse=True)
-        way = replace(straight(self.inputs[a], goal, follower.unit), places=places)
+        way = replace(straight(loops, self.inputs[a], goal, follower.unit), places=places)
         branch = follow(loops, way, self.coordinates[a])
         found = np.full((len(share), loops.n), math.nan)
         reached = back < len(branch.found)

@@ -48,7 +48,8 @@ class Placed:
         self.facts = solved.facts
         self.reached = solved.square >= -SINGULAR * solved.scale
         self.valid = solved.square > SINGULAR * solved.scale
-        self.quality = solved.square / solved.scale
+        known_zero = isinstance(solved.scale, float) and solved.scale == 0.0
+        self.quality = solved.square if known_zero else solved.square / solved.scale
 
 
 class GroupTracer:

@@ -84,10 +84,10 @@ def _link(link: Link) -> Hashable:
     return link.name, link.geometry, tuple(link.points), centre
 
 
-def _ahead(mechanism: Mechanism, joint: Any) -> bool:
-    """Of a guide along two points: whether the second has the larger abscissa on its link."""
+def _ahead(mechanism: Mechanism, joint: Any) -> tuple[bool, int]:
+    """Of a guide along two points: whether the second has the larger abscissa on its link; its half turns."""
     start, end = (mechanism.link(joint.guide).points[name][0] for name in joint.direction_points)
-    return bool(end > start)
+    return bool(end > start), round(joint.direction / math.pi)
 
 
 def _plain(value: Any) -> Hashable:

@@ -28,6 +28,8 @@ if TYPE_CHECKING:
 
 #: A position this near (rad, m) to where a way ends is itself singular.
 ON_LIMIT = 1e-6
+#: Pins this near, as share of the mechanism's size, are at one place.
+AT_ONE_PLACE = 1e-9
 #: Digits, of rad or m, to which the end of a way that is followed is told.
 KNOWN = 6
 
@@ -153,11 +155,13 @@ class _Facts:
         placed = self.motion.solver.motion.placed[group.name]
         if placed.dyad is None:
             return self._lost(group, index)
-        if code < 0:
-            return Outcome(False, _of("singular", group), group.name, "singular")
         facts = {
             name: float(self.values[row_name("fact", group.name, on=name)][place]) for name in placed.facts
         }
+        if code < 0:
+            together = facts.get("distance²", math.inf) < (AT_ONE_PLACE * self.motion.mechanism.size) ** 2
+            said = _of("coinciding" if together else "singular", group)
+            return Outcome(False, said, group.name, "singular")
         reason = placed.dyad.explain(facts)
         return Outcome(False, _of("apart", group, reason=reason), group.name, "unreachable")
 

@@ -22,6 +22,9 @@ from linkwright.structure.group import TreeJoint
 
 #: Largest change of a coordinate in one step, rad or share of the size.
 LARGEST = 0.3
+#: What a correction and a misfit may be beside these shares, as where a cam's rise begins behind a dwell: no other
+#: assembly of the same sign of the determinant is so near.
+ROOM = 1e-4
 
 
 @dataclass
@@ -68,7 +71,7 @@ class StepRule:
         sign = select(trace.compare("less", placed.determinant, 0.0), -1.0, 1.0)
         before = self._state(f"sign:{placed.group.name}", 0.0, sign)
         off = maximum(
-            correction * reciprocal(CORRECTION * change + 1e-10), misfit * reciprocal(MISFIT * change + 1e-10)
+            correction * reciprocal(CORRECTION * change + ROOM), misfit * reciprocal(MISFIT * change + ROOM)
         )
         kept = trace.logic("and", trace.compare("less", 0.0, before * sign), trace.compare("less", off, 1.0))
         kept = trace.logic("and", kept, trace.compare("less", change, LARGEST))

@@ -47,7 +47,7 @@ def half_transmission(outputs: MotionOutputs, group: Group) -> Scalar:
     """Tangent of half the transmission angle, 0 to 1, which grows with the angle and costs no arc tangent."""
     columns = _columns(outputs, group)
     across, along = _across_and_along(columns)
-    return across / (_sizes(outputs, group, columns) + along)
+    return _share(across, _sizes(outputs, group, columns) + along)
 
 
 def _across_and_along(columns: list[list[Scalar]]) -> tuple[Scalar, Scalar]:
@@ -59,7 +59,12 @@ def _across_and_along(columns: list[list[Scalar]]) -> tuple[Scalar, Scalar]:
 def conditioning(outputs: MotionOutputs, group: Group) -> Scalar:
     """Determinant of the closure equations with unit columns, 0 (singular) to 1; a dyad's is sin μ."""
     columns = _columns(outputs, group)
-    return absolute(determinant(columns)) / _sizes(outputs, group, columns)
+    return _share(absolute(determinant(columns)), _sizes(outputs, group, columns))
+
+
+def _share(part: Scalar, all_of_it: Scalar) -> Scalar:
+    """A quotient; 0 where a column is known to be zero, as for pins at one place."""
+    return 0.0 if isinstance(all_of_it, float) and all_of_it == 0.0 else part / all_of_it
 
 
 def _sizes(outputs: MotionOutputs, group: Group, columns: list[list[Scalar]]) -> Scalar:

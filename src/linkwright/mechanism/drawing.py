@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from functools import cached_property
 
+from linkwright.core.linear_sums import SMALL, LinearSums
+from linkwright.joints.base import Joint
 from linkwright.joints.lower import SlidingJoint
 from linkwright.mechanism.mechanism import Mechanism
 
@@ -16,6 +19,7 @@ class Drawing:
 
     def __init__(self, mechanism: Mechanism) -> None:
         self.mechanism = mechanism
+        self._sums: LinearSums[str] | None = None
 
     @cached_property
     def points(self) -> dict[str, Vec]:
@@ -26,26 +30,40 @@ class Drawing:
         return bool(self.mechanism.drawing)
 
     @cached_property
-    def _angles(self) -> dict[str, float | None]:
+    def _directions(self) -> dict[str, float | None]:
+        """Directions of links without turns, rad; None of those that nothing drawn tells."""
         found: dict[str, float | None] = {"frame": 0.0}
         found |= {name: self._from_points(name) for name in self.mechanism.links}
         self._spread_along_guides(found)
-        self._count_turns(found)
         return found
 
     def angle(self, link: str) -> float | None:
         """Direction of a link's x axis, rad; None where the drawing does not tell.
 
-        Of a driven link with the turns of its driver at the start, of the others in [-π, π].
+        With the turns that it has in the motion where drivers, guides, welds and higher pairs of known phase give
+        them, of a driver those at the start of its law; else in [-π, π].
         """
-        return self._angles[link]
+        if self._sums is None:
+            self._count_turns()
+        assert self._sums is not None
+        terms, total = self._sums.reduced({link: 1.0})
+        own = self._directions[link]
+        for each, factor in terms.items():
+            other = self._directions[each] if abs(factor) > SMALL else 0.0
+            if other is None:
+                return None if own is None else math.remainder(own, 2.0 * math.pi)
+            total += factor * math.remainder(other, 2.0 * math.pi)
+        return total if own is None else total + math.remainder(own - total, 2.0 * math.pi)
 
     def driver(self, name: str) -> float | None:
         """A driver's coordinate in the drawing."""
         driver = self.mechanism.drivers[name]
         if driver.joint in self.mechanism.guides:
             return self.slide(self.mechanism.guides[driver.joint])
-        turned, base = self.angle(driver.link), self.angle(driver.relative_to)
+        ends = driver.link, driver.relative_to
+        if any(self._directions[link] is None for link in ends):
+            return None
+        turned, base = (self.angle(link) for link in ends)
         return None if turned is None or base is None else turned - base
 
     def slide(self, joint: SlidingJoint) -> float | None:
@@ -59,12 +77,12 @@ class Drawing:
 
     def _from_points(self, link: str) -> float | None:
         local = self.mechanism.links[link].points
-        drawn = [name for name in local if self._drawn(link, name) is not None]
+        drawn = [name for name in local if self.drawn(link, name) is not None]
         best: tuple[float, float] | None = None
         for i, first in enumerate(drawn):
             for second in drawn[i + 1 :]:
                 a, b = local[first], local[second]
-                p, q = self._drawn(link, first), self._drawn(link, second)
+                p, q = self.drawn(link, first), self.drawn(link, second)
                 assert p is not None and q is not None
                 length = math.hypot(b[0] - a[0], b[1] - a[1])
                 if length > 0 and (best is None or length > best[0]):
@@ -72,32 +90,66 @@ class Drawing:
                     best = (length, world - math.atan2(b[1] - a[1], b[0] - a[0]))
         return None if best is None else best[1]
 
-    def _drawn(self, link: str, point: str) -> Vec | None:
+    def drawn(self, link: str, point: str) -> Vec | None:
+        """Where a point of a link is drawn, m."""
         return self.points.get(f"{link}.{point}", self.points.get(point))
 
     def place(self, link: str, point: str) -> Vec | None:
-        drawn = self._drawn(link, point)
+        drawn = self.drawn(link, point)
         if drawn is not None:
             return drawn
         angle = self.angle(link)
         local = self.mechanism.link(link).points
         for name, (x, y) in local.items():
-            base = self._drawn(link, name)
+            base = self.drawn(link, name)
             if base is not None and angle is not None:
                 dx, dy = local[point][0] - x, local[point][1] - y
                 c, s = math.cos(angle), math.sin(angle)
                 return base[0] + c * dx - s * dy, base[1] + s * dx + c * dy
         return None
 
-    def _count_turns(self, angles: dict[str, float | None]) -> None:
-        for name, angle in angles.items():
-            if angle is not None:
-                angles[name] = math.remainder(angle, 2 * math.pi)
+    def _count_turns(self) -> None:
+        """Sums of rotations that hold in the motion, in the order in which chains hang on joints: a link whose
+        direction the others do not fit follows none of them."""
+        self._sums = LinearSums()
+        self._add({"frame": 1.0}, 0.0)
+        joints = [each for each in self.mechanism.joints.values() if each.ties or each.higher]
+        joints.sort(key=lambda each: (each.higher, each.freedoms))
+        while joints and not joints[0].freedoms:
+            self._hold(joints.pop(0))
         for driver in self.mechanism.drivers.values():
-            turned, base = angles[driver.link], angles[driver.relative_to]
-            if driver.law.rotary and turned is not None and base is not None:
-                start = base + driver.law.at(0.0)
-                angles[driver.link] = start + math.remainder(turned - start, 2 * math.pi)
+            if driver.law.rotary:
+                start = driver.law.at(0.0)
+                turned, base = (self._directions[each] for each in (driver.link, driver.relative_to))
+                if turned is not None and base is not None:
+                    start += math.remainder(turned - base - start, 2.0 * math.pi)
+                self._add({driver.link: 1.0, driver.relative_to: -1.0}, -start)
+        while len(left := [each for each in joints if not self._hold(each)]) < len(joints):
+            joints = left
+
+    def _hold(self, joint: Joint) -> bool:
+        """Adds what a joint holds; whether the drawing tells it so far."""
+        held = joint.rotation_sum(self)
+        if held is not None:
+            self._add(*held)
+        return held is not None
+
+    def _add(self, terms: Mapping[str, float], rest: float) -> None:
+        """Adds a sum, solved for a link that is not drawn, or whose direction the others fit best."""
+        assert self._sums is not None
+        left, constant = self._sums.reduced(terms, rest)
+        directions = {link: self._directions[link] for link, factor in left.items() if abs(factor) > SMALL}
+
+        def order(link: str) -> float:
+            own = directions.get(link)
+            if own is None:
+                return 1.0
+            total = constant + sum(
+                left[each] * math.remainder(a or 0.0, 2.0 * math.pi) for each, a in directions.items()
+            )
+            return -round(abs(math.remainder(total / left[link], 2.0 * math.pi)), 1)
+
+        self._sums.add(terms, rest, order)
 
     def _spread_along_guides(self, angles: dict[str, float | None]) -> None:
         """A link without two drawn points takes its direction from a guide, or from where its block is drawn."""
@@ -125,7 +177,7 @@ class Drawing:
 
         The block is behind where the assembly's word or the start of its driver says so.
         """
-        through, at = self._drawn(joint.guide, joint.through), self._drawn(joint.block, joint.at)
+        through, at = self.drawn(joint.guide, joint.through), self.drawn(joint.block, joint.at)
         if through is None or at is None:
             return None
         dx, dy = at[0] - through[0], at[1] - through[1]

@@ -90,9 +90,9 @@ class _Loops:
 
 def loops(motion: Motion, dimensions: Iterable[str]) -> Plain | None:
     """The loops of a motion's groups without closed form, and where they are at its first position; None where there
-    are none, or where it is not certified there."""
+    are none, where a cam's lift moves them, or where it is not certified there."""
     followed = motion.followed
-    if followed is None or not followed.certified[0]:
+    if followed is None or not followed.certified[0] or followed.follower.loops.lifts:
         return None
     mechanism = motion.mechanism
     own = followed.follower.loops

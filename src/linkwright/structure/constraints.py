@@ -11,13 +11,12 @@ from collections.abc import Mapping
 from dataclasses import field
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.linear_sums import SMALL, LinearSums
 from linkwright.mechanism.mechanism import Mechanism
 
 FRAME = "frame"
 #: What stands before a driver's name where it is the source of a demand.
 DRIVER = "driver "
-#: Factors of rotations below this share of the largest are zero.
-SMALL = 1e-9
 
 
 @dataclass(frozen=True)
@@ -48,34 +47,6 @@ class Classes:
         return a != b
 
 
-class _Sums:
-    """Linear equations between rotations of links, solved for one link each (Gauss)."""
-
-    def __init__(self) -> None:
-        self.solved: dict[str, dict[str, float]] = {}
-
-    def add(self, factors: Mapping[str, float]) -> bool:
-        """Adds Σ factor · rotation = const; False if it follows from those before."""
-        left: dict[str, float] = {}
-        for link, factor in factors.items():
-            for each, share in self.solved.get(link, {link: 1.0}).items():
-                left[each] = left.get(each, 0.0) + factor * share
-        least = SMALL * max(map(abs, factors.values()), default=0.0)
-        left = {link: factor for link, factor in left.items() if abs(factor) > least}
-        if not left:
-            return False
-        pivot = max(left, key=lambda link: abs(left[link]))
-        lead = left.pop(pivot)
-        row = {link: -factor / lead for link, factor in left.items()}
-        for other in self.solved.values():
-            if pivot in other:
-                share = other.pop(pivot)
-                for link, factor in row.items():
-                    other[link] = other.get(link, 0.0) + share * factor
-        self.solved[pivot] = row
-        return True
-
-
 @dataclass
 class ConstraintGraph:
     """Bodies (links and shared pins) with their freedoms, and the equations between them."""
@@ -84,7 +55,7 @@ class ConstraintGraph:
     equations: list[Equation]
     redundant: list[str] = field(default_factory=list)
     rotations: Classes = field(default_factory=Classes)
-    sums: _Sums = field(default_factory=_Sums)
+    sums: LinearSums[str] = field(default_factory=LinearSums)
 
     @classmethod
     def of(cls, mechanism: Mechanism) -> ConstraintGraph:

@@ -147,7 +147,7 @@ def through_peaks(curve: Curve, axis: InputAxis) -> tuple[Floats, Floats]:
 def _extreme(curve: Curve, axis: InputAxis, kind: Kind) -> tuple[float, float]:
     """Place on the axis and value: between the positions where the curve knows its extremes, else at one of them."""
     found = curve.extremes(kind) if curve.extremes is not None else None
-    if found is not None:
+    if found is not None and not np.isnan(found.value):
         return (found.time if axis.dimension == "time" else found.input), found.value
     index = first_largest(curve.values if kind == "max" else -curve.values)
     return float((axis.values if curve.x is None else curve.x)[index]), float(curve.values[index])

@@ -69,6 +69,8 @@ WORDS = {
     "follower and cam",
     "cam_reach_above": "take a base_radius above {least}, or bring follower and cam nearer",
     "cam_sums": "the lift of a cam is no sum of rotations and displacements, which is all that can be said "
-    "here: exports to MuJoCo and Modelica, worked solutions of a cam within a loop, and groups without closed form "
-    "behind a cam, take gears, racks and belts only",
+    "here: exports to MuJoCo and Modelica, and worked solutions of a cam within a loop, take gears, racks and belts "
+    "only",
+    "cam_turned": "the cam {cam!r} is turned by a linkage: groups without closed form, and wheels geared to dyads, "
+    "cannot be followed behind it; let a driver turn the cam, directly or through gears, belts and chains",
 }

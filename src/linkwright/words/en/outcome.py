@@ -11,6 +11,8 @@ WORDS = {
     "followed": "assembled; the assembly is followed, but not certified",
     "singular": "group {signature} ({links}) is at a singular position (dead point or change point), where its "
     "motion is not determined by the driver",
+    "coinciding": "the two outer pins of group {signature} ({links}) are at one place, so that the group can turn "
+    "freely about them",
     "misfit": "the pair {joint!r} does not fit: {reason}",
     "apart": "group {signature} ({links}) cannot be assembled: {reason}",
     "rrr_far": "the outer pins are {distance} apart, links of {first} and {second} reach {reach}: {missing} "

@@ -62,5 +62,7 @@ WORDS = {
     "cam_reach_remedy": "base_radius 应大于 {least} 而小于 {most}，或改变从动件与凸轮的距离",
     "cam_reach_above": "base_radius 应大于 {least}，或使从动件与凸轮靠近",
     "cam_sums": "凸轮的升程不是转角与位移之和，而此处只能表达这种和："
-    "导出 MuJoCo 和 Modelica、回路之中凸轮的解题过程，以及凸轮之后没有闭式解的杆组，只支持齿轮、齿条和带",
+    "导出 MuJoCo 和 Modelica，以及回路之中凸轮的解题过程，只支持齿轮、齿条和带",
+    "cam_turned": "凸轮“{cam}”由连杆机构驱动，其后没有闭式解的杆组以及与二级杆组啮合的轮无法跟踪；"
+    "请由原动件直接或经齿轮、带、链驱动凸轮",
 }

@@ -8,6 +8,7 @@ WORDS = {
     "stopped": "{signature} 杆组（{links}）不能连续运动到此位置：途中在 {where} 处到达奇异位置",
     "followed": "可装配；装配模式由连续跟踪得到，未经证明",
     "singular": "{signature} 杆组（{links}）处于奇异位置（死点或变点），原动件在此不能确定其运动",
+    "coinciding": "{signature} 杆组（{links}）的两个外副重合，杆组可绕其自由转动",
     "misfit": "“{joint}”的尺寸不合：{reason}",
     "apart": "{signature} 杆组（{links}）无法装配：{reason}",
     "rrr_far": "两外副相距 {distance}，长 {first} 与 {second} 的构件最多可达 {reach}：差 {missing}",

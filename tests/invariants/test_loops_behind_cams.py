@@ -1,0 +1,81 @@
+"""A triad behind a cam over the whole cycle, with its dwells and the ends of its rises, against its bars' lengths."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.optimize import fsolve
+from tests.reference import joint_cells
+from tests.reference.geared_mechanisms import GearedDraft, finished
+from tests.reference.multibody import FRAME
+
+import linkwright as lw
+from linkwright.joints.base import LackingError
+
+TEXT = """format: 1
+frame: {points: {O: [0 mm, 0 mm], G: [0 mm, 0 mm], O2: [400 mm, 350 mm], O3: [650 mm, 650 mm]}}
+links:
+  cam: {points: {O: [0 mm, 0 mm], X: [30 mm, 0 mm]}}
+  slide: {points: {P: [0 mm, 0 mm], T: [0 mm, 100 mm]}, mass: 0.5 kg}
+  bar_1: {points: [T, A], mass: 1 kg}
+  bar_2: {points: [O2, B], mass: 1 kg}
+  bar_3: {points: [O3, C], mass: 1 kg}
+  plate: {points: [A, B, C], mass: 1 kg}
+joints:
+  guide: {kind: prismatic, guide: frame, through: G, direction: 90 deg, block: slide, at: P, block_angle: 90 deg}
+  lobe: {kind: cam, cam: cam, follower: slide, at: P, touch: roller, roller_radius: 10 mm, base_radius: 50 mm,
+    closure: groove, program: [{rise: 18 mm, over: 110 deg, law: LAW}, {dwell: 60 deg},
+    {fall: 18 mm, over: 100 deg, law: LAW}, {dwell: 90 deg}]}
+drawing: {P: [0 mm, 60 mm], T: [0 mm, 160 mm], A: [250 mm, 500 mm], B: [450 mm, 480 mm], C: [520 mm, 600 mm]}
+driver: {turn: cam, about: O, speed: 60 rpm}
+gravity: [0, -9.81 m/s²]
+"""
+BARS = (("T", "A"), ("O2", "B"), ("O3", "C"), ("A", "B"), ("B", "C"), ("A", "C"))
+#: The second derivative of the lift is continuous, or jumps.
+LAWS = ("cycloidal", "simple_harmonic", "constant_acceleration")
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_the_cycle_is_that_of_the_bars(law: str) -> None:
+    mechanism = lw.loads(TEXT.replace("LAW", law))
+    motion = lw.solve_motion(mechanism, steps=90)
+    assert motion.followed is not None and motion.followed.returns
+    fixed = {name: np.array(at) for name, at in (mechanism.frame.points | mechanism.drawing).items()}
+    lengths = [np.hypot(*(fixed[p] - fixed[q])) for p, q in BARS]
+    x = np.concatenate([fixed[name] for name in "ABC"])
+
+    def open_by(x: np.ndarray, t: np.ndarray) -> list[float]:
+        at = fixed | {"T": t} | {name: x[2 * k : 2 * k + 2] for k, name in enumerate("ABC")}
+        return [float(((at[p] - at[q]) ** 2).sum() - r**2) for (p, q), r in zip(BARS, lengths, strict=True)]
+
+    for i, t in enumerate(motion.point("T").position):
+        x = fsolve(open_by, x, args=(t,), xtol=1e-13)
+        found = np.concatenate([motion.point(name).position[i] for name in "ABC"])
+        assert found == pytest.approx(x, abs=1e-10)
+    forces = lw.solve_forces(motion)
+    assert np.abs(forces.power_residual).max() < 1e-13
+    assert np.abs(forces.balance_residual).max() < 1e-12
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_sweeps_pass_where_a_rise_begins(law: str) -> None:
+    """The prediction from a dwell misses the whole step there."""
+    mechanism = lw.loads(TEXT.replace("LAW", law))
+    radii = np.array([0.0499, 0.0501])
+    swept = lw.sweep(mechanism, {"lobe.base_radius": radii}, outputs=["plate.angle max"], steps=72)
+    for radius, largest in zip(radii, swept["plate.angle", "max"], strict=True):
+        alone = lw.solve_motion(mechanism.with_dimensions({"lobe.base_radius": radius}), steps=72)
+        assert largest == pytest.approx(alone.link("plate").angle.max(), abs=1e-3)
+
+
+def test_behind_a_cam_that_a_linkage_turns_what_cannot_be_followed_is_refused() -> None:
+    d = GearedDraft(np.random.default_rng([91, 0]))
+    crank = d.link((0.0, 0.0))
+    d.pin(FRAME, crank, (0.0, 0.0))
+    d.mark(crank, (0.3, 0.0), joint_cells.CRANK_END)
+    joint_cells.GROUPS["RRR"](d)
+    joint_cells.JOINTS["cam"](d, d.pins[-1])
+    joint_cells.JOINTS["revolute"](d, d.pins[-1])
+    joint_cells.JOINTS["gear"](d, d.pins[-1])
+    with pytest.raises(LackingError, match=r"the cam 'l3' is turned by a linkage.*let a driver turn the cam"):
+        lw.solve_motion(lw.loads(finished(d).text), steps=12)
