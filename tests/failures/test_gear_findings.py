@@ -609,3 +609,21 @@ driver: {{turn: sun, about: O, speed: 3 rad/s}}
         lw.loads(text)
     motion = lw.solve_motion(lw.loads(text.replace("[ring, planet]", "[frame, planet]")), steps=4)
     assert motion.link("arm").angular_velocity == pytest.approx([1.0] * 4, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("pair", "severity"),
+    [
+        ("m: {kind: gear, links: [a, b], teeth: [20, 40], module: 2.01 mm}", "warning"),
+        ("m: {kind: gear, links: [a, b], teeth: [20, 40], module: 2.04 mm}", "error"),
+        ("m: {kind: gear, links: [a, b], radii: [20.1 mm, 40.2 mm]}", "error"),
+    ],
+)
+def test_teeth_within_their_clearance_are_read_with_a_warning(pair: str, severity: str) -> None:
+    """0.3 mm off is less than a quarter of the module, 1.2 mm is more; pitch radii have no clearance. So does the
+    solver take them."""
+    text = f"{HEAD}  {pair}\n"
+    mechanism, findings = read_text(text, "x")
+    found = [each for each in findings if "external pair needs" in str(each)]
+    assert [each.severity for each in found] == [severity]
+    assert (mechanism is None) or severity == "warning"

@@ -10,6 +10,7 @@ import pytest
 
 import linkwright as lw
 from linkwright.files.document import Document
+from linkwright.files.write import dump
 from linkwright.study.changed_text import changed_text, digits
 
 #: A machine as the studio draws it: all links have their lengths from the drawing, a wheel its phase.
@@ -85,3 +86,13 @@ def test_numbers_are_read_back_to_the_last_digit(unit: float) -> None:
     for value in np.random.default_rng(1).uniform(-3.0, 3.0, 2000).tolist():
         assert abs(float(digits(value, unit)) * unit - value) <= math.ulp(value)
     assert digits(0.14, 1e-3) == "140"
+
+
+def test_zeros_that_are_no_defaults_are_written() -> None:
+    """A phase of zero where the drawing gives another one, teeth without a pressure angle."""
+    text = (DRAWN + DRAWING).replace("ratio: -0.5", "ratio: -0.5, pressure_angle: 0 deg")
+    mechanism = lw.loads(text)
+    assert abs(mechanism.dimension("mesh.phase")) > 0.1
+    again = lw.loads(dump(mechanism.with_dimensions({"mesh.phase": 0.0})))
+    assert again.dimension("mesh.phase") == 0.0
+    assert again.dimension("mesh.pressure_angle") == 0.0
