@@ -11,15 +11,17 @@ from collections.abc import Iterable, Mapping
 
 from linkwright import units
 from linkwright.core.dataclass import dataclass
-from linkwright.errors import LinkwrightError, QuantityError
+from linkwright.errors import LinkwrightError, QuantityError, with_remedy
 from linkwright.files.document import Document
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import canonical
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.drawing import Drawing
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.registry import offered
 from linkwright.study.ranges import dimension_of
 from linkwright.units import number
+from linkwright.words.sentence import Sentence
 
 _NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*([^\s\"'#,\]}]*)")
 #: Lengths from this one on are in m.
@@ -139,7 +141,8 @@ def changed_text(document: Document, values: Mapping[str, float]) -> str:
         if how is not None:
             edits.append((how, value))
         elif not (drawn and address in drawn_dimensions(old)):
-            raise LinkwrightError("model.no_place", address=address)
+            near = offered(address, old.dimensions())
+            raise LinkwrightError(with_remedy(Sentence("model.no_place", address=address), near))
     if drawn:
         motion = as_drawn(old, new)
         edits += [(how, _coordinate(motion, key)) for how, key in drawn.values()]
