@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
 
 from linkwright.core.dataclass import dataclass
@@ -21,6 +21,9 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import nearest, offered
 from linkwright.structure.group import Group, Structure
 from linkwright.words.sentence import Sentence, lines
+
+#: Where modes are looked for if the drawn inputs are out of reach: beside them, rad or shares of the size.
+BESIDE = (0.01, -0.01, 0.03, -0.03, 0.1, -0.1)
 
 
 class AssemblyError(LinkwrightError):
@@ -179,13 +182,24 @@ def _from_drawing(mechanism: Mechanism, structure: Structure, assembly: Assembly
     motion = trace_motion(mechanism, structure, rates=False, iterations=8)
     for group in open_groups:
         probe = _Probe(motion, group, drawing)
-        if probe.names:
+        for inputs in _beside(mechanism, assembly.inputs) if probe.names else ():
             distances = {
-                sign: probe.distance({**modes, group.name: sign}, assembly.states, assembly.inputs)
+                sign: probe.distance({**modes, group.name: sign}, assembly.states, inputs)
                 for sign in (1.0, -1.0)
             }
-            closer = distances[-1.0] < distances[1.0] * (1.0 - 1e-9) - probe.rounding
-            modes[group.name] = -1.0 if closer else 1.0
+            if min(distances.values()) < math.inf:
+                closer = distances[-1.0] < distances[1.0] * (1.0 - 1e-9) - probe.rounding
+                modes[group.name] = -1.0 if closer else 1.0
+                break
+
+
+def _beside(mechanism: Mechanism, inputs: Mapping[str, float]) -> Iterator[Mapping[str, float]]:
+    """The drivers' coordinates in the drawing, then some beside them, where these are out of reach."""
+    yield inputs
+    for share in BESIDE:
+        for name, q in inputs.items():
+            unit = 1.0 if mechanism.drivers[name].law.rotary else mechanism.size
+            yield {**inputs, name: q + share * unit}
 
 
 class _Probe:
