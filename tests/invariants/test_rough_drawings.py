@@ -94,3 +94,25 @@ cycle: {duration: 5 s}
 """
     with pytest.raises(lw.LinkwrightError, match="singular"):
         lw.solve_motion(lw.loads(text), steps=5)
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_a_dyad_drawn_just_out_of_reach_is_on_the_side_on_which_it_is_drawn(side: float) -> None:
+    """|A O2| ≤ 0.5 m up to cos θ = (0.3² + 0.7² - 0.5²) / (2 · 0.3 · 0.7), θ = 38.21°; drawn at 38.3°."""
+    a = complex(0.3 * np.exp(1j * np.radians(38.3)))
+    way = (0.7 - a) / abs(0.7 - a)
+    b = complex(a + 0.3 * way * np.exp(0.1j * side))
+    text = f"""format: 1
+frame: {{points: {{O1: [0 m, 0 m], O2: [0.7 m, 0 m]}}}}
+links:
+  crank: {{points: [O1, A], length: 0.3 m}}
+  coupler: {{points: [A, B], length: 0.3 m}}
+  rocker: {{points: [O2, B], length: 0.2 m}}
+drawing: {{A: [{a.real!r} m, {a.imag!r} m], B: [{b.real!r} m, {b.imag!r} m]}}
+driver: {{turn: crank, about: O1, speed: 1 rad/s}}
+cycle: {{from: -30 deg, to: 30 deg}}
+"""
+    motion = lw.solve_motion(lw.loads(text), steps=12)
+    arm = motion.point("B").position - motion.point("A").position
+    ray = np.array([0.7, 0.0]) - motion.point("A").position
+    assert (side * (ray[:, 0] * arm[:, 1] - ray[:, 1] * arm[:, 0]) > 0.0).all()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
 
 from linkwright.core.dataclass import dataclass
@@ -22,6 +22,9 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import nearest, offered
 from linkwright.structure.group import Group, Structure
 from linkwright.words.sentence import Sentence, lines
+
+#: Where modes are looked for if the drawn inputs are out of reach: beside them, rad or shares of the size.
+BESIDE = (0.01, -0.01, 0.03, -0.03, 0.1, -0.1)
 
 
 class AssemblyError(LinkwrightError):
@@ -179,13 +182,24 @@ def _from_drawing(mechanism: Mechanism, structure: Structure, assembly: Assembly
         return
     probe = _Probe(trace_motion(mechanism, structure, rates=False, iterations=8), open_groups, drawing)
     for group in open_groups:
-        if probe.goals[group.name]:
+        for inputs in _beside(mechanism, assembly.inputs) if probe.goals[group.name] else ():
             distances = {
-                sign: probe.distance(group, {**modes, group.name: sign}, assembly.states, assembly.inputs)
+                sign: probe.distance(group, {**modes, group.name: sign}, assembly.states, inputs)
                 for sign in (1.0, -1.0)
             }
-            closer = distances[-1.0] < distances[1.0] * (1.0 - 1e-9) - probe.rounding(group)
-            modes[group.name] = -1.0 if closer else 1.0
+            if min(distances.values()) < math.inf:
+                closer = distances[-1.0] < distances[1.0] * (1.0 - 1e-9) - probe.rounding(group)
+                modes[group.name] = -1.0 if closer else 1.0
+                break
+
+
+def _beside(mechanism: Mechanism, inputs: Mapping[str, float]) -> Iterator[Mapping[str, float]]:
+    """The drivers' coordinates in the drawing, then some beside them, where these are out of reach."""
+    yield inputs
+    for share in BESIDE:
+        for name, q in inputs.items():
+            unit = 1.0 if mechanism.drivers[name].law.rotary else mechanism.size
+            yield {**inputs, name: q + share * unit}
 
 
 class _Probe:
@@ -217,7 +231,7 @@ class _Probe:
         return 1e-20 * sum(coordinate * coordinate for coordinate in self.goals[group.name].values())
 
     def distance(
-        self, group: Group, modes: dict[str, float], states: dict[str, float], inputs: dict[str, float]
+        self, group: Group, modes: dict[str, float], states: dict[str, float], inputs: Mapping[str, float]
     ) -> float:
         """The squared distance of a group's points, m²."""
         values = self._values(modes, inputs)
@@ -230,7 +244,7 @@ class _Probe:
         gap = sum((float(outputs[self.places[name]]) - goal) ** 2 for name, goal in goals)
         return gap if gap == gap else math.inf
 
-    def _values(self, modes: dict[str, float], inputs: dict[str, float]) -> dict[str, float]:
+    def _values(self, modes: dict[str, float], inputs: Mapping[str, float]) -> dict[str, float]:
         values = dict(self.motion.mechanism.dimensions())
         values |= mode_inputs(modes)
         for name, q in inputs.items():

@@ -139,7 +139,7 @@ class Follower:
         return root if all(same) else None
 
     def _rough(self, drawn_inputs: Floats) -> Floats:
-        """The unknowns as drawn; those of dyads by their closed form."""
+        """The unknowns as drawn; those of dyads by their closed form, where it has them in reach."""
         solver, loops, drawing = self.solver, self.loops, self.solver.assembly.drawing
         own = {link for group in self.groups for link in group.links}
         names = tuple(
@@ -161,14 +161,17 @@ class Follower:
         for (kind, key), group in zip(loops.unknowns, loops.groups, strict=True):
             if kind == "slide":
                 at = self._drawn_slide(key)
-                rough.append(value[key] if at is None else drawn[at])
+                own_slide = value[key] if at is None else drawn[at]
+                shown = drawing.slide(self.mechanism.guides[key]) if math.isnan(own_slide) else own_slide
+                rough.append(math.nan if shown is None else shown)
             elif key in own:
                 rough.append(self._angle(drawn, group, key))
             else:
                 x, y = (value[each] for each in row_names("direction", key))
                 angle, drawn_angle = math.atan2(y, x), drawing.angle(key)
                 near = angle if drawn_angle is None else drawn_angle
-                rough.append(near + math.remainder(angle - near, 2.0 * math.pi))
+                off = 0.0 if math.isnan(angle) else math.remainder(angle - near, 2.0 * math.pi)
+                rough.append(near + off)
         return np.array(rough)
 
     def _drawn_slide(self, joint: str) -> str | None:
