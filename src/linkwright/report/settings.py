@@ -149,7 +149,7 @@ class _Reading:
     def text(self, value: Any, place: str) -> str:
         if not isinstance(value, Mapping | list | tuple):
             return str(value)
-        self.wrong(place, "not_a_text")
+        self.wrong(place, "not_a_position" if place.endswith(".position") else "not_a_text")
         return ""
 
     def texts(self, given: Mapping[str, Any], place: str) -> dict[str, str]:
