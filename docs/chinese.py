@@ -100,7 +100,8 @@ MEANINGS = {
     "the one driver": "唯一的原动件",
     "the link that is turned": "被转动的构件",
     "the pin about which it turns": "绕哪个销转动",
-    "the link against which (default: the frame)": "相对哪个构件（默认：机架）",
+    "the link against which (default: the frame, or the other link on the pin)":
+        "相对哪个构件（默认：机架，或该铰链上的另一构件）",
     "coordinate, an expression of the time t": "坐标，时间 t 的表达式",
     "segments over time, one after the other": "按时间依次的各段",
     "constant speed of the joint": "运动副的恒定速度",
@@ -229,6 +230,7 @@ NAMES = {
     "Outcome": "一个位置的求解情况",
     "PositionError": "某个位置到不了",
     "SelfCheckError": "结果未通过自校核（力的平衡、功率平衡）",
+    "reporting": "报告耗时调用的进度",
     "solve_motion": "运动分析",
     "input_range": "输入能走的范围及两端的杆组",
     "LimitPosition": "一个极限位置",

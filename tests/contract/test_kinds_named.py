@@ -38,6 +38,7 @@ LEFT: Mapping[str, tuple[int, str]] = {
     "server/drawn_contacts.py": (2, "tools of the studio that write a cam, a rack into a file"),
     "server/edits.py": (3, "tools of the studio that write a guide, a slot, a gear, a force into a file"),
     "tolerance/pin_turning_law.py": (1, "a law of its own, by a table, for pins that follow their reactions"),
+    "cli/commands/check.py": (1, "judges closeness to singular positions by the metric's rule"),
     "cli/solve_remarks.py": (1, "says how near a solution is to a singular position"),
     "plot/drawing/draw.py": (2, "the kind of arrows on paper: velocities, accelerations, forces"),
     "plot/animation.py": (1, "the kind of arrows on paper"),

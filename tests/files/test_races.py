@@ -169,7 +169,7 @@ def test_processes_are_kept_apart_while_they_read_and_write(tmp_path: Path) -> N
 
 def test_processes_that_share_finished_parts_do_not_wait_for_each_other(tmp_path: Path) -> None:
     """One has found a part and goes on for long; the other one stores its own meanwhile, and both are there."""
-    first, second = (Kept(tmp_path / "parts.state", "machine", "work", None) for _ in range(2))
+    first, second = (Kept(tmp_path / "parts.state", "machine", "work") for _ in range(2))
     first.add("a", 1.0)
     first.written = -1e9
     first.add("b", 2.0)
@@ -180,7 +180,7 @@ def test_processes_that_share_finished_parts_do_not_wait_for_each_other(tmp_path
     assert time.monotonic() - begun < 2
     assert first.part("c") == (3.0,)
     first.close()
-    again = Kept(tmp_path / "parts.state", "machine", "work", None)
+    again = Kept(tmp_path / "parts.state", "machine", "work")
     assert [again.part(key) for key in "abcd"] == [(1.0,), (2.0,), (3.0,), (4.0,)]
     again.close()
 

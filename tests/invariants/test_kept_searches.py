@@ -108,19 +108,19 @@ def _data(task: str, demands: dict[str, Any]) -> str:
 def test_a_search_that_a_clock_ends_goes_on_with_the_time_that_is_left(tmp_path: Path, clock: None) -> None:
     shares = list[float]()
 
-    def stop(share: float, _: float) -> None:
-        shares.append(share)
-        if share > 0.5:
+    def stop(done: int, total: int) -> None:
+        shares.append(done / total)
+        if shares[-1] > 0.5:
             raise KeyboardInterrupt
 
-    def searched(progress: Callable[[float, float], None]) -> lw.Synthesis:
+    def searched(progress: Callable[[int, int], None]) -> lw.Synthesis:
         with lw.kept_in(tmp_path / "four.state"):
             return lw.free_curve(FOUR, joints=5, seconds=3.0, progress=progress)
 
     part = searched(stop)
     assert f"--state {tmp_path / 'four.state'} to go on" in part.text()
     onward = list[float]()
-    whole = searched(lambda share, _: onward.append(share))
+    whole = searched(lambda done, total: onward.append(done / total))
     assert shares[0] < 0.5 < shares[-1] < onward[0] and "--state" not in whole.text()
     assert whole.counts["attempts"] > part.counts["attempts"] > 0
     assert whole.best.error < 1.02 * part.best.error  # what was found is there; demands are met more exactly

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.optimize import fsolve
 from tests.reference import joint_cells
-from tests.reference.geared_mechanisms import GearedDraft, finished
+from tests.reference.geared_mechanisms import GearedDraft, case_of
 from tests.reference.multibody import FRAME
 
 import linkwright as lw
@@ -78,4 +78,4 @@ def test_behind_a_cam_that_a_linkage_turns_what_cannot_be_followed_is_refused() 
     joint_cells.JOINTS["revolute"](d, d.pins[-1])
     joint_cells.JOINTS["gear"](d, d.pins[-1])
     with pytest.raises(LackingError, match=r"the cam 'l3' is turned by a linkage.*let a driver turn the cam"):
-        lw.solve_motion(lw.loads(finished(d).text), steps=12)
+        lw.solve_motion(lw.loads(case_of(d).text), steps=12)

@@ -95,7 +95,7 @@ def test_paper_has_no_controls(opened: Opened, tmp_path: Path) -> None:
     """What is printed has dimensions, curves and numbers, and nothing that can only be clicked."""
     opened.open(page_of(lw.read_document("gallery:crank_rocker"), tmp_path))
     opened.tab.get_by_text("Show", exact=True).click()
-    assert opened.tab.locator(".checks").first.is_visible()
+    opened.tab.locator(".checks").first.wait_for()
     opened.tab.emulate_media(media="print")
     for each in ("header", ".tools", ".checks", ".choice", ".lock", ".more"):
         assert not any(found.is_visible() for found in opened.tab.locator(each).all()), each

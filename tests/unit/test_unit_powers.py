@@ -12,7 +12,7 @@ import linkwright as lw
 from linkwright import units
 from linkwright.cli import main
 from linkwright.cli.files import csv_of
-from linkwright.core.expressions import parse_quantity
+from linkwright.core.expressions import amount, parse_quantity
 from linkwright.errors import QuantityError
 from linkwright.words.characters import terminal_text
 
@@ -63,7 +63,7 @@ def test_a_power_too_much_is_refused(text: str) -> None:
     [("1e3 mm", 1.0), ("+2 m", 2.0), (".5m", 0.5), ("5.mm", 0.005), ("-2 m", -2.0), ("- 2 m", -2.0)],
 )
 def test_the_usual_form_is_read_with_its_sign(text: str, value: float) -> None:
-    assert parse_quantity(text, "length") == pytest.approx(value, rel=1e-15)
+    assert amount(text, "length") == pytest.approx(value, rel=1e-15)
 
 
 FOUR_BAR = """\

@@ -10,6 +10,8 @@ Complexes = NDArray[np.complex128]
 Whole = NDArray[np.int64]
 Indices = NDArray[np.intp]
 Flags = NDArray[np.bool_]
+#: Share of the largest size of some values within which two of them are equal: which is larger is rounding.
+EQUAL = 1e-12
 
 
 def largest(values: Floats) -> float:

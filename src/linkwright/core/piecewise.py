@@ -13,9 +13,8 @@ from functools import cached_property
 
 import numpy as np
 
-from linkwright.core.arrays import Flags, Floats, Indices
+from linkwright.core.arrays import EQUAL, Flags, Floats, Indices
 from linkwright.core.dataclass import dataclass
-from linkwright.core.search import EQUAL
 
 Function = Callable[[Floats], Floats]
 
@@ -309,10 +308,10 @@ def largest(values: Floats, tops: Floats) -> Peak:
     found = _at(series, place)
     place, found = np.where(found > top, place, PLACES[look]), np.maximum(found, top)
     place = np.where(flat[rows, pieces], -1.0, place)
-    begins = np.flatnonzero(np.append(True, rows[1:] != rows[:-1]))
+    begins = np.flatnonzero(np.diff(rows, prepend=-1))
     peak = np.maximum.reduceat(found, begins)[rows]
     good = np.flatnonzero(~(found < peak - equal))
-    best = good[np.append(True, rows[good][1:] != rows[good][:-1])]
+    best = good[np.diff(rows[good], prepend=-1) != 0]
     return pieces[best], place[best], found[best], tails(series[best])
 
 

@@ -13,7 +13,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from linkwright.core.arrays import Flags, Floats, Indices
+from linkwright.core.arrays import EQUAL, Flags, Floats, Indices
 
 #: Share of a bracket's width to which zeros and ends are met.
 ACCURACY = 1e-14
@@ -23,8 +23,6 @@ _HALVINGS = 47
 _STEPS = 100
 #: Places of a section, and rounds of them, of which each leaves an eighth of the bracket.
 _SECTION, _ROUNDS = 17, 10
-#: Share of the largest size of some values within which two of them are equal: which is larger is rounding.
-EQUAL = 1e-12
 
 
 def first_largest(values: Floats) -> int:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from linkwright.core.search import EQUAL
+from linkwright.core.arrays import EQUAL
 from linkwright.engine.ir_functions import number
 from linkwright.engine.ir_lines import FAST, LineWriter
 from linkwright.engine.reductions import PLACE, Accumulation, Step

@@ -9,9 +9,8 @@ from typing import Literal, NamedTuple, get_args
 
 import numpy as np
 
-from linkwright.core.arrays import Flags, Floats, Whole
+from linkwright.core.arrays import EQUAL, Flags, Floats, Whole
 from linkwright.core.dataclass import dataclass
-from linkwright.core.search import EQUAL
 from linkwright.engine.program import Program
 from linkwright.engine.replay import along_input, inlined
 from linkwright.engine.trace import Scalar, Trace

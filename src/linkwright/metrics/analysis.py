@@ -10,12 +10,12 @@ from typing import Any, Literal, TypeAlias, overload
 
 import numpy as np
 
-from linkwright.core.arrays import Floats
+from linkwright.core.arrays import EQUAL, Floats
 from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output, row_names
 from linkwright.core.piecewise import POINTS, Piecewise, largest, reach, sought
-from linkwright.core.search import EQUAL, first_largest, lowest
+from linkwright.core.search import first_largest, lowest
 from linkwright.engine.recently_made import Recent
 from linkwright.kinematics.limits import limit_positions
 from linkwright.kinematics.motion import Motion

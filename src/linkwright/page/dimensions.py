@@ -9,6 +9,7 @@ import numpy as np
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.json_data import Plain
+from linkwright.core.outputs import row_name
 from linkwright.errors import LinkwrightError
 from linkwright.files.check_mechanism import guides_at_odds
 from linkwright.files.document import Document
@@ -131,8 +132,11 @@ def drawn(document: Document, motion: Motion) -> Plain:
         if q is not None:
             away = away + np.abs(course - q)
             alone = q if course.min() <= q <= course.max() else None
+    places = [
+        (row_name("position", key), _plain(how), how.factor) for how, key in drawn_places(document).values()
+    ]
     return {
         "input": alone if len(positions.coordinates) == 1 else None,
         "at": int(np.argmin(away)),
-        "places": [[f"p:{key}", _plain(how), how.factor] for how, key in drawn_places(document).values()],
-    }  # fmt: skip
+        "places": [list(each) for each in places],
+    }
