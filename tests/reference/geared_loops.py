@@ -14,7 +14,7 @@ import numpy as np
 from tests.reference.cam_rows import CamRow, GuidedCam, Lift, SwingingCam
 from tests.reference.geared import belt
 from tests.reference.geared_mechanisms import GearedCase, GearedDraft, add_dyad, add_mesh, add_rack, case_of
-from tests.reference.multibody import FRAME, Vec, prismatic
+from tests.reference.multibody import FRAME, Vec
 
 RATIOS = ["-1", "-0.5", "-2", "-1.5", "0.4", "2.5", "3"]
 #: Puts a new link beside a wheel, by the wheel's pin, their carrier and the wheel, and gives its name.
@@ -142,14 +142,9 @@ def _guided(
     new = d.link(at)
     p = d.mark(new, at)
     off = float(d.rng.uniform(-0.2, 0.2))
-    through = d.mark(carrier, (at[0] - 0.1 * u[0] + off * n[0], at[1] - 0.1 * u[1] + off * n[1]))
-    guide, lean, own = f"s{len(d.rolling)}", way - d.poses[carrier][2], way - d.poses[new][2]
-    place = d.local(carrier, d.points[carrier][through])
-    d.constraints += prismatic(guide, (carrier, place, lean), (new, d.local(new, at), own), -off)
-    d.joints.append(
-        f"  {guide}: {{kind: prismatic, guide: {carrier}, through: {through}, direction: {lean!r} rad, "
-        f"block: {new}, at: {p}, offset: {-off!r} m, block_angle: {own!r} rad}}"
-    )
+    through = (at[0] - 0.1 * u[0] + off * n[0], at[1] - 0.1 * u[1] + off * n[1])
+    d.guide(f"s{len(d.rolling)}", carrier, through, way, new, p, -off)
+    lean = way - d.poses[carrier][2]
     row = GuidedCam(
         f"g{len(d.rolling)}", new, d.local(new, at), cam, 0.0, carrier, lift, phase, sense, touch == "flat",
         (cos(lean), sin(lean)), d.local(carrier, centre),

@@ -141,7 +141,7 @@ class Variants:
         for path in contents:
             make_folder(path.parent)
             refuse_target(path, force=force)
-        return [write_whole(path, content) for path, content in contents.items()]
+        return [write_whole(path, content, force=force) for path, content in contents.items()]
 
     def key_text(self) -> str:
         """The answer key as JSON."""

@@ -48,7 +48,7 @@ SLACK = 0.03
 #: How much higher it may be where it is not met, as multiple of the size of its last orders.
 REACH = 10.0
 HUGE, TINY, BELOW_ONE = 1e300, 1e-40, 1.0 - 1e-15
-#: As ``core.search.EQUAL``.
+#: As ``core.arrays.EQUAL``.
 EQUAL = 1e-12
 STEPS = 4
 

@@ -216,7 +216,7 @@ class _Probe:
             goals = self.goals[group.name] = {}
             for link in group.links:
                 for point, local in motion.mechanism.links[link].points.items():
-                    drawn = drawing.points.get(f"{link}.{point}", drawing.points.get(point))
+                    drawn = drawing.drawn(link, point)
                     if drawn is not None and local is not None:
                         place = motion.poses[link].point(motion.dimensions.point(link, point))
                         names = row_names("position", f"{link}.{point}")

@@ -226,15 +226,15 @@ class Animation:
         if suffix != ".svg" and not WIDTHS[0] <= whole("width", width) <= WIDTHS[1]:
             raise RequestError("picture.bad_film_width", width=width, least=WIDTHS[0], most=WIDTHS[1])
         if suffix == ".svg":
-            return write_whole(path, self.svg.encode())
+            return write_whole(path, self.svg.encode(), force=force)
         if suffix == ".gif":
             run = list(self.run[:-1])
-            return write_whole(
-                path, gif(self._pictures(run, width, fonts, progress), self.seconds / len(run))
-            )
+            film = gif(self._pictures(run, width, fonts, progress), self.seconds / len(run))
+            return write_whole(path, film, force=force)
         if suffix == ".mp4":
             run = [self.run[k] for k in self._film()]
-            return write_whole(path, mp4(self._pictures(run, width, fonts, progress), FILM_RATE))
+            film = mp4(self._pictures(run, width, fonts, progress), FILM_RATE)
+            return write_whole(path, film, force=force)
         raise RequestError("picture.no_film_suffix", path=path, suffix=suffix)
 
     def _pictures(

@@ -132,7 +132,7 @@ class Diagram:
         for a file that is there already unless ``force``.
         """
         refuse_target(path, force=force)
-        return write_whole(path, self.content(Path(path).suffix.lower(), dpi=dpi))
+        return write_whole(path, self.content(Path(path).suffix.lower(), dpi=dpi), force=force)
 
     def content(self, ending: str, *, dpi: float = 200.0) -> bytes:
         """What a file with the ending ``.svg``, ``.pdf`` or ``.png`` holds; LinkwrightError for another one."""

@@ -53,7 +53,7 @@ class Drawing:
             options["fonts"] = tuple(fonts)
         if Path(path).suffix.lower() == ".png" and width is not None:
             options["width"] = width
-        return save_picture(self.svg, path, **options)
+        return save_picture(self.svg, path, force=force, **options)
 
     def png(self, *, width: int | None = None, fonts: Sequence[str | Path] = ()) -> bytes:
         """The picture as PNG."""

@@ -77,15 +77,15 @@ def pdf(svg: str, *, fonts: Paths = ()) -> bytes:
     return bytes(typst.compile(source.encode(), sys_inputs={"svg": svg}, font_paths=folders, format="pdf"))
 
 
-def save_picture(svg: str, path: str | Path, **options: Any) -> Path:
+def save_picture(svg: str, path: str | Path, *, force: bool, **options: Any) -> Path:
     """Write a picture; the suffix of ``path`` says which kind: svg, png or pdf."""
     suffix = Path(path).suffix.lower()
     if suffix == ".svg":
-        return write_whole(path, svg.encode())
+        return write_whole(path, svg.encode(), force=force)
     if suffix == ".png":
-        return write_whole(path, png(svg, **options))
+        return write_whole(path, png(svg, **options), force=force)
     if suffix == ".pdf":
-        return write_whole(path, pdf(svg, **options))
+        return write_whole(path, pdf(svg, **options), force=force)
     raise RequestError("picture.no_picture_suffix", path=path, suffix=suffix)
 
 
