@@ -9,7 +9,7 @@ from typing import Literal
 
 from linkwright.core.dataclass import dataclass
 from linkwright.words import LANGUAGES, has, say
-from linkwright.words.sentence import Sentence, in_language
+from linkwright.words.sentence import Sentence, code_of, in_language, values_of
 
 Severity = Literal["error", "warning", "note"]
 
@@ -23,7 +23,8 @@ class Finding:
     """One remark about a model: where it is, what is the matter, and what to do about it.
 
     ``where`` is ``file:line:column`` (lines and columns count from 1), ``key`` the place in the model
-    (``links.crank.length``), ``code`` a short stable word for programs and tests. ``str`` is English.
+    (``links.crank.length``), ``code`` a short stable word for programs and tests: the wording may change, a code
+    does not. ``str`` is English.
     """
 
     severity: Severity
@@ -35,6 +36,11 @@ class Finding:
 
     def __str__(self) -> str:
         return self.say()
+
+    @property
+    def values(self) -> dict[str, object]:
+        """What the message is about, by name: the numbers and names that stand in it."""
+        return values_of(self.message)
 
     def say(self, language: str = "en") -> str:
         """Place and sentence in a language."""
@@ -52,7 +58,8 @@ class LinkwrightError(Exception):
     """Base of every error that the user can do something about.
 
     ``message``: a key of the catalogue, with its values, or a sentence. ``str(error)`` is English, and
-    ``error.say("zh")`` says the same in Chinese.
+    ``error.say("zh")`` says the same in Chinese. ``error.code`` is a short stable word for programs and tests, and
+    ``error.values`` what the message is about: the wording may change, these do not.
     """
 
     def __init__(self, message: str = "", /, **values: object) -> None:
@@ -66,6 +73,16 @@ class LinkwrightError(Exception):
     def sentence(self) -> str:
         """The message, a ``Sentence`` where it can be said in other languages."""
         return self.args[0] if self.args and isinstance(self.args[0], str) else super().__str__()
+
+    @property
+    def code(self) -> str:
+        """What is the matter as a short stable word; empty for a text without one."""
+        return code_of(self.sentence)
+
+    @property
+    def values(self) -> dict[str, object]:
+        """What the message is about, by name: the numbers and names that stand in it."""
+        return values_of(self.sentence)
 
     def say(self, language: str = "en") -> str:
         """The message in a language."""
@@ -87,6 +104,20 @@ class ModelError(LinkwrightError):
         self.findings: tuple[Finding, ...] = tuple(findings)
         super().__init__("\n".join(str(finding) for finding in self.findings))
 
+    @property
+    def code(self) -> str:
+        """The code of the first error; ``findings`` has those of all."""
+        return self._first.code
+
+    @property
+    def values(self) -> dict[str, object]:
+        """The values of the first error; ``findings`` has those of all."""
+        return self._first.values
+
+    @property
+    def _first(self) -> Finding:
+        return next((each for each in self.findings if each.severity == "error"), self.findings[0])
+
     def say(self, language: str = "en") -> str:
         """All findings in a language, one a line."""
         return "\n".join(finding.say(language) for finding in self.findings)
@@ -100,6 +131,8 @@ class QuantityError(LinkwrightError):
 
     ``column`` is the place in the text, counted from 0.
     """
+
+    code: str
 
     def __init__(self, message: str, remedy: str = "", *, column: int = 0, code: str = "quantity") -> None:
         self.message, self.remedy, self.column, self.code = message, remedy, column, code

@@ -15,6 +15,9 @@ _OWN_NAMES = re.compile(
     r"(?<![\w.-])(?:frame|driver)(?![\w-])|\b(?:max|min)(?=→)|(?<=→)(?:max|min)\b|(?<= )(?:max|min)$"
 )
 
+#: Sentences that only say what another one is about, with the value that this is.
+_AROUND = {"cli.about": "cause", "loads.of_load": "cause", "finding.with_remedy": "message"}
+
 
 @runtime_checkable
 class SaidAnywhere(Protocol):
@@ -107,6 +110,24 @@ def link_said(name: str, language: str) -> str:
 def links_said(numbers: Mapping[str, int], language: str) -> list[str]:
     """Links with their numbers: ``0 frame``, ``1 crank``."""
     return [f"{number} {link_said(name, language)}" for name, number in numbers.items()]
+
+
+def code_of(text: str) -> str:
+    """The key of a sentence, or of the one within it where it only says what that is about (``--at: …``)."""
+    key: str = getattr(text, "key", "")
+    cause = getattr(text, "values", {})[_AROUND[key]] if key in _AROUND else ""
+    return code_of(getattr(cause, "sentence", cause)) or key if cause else key
+
+
+def values_of(text: str) -> dict[str, object]:
+    """The values of a sentence and, where the names are not taken, of those within it; none of a plain text."""
+    own: dict[str, object] = getattr(text, "values", {})
+    found = dict(own)
+    for value in own.values():
+        for each in value if isinstance(value, tuple | list) else (value,):
+            inner = getattr(each, "sentence", each)
+            found = {**values_of(inner), **found} if isinstance(inner, Sentence) else found
+    return found
 
 
 def together(items: Sequence[str]) -> str:

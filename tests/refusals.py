@@ -1,0 +1,45 @@
+"""What is refused: by its code, its place and its values; the wording stands in `tests/words/`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
+
+import pytest
+
+from linkwright import Finding, LinkwrightError
+
+
+@contextmanager
+def refused(
+    code: str, kind: type[LinkwrightError] = LinkwrightError, /, **values: object
+) -> Iterator[pytest.ExceptionInfo[LinkwrightError]]:
+    """What is done inside raises an error of a kind, with a code and at least these values."""
+    with pytest.raises(kind) as caught:
+        yield caught
+    assert caught.value.code == code, f'{caught.value.code}: "{caught.value}"'
+    agrees(caught.value.values, values)
+
+
+def said(found: Iterable[Finding], code: str, key: str | None = None, /, **values: object) -> Finding:
+    """The one finding with a code (at a key of the model, where one is given), which has at least these values."""
+    told = list(found)
+    matching = [each for each in told if each.code == code and key in (None, each.key)]
+    assert len(matching) == 1, f"{len(matching)} findings {code}, {key}, among {[str(each) for each in told]}"
+    agrees(matching[0].values, values)
+    return matching[0]
+
+
+def agrees(found: Mapping[str, object], wanted: Mapping[str, object]) -> None:
+    """Values are as wanted: numbers to 1e-9, sentences by their code or their text, several in any order of a set."""
+    for name, value in wanted.items():
+        assert name in found, f"no value {name} among {dict(found)}"
+        assert _same(found[name], value), f"{name}: {found[name]!r}, not {value!r}"
+
+
+def _same(found: object, wanted: object) -> bool:
+    if isinstance(wanted, float):
+        return isinstance(found, int | float) and found == pytest.approx(wanted, rel=1e-9, nan_ok=True)
+    if isinstance(wanted, set | frozenset):
+        return isinstance(found, Iterable) and {str(each) for each in found} == {str(each) for each in wanted}
+    return found == wanted or getattr(found, "key", None) == wanted or str(found) == str(wanted)
