@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import tempfile
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
+from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
-from linkwright import Finding, LinkwrightError
+from linkwright import Finding, LinkwrightError, check
 
 
 @contextmanager
@@ -19,6 +22,14 @@ def refused(
         yield caught
     assert caught.value.code == code, f'{caught.value.code}: "{caught.value}"'
     agrees(caught.value.values, values)
+
+
+def findings(text: str, name: str = "<text>") -> list[Finding]:
+    """All findings of the text of a model file; places name the file as given."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder, "model.yaml")
+        path.write_bytes(text.encode("utf-8"))
+        return [replace(each, where=each.where.replace(str(path), name)) for each in check(path)]
 
 
 def said(found: Iterable[Finding], code: str, key: str | None = None, /, **values: object) -> Finding:
