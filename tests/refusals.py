@@ -29,7 +29,7 @@ def findings(text: str, name: str = "<text>") -> list[Finding]:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder, "model.yaml")
         path.write_bytes(text.encode("utf-8"))
-        return [replace(each, where=each.where.replace(str(path), name)) for each in check(path)]
+        return [replace(each, where=name + each.where.removeprefix(path.name)) for each in check(path)]
 
 
 def said(found: Iterable[Finding], code: str, key: str | None = None, /, **values: object) -> Finding:
