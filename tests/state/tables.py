@@ -1,0 +1,58 @@
+"""A machine's tables for other programs, its text, and its variants for a course."""
+
+from __future__ import annotations
+
+import json
+import re
+import tempfile
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+from tests.state.machines import Machine, solved
+from tests.state.rows import Entries, attempt, columns, curve, leaves, sums
+
+import linkwright as lw
+
+#: Endings of files that are text, and of which the numbers are compared.
+TEXTS = ("csv", "dxf", "mjcf", "modelica")
+NUMBER = re.compile(r"(?<![\w.])[-+]?\d+\.?\d*(?:[eE][-+]?\d+)?(?![\w.])")
+
+
+def exports(machine: Machine) -> Entries:
+    """Names of the columns, numbers of the tables and of the models for other programs."""
+    yield "names of outputs", "", list(solved(machine).columns())
+    for form in ("json", *TEXTS):
+        yield from attempt(form, lambda form=form: exported(machine, form))
+
+
+def exported(machine: Machine, form: str) -> Entries:
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(lw.export(solved(machine), Path(folder, "out"), format=form))
+        text = path.read_text("utf-8")
+    if form == "json":
+        yield from leaves(json.loads(text))
+    else:
+        numbers = [float(each) for each in NUMBER.findall(text)]
+        yield "numbers", f"of {form}", curve(numbers)
+        yield "count", "", len(numbers)
+
+
+def text(machine: Machine) -> Entries:
+    """What is written as a model file reads back as the same machine."""
+    again = lw.loads(lw.dump(machine.mechanism))
+    yield "dimensions", "", again.dimensions() == machine.mechanism.dimensions()
+    found = lw.solve_motion(again, steps=12, failures="mark")
+    yield from ((name, unit, sums(values)) for name, unit, values in columns_of(found))
+
+
+def columns_of(found: lw.Motion) -> Entries:
+    for (name, unit, _), values in zip(columns(found.columns()), found.columns().values(), strict=True):
+        yield name, unit, values
+
+
+def course(machine: Machine) -> Entries:
+    """Two variants with their answers."""
+    yield from leaves(lw.variants(machine.mechanism, 2, seed=3).key())
+
+
+PARTS: Mapping[str, Callable[[Machine], Entries]] = {"exports": exports, "text": text, "course": course}
