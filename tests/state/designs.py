@@ -35,7 +35,7 @@ def dimensions(machine: Machine) -> list[str]:
 
 def outputs(machine: Machine) -> dict[str, list[str]]:
     """Outputs by the kind of their source, for the last link and the last point."""
-    names = {"link": list(machine.mechanism.links)[-1], "point": machine.motion.point_names()[-1]}
+    names = {"link": list(machine.mechanism.links)[-1], "point": list(machine.motion.point_names())[-1]}
     return {kind: [each.format(**names) for each in texts] for kind, texts in OUTPUTS.items()}
 
 

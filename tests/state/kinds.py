@@ -48,8 +48,14 @@ GEARS: tuple[tuple[tuple[int, int], float, Mapping[str, object]], ...] = (
     ((18, 45), 0.0025, {"internal": True, "profile_shift": (0.3, 0.5)}),
     ((8, 9), 0.002, {}),
 )
-OF_GEARS = "pitch_diameter base_diameter tip_diameter root_diameter form_diameter thickness least_profile_shift undercut"
-OF_PAIRS = "centre_distance working_pressure_angle backlash ratio path_of_contact contact_ratio tip_clearances tip_overlap"
+OF_GEARS = (
+    "pitch_diameter base_diameter tip_diameter root_diameter "
+    "form_diameter thickness least_profile_shift undercut"
+)
+OF_PAIRS = (
+    "centre_distance working_pressure_angle backlash ratio "
+    "path_of_contact contact_ratio tip_clearances tip_overlap"
+)
 ENDS = ("rest", "velocity", "turn", "motion")
 
 
@@ -107,7 +113,7 @@ def laws(ends: str) -> Entries:
         own = law.law
         for derivative, values in enumerate(own.curves(u)):
             yield f"{name}/{derivative}", "", curve(values)
-        yield f"{name}/peaks", "", [float(each) for each in own.peaks]
+        yield f"{name}/peaks", "", [own.peaks.velocity, own.peaks.acceleration, own.peaks.jerk]
         yield f"{name}/smoothness", "", own.smoothness
 
 

@@ -97,7 +97,7 @@ def metrics(machine: Machine) -> Entries:
     for name in table.skipped:
         yield from attempt(name, lambda name=name: unasked(machine, name))
     yield from attempt("four-bars", lambda: chains(machine))
-    for point in machine.motion.point_names()[-1:]:
+    for point in list(machine.motion.point_names())[-1:]:
         yield from attempt(f"coupler curve/{point}", lambda point=point: coupler(machine, point))
     for link in list(machine.mechanism.links)[-2:]:
         yield from attempt(f"centre/{link}", lambda link=link: centre(machine, link))
@@ -146,7 +146,7 @@ def limits(machine: Machine) -> Entries:
     """Limit positions of every link, guide and point, and the ranges of the drivers."""
     mechanism = machine.mechanism
     outputs = [*mechanism.links, *mechanism.guides]
-    outputs += [f"{name}.{axis}" for name in machine.motion.point_names()[-2:] for axis in "xy"]
+    outputs += [f"{name}.{axis}" for name in list(machine.motion.point_names())[-2:] for axis in "xy"]
     for output in outputs:
         yield from attempt(output, lambda output=output: limits_of(machine, output))
     yield from ranges(machine)

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import json
+import math
 import re
 import tempfile
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
 from tests.state.machines import Machine, solved
-from tests.state.rows import Entries, attempt, columns, curve, leaves, sums
+from tests.state.rows import Entries, attempt, columns, curve, leaves, named, sums
 
 import linkwright as lw
 
@@ -30,11 +31,20 @@ def exported(machine: Machine, form: str) -> Entries:
         path = Path(lw.export(solved(machine), Path(folder, "out"), format=form))
         text = path.read_text("utf-8")
     if form == "json":
-        yield from leaves(json.loads(text))
+        found = json.loads(text)
+        yield "positions", "", [found["positions"], found["closed"], found["period"]["value"]]
+        for name, table in found["tables"].items():
+            for column, each in table.items():
+                if "_residual" not in column:
+                    yield f"{name}/{named(column)[0]}", each["unit"], sums(numeric(each["values"]))
     else:
         numbers = [float(each) for each in NUMBER.findall(text)]
         yield "numbers", f"of {form}", curve(numbers)
         yield "count", "", len(numbers)
+
+
+def numeric(values: list[float | None]) -> list[float]:
+    return [math.nan if each is None else each for each in values]
 
 
 def text(machine: Machine) -> Entries:
@@ -51,8 +61,18 @@ def columns_of(found: lw.Motion) -> Entries:
 
 
 def course(machine: Machine) -> Entries:
-    """Two variants with their answers."""
-    yield from leaves(lw.variants(machine.mechanism, 2, seed=3).key())
+    """Two variants: their dimensions, answers, and by which mistakes an answer is wrong in which way."""
+    key = lw.variants(machine.mechanism, 2, seed=3).key()
+    yield "questions", "", [each["name"] for each in key["questions"]]
+    for each in key["variants"]:
+        number = each["number"]
+        yield from leaves(each["dimensions"], str(number))
+        yield f"{number}/answers", "", each["answers"]
+        for name in sorted({one["mistake"] for one in each["mistakes"]}):
+            wrong = [one for one in each["mistakes"] if one["mistake"] == name]
+            yield f"{number}/{name}", "", [f"{one['where']}" for one in wrong]
+            for place, values in enumerate(zip(*(one["answers"] for one in wrong), strict=True)):
+                yield f"{number}/{name}/{place}", "", curve([float(value) for value in values])
 
 
 PARTS: Mapping[str, Callable[[Machine], Entries]] = {"exports": exports, "text": text, "course": course}
