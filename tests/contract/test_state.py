@@ -93,6 +93,17 @@ def test_the_tolerance_may_be_given(before: str, tmp_path: Path) -> None:
     assert main(["compare", before, after, "--tolerance", "1e-4"]) == 1
 
 
+def test_what_is_renamed_on_purpose_is_no_difference(before: str, tmp_path: Path) -> None:
+    after = [
+        FORCES[0]._replace(name="A on connecting rod.x"),
+        *FORCES[1:-1],
+        FORCES[-1]._replace(value=["error yaml-syntax 3:1 links"]),
+    ]
+    words = ["compare", before, written(tmp_path / "after", after)]
+    renamed = ["--renamed", r"\brod\.x", "connecting rod.x", "--renamed", "error syntax", "error yaml-syntax"]
+    assert main(words) == 1 and main([*words, *renamed]) == 0
+
+
 @pytest.mark.parametrize(
     "words",
     [

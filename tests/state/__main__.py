@@ -6,7 +6,8 @@
 
 ``dump`` writes the rows of all parts, or of some, into one file: machines of the gallery, random mechanisms,
 calculations, syntheses, references, findings of damaged files. ``compare`` prints what differs by more than the
-tolerance (see `tests/state/comparing.py`), and a line for every part.
+tolerance (see `tests/state/comparing.py`), and a line for every part. What was renamed on purpose between the two is
+no difference with ``--renamed``: a regular expression that the names of the first have, and what stands in its place.
 
 Exit code: 0 equal (or written), 1 different, 2 wrong use, 130 interrupted.
 """
@@ -40,6 +41,14 @@ def main(given: Sequence[str] | None = None) -> int:
     compare.add_argument("second", type=Path, metavar="B")
     compare.add_argument("--tolerance", type=float, default=comparing.TOLERANCE, help="(default 1e-10)")
     compare.add_argument("--most", type=int, default=50, help="differences shown of a part (default 50)")
+    compare.add_argument(
+        "--renamed",
+        nargs=2,
+        action="append",
+        default=[],
+        metavar=("PATTERN", "NEW"),
+        help="names of A that B has not",
+    )
     compare.set_defaults(run=_compare)
     options = parser.parse_args(given)
     found: int = options.run(parser, options)
@@ -72,6 +81,7 @@ def _compare(parser: argparse.ArgumentParser, options: argparse.Namespace) -> in
         first, second = comparing.read(options.first), comparing.read(options.second)
     except comparing.NotAState as error:
         parser.error(str(error))
+    first = comparing.renamed(first, options.renamed)
     found = comparing.compared(first, second, options.tolerance)
     for line in comparing.report(found, options.most):
         print(line)

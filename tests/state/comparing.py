@@ -96,6 +96,21 @@ def compared(
     return dict(found)
 
 
+def renamed(found: Mapping[Key, Row], names: Sequence[tuple[str, str]]) -> dict[Key, Row]:
+    """The same rows under the names that a later product has, in their words too."""
+
+    def new(value: Any) -> Any:
+        if isinstance(value, str):
+            for pattern, name in names:
+                value = re.sub(pattern, name, value)
+        elif isinstance(value, list):
+            value = [new(each) for each in value]
+        return value
+
+    changed = (Row(*map(new, row)) for row in found.values()) if names else found.values()
+    return {row[:3]: row for row in changed}
+
+
 def looser(key: Key) -> float:
     """How many times the tolerance a row has."""
     name = "/".join(key)

@@ -37,6 +37,9 @@ PARTS = (*OF_MACHINES, *ALONE)
 #: Those that take longest are begun first.
 LONGEST = ("references", "random", "machines", "synthesis")
 
+#: After so many subjects a process is begun anew, since memory that is free is not always given back.
+LIFE = 60
+
 
 class Job(NamedTuple):
     """The rows of one subject: of all parts of a machine that are asked for, or of a part alone."""
@@ -103,7 +106,7 @@ def finished(wanted: Sequence[Job], workers: int) -> Iterator[list[Row]]:
         _quiet()
         yield from map(Job.found, wanted)
         return
-    with get_context("spawn").Pool(workers, _begin) as pool:
+    with get_context("spawn").Pool(workers, _begin, maxtasksperchild=LIFE) as pool:
         yield from pool.imap_unordered(Job.found, wanted)
 
 
