@@ -39,6 +39,7 @@ def main(given: Sequence[str] | None = None) -> int:
     compare = commands.add_parser("compare", help="print what differs between two files")
     compare.add_argument("first", type=Path, metavar="A")
     compare.add_argument("second", type=Path, metavar="B")
+    compare.add_argument("--only", nargs="+", default=[], metavar="PART", help="parts (default all)")
     compare.add_argument("--tolerance", type=float, default=comparing.TOLERANCE, help="(default 1e-10)")
     compare.add_argument("--most", type=int, default=50, help="differences shown of a part (default 50)")
     compare.add_argument(
@@ -82,6 +83,10 @@ def _compare(parser: argparse.ArgumentParser, options: argparse.Namespace) -> in
     except comparing.NotAState as error:
         parser.error(str(error))
     first = comparing.renamed(first, options.renamed)
+    if options.only:
+        first, second = (
+            {key: row for key, row in each.items() if key[0] in options.only} for each in (first, second)
+        )
     found = comparing.compared(first, second, options.tolerance)
     for line in comparing.report(found, options.most):
         print(line)

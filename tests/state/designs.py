@@ -24,6 +24,8 @@ OUTPUTS: Mapping[str, Sequence[str]] = {
     "torque": ("rms_input_torque", "peak_input_torque"),
     "angle": ("transmission_angle",),
 }
+#: Kinds on which masses have no influence.
+MASSLESS = ("motion", "point", "closeness", "angle")
 
 
 def dimensions(machine: Machine) -> list[str]:
@@ -50,9 +52,10 @@ def around(machine: Machine, by: Sequence[str]) -> dict[str, np.ndarray]:
 
 def in_groups(machine: Machine, find: Callable[[Machine, list[str], list[str]], Entries]) -> Entries:
     """For each kind of outputs all dimensions together; where that is refused, one after the other."""
-    by = dimensions(machine)
+    whole = dimensions(machine)
     for kind, asked in outputs(machine).items():
-        found = list(attempt(kind, lambda asked=asked: find(machine, asked, by)))
+        by = [name for name in whole if not (kind in MASSLESS and name.endswith(".mass"))]
+        found = list(attempt(kind, lambda asked=asked, by=by: find(machine, asked, by)))
         yield from found
         if found and found[-1][0].endswith("refused"):
             for one in by:
@@ -99,10 +102,9 @@ def sensitivity(machine: Machine) -> Entries:
 
 
 def sensitivities(machine: Machine, asked: list[str], by: list[str]) -> Entries:
-    whole = [each for each in asked if " " in each]
-    curves = list(dict.fromkeys(each.split(" ")[0] for each in whole))
-    found = lw.sensitivity(machine.mechanism, of=[*whole, *curves], by=by, steps=STEPS)
-    for output in whole:
+    curves = list(dict.fromkeys(each.rsplit(" ", 1)[0] for each in asked if " " in each))
+    found = lw.sensitivity(machine.mechanism, of=[*asked, *curves], by=by, steps=STEPS)
+    for output in asked:
         yield f"{output}/value", "", found.value(output)
         yield f"{output}/gradient", "", [float(each) for each in found.relative(output)]
     for output in curves:

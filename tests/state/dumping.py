@@ -38,7 +38,7 @@ PARTS = (*OF_MACHINES, *ALONE)
 LONGEST = ("references", "random", "machines", "synthesis")
 
 #: After so many subjects a process is begun anew, since memory that is free is not always given back.
-LIFE = 60
+LIFE = 30
 
 
 class Job(NamedTuple):

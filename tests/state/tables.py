@@ -6,7 +6,7 @@ import json
 import math
 import re
 import tempfile
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 from tests.state.machines import Machine, solved
@@ -43,8 +43,8 @@ def exported(machine: Machine, form: str) -> Entries:
         yield "count", "", len(numbers)
 
 
-def numeric(values: list[float | None]) -> list[float]:
-    return [math.nan if each is None else each for each in values]
+def numeric(values: Sequence[float | None]) -> list[float]:
+    return [math.nan if each is None else float(each) for each in values]
 
 
 def text(machine: Machine) -> Entries:
@@ -72,7 +72,7 @@ def course(machine: Machine) -> Entries:
             wrong = [one for one in each["mistakes"] if one["mistake"] == name]
             yield f"{number}/{name}", "", [f"{one['where']}" for one in wrong]
             for place, values in enumerate(zip(*(one["answers"] for one in wrong), strict=True)):
-                yield f"{number}/{name}/{place}", "", curve([float(value) for value in values])
+                yield f"{number}/{name}/{place}", "", curve(numeric(values))
 
 
 PARTS: Mapping[str, Callable[[Machine], Entries]] = {"exports": exports, "text": text, "course": course}
