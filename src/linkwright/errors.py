@@ -132,7 +132,7 @@ class QuantityError(LinkwrightError):
     ``column`` is the place in the text, counted from 0.
     """
 
-    code: str
+    code = ""
 
     def __init__(self, message: str, remedy: str = "", *, column: int = 0, code: str = "quantity") -> None:
         self.message, self.remedy, self.column, self.code = message, remedy, column, code
