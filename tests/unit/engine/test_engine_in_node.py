@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from tests.ui.node import in_node, needs_node, work
+from tests.unit.engine.node import in_node, needs_node, work
 
 import linkwright as lw
 from linkwright.cycle_programs.loaded_cycle import loaded_cycle
