@@ -8,6 +8,7 @@ import io
 import json
 import socket
 import threading
+import time
 from collections.abc import Iterator
 from contextlib import chdir, contextmanager, redirect_stdout, suppress
 from dataclasses import dataclass
@@ -117,3 +118,14 @@ def drawn(studio: Studio, *actions: dict[str, Any], text: str | None = None) -> 
 def saving(name: str, text: str, version: str = "", draft: str = "") -> dict[str, str]:
     """A request that writes a text into a file of which the version was seen last."""
     return {"name": name, "text": text, "version": version, "draft": draft}
+
+
+def followed(studio: Studio, number: int) -> Iterator[dict[str, Any]]:
+    """What a search has found, until it has ended."""
+    for _ in range(600):
+        found = asked(studio, "candidates", {})[1]
+        assert found["number"] == number
+        yield found
+        if not found["running"]:
+            return
+        time.sleep(0.05)

@@ -1,4 +1,4 @@
-"""The six-bar with all reactions over 360 positions, in browsers and as native code: ``python -m tests.unit.engine.kernels``.
+"""The six-bar with all reactions over 360 positions, in browsers and native: ``python -m tests.unit.engine.kernels``.
 
 The same program as WebAssembly in Node and in Chromium and as native code of one thread, in turns within one run; the
 ratio is the median over the rounds.

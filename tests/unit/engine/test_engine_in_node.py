@@ -71,6 +71,7 @@ def gallery_work(name: str) -> tuple[dict[str, Any], dict[str, Any]] | None:
     return work(program, values, own, motion.steps, fields=rows), dict(zip(names, want, strict=True))
 
 
+@pytest.mark.rotating
 def test_every_gallery_file_gives_the_numbers_of_numpy(tmp_path: Path) -> None:
     found = {name: made for name in names() if (made := gallery_work(name)) is not None}
     assert len(found) > 30
