@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from tests.ui.node import in_node, needs_node, work
+from tests.unit.engine.node import in_node, needs_node, work
 
 import linkwright as lw
 from linkwright.cycle_programs.loaded_cycle import loaded_cycle
@@ -71,6 +71,7 @@ def gallery_work(name: str) -> tuple[dict[str, Any], dict[str, Any]] | None:
     return work(program, values, own, motion.steps, fields=rows), dict(zip(names, want, strict=True))
 
 
+@pytest.mark.rotating
 def test_every_gallery_file_gives_the_numbers_of_numpy(tmp_path: Path) -> None:
     found = {name: made for name in names() if (made := gallery_work(name)) is not None}
     assert len(found) > 30

@@ -3,35 +3,27 @@
 from __future__ import annotations
 
 import math
-from contextlib import suppress
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 import yaml
-from tests.ui.studio import asked, serving
+from tests import store
+from tests.refusals import refused
+from tests.ui.texts import FOURBAR
 
 import linkwright as lw
 from linkwright.errors import LinkwrightError
 from linkwright.files.model_file import read_text
 from linkwright.server.draft import picture
 from linkwright.server.edits import edited
-from linkwright.server.files import Files
+from linkwright.words.sentence import code_of, values_of
 
 #: Codes of findings about names that are not there, and texts that are no YAML.
 GONE = ("unknown-name", "duplicate", "yaml")
+#: Of a point that gives a link its length, or that something else needs, and of one that no drawing has.
+REFUSED = {"studio.end_of_link", "studio.point_of"}
 REMOVED = ("chain_drive", "dyad_rpr", "geneva_wheel", "pinion_between_racks", "toggle_press")
-FOURBAR = """format: 1
-frame:
-  points: {O1: [0 mm, 0 mm], O2: [200 mm, 0 mm]}  # on the base
-drawing: {A: [30 mm, 40 mm], B: [160 mm, 120 mm]}
-links:
-  crank: {points: [O1, A]}
-  coupler: {points: [A, B]}
-  rocker: {points: [B, O2]}  # of steel
-driver: {turn: crank, about: O1, speed: 60 rpm}
-"""
 
 
 def after(text: str, **action: Any) -> str:
@@ -39,9 +31,10 @@ def after(text: str, **action: Any) -> str:
     return edited(text, action)[0]
 
 
-def said(text: str, **action: Any) -> str:
-    """What the user is told about an action."""
-    return edited(text, action)[1]
+def told(text: str, **action: Any) -> tuple[str, dict[str, Any]]:
+    """What the user is told about an action: the key of the sentence and its values."""
+    note = edited(text, action)[1]
+    return code_of(note), values_of(note)
 
 
 @pytest.mark.parametrize(("link", "angle"), [("coupler", 180.0), ("rocker", 30.0), ("coupler", -45.0)])
@@ -61,7 +54,8 @@ def test_a_force_acts_on_the_link_in_the_direction_asked_for(link: str, angle: f
             "size": "250 N",
         }
     }  # fmt: skip
-    assert f"250 N acts on {link} at B" in said(FOURBAR, **load)
+    key, values = told(FOURBAR, **load)
+    assert (key, values["force"], values["link"], values["at"]) == ("studio.load_put", "250 N", link, "B")
 
 
 def test_loads_of_all_kinds_are_shown_and_can_be_removed() -> None:
@@ -91,14 +85,15 @@ def test_a_mass_brings_the_inertia_of_an_even_bar() -> None:
     assert (rocker.mass, rocker.inertia) == (2.0, pytest.approx(2 * length**2 / 12, rel=1e-3))
     assert rocker.centre == pytest.approx((length / 2, 0.0))
     assert "# of steel" in text
-    assert "m·l²/12" in said(FOURBAR, do="mass", link="rocker", mass="2 kg")
+    key, values = told(FOURBAR, do="mass", link="rocker", mass="2 kg")
+    assert (key, values["length"]) == ("studio.bar_inertia", f"{1e3 * length:.4g} mm")
     assert lw.loads(after(text, do="mass", link="rocker", mass="500 g")).link(
         "rocker"
     ).inertia == pytest.approx(length**2 / 24, rel=1e-3)
     own = text.replace(text.split("inertia: ")[1].split("}")[0], "0.5 kg·m²")
     heavier = lw.loads(after(own, do="mass", link="rocker", mass="3 kg")).link("rocker")
     assert (heavier.mass, heavier.inertia) == (3.0, 0.5)
-    assert "stays" in said(own, do="mass", link="rocker", mass="3 kg")
+    assert told(own, do="mass", link="rocker", mass="3 kg")[0] == "studio.inertia_stays"
     lengths = FOURBAR.replace("coupler: {points: [A, B]", "coupler: {points: [A, B], length: 3.5 m")
     lengths = lengths.replace("drawing:", "# drawing:")
     placed = {"A": [0.0, 0.0], "B": [3.5, 0.0]}
@@ -119,7 +114,8 @@ def test_a_pin_that_is_removed_leaves_its_links_apart() -> None:
     assert "push: {kind: force, on: rocker, at: P1, normal_to: [P1, O2], magnitude: 5 N}" in apart
     assert not {"joints", "assembly"} & set(tree)
     assert "# on the base" in apart and "# of steel" in apart
-    assert "coupler, rocker are no longer joined" in said(text, do="remove", what="joint", name="B")
+    key, values = told(text, do="remove", what="joint", name="B")
+    assert (key, values["point"], values["links"]) == ("studio.pin_gone", "B", ("coupler", "rocker"))
     joined = apart.replace(", P1: [160 mm, 120 mm]", "").replace("P1", "B")
     whole = after(joined, do="remove", what="load", name="push")
     assert lw.loads(whole).dimensions() == lw.loads(FOURBAR).dimensions()
@@ -130,7 +126,9 @@ def test_a_pivot_that_is_removed_frees_its_link_and_takes_its_drive_along() -> N
     tree = yaml.safe_load(free)
     assert tree["links"]["crank"] == {"points": ["P1", "A"]}
     assert "driver" not in tree
-    assert "drive" in said(FOURBAR, do="remove", what="joint", name="O1")
+    key, values = told(FOURBAR, do="remove", what="joint", name="O1")
+    assert key == "studio.both"
+    assert [code_of(values[each]) for each in ("first", "second")] == ["studio.pin_gone", "studio.drive_gone"]
     gone = yaml.safe_load(after(free, do="remove", what="joint", name="O1"))
     assert list(gone["frame"]["points"]) == ["O2"]
 
@@ -140,7 +138,7 @@ def test_a_point_that_joins_nothing_goes_out_of_its_link_alone() -> None:
     text = after(text, do="load", link="coupler", at="C", force="5 N", angle=0.0)
     assert after(text, do="remove", what="joint", name="C").rstrip() == FOURBAR.rstrip()
     loose = after(FOURBAR, do="remove", what="link", name="rocker")
-    with pytest.raises(LinkwrightError, match="click the link itself"):
+    with refused("studio.end_of_link", point="B", link="coupler"):
         after(loose, do="remove", what="joint", name="B")
 
 
@@ -155,16 +153,23 @@ def test_a_block_goes_with_its_guide_and_the_guide_s_point() -> None:
 @pytest.mark.parametrize("name", REMOVED)
 def test_whatever_is_removed_leaves_no_name_behind(name: str) -> None:
     """Of every link, point and load of models of the gallery: the text names nothing that is gone."""
-    text = lw.read_document(f"gallery:{name}").text
+    text = store.text(name)
     shown = picture(text)
     points = dict.fromkeys([*shown["fixed"], *(point for ends in shown["links"].values() for point in ends)])
     parts = {"link": list(shown["links"]), "joint": list(points), "load": list(shown["loads"])}
+    removed, refusals = 0, set[str]()
     for what, names in parts.items():
         for each in names:
-            with suppress(LinkwrightError):
+            try:
                 found = after(text, do="remove", what=what, name=each)
-                left = [str(finding) for finding in read_text(found, name)[1] if finding.code in GONE]
-                assert left == [], (what, each)
+            except LinkwrightError as error:
+                refusals.add(error.code)
+                continue
+            removed += 1
+            left = [str(finding) for finding in read_text(found, name)[1] if finding.code in GONE]
+            assert left == [], (what, each)
+    assert refusals <= REFUSED
+    assert removed >= 0.5 * sum(map(len, parts.values()))
 
 
 def test_new_points_come_with_the_link_that_has_them() -> None:
@@ -178,20 +183,3 @@ def test_drawing_keeps_a_byte_order_mark_out_of_the_way() -> None:
     assert after(text, do="remove", what="link", name="rocker") == after(
         FOURBAR, do="remove", what="link", name="rocker"
     )
-
-
-def test_a_new_file_and_the_notes_are_in_the_language_of_the_page(tmp_path: Path) -> None:
-    with serving(tmp_path) as studio:
-        found = asked(studio, "open", {"language": "zh"})[1]
-        assert found["text"] == "format: 1\nname: 新机构\n"
-        action = {"do": "remove", "what": "joint", "name": "O1"}
-        note = asked(studio, "edit", {"text": FOURBAR, "action": action, "language": "zh"})[1]["note"]
-        assert note.startswith("已删除铰链 O1：机架、crank 在此不再相连（crank 上的点改名为 P1）")
-        assert note.endswith("绕它的驱动也已删除。")
-
-
-def test_drawings_that_were_never_saved_can_be_opened(tmp_path: Path) -> None:
-    Files(tmp_path).keep("machine.yaml", "# drawn\n", "w", 0)
-    with serving(tmp_path) as studio:
-        assert asked(studio, "files", {})[1]["drafts"] == ["machine.yaml"]
-        assert asked(studio, "open", {"name": "machine.yaml"})[1]["text"] == "# drawn\n"

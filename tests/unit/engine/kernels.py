@@ -1,4 +1,4 @@
-"""The six-bar with all reactions over 360 positions, in browsers and as native code: ``python -m tests.ui.kernels``.
+"""The six-bar with all reactions over 360 positions, in browsers and native: ``python -m tests.unit.engine.kernels``.
 
 The same program as WebAssembly in Node and in Chromium and as native code of one thread, in turns within one run; the
 ratio is the median over the rounds.
@@ -22,7 +22,7 @@ from typing import Any
 import numpy as np
 from benchmarks.kernels_alone import bare_call
 from tests.ui.browser import browser
-from tests.ui.node import work
+from tests.unit.engine.node import work
 
 import linkwright as lw
 from linkwright.engine.call_block import aligned
