@@ -33,12 +33,20 @@ def findings(text: str, name: str = "<text>") -> list[Finding]:
 
 
 def said(found: Iterable[Finding], code: str, key: str | None = None, /, **values: object) -> Finding:
-    """The one finding with a code (at a key of the model, where one is given), which has at least these values."""
+    """The one finding with a code (at a key of the model, where one is given), which has at least these values.
+
+    Values are those of its message and of its remedy; ``message`` and ``remedy`` are the two themselves, by key.
+    """
     told = list(found)
     matching = [each for each in told if each.code == code and key in (None, each.key)]
     assert len(matching) == 1, f"{len(matching)} findings {code}, {key}, among {[str(each) for each in told]}"
-    agrees(matching[0].values, values)
+    agrees(_values(matching[0]), values)
     return matching[0]
+
+
+def _values(found: Finding) -> dict[str, object]:
+    own = {"message": found.message, "remedy": found.remedy}
+    return {**replace(found, message=found.remedy).values, **own, **found.values}
 
 
 def agrees(found: Mapping[str, object], wanted: Mapping[str, object]) -> None:
