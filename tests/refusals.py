@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import json
 import tempfile
 from collections.abc import Iterable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, redirect_stdout
 from dataclasses import replace
+from io import StringIO
 from pathlib import Path
 
 import pytest
 
 from linkwright import Finding, LinkwrightError, check
+from linkwright.cli import main
 
 
 @contextmanager
@@ -30,6 +33,14 @@ def findings(text: str, name: str = "<text>") -> list[Finding]:
         path = Path(folder, "model.yaml")
         path.write_bytes(text.encode("utf-8"))
         return [replace(each, where=name + each.where.removeprefix(path.name)) for each in check(path)]
+
+
+def checked(path: Path) -> tuple[int, list[Finding]]:
+    """What the command ``check`` answers about a file: its exit code, and the findings that it tells as data."""
+    with redirect_stdout(StringIO()) as told:
+        code = main(["check", str(path), "--json"])
+    (file,) = json.loads(told.getvalue())["files"]
+    return code, [Finding(**each) for each in file["findings"]]
 
 
 def said(found: Iterable[Finding], code: str, key: str | None = None, /, **values: object) -> Finding:
