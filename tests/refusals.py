@@ -55,6 +55,15 @@ def said(found: Iterable[Finding], code: str, key: str | None = None, /, **value
     return matching[0]
 
 
+def noted(notes: Iterable[str], code: str, /, **values: object) -> str:
+    """The one note of a result (or of what became of a position) with a code, and at least these values."""
+    told = list(notes)
+    matching = [each for each in told if LinkwrightError(each).code == code]
+    assert len(matching) == 1, f"{len(matching)} notes {code} among {[str(each) for each in told]}"
+    agrees(LinkwrightError(matching[0]).values, values)
+    return matching[0]
+
+
 def _values(found: Finding) -> dict[str, object]:
     own = {"message": found.message, "remedy": found.remedy}
     return {**replace(found, message=found.remedy).values, **own, **found.values}
