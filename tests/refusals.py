@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from linkwright import Finding, LinkwrightError, check
+from linkwright import Finding, LinkwrightError, ModelError, check
 from linkwright.cli import main
 
 
@@ -25,6 +25,14 @@ def refused(
         yield caught
     assert caught.value.code == code, f'{caught.value.code}: "{caught.value}"'
     agrees(caught.value.values, values)
+
+
+@contextmanager
+def faulty(code: str, key: str, /, **values: object) -> Iterator[pytest.ExceptionInfo[ModelError]]:
+    """What is done inside raises a ModelError, one of whose findings has a code, a key and at least these values."""
+    with pytest.raises(ModelError) as caught:
+        yield caught
+    said(caught.value.findings, code, key, **values)
 
 
 def findings(text: str, name: str = "<text>") -> list[Finding]:
