@@ -1,4 +1,4 @@
-"""Damaged model files: whatever was cut, doubled or mistyped, the answer is findings at places or a model, at once."""
+"""Damaged model files: whatever was cut, doubled or mistyped, the answer is findings at places or a model."""
 
 import random
 from contextlib import suppress
