@@ -31,7 +31,7 @@ def test_the_offset_slider_crank() -> None:
 
 
 def test_the_table_shows_units_limits_and_warnings() -> None:
-    """The rows of the data in their order, those with a warning marked; below, what is said of several is said once."""
+    """The rows of the data in their order, those with a warning marked; below, each remark once."""
     rated = data("metrics", CONVEYOR)
     found = shown("metrics", CONVEYOR)
     _, table, warnings = found.split("\n\n")
