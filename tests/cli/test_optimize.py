@@ -74,32 +74,6 @@ def test_misuse() -> None:
     is_refused([*search, *twice], "optimize.given_twice", name="crank.length")
 
 
-def test_an_interruption_before_the_first_population_leaves_a_file_to_go_on_from(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def stop(*_: object, **__: object) -> None:
-        raise KeyboardInterrupt
-
-    monkeypatch.chdir(tmp_path)
-    asked = [*SEARCH, "--minimize", "flywheel", "--evaluations", "100"]
-    with monkeypatch.context() as patched:
-        patched.setattr("linkwright.optimisation.optimize.Task", stop)  # before anything has been measured
-        assert main(asked) == 130
-        (left,) = tmp_path.iterdir()
-        assert f"--state {left.name}" in capsys.readouterr().err
-        kept = left.read_bytes()
-        assert main([*asked, "--state", left.name, "--lang", "zh"]) == 130
-        assert left.name in capsys.readouterr().err
-        assert left.read_bytes() == kept  # a file that is there already stays
-        patched.setattr("linkwright.optimisation.optimize.read_document", stop)
-        assert main(asked) == 130
-        assert "Nothing new had been computed" in capsys.readouterr().err
-    assert main([*asked, "--json"]) == 0
-    whole = capsys.readouterr().out
-    assert main([*asked, "--json", "--state", left.name]) == 0
-    assert capsys.readouterr().out == whole
-
-
 PRESS = """
 format: 1
 name: Press
