@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from tests import store
 from tests.cli.commands import data, finding_codes, is_refused, run, shown
-from tests.cli.machines import STUCK, TEETH
+from tests.cli.machines import FARTHEST, STUCK, TEETH
 from tests.cli.tables import numbers, rows, rows_of_numbers, widest, width
 from tests.every import every
 
@@ -237,17 +237,16 @@ def test_files_that_cannot_be_written(name: str, code: str, tmp_path: Path) -> N
 def test_positions_out_of_reach_are_refused_or_marked(tmp_path: Path) -> None:
     path = tmp_path / "stuck.yaml"
     path.write_text(STUCK)
-    limit = math.degrees(math.acos((0.9**2 + 2**2 - 2.7**2) / (2 * 0.9 * 2)))
     told = is_refused(["solve", str(path)], "motion.refused_told", ends=1, links={"coupler", "rocker"})
     assert [float(str(told.values[end])[:-1]) for end in ("low", "high")] == pytest.approx(
-        [-limit, limit], rel=1e-6
+        [-FARTHEST, FARTHEST], rel=1e-6
     )
     assert "–" in shown("solve", str(path), "--mark", code=1)
     marked = data("solve", str(path), "--mark", code=1)
     assert not marked["ok"] and marked["not_reached"]
     inputs = np.degrees(marked["columns"]["driver [rad]"])
     folded = np.abs((inputs + 180) % 360 - 180)
-    assert np.array_equal(np.array(marked["reached"]), folded < limit)
+    assert np.array_equal(np.array(marked["reached"]), folded < FARTHEST)
     assert [value is None for value in marked["columns"]["rocker.angle [rad]"]] == [
         not ok for ok in marked["reached"]
     ]
