@@ -35,5 +35,5 @@ driver: {turn: pinion, about: O, speed: 10 rad/s}
 
 def out_of_reach(positions: int) -> int:
     """How many of the positions of the stuck four-bar over its cycle, which begins at 60°, have no assembly."""
-    inputs = (60 + 360 * k / (positions - 1) for k in range(positions))
+    inputs = (60 + 360 * k / positions for k in range(positions))
     return sum(abs((each + 180) % 360 - 180) > FARTHEST for each in inputs)
