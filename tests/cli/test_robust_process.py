@@ -55,7 +55,6 @@ def test_closed_errors_do_not_matter() -> None:
     assert b"gallery:kite" in done.stdout
 
 
-@pytest.mark.rotating
 @pytest.mark.parametrize("wait", [0.15, 0.3, 0.6])
 def test_an_interrupt_at_any_time_ends_quietly(tmp_path: Path, wait: float) -> None:
     """From the moment Python itself is up, whether modules are being imported or the work is under way."""

@@ -56,9 +56,10 @@ def test_every_public_name_leads_to_its_example(language: str) -> None:
     assert all(".md)" in line for line in every(rows.values()))
 
 
-@pytest.mark.parametrize("page", pages.reference(), ids=lambda page: page.relative_to(DOCS).as_posix())
-def test_the_reference_in_the_repository_is_up_to_date(page: Path) -> None:
-    assert page.read_text("utf-8") == pages.reference()[page], "run: python docs/pages.py"
+def test_the_reference_in_the_repository_is_up_to_date() -> None:
+    made = pages.reference().items()
+    old = [page.name for page, text in every(made, least=5) if page.read_text("utf-8") != text]
+    assert old == [], "run: python docs/pages.py"
 
 
 def test_a_page_in_one_language_is_there_in_the_other() -> None:
