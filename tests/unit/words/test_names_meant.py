@@ -1,55 +1,13 @@
-"""Errors and findings are said in the reader's language; their string is English."""
-
-import copy
-import pickle
+"""A wrong name finds the one that is meant: by its letters, its synonyms, its Chinese word."""
 
 import pytest
 
-from linkwright.errors import Finding, LinkwrightError, ModelError, QuantityError
 from linkwright.laws.base import MOTION_LAWS
 from linkwright.registry import nearest
-from linkwright.words.sentence import Sentence
 from linkwright.words.synonyms import ALIKE
-
-STEEP = Sentence("outcome.rpp_parallel", sine="0")
-
-
-def test_an_error_says_its_sentence_in_both_languages() -> None:
-    error = LinkwrightError(STEEP)
-    assert str(error) == error.say() == "the two slides are parallel (sine of the angle between them 0)"
-    assert error.say("zh") == "两移动方向平行（夹角的正弦为 0）"
-
-
-def test_an_error_is_a_value_of_another_sentence() -> None:
-    outer = LinkwrightError(Sentence("cli.about", name="--at", cause=LinkwrightError(STEEP)))
-    assert str(outer) == f"--at: {STEEP}"
-    assert outer.say("zh") == f"--at：{STEEP.say('zh')}"
-    again = pickle.loads(pickle.dumps(copy.deepcopy(outer)))
-    assert again.say("zh") == outer.say("zh")
-
-
-def test_lists_take_the_comma_of_the_language() -> None:
-    sentence = Sentence("cycle.change", links=("a", "b"), where="30°")
-    assert "(a, b)" in sentence and "（a、b）" in sentence.say("zh")
-
-
-def test_a_finding_puts_place_and_remedy_together() -> None:
-    finding = Finding("warning", "a.yaml:3:1", "links.crank", STEEP, Sentence("outcome.assembled"), "x")
-    assert str(finding) == f"a.yaml:3:1: links.crank: warning: {STEEP}; assembled"
-    assert finding.say("zh") == f"a.yaml:3:1: links.crank: 警告：{STEEP.say('zh')}；可装配"
-    assert str(Finding("error", "", "", "bare")) == "bare"
-    assert ModelError([finding, finding]).say("zh") == "\n".join([finding.say("zh")] * 2)
-
-
-def test_a_remedy_follows_its_message() -> None:
-    error = QuantityError(STEEP, Sentence("outcome.assembled"))
-    assert str(error) == f"{STEEP}; assembled"
-    assert error.say("zh") == f"{STEEP.say('zh')}；可装配"
 
 
 def test_a_name_that_begins_with_a_known_one_offers_it() -> None:
-    from linkwright.registry import nearest
-
     assert nearest("rammer", ["frame", "hammer", "ram", "r"]) == "ram"
     assert nearest("crank_arm", ["crank", "arm", "frame"]) == "crank"
     assert nearest("Ram", ["ram", "ramp"]) == "ram"
@@ -75,8 +33,6 @@ def test_a_name_that_begins_with_a_known_one_offers_it() -> None:
 def test_a_wrong_name_finds_the_one_that_means_the_same(
     name: str, known: list[str], meant: str | None
 ) -> None:
-    from linkwright.registry import nearest
-
     assert nearest(name, known) == meant
 
 

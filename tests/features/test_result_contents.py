@@ -7,9 +7,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests import store
+from tests.every import every
 
 import linkwright as lw
-from linkwright.plot import plot
 
 #: A block of 2 kg on an incline of 30°, pushed up at 0.1 m/s, its mass centre 50 mm ahead of its point; g = 10 m/s².
 INCLINE = """
@@ -82,7 +83,7 @@ def test_json_names_owner_quantity_and_unit_of_every_column(tmp_path: Path) -> N
     data = json.loads(path.read_text(encoding="utf-8"))
     columns = {name: each for table in data["tables"].values() for name, each in table.items()}
     assert set(columns) == set(BY_HAND)
-    for name, each in columns.items():
+    for name, each in every(columns.items(), least=len(BY_HAND)):
         assert name.endswith(f"[{each['unit']}]") and len(each["values"]) == data["positions"]
         assert each["values"][0] == pytest.approx(BY_HAND[name], abs=1e-12)
     couple = columns["guide on block.couple [N·m]"]
@@ -113,8 +114,10 @@ def assert_through(drawn: np.ndarray, values: np.ndarray) -> None:
 
 
 def test_the_diagram_of_joint_forces_draws_one_force_of_every_joint_and_all_of_a_pin_of_three() -> None:
-    forces = lw.solve_forces(lw.load("gallery:jaw_crusher_sixbar"), steps=60)
-    found = {name: values for name, values in curves(plot(forces, "reactions")).items() if values is not None}
+    forces = store.forces("jaw_crusher_sixbar", 60)
+    found = {
+        name: values for name, values in curves(lw.plot(forces, "reactions")).items() if values is not None
+    }
     expected = {"O1": ("O1", "crank"), "A": ("A", "pitman"), "O3": ("O3", "rocker"), "O5": ("O5", "jaw")}
     expected |= {f"B ({link})": ("B", link) for link in ("pitman", "rocker", "toggle")} | {"C": ("C", "jaw")}
     assert {name for name in found if "limit" not in name} == set(expected)
@@ -124,31 +127,31 @@ def test_the_diagram_of_joint_forces_draws_one_force_of_every_joint_and_all_of_a
 
 
 def test_the_diagram_of_one_joint_draws_the_force_on_the_link_that_is_named() -> None:
-    forces = lw.solve_forces(lw.load("gallery:jaw_crusher_sixbar"), steps=60)
-    size, parts = plot(forces, "reactions", joint="B", on="toggle").figure.axes
+    forces = store.forces("jaw_crusher_sixbar", 60)
+    size, parts = lw.plot(forces, "reactions", joint="B", on="toggle").figure.axes
     drawn = [np.asarray(line.get_ydata()) for line in parts.lines if len(line.get_xdata()) > 2]
     force = forces.reaction("B", on="toggle")
-    for column, values in enumerate(drawn):
+    for column, values in enumerate(every(drawn, least=2)):
         assert_through(values * 1e3, force[:, column])
     (whole,) = [np.asarray(line.get_ydata()) for line in size.lines if len(line.get_xdata()) > 2]
     assert_through(whole * 1e3, np.hypot(*force.T))
 
 
 def test_a_sliding_driver_is_drawn_as_a_force_and_a_turning_one_as_a_torque() -> None:
-    pushed = plot(lw.loads(INCLINE), "torque").figure.axes[0]
+    pushed = lw.plot(lw.loads(INCLINE), "torque").figure.axes[0]
     assert pushed.get_ylabel().endswith("(N)") and "F" in pushed.get_ylabel()
     (line,) = [each for each in pushed.lines if len(each.get_xdata()) > 2]
     assert np.asarray(line.get_ydata()) == pytest.approx(10.0)
-    turned = plot(lw.loads(BRAKED), "torque").figure.axes[0]
+    turned = lw.plot(lw.loads(BRAKED), "torque").figure.axes[0]
     assert turned.get_ylabel().endswith("(N·m)")
     (line,) = [each for each in turned.lines if len(each.get_xdata()) > 2]
     assert np.asarray(line.get_ydata()) == pytest.approx(7.0)
 
 
 def test_every_driver_has_its_panel() -> None:
-    forces = lw.solve_forces(lw.load("gallery:excavator"), steps=20)
-    axes = plot(forces, "torque").figure.axes
-    for one, name in zip(axes, forces.mechanism.drivers, strict=True):
+    forces = store.forces("excavator", 20)
+    axes = lw.plot(forces, "torque").figure.axes
+    for one, name in zip(every(axes, least=3), forces.mechanism.drivers, strict=True):
         assert name in one.get_ylabel()
         (line,) = [each for each in one.lines if len(each.get_xdata()) > 2]
         factor = 1e3 if "(kN)" in one.get_ylabel() else 1e6 if "(MN)" in one.get_ylabel() else 1.0
@@ -157,7 +160,7 @@ def test_every_driver_has_its_panel() -> None:
 
 
 def test_a_guide_turns_with_the_link_that_carries_it() -> None:
-    forces = lw.solve_forces(lw.load("gallery:dyad_rrp"), steps=7)
+    forces = store.forces("dyad_rrp", 7)
     angle = forces.motion.link("disc").angle + math.radians(25.0)
     expected = np.stack([np.cos(angle), np.sin(angle)], axis=1)
     assert forces.guide_direction("slot") == pytest.approx(expected, abs=1e-12)
