@@ -53,8 +53,10 @@ def test_check_lists_findings_of_every_file(tmp_path: Path) -> None:
     slip = first["findings"][0]
     assert (slip["key"], slip["code"]) == ("links.crank.lenght", "unknown-key")
     assert slip["where"].startswith("wrong.yaml:6:") and '"length"' in slip["remedy"]
-    (motion,) = second["findings"]
-    assert (motion["code"], motion["where"]) == ("motion", str(loose)) and "'loose'" in motion["message"]
+    (free,) = second["findings"]
+    assert (free["code"], free["where"]) == ("mobility.free_idle", str(loose)) and "'loose'" in free[
+        "message"
+    ]
     for each in [*first["findings"], *second["findings"]]:
         assert f"{each['where']}: " in printed and each["message"] in printed
 
@@ -72,7 +74,7 @@ def test_check_tells_a_local_freedom(hub: str, idle: bool, tmp_path: Path) -> No
     model.write_text(text.replace("links:\n", f"links:{ROLLER.replace('HUB', hub).rstrip()}\n"))
     code = "mobility.free_idle" if idle else "mobility.free"
     is_refused(["solve", str(model)], code, ends=1, links={"'roller'"})
-    assert finding_codes("check", str(model))
+    assert finding_codes("check", str(model)) == [("", code)]
 
 
 def test_check_names_the_place_of_every_assembly_word(tmp_path: Path) -> None:
@@ -82,8 +84,8 @@ def test_check_names_the_place_of_every_assembly_word(tmp_path: Path) -> None:
     (file,) = data("check", str(path), code=1)["files"]
     last = len(text.splitlines())
     assert [(each["where"], each["key"], each["code"]) for each in file["findings"]] == [
-        (f"words.yaml:{last + 2}:6", "", "motion"),
-        (f"words.yaml:{last + 3}:6", "", "motion"),
+        (f"words.yaml:{last + 2}:6", "", "motion.no_mode"),
+        (f"words.yaml:{last + 3}:6", "", "motion.not_inner"),
     ]
     assert [each["message"].split(": ")[0] for each in file["findings"]] == ["assembly.B", "assembly.A"]
 

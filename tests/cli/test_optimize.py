@@ -48,7 +48,7 @@ def test_tolerances_are_asked_for_in_the_command() -> None:
     assert best["worst"]["r"] == pytest.approx([best["values"]["crank.length"] + 5e-4])
     assert len(best["worst"]["jaw.angle range"]) == 2
     assert 0.5 <= data(*SEARCH, *words, "yield", "--yield", "0.5")["designs"][0]["made"] <= 1
-    is_refused([*SEARCH, *words, "often"], "optimize", ends=1, given="often")
+    is_refused([*SEARCH, *words, "often"], "unknown-word", ends=1, given="often")
 
 
 def test_data_of_a_front() -> None:
@@ -94,28 +94,35 @@ optimize:
 """
 SEARCHED = "optimize.vary.rod.length"
 KEPT = "optimize.keep.transmission_angle"
-MISTAKES: list[tuple[str, str, str, str, dict[str, object]]] = [
-    ("rod.length: 200", "rod.lenght: 200", "13:17", "optimize.vary.rod.lenght", {"offer": "rod.length"}),
-    ("200..300 mm", "200-300 mm", "13:17", SEARCHED, {"right": "200..300 mm"}),
-    ("200..300 mm", "200 mm ~ 300 mm", "13:17", SEARCHED, {"right": "200 mm..300 mm"}),
-    ("at least 60 deg", "at least 60", "16:25", KEPT, {"given": "60", "right": "60 deg"}),
-    ("at least 60 deg", "more than 60 deg", "16:25", KEPT, {}),
-    ("at least 60 deg", "> 60 deg", "16:27", "", {}),
-    ("peak_reaction B", "peak_raction B", "12:3", "optimize", {"offer": "peak_reaction"}),
-    ("minimize", "minimise", "14:13", "optimize.minimise", {"offer": "minimize"}),
+MISTAKES: list[tuple[str, str, str, str, str, dict[str, object]]] = [
+    (
+        "rod.length: 200",
+        "rod.lenght: 200",
+        "13:17",
+        "optimize.vary.rod.lenght",
+        "study.no_dimension",
+        {"offer": "rod.length"},
+    ),
+    ("200..300 mm", "200-300 mm", "13:17", SEARCHED, "study.no_dots", {"right": "200..300 mm"}),
+    ("200..300 mm", "200 mm ~ 300 mm", "13:17", SEARCHED, "study.no_dots", {"right": "200 mm..300 mm"}),
+    ("at least 60 deg", "at least 60", "16:25", KEPT, "wrong-dimension", {"given": "60", "right": "60 deg"}),
+    ("at least 60 deg", "more than 60 deg", "16:25", KEPT, "demand", {"given": "more than 60 deg"}),
+    ("at least 60 deg", "> 60 deg", "16:27", "", "syntax", {}),
+    ("peak_reaction B", "peak_raction B", "12:3", "optimize", "study.no_metric", {"offer": "peak_reaction"}),
+    ("minimize", "minimise", "14:13", "optimize.minimise", "unknown-key", {"offer": "minimize"}),
 ]
 
 
-@pytest.mark.parametrize(("right", "wrong", "place", "key", "values"), MISTAKES)
+@pytest.mark.parametrize(("right", "wrong", "place", "key", "code", "values"), MISTAKES)
 def test_mistakes_in_the_section_are_found_at_their_lines(
-    right: str, wrong: str, place: str, key: str, values: dict[str, object], tmp_path: Path
+    right: str, wrong: str, place: str, key: str, code: str, values: dict[str, object], tmp_path: Path
 ) -> None:
     file = tmp_path / "press.yaml"
     assert right in PRESS
     file.write_text(PRESS.replace(right, wrong).lstrip(), encoding="utf-8")
     (checked,) = data("check", str(file), code=1)["files"]
     first = checked["findings"][0]
-    assert (first["where"], first["key"]) == (f"press.yaml:{place}", key)
+    assert (first["where"], first["key"], first["code"]) == (f"press.yaml:{place}", key, code)
     told = run("optimize", str(file)).told
     assert told is not None
     agrees(told.values, values)

@@ -71,6 +71,8 @@ SLIPS: list[tuple[list[str], str, dict[str, object]]] = [
     (["gallery", "show", "kiet"], "gallery.unknown", {"name": "kiet", "offer": "kite"}),
     (["gallery", "copy"], "gallery.which", {"action": "copy"}),
     (["--verson"], "cli.unknown_option", {"offer": "--version"}),
+    (["--lang", "de"], "cli.bad_language", {"name": "de"}),
+    (["--lang"], "cli.needs_value", {"name": "--lang"}),
 ]
 
 
@@ -79,11 +81,9 @@ def test_slips_are_named_in_one_sentence(arguments: list[str], code: str, values
     assert "\n" not in str(is_refused(arguments, code, **values))
 
 
-@pytest.mark.parametrize(("arguments", "named"), [(["--lang", "de"], '"de"'), (["--lang"], "--lang")])
-def test_a_language_that_does_not_exist(arguments: list[str], named: str) -> None:
-    ended = run(*arguments)
-    assert (ended.code, ended.out, ended.err.count("\n")) == (2, "", 1)
-    assert named in ended.err
+def test_data_of_a_refusal_have_its_code() -> None:
+    slip = data("solve", "gallery:kite", "--steps", "0", code=2)
+    assert (slip["ok"], slip["code"], slip["findings"]) == (False, "cli.bad_whole", [])
 
 
 @pytest.mark.parametrize(

@@ -120,16 +120,16 @@ TASK = "format: 1\nsynthesis:\n  task: slider_crank\n  stroke: 40 mm\n  rod_rati
     ("text", "found"),
     [
         (TASK, []),
-        (TASK.replace("stroke", "strok"), [("4:3", "synthesis.strok", "synthesis")]),
+        (TASK.replace("stroke", "strok"), [("4:3", "synthesis.strok", "unknown-demand")]),
         (
             TASK.replace("4\n", "4 m\n") + "sythesis: {}\n",
-            [("6:1", "sythesis", "unknown-key"), ("5:14", "synthesis.rod_ratio", "synthesis")],
+            [("6:1", "sythesis", "unknown-key"), ("5:14", "synthesis.rod_ratio", "wrong-dimension")],
         ),
-        (TASK.replace("slider_crank", "slider_crnk"), [("3:9", "synthesis.task", "synthesis")]),
+        (TASK.replace("slider_crank", "slider_crnk"), [("3:9", "synthesis.task", "unknown-task")]),
         ("format: 1\nsynthesis: [1]\n", [("2:12", "synthesis", "type")]),
         (
             TASK.replace("4\n", "[1, 2]\n").replace("40 mm", "{a: 1}"),
-            [("4:11", "synthesis.stroke", "synthesis"), ("5:14", "synthesis.rod_ratio", "synthesis")],
+            [("4:11", "synthesis.stroke", "type"), ("5:14", "synthesis.rod_ratio", "type")],
         ),
     ],
 )
