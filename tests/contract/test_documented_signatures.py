@@ -10,7 +10,7 @@ from types import FunctionType
 from typing import Any
 
 import pytest
-from tests.files.test_docs_examples import PAGES, blocks, name
+from tests.files.documentation import PAGES, blocks, name
 
 import linkwright as lw
 from linkwright import parts
