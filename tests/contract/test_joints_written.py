@@ -60,9 +60,8 @@ def test_sizes_in_lists_stay_the_expressions_that_they_are(pair: str, sizes: str
 @each
 def test_every_dimension_is_changed_alone(kind: str) -> None:
     joints = read(kind).joints.values()
-    for joint, address in every(
-        ((joint, address) for joint in joints for address in joint.dimensions()), least=kind != "revolute"
-    ):
+    changes = [(joint, address) for joint in joints for address in joint.dimensions()]
+    for joint, address in every(changes, least=kind != "revolute"):
         expected = dict(joint.dimensions())
         expected[address] += 1.0 if ".teeth" in address else 0.01
         changed = joint.with_dimensions(expected.__getitem__)
