@@ -4,7 +4,7 @@ from importlib.resources import files
 
 import numpy as np
 import pytest
-from tests.unit.test_load_magnitudes import SLIDER
+from tests.features.test_load_magnitudes import SLIDER
 
 import linkwright as lw
 from linkwright.cycle_programs.one_by_one import OneByOne

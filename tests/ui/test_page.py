@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 from tests.ui.browser import Opened, browser, needs_chromium
-from tests.unit import test_drawing_cams as drawn_cams
+from tests.unit.plot import test_drawing_cams as drawn_cams
 
 import linkwright as lw
 from linkwright import units

@@ -10,7 +10,7 @@ import pytest
 from tests.reference.geared_loops import looped_case, reordered
 from tests.reference.geared_mechanisms import geared_case
 from tests.reference.random_mechanisms import random_mechanism
-from tests.unit.worked_reading import is_printed_zero, last_digit, reckon
+from tests.worked_reading import is_printed_zero, last_digit, reckon
 
 import linkwright as lw
 from linkwright.worked.page import Relation

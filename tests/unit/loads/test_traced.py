@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from tests.unit.test_load_phases import Turning
+from tests.unit.loads.test_phases import Turning
 
 import linkwright as lw
 from linkwright.core.expressions import parse

@@ -7,7 +7,7 @@ import math
 import re
 
 import pytest
-from tests.unit.test_worked_arithmetic import against_solver, reckon_lines
+from tests.features.test_worked_arithmetic import against_solver, reckon_lines
 
 import linkwright as lw
 from linkwright.cli import main

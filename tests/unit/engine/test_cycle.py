@@ -290,7 +290,7 @@ def test_names_that_do_not_fit_together_are_refused() -> None:
 
 
 def test_the_example_of_the_documentation_runs(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
-    page = Path(__file__).parents[2] / "docs" / "en" / "theory" / "engine.md"
+    page = Path(__file__).parents[3] / "docs" / "en" / "theory" / "engine.md"
     file = tmp_path / "example.py"
     file.write_text(
         page.read_text(encoding="utf-8").split("```python\n")[1].split("```")[0], encoding="utf-8"
