@@ -6,8 +6,8 @@ import math
 
 import numpy as np
 import pytest
-from tests.reference.test_cam_joints import GUIDED, SPEED, SWINGING, follower, model
 from tests.features.test_worked_arithmetic import against_solver, reckon_lines
+from tests.reference.test_cam_joints import GUIDED, SPEED, SWINGING, follower, model
 
 import linkwright as lw
 from linkwright.report.formula import formula
