@@ -116,7 +116,7 @@ def code_of(text: str) -> str:
     """The key of a sentence, or of the one within it where it only says what that is about (``--at: …``)."""
     key: str = getattr(text, "key", "")
     cause = getattr(text, "values", {})[_AROUND[key]] if key in _AROUND else ""
-    return code_of(getattr(cause, "sentence", cause)) or key if cause else key
+    return getattr(cause, "code", "") or code_of(cause) or key if cause else key
 
 
 def values_of(text: str) -> dict[str, object]:
