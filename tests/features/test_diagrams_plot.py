@@ -2,32 +2,27 @@
 
 import subprocess
 import sys
-from collections.abc import Sequence
 from pathlib import Path
 
 import matplotlib
 import numpy as np
 import pytest
-from matplotlib import font_manager
+from tests import store
+from tests.every import every
+from tests.features.chinese import drawn_in_chinese
+from tests.refusals import refused
 
 import linkwright as lw
-from linkwright.errors import LinkwrightError
+from linkwright.errors import LinkwrightError, RequestError
 from linkwright.machine import steady_running
 from linkwright.plot import Diagram, plot
-from linkwright.plot.diagrams import picture
-from linkwright.plot.diagrams.axes import round_up, significant, unit_of
-from linkwright.plot.diagrams.base import DIAGRAMS
-from linkwright.plot.diagrams.marks import limit_marks, phase_marks
-from linkwright.plot.diagrams.outputs import main_output, output_named
-from linkwright.plot.diagrams.source import Source
-from linkwright.words import LANGUAGES, catalogue
 
-CRUSHER = lw.load("gallery:jaw_crusher_sixbar")
+CRUSHER = store.machine("jaw_crusher_sixbar")
 
 
 @pytest.fixture(scope="module")
 def forces() -> lw.Forces:
-    return lw.solve_forces(lw.solve_motion(CRUSHER, steps=120))
+    return store.forces("jaw_crusher_sixbar", 120)
 
 
 def words_of(diagram: Diagram) -> list[str]:
@@ -47,18 +42,6 @@ def test_curves_close_and_go_with_the_motion(forces: lw.Forces) -> None:
     passed = np.interp(-np.degrees(forces.motion.input), -x, y)
     assert passed == pytest.approx(np.degrees(forces.motion.link("jaw").angle))
     assert axes[0].get_xlim() == pytest.approx((0.0, -360.0))
-
-
-def test_limit_positions_and_phase_stand_where_the_gallery_file_says(forces: lw.Forces) -> None:
-    source = Source(forces.motion)
-    limits = limit_marks(source, main_output(forces.motion))
-    assert {each.kind: np.degrees(each.place) for each in limits} == pytest.approx(
-        {"max": -89.862115, "min": -272.43420}, abs=1e-5
-    )
-    (phase,) = phase_marks(source, limits)
-    assert (phase.name, *np.degrees([phase.begin, phase.end])) == pytest.approx(
-        ("crushing", -89.862115, -272.43420), abs=1e-5
-    )
 
 
 def test_hodograph_has_equal_scales_and_the_forces(forces: lw.Forces) -> None:
@@ -109,7 +92,7 @@ def test_results_draw_themselves(forces: lw.Forces) -> None:
     assert diagram.kind == "speed"
     assert any("δ = 0.05" in text for text in words_of(diagram))
     assert running.plot("energy").kind == "energy"
-    with pytest.raises(LinkwrightError, match="speed and energy"):
+    with refused("picture.no_motion", RequestError):
         running.plot("sva")
 
 
@@ -120,45 +103,22 @@ def test_several_results_lie_over_each_other() -> None:
     curves = [line for line in diagram.figure.axes[0].lines if len(line.get_xdata()) > 100]
     swings = [np.ptp(line.get_ydata()) for line in curves]
     assert len(curves) == 2 and swings[1] > swings[0]
-    with pytest.raises(LinkwrightError, match="give labels"):
+    with refused("picture.equal_names", RequestError):
         plot([CRUSHER, longer])
-
-
-def test_a_block_on_the_frame_means_its_displacement() -> None:
-    conveyor = lw.load("gallery:swing_conveyor")
-    output = output_named(conveyor, "slider")
-    assert getattr(output, "kind", None) == "displacement" and getattr(output, "owner", None) == "guide"
-    assert main_output(lw.solve_motion(conveyor, steps=12)) == output_named(conveyor, "guide")
-
-
-def test_a_wheel_in_a_fixed_ratio_to_the_driver_is_shown_where_there_is_nothing_else() -> None:
-    five_bar, pair = (lw.load(f"gallery:{name}") for name in ("geared_fivebar", "external_gear_pair"))
-    assert str(main_output(lw.solve_motion(five_bar, steps=12))) == "bar_2"
-    assert str(main_output(lw.solve_motion(pair, steps=12))) == "wheel"
 
 
 @pytest.mark.parametrize("kind", ["sva", "hodograph", "torque", "acceleration_polygon", "force_polygon"])
 def test_chinese_with_greek_letters_and_units_has_no_boxes(kind: str, forces: lw.Forces) -> None:
-    if picture.chinese_font() is None:
-        with pytest.raises(LinkwrightError, match="fonts-noto-cjk"):
-            plot(forces, kind, language="zh")
-        return
-    diagram = plot(forces, kind, language="zh", at=-0.7 if "polygon" in kind else None)
+    diagram = drawn_in_chinese(forces, kind, at=-0.7 if "polygon" in kind else None)
     said = "".join(words_of(diagram))
     assert any("\u4e00" <= letter <= "\u9fff" for letter in said) and {"φ"} & set(said) | {"F"} & set(said)
     for content in (diagram.svg().encode(), diagram.png(dpi=40), diagram.pdf()):
         assert len(content) > 2000
 
 
-def test_without_a_chinese_font_a_sentence_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(picture, "chinese_font", lambda: None)
-    with pytest.raises(LinkwrightError, match="apt-get install fonts-noto-cjk"):
-        plot(CRUSHER, language="zh")
-
-
 def test_a_character_that_no_font_has_is_refused(forces: lw.Forces) -> None:
     diagram = plot(forces.motion, title="\ue123")
-    with pytest.raises(LinkwrightError, match="cannot be written"):
+    with refused("picture.no_glyph", RequestError):
         diagram.svg()
 
 
@@ -186,48 +146,94 @@ def test_the_same_diagram_gives_the_same_file(forces: lw.Forces) -> None:
 
 def test_files_are_written_whole_or_not_at_all(forces: lw.Forces, tmp_path: Path) -> None:
     diagram = plot(forces, "torque", title="\ue123")
-    with pytest.raises(LinkwrightError):
+    with refused("picture.no_glyph", RequestError):
         diagram.save(tmp_path / "t.svg")
-    with pytest.raises(LinkwrightError, match="no kind of picture"):
+    with refused("picture.no_ending", RequestError, ending=".bmp", names=(".svg", ".pdf", ".png")):
         diagram.save(tmp_path / "t.bmp")
     assert list(tmp_path.iterdir()) == []
     good = plot(forces, "torque")
     heads = {"svg": b"<?xml", "png": b"\x89PNG", "pdf": b"%PDF"}
     for ending, head in heads.items():
         assert good.save(tmp_path / f"t.{ending}", dpi=40).read_bytes().startswith(head)
-    with pytest.raises(LinkwrightError, match="create it first"):
+    with refused("file.no_folder", RequestError, path=tmp_path / "none"):
         good.save(tmp_path / "none" / "t.svg")
 
 
 def test_refusals_say_what_there_is(forces: lw.Forces) -> None:
-    with pytest.raises(LinkwrightError, match=r'did you mean "torque"\? \(one of: .*velocity_polygon'):
+    with refused("picture.no_kind", RequestError, name="torqe", offer="torque") as unknown:
         plot(forces, "torqe")
-    with pytest.raises(LinkwrightError, match="O5"):
+    assert "velocity_polygon" in unknown.value.values["names"]
+    with refused("names.no_such", RequestError, name="O55", offer="O1"):
         plot(forces, "hodograph", joint="O55")
-    with pytest.raises(LinkwrightError, match="jaw"):
+    with refused("motion.no_output", RequestError, text="jow", offer="jaw"):
         plot(forces, "sva", of="jow")
-    with pytest.raises(LinkwrightError, match="no unit"):
+    with refused("missing-unit", LinkwrightError):
         plot(forces, "velocity_polygon", at="30")
-    with pytest.raises(LinkwrightError, match="give masses"):
-        plot(lw.load("gallery:crank_rocker"), "hodograph")
+    with refused("picture.no_forces", LinkwrightError):
+        plot(store.machine("crank_rocker"), "hodograph")
 
 
-def test_every_kind_has_its_words() -> None:
-    for language in LANGUAGES:
-        assert {f"kind.{name}" for name in DIAGRAMS} <= set(catalogue("plot", language))
+#: Which kinds of diagrams an option is for.
+USERS = {
+    "of": ("angles", "force_polygon", "hodographs", "paths", "reactions", "sva"),
+    "joint": ("hodograph", "reactions"),
+    "on": ("hodograph", "reactions"),
+    "axes": ("hodograph", "reactions"),
+    "at": ("acceleration_polygon", "force_polygon", "velocity_polygon"),
+    "fluctuation": ("speed",),
+}
+OPTIONS = {"of": "jaw", "joint": "B", "on": "jaw", "axes": "jaw", "at": 1.0, "fluctuation": 0.1}
 
 
-def test_numbers_and_units() -> None:
-    assert [significant(v) for v in (0.0, -0.00012345, 12.3456, -1234.56, 1.0, 2.5e8)] == [
-        "0", "−0.0001234", "12.35", "−1235", "1", "2.5e+08",
-    ]  # fmt: skip
-    assert unit_of("force", [np.array([1.0, -25e3])]).text(-25e3) == "−25 kN"
-    assert unit_of("torque", [np.array([1800.0])]).text(1797.25) == "1797 N·m"
-    assert [round_up(v) for v in (0.011, 0.2, 3.0, 7.0)] == pytest.approx([0.02, 0.2, 5.0, 10.0])
+@pytest.mark.parametrize("option", USERS)
+def test_an_option_without_use_is_refused_by_every_kind(option: str, forces: lw.Forces) -> None:
+    with refused("picture.no_kind", RequestError) as unknown:
+        plot(forces, "none")
+    kinds = unknown.value.values["names"]
+    assert set(USERS[option]) < set(kinds)
+    for kind in every(set(kinds) - set(USERS[option]), least=8):
+        with refused("picture.no_use", RequestError, kind=kind, option=option, users=USERS[option]):
+            plot(forces, kind, **{option: OPTIONS[option]})  # type: ignore[arg-type]
+
+
+def test_limit_positions_and_phase_stand_where_the_gallery_file_says(forces: lw.Forces) -> None:
+    diagram = plot(forces.motion, "sva")
+    for axes in diagram.figure.axes:
+        upright = [
+            line.get_xdata()[0]
+            for line in axes.lines
+            if len({*line.get_xdata()}) == 1 < len(line.get_xdata())
+        ]
+        assert upright == pytest.approx([-89.862115, -272.43420], abs=1e-5)
+        (phase,) = axes.patches
+        assert phase.get_xy()[0] == pytest.approx(-89.862115, abs=1e-5)
+        assert phase.get_xy()[0] + phase.get_width() == pytest.approx(-272.43420, abs=1e-5)
+    assert any("crushing" in text for text in words_of(diagram))
+
+
+@pytest.mark.parametrize(
+    ("name", "output"),
+    [("swing_conveyor", "guide"), ("geared_fivebar", "bar_2"), ("external_gear_pair", "wheel")],
+)
+def test_the_output_that_is_drawn_where_none_is_named(name: str, output: str) -> None:
+    """A block on the frame means its displacement; a wheel in a fixed ratio to the driver is shown where there is
+    nothing else."""
+    motion = store.motion(name, 12)
+    angle, *_ = plot(motion, "sva").figure.axes
+    curve = max(angle.lines, key=lambda line: len(line.get_xdata()))
+    expected = (
+        1e3 * motion.joint(output).displacement
+        if output == "guide"
+        else np.degrees(motion.link(output).angle)
+    )
+    x = np.degrees(motion.input)
+    there = np.argsort(curve.get_xdata())
+    drawn = np.interp(x, np.asarray(curve.get_xdata())[there], np.asarray(curve.get_ydata())[there])
+    assert drawn == pytest.approx(expected, abs=1e-6)
 
 
 def test_all_outputs_that_are_asked_for_are_drawn() -> None:
-    shaper = lw.solve_motion(lw.load("gallery:shaper_quick_return"), steps=60)
+    shaper = store.motion("shaper_quick_return", 60)
     diagram = plot(shaper, "sva", of=["lever", "ram", "crank"])
     angles, lines = diagram.figure.axes[0], [axes.lines for axes in diagram.figure.axes]
     drawn = [np.asarray(line.get_ydata())[:-1] for line in angles.lines if len(line.get_ydata()) > 2]
@@ -239,18 +245,10 @@ def test_all_outputs_that_are_asked_for_are_drawn() -> None:
     assert {"lever", "ram", "crank"} <= set(words_of(diagram))
 
 
-def test_an_option_without_use_is_refused_by_every_kind(forces: lw.Forces) -> None:
-    given = {"of": "jaw", "joint": "B", "on": "jaw", "axes": "jaw", "at": 1.0, "fluctuation": 0.1}
-    for kind in DIAGRAMS:
-        for option in set(given) - set(DIAGRAMS[kind]().options):
-            with pytest.raises(LinkwrightError, match=f'{kind} has no use for "{option}"'):
-                plot(forces, kind, **{option: given[option]})  # type: ignore[arg-type]
-
-
 def test_sizes_beyond_all_paper_are_refused(forces: lw.Forces) -> None:
-    with pytest.raises(LinkwrightError, match="1 to 100 each"):
+    with refused("picture.size", RequestError):
         plot(forces, "torque", size=(7.0, 1e6))
-    with pytest.raises(LinkwrightError, match="dots per inch; give 1 to"):
+    with refused("picture.dpi", RequestError):
         plot(forces, "torque").png(dpi=1e5)
 
 
@@ -267,43 +265,6 @@ def test_a_plot_imports_nothing_that_it_does_not_write() -> None:
 
 def test_a_joint_that_carries_nothing_has_a_point_for_a_hodograph() -> None:
     """The guide of a yoke in line with its load: 4e-15 N by rounding were drawn as a scribble."""
-    axes = plot(lw.solve_forces(lw.load("gallery:scotch_yoke")), "hodographs", of=["guide"]).figure.axes[0]
+    axes = plot(store.forces("scotch_yoke"), "hodographs", of=["guide"]).figure.axes[0]
     assert all(not np.any(line.get_xydata()) for line in axes.lines if len(line.get_xydata()) > 2)
     assert axes.get_xlim()[1] > 0.5 and axes.get_xlabel() == "Fx (N)"
-
-
-def collection(path: Path, families: Sequence[str], style: str) -> None:
-    """A font collection with one face per family, as the packages of Chinese fonts have them."""
-    from fontTools.ttLib import TTCollection, TTFont
-
-    faces = TTCollection()
-    for family in families:
-        face = TTFont(font_manager.findfont("DejaVu Sans:bold" if style == "Bold" else "DejaVu Sans"))
-        for number, text in ((1, family), (2, style), (4, f"{family} {style}"), (16, family), (17, style)):
-            face["name"].setName(text, number, 3, 1, 0x409)
-            face["name"].setName(text, number, 1, 0, 0)
-        faces.fonts.append(face)
-    faces.save(path)
-
-
-@pytest.mark.parametrize("package", ["NotoSansCJK", "wqy-microhei"])
-def test_the_regular_face_of_a_collection_that_was_installed_after_the_list(
-    package: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
-) -> None:
-    """Of fonts that matplotlib has not listed: by name, upright and not bold, without its complaints."""
-    family = {"NotoSansCJK": "Noto Sans CJK SC", "wqy-microhei": "WenQuanYi Micro Hei"}[package]
-    faces = [family, family.replace("CJK", "Mono CJK") if "CJK" in family else f"{family} Mono"]
-    for style in ("Bold", "Regular") if package == "NotoSansCJK" else ("Regular",):
-        collection(tmp_path / f"{package}-{style}.ttc", faces, style)
-    stale = font_manager.FontManager.__new__(font_manager.FontManager)
-    stale.__dict__.update(font_manager.fontManager.__dict__)
-    stale.ttflist = [font for font in font_manager.fontManager.ttflist if font.name == "DejaVu Sans"]
-    monkeypatch.setattr(font_manager, "fontManager", stale)
-    monkeypatch.setattr("linkwright.plot.svg.text.system_fonts", lambda: tuple(sorted(tmp_path.iterdir())))
-    picture.chinese_font.cache_clear()
-    try:
-        assert picture.chinese_font() == family
-        found = Path(stale.findfont(font_manager.FontProperties(family=[family])))
-        assert found.name == f"{package}-Regular.ttc" and not caplog.records
-    finally:
-        picture.chinese_font.cache_clear()
