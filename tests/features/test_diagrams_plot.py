@@ -246,9 +246,9 @@ def test_all_outputs_that_are_asked_for_are_drawn() -> None:
 
 
 def test_sizes_beyond_all_paper_are_refused(forces: lw.Forces) -> None:
-    with refused("picture.size", RequestError):
+    with refused("picture.bad_inches", RequestError):
         plot(forces, "torque", size=(7.0, 1e6))
-    with refused("picture.dpi", RequestError):
+    with refused("picture.bad_dots", RequestError, dpi=1e5):
         plot(forces, "torque").png(dpi=1e5)
 
 

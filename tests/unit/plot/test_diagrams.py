@@ -1,4 +1,4 @@
-"""Diagrams from inside: what is marked, the main output, fonts and their absence, words of every kind, numbers."""
+"""Diagrams from inside: an output by its link, fonts and their absence, words of every kind, numbers."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -6,60 +6,39 @@ from pathlib import Path
 import numpy as np
 import pytest
 from matplotlib import font_manager
+from tests import store
+from tests.every import every
+from tests.refusals import refused
 
-import linkwright as lw
-from linkwright.errors import LinkwrightError
 from linkwright.plot import plot
 from linkwright.plot.diagrams import picture
 from linkwright.plot.diagrams.axes import round_up, significant, unit_of
-from linkwright.plot.diagrams.base import DIAGRAMS
-from linkwright.plot.diagrams.marks import limit_marks, phase_marks
+from linkwright.plot.diagrams.base import DIAGRAMS, RESULT_DIAGRAMS
 from linkwright.plot.diagrams.outputs import main_output, output_named
-from linkwright.plot.diagrams.source import Source
 from linkwright.words import LANGUAGES, catalogue
 
-CRUSHER = lw.load("gallery:jaw_crusher_sixbar")
-
-
-@pytest.fixture(scope="module")
-def forces() -> lw.Forces:
-    return lw.solve_forces(lw.solve_motion(CRUSHER, steps=120))
-
-
-def test_limit_positions_and_phase_stand_where_the_gallery_file_says(forces: lw.Forces) -> None:
-    source = Source(forces.motion)
-    limits = limit_marks(source, main_output(forces.motion))
-    assert {each.kind: np.degrees(each.place) for each in limits} == pytest.approx(
-        {"max": -89.862115, "min": -272.43420}, abs=1e-5
-    )
-    (phase,) = phase_marks(source, limits)
-    assert (phase.name, *np.degrees([phase.begin, phase.end])) == pytest.approx(
-        ("crushing", -89.862115, -272.43420), abs=1e-5
-    )
+CRUSHER = store.machine("jaw_crusher_sixbar")
 
 
 def test_a_block_on_the_frame_means_its_displacement() -> None:
-    conveyor = lw.load("gallery:swing_conveyor")
+    conveyor = store.machine("swing_conveyor")
     output = output_named(conveyor, "slider")
     assert getattr(output, "kind", None) == "displacement" and getattr(output, "owner", None) == "guide"
-    assert main_output(lw.solve_motion(conveyor, steps=12)) == output_named(conveyor, "guide")
-
-
-def test_a_wheel_in_a_fixed_ratio_to_the_driver_is_shown_where_there_is_nothing_else() -> None:
-    five_bar, pair = (lw.load(f"gallery:{name}") for name in ("geared_fivebar", "external_gear_pair"))
-    assert str(main_output(lw.solve_motion(five_bar, steps=12))) == "bar_2"
-    assert str(main_output(lw.solve_motion(pair, steps=12))) == "wheel"
+    assert main_output(store.motion("swing_conveyor", 12)) == output_named(conveyor, "guide")
 
 
 def test_without_a_chinese_font_a_sentence_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(picture, "chinese_font", lambda: None)
-    with pytest.raises(LinkwrightError, match="apt-get install fonts-noto-cjk"):
+    with refused("picture.boxes") as caught:
         plot(CRUSHER, language="zh")
+    assert "fonts-noto-cjk" in str(caught.value.values["remedy"])
 
 
 def test_every_kind_has_its_words() -> None:
-    for language in LANGUAGES:
-        assert {f"kind.{name}" for name in DIAGRAMS} <= set(catalogue("plot", language))
+    for language in every(LANGUAGES, least=2):
+        assert {f"kind.{name}" for name in every([*DIAGRAMS, *RESULT_DIAGRAMS], least=20)} <= set(
+            catalogue("plot", language)
+        )
 
 
 def test_numbers_and_units() -> None:
@@ -69,14 +48,6 @@ def test_numbers_and_units() -> None:
     assert unit_of("force", [np.array([1.0, -25e3])]).text(-25e3) == "−25 kN"
     assert unit_of("torque", [np.array([1800.0])]).text(1797.25) == "1797 N·m"
     assert [round_up(v) for v in (0.011, 0.2, 3.0, 7.0)] == pytest.approx([0.02, 0.2, 5.0, 10.0])
-
-
-def test_an_option_without_use_is_refused_by_every_kind(forces: lw.Forces) -> None:
-    given = {"of": "jaw", "joint": "B", "on": "jaw", "axes": "jaw", "at": 1.0, "fluctuation": 0.1}
-    for kind in DIAGRAMS:
-        for option in set(given) - set(DIAGRAMS[kind]().options):
-            with pytest.raises(LinkwrightError, match=f'{kind} has no use for "{option}"'):
-                plot(forces, kind, **{option: given[option]})  # type: ignore[arg-type]
 
 
 def collection(path: Path, families: Sequence[str], style: str) -> None:
