@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 import pytest
+from tests import drawn_cams
 from tests.ui.browser import Opened, browser, needs_chromium
-from tests.unit.plot import test_drawing_cams as drawn_cams
 
 import linkwright as lw
 from linkwright import units
