@@ -6,10 +6,14 @@ import xml.etree.ElementTree as ET
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
+from tests import store
+from tests.every import every
 
 import linkwright as lw
-from linkwright.core.arrays import Floats
-from linkwright.plot.drawing import Drawing, draw
+from linkwright import Drawing, draw
+
+Floats = NDArray[np.float64]
 
 ECCENTRIC = """
 format: 1
@@ -56,10 +60,8 @@ def distance(place: Floats, line: Floats) -> float:
 
 @pytest.mark.parametrize("name", ["fourbar_lecture", "jaw_crusher_sixbar", "crank_rocker", "kite"])
 def test_values_stand_over_their_lines_in_their_direction(name: str) -> None:
-    drawing = draw(lw.load(f"gallery:{name}"), dimensions=True)
-    found = values(drawing)
-    assert found
-    for _, middle, turned in found:
+    drawing = draw(store.machine(name), dimensions=True)
+    for _, middle, turned in every(values(drawing)):
         nearest = min(
             (line for line in lines(drawing) if len(line) == 2), key=lambda each: distance(middle, each)
         )

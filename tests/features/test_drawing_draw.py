@@ -153,6 +153,19 @@ def test_limit_positions_are_drawn_there(crusher: lw.Motion) -> None:
     assert classes(draw(crusher, overlay="faded:8")).count("lw-faded") == 8
 
 
+@pytest.mark.parametrize(
+    "name", ["crank_rocker", "shaper_quick_return", "slider_crank_inline", "toggle_press"]
+)
+def test_both_limit_positions_lie_inside_the_picture(name: str) -> None:
+    motion = store.motion(name, 5)
+    both = draw(motion, overlay="limits")
+    pins = circles_on_paper(both, "lw-pin")
+    assert len(pins) > len(circles_on_paper(draw(motion), "lw-pin"))
+    left, top, wide, tall = map(float, ET.fromstring(both.svg).get("viewBox", "").split())
+    for x, y in pins:
+        assert left < x < left + wide and top < y < top + tall
+
+
 def test_position_at_an_input_or_a_time(crusher: lw.Motion) -> None:
     speed = -170.0 * 2 * math.pi / 60  # rad/s, of the gallery file
     x, y = 0.1 * math.cos(math.radians(30)), 0.1 * math.sin(math.radians(30))

@@ -3,19 +3,13 @@
 import math
 import re
 import xml.etree.ElementTree as ET
-from collections.abc import Iterator
-from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 import pytest
+from tests import store
 
 import linkwright as lw
-from linkwright.loads import base
-from linkwright.loads.base import LOADS, LinkPoint, Load
-from linkwright.loads.site import Site, Wrench
-from linkwright.plot.animation import animate
-from linkwright.plot.drawing import Drawing, draw
+from linkwright import Drawing, draw
 
 SVG = "{http://www.w3.org/2000/svg}"
 PREFIX = {"M": 1e6, "k": 1e3, "": 1.0, "m": 1e-3, "µ": 1e-6}
@@ -73,7 +67,7 @@ def quantity(text: str) -> float:
 
 @pytest.mark.parametrize("name", ["jaw_crusher_sixbar", "shaper_quick_return", "truss", "toggle_press"])
 def test_length_times_scale_is_the_reaction_and_every_vector_has_its_name(name: str) -> None:
-    forces = lw.solve_forces(lw.solve_motion(lw.load(f"gallery:{name}"), steps=24))
+    forces = store.forces(name, 24)
     drawing = draw(forces.motion, position=5 % forces.motion.steps, forces=forces, inputs=False)
     index = 5 % forces.motion.steps
     numbers = ["frame", *forces.mechanism.links]
@@ -142,135 +136,17 @@ def test_torques_are_arcs_with_their_sense_and_value() -> None:
 
 
 def test_nothing_to_draw_is_said_in_the_picture_and_by_the_result() -> None:
-    bare = draw(lw.load("gallery:crank_rocker"), forces=True)
-    assert "no mass" in bare.notes[0] and any("no mass" in t for t in texts(bare))
-    still = lw.solve_motion(lw.load("gallery:two_bars_equilibrium"), steps=1)
-    assert draw(still, velocities=True).notes == ("all velocities are zero at this position",)
-    assert draw(lw.load("gallery:jaw_crusher_sixbar"), forces=True).notes == ()
-
-
-def test_moving_arrows_keep_their_names() -> None:
-    crusher = lw.solve_motion(lw.load("gallery:jaw_crusher_sixbar"), steps=36)
-    animation = animate(crusher, forces=True, frames=12, labels=False)
-    for svg in (animation.svg, animation.frame(6)):
-        names = {t for t in texts(Drawing(svg)) if t.startswith(("F", "T")) and " " not in t}
-        assert {"F01", "F12", "F05", "T"} <= names
-    shifts = {}
-    for index in (0, 9, 18):
-        (group,) = [
-            e
-            for e in ET.fromstring(animation.frame(index)).iter(f"{SVG}g")
-            if e.find(f"{SVG}text") is not None and "".join(e.find(f"{SVG}text").itertext()) == "F12"  # type: ignore[union-attr]
-        ]
-        shifts[index] = np.array(re.findall(r"-?[\d.]+", group.get("transform", "")), dtype=float)
-    arrows, scale = animation.arrows[0]
-    track = arrows.vectors[0].track("pitman.A", animation.scene.machine.view, scale)
-    for index in (9, 18):
-        assert shifts[index] - shifts[0] == pytest.approx(track[index] - track[0], abs=0.02)
-
-
-@pytest.mark.parametrize(
-    "name", ["crank_rocker", "shaper_quick_return", "slider_crank_inline", "toggle_press"]
-)
-def test_both_limit_positions_lie_inside_the_picture(name: str) -> None:
-    motion = lw.solve_motion(lw.load(f"gallery:{name}"), steps=5)
-    root = ET.fromstring(draw(motion, overlay="limits").svg)
-    left, top, wide, tall = map(float, root.get("viewBox", "").split())
-    scale = _paper_scale(motion)
-    limits = lw.limit_positions(motion, _output(name))
-    assert len(limits) >= 2
-    there = lw.solve_motion(motion.mechanism, times=[each.time for each in limits])
-    for key in there.point_names():
-        for x, y in there.point_of(key).position * (scale, -scale):
-            assert left < x < left + wide and top < y < top + tall
-
-
-def _output(name: str) -> str:
-    return {"crank_rocker": "rocker", "shaper_quick_return": "guide", "slider_crank_inline": "cylinder",
-            "toggle_press": "guide"}[name]  # fmt: skip
-
-
-def _paper_scale(motion: lw.Motion) -> float:
-    from linkwright.plot.drawing.view import fitted, placements
-
-    return fitted(motion, placements(motion)).scale
-
-
-@pytest.mark.parametrize("steps", [3, 7])
-def test_rails_reach_to_the_limit_positions_that_are_drawn(steps: int) -> None:
-    from linkwright.plot.drawing.draw import laid_out_beside
-    from linkwright.plot.drawing.guides import travel
-    from linkwright.plot.drawing.positions import Shown, limits_of, with_limits
-
-    motion = lw.solve_motion(lw.load("gallery:slider_crank_inline"), steps=steps)
-    denser, indices = with_limits(motion, limits_of(motion))
-    ghosts = [Shown(denser, index) for index in indices]
-    scene, _, _ = laid_out_beside(motion, Shown(motion, 0), ghosts, inputs=False, centres=False)
-    crank, rod = 0.05, 0.2
-    low, high = (each / scene.machine.view.scale for each in travel(scene.machine, "cylinder"))
-    assert (low, high) == pytest.approx((rod - crank, rod + crank), abs=1e-9)
-
-
-@dataclass(frozen=True, kw_only=True)
-class Magnet(Load):
-    """A kind of load as another package brings it, without a symbol."""
-
-    kind: ClassVar[str] = "outside_magnet"
-    between: tuple[LinkPoint, LinkPoint] = base.points(doc="its two ends")
-
-    def wrenches(self, site: Site) -> list[Wrench]:
-        return []
-
-
-@dataclass(frozen=True, kw_only=True)
-class Wind(Load):
-    """A kind of load as another package brings it, that names a link only."""
-
-    kind: ClassVar[str] = "outside_wind"
-    on: str = base.link(moving=True, doc="the link")
-
-    def wrenches(self, site: Site) -> list[Wrench]:
-        return []
-
-
-@dataclass(frozen=True, kw_only=True)
-class Field(Load):
-    """A kind of load as another package brings it, that names no place."""
-
-    kind: ClassVar[str] = "outside_field"
-
-    def wrenches(self, site: Site) -> list[Wrench]:
-        return []
-
-
-@pytest.fixture
-def outside_kinds() -> Iterator[None]:
-    kinds = (Magnet, Wind, Field)
-    for each in kinds:
-        LOADS.register(each.kind)(each)
-    yield
-    for each in kinds:
-        del LOADS._elements[each.kind]
-
-
-@pytest.mark.usefixtures("outside_kinds")
-def test_a_load_of_another_package_has_the_general_symbol_or_a_sentence() -> None:
-    drawing = draw(
-        lw.loads(
-            TWISTED + "  pull: {kind: outside_magnet, between: [frame.O, crank.A]}\n"
-            "  gust: {kind: outside_wind, on: crank}\n  haze: {kind: outside_field}\n"
-        )
-    )
-    rings = [e for e in ET.fromstring(drawing.svg).iter(f"{SVG}circle") if e.get("class") == "lw-load-ring"]
-    assert len(rings) == 2
-    assert {"pull", "gust"} <= set(texts(drawing, "lw-load-name"))
-    assert drawing.notes == ("not drawn, as they name neither a point nor a link: haze",)
-    assert drawing.notes[0] in " ".join(each.strip() for each in texts(drawing))
+    bare = draw(store.machine("crank_rocker"), forces=True)
+    (note,) = bare.notes
+    assert note.replace(" ", "") in "".join(texts(bare)).replace(" ", "")
+    (still,) = draw(store.motion("two_bars_equilibrium", 1), velocities=True).notes
+    assert still != note
+    assert draw(store.machine("jaw_crusher_sixbar"), forces=True).notes == ()
 
 
 def test_rounding_errors_are_no_torques() -> None:
     """A coupler on a circle at constant speed: its inertia force lies along the cranks, so there is no torque."""
-    drawing = draw(lw.load("gallery:parallelogram"), forces=True, position=0)
+    drawing = draw(store.machine("parallelogram"), forces=True, position=0)
     assert not [t for t in texts(drawing) if t.startswith("T =")]
 
 
@@ -287,5 +163,6 @@ driver: {turn: crank, about: O, speed: 10 rad/s}
 """)
     turning = lw.solve_forces(lw.solve_motion(yoke, at=[math.pi, 1.0]))
     assert 0.0 < np.abs(turning.reaction("way", on="yoke")[0]).max() + abs(turning.input_torque[0]) < 1e-12
-    assert draw(turning.motion, position=0, forces=turning).notes == ("all forces are zero at this position",)
+    (note,) = draw(turning.motion, position=0, forces=turning).notes
+    assert note not in draw(store.machine("crank_rocker"), forces=True).notes
     assert draw(turning.motion, position=1, forces=turning).notes == ()
