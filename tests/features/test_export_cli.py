@@ -6,8 +6,6 @@ from pathlib import Path
 import pytest
 
 from linkwright.cli import main
-from linkwright.cli.commands import export as command
-from linkwright.export.base import FORMATS
 
 MODEL = "gallery:crank_rocker"
 
@@ -73,33 +71,6 @@ def test_a_machine_that_does_not_assemble_leaves_no_file(
     assert main(["export", str(model), "--output", str(tmp_path / "a.xml")]) == 1
     assert capsys.readouterr().err
     assert [path.name for path in tmp_path.iterdir()] == ["m.yaml"]
-
-
-def test_the_command_offers_every_format() -> None:
-    assert set(command.NAMES) == set(FORMATS)
-
-
-def test_every_option_of_every_format_is_on_the_command_line() -> None:
-    import inspect
-
-    from linkwright.cli.commands.export import OPTIONS
-    from linkwright.cli.help import command_parser
-    from linkwright.export.base import FORMATS
-    from linkwright.words import speaker
-
-    options = {
-        name
-        for form in FORMATS.values()
-        for name, parameter in inspect.signature(form.content).parameters.items()
-        if parameter.kind is parameter.KEYWORD_ONLY
-    }
-    assert options - {"text"} <= set(OPTIONS)  # the text is that of the file itself
-    parser = command_parser("export", speaker("en"))
-    found = parser.read(
-        ["m.yaml", "--output", "a.dxf", "--curve", "spline", "--no-labels", "--timestep", "0.001"]
-    )
-    assert (found.curve, found.labels, found.dimensions, found.timestep) == ("spline", False, None, 0.001)
-    assert set(OPTIONS) <= set(vars(found))
 
 
 def test_options_change_what_is_written(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

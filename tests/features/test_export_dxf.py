@@ -6,17 +6,18 @@ from typing import Any
 
 import numpy as np
 import pytest
+from tests import store
+from tests.every import every
 
 import linkwright as lw
 from linkwright.export import export
-from linkwright.export.dxf.sheet import LAYERS
 
 ezdxf = pytest.importorskip("ezdxf")
 
 
 @pytest.fixture(scope="module")
 def motion() -> lw.Motion:
-    return lw.solve_motion(lw.load("gallery:jaw_crusher_sixbar"), steps=72)
+    return store.motion("jaw_crusher_sixbar", 72)
 
 
 def read(motion: lw.Motion, folder: Path, **options: Any) -> Any:
@@ -56,7 +57,7 @@ def test_dimensions_measure_what_places_the_points(motion: lw.Motion, tmp_path: 
 
 def test_an_offset_and_the_decimal_point(tmp_path: Path) -> None:
     """The guide of the press lies 60.5 mm above the crank's pin; its numbers have a point in every language."""
-    motion = lw.solve_motion(lw.load("gallery:slider_crank_offset"), steps=24)
+    motion = store.motion("slider_crank_offset", 24)
     for language in ("en", "zh"):
         document = read(motion, tmp_path, language=language, force=True)
         assert measured(document) == pytest.approx([60.5, 198.0, 702.5], rel=1e-12)
@@ -87,7 +88,7 @@ def numbers_of(document: Any) -> list[Any]:
 @pytest.mark.parametrize("model", ["slider_crank_offset", "swing_conveyor", "jaw_crusher_sixbar"])
 def test_numbers_stand_clear_of_guides_links_and_each_other(model: str, tmp_path: Path) -> None:
     """Middles of texts lie further than half a letter from every line, and from other middles."""
-    document = read(lw.solve_motion(lw.load(f"gallery:{model}"), steps=60), tmp_path)
+    document = read(store.motion(model, 60), tmp_path)
     texts = numbers_of(document)
     middles = np.array([tuple(each.dxf.insert)[:2] for each in texts])
     half = 0.5 * texts[0].dxf.char_height
@@ -95,7 +96,7 @@ def test_numbers_stand_clear_of_guides_links_and_each_other(model: str, tmp_path
     ends = [(each.dxf.start, each.dxf.end) if each.dxftype() == "LINE" else None for each in lines]
     rows = [np.array([tuple(a)[:2], tuple(b)[:2]]) for a, b in filter(None, ends)]
     rows += [np.array(each.get_points("xy")) for each in lines if each.dxftype() == "LWPOLYLINE"]
-    for row in rows:
+    for row in every(rows, least=5):
         share = np.linspace(0.0, 1.0, 200)[:, None, None]
         dots = (row[:-1] + share * (row[1:] - row[:-1])).reshape(-1, 2)
         assert np.hypot(*(dots[:, None] - middles).T).min() > half
@@ -130,7 +131,7 @@ def test_every_kind_has_its_layer(motion: lw.Motion, tmp_path: Path) -> None:
 
 
 def test_a_pin_radius_is_drawn(tmp_path: Path) -> None:
-    text = lw.dump(lw.load("gallery:fourbar_lecture"))
+    text = lw.dump(store.machine("fourbar_lecture"))
     joints = "joints:\n  B: {kind: revolute, pin_radius: 7 mm}\n"
     assert "joints:" not in text
     document = read(lw.solve_motion(lw.loads(text + joints), steps=12), tmp_path)
@@ -138,29 +139,10 @@ def test_a_pin_radius_is_drawn(tmp_path: Path) -> None:
 
 
 def test_chinese_names_are_kept(tmp_path: Path) -> None:
-    text = lw.dump(lw.load("gallery:crank_rocker"))
+    text = lw.dump(store.machine("crank_rocker"))
     lines = [line for line in text.splitlines() if not line.startswith("name:")]
     document = read(lw.solve_motion(lw.loads("\n".join([*lines, "name: 曲柄摇杆机构"])), steps=12), tmp_path)
     assert "曲柄摇杆机构" in {each.dxf.text for each in on_layer(document, "text", "TEXT")}
     stream = io.StringIO()
     document.write(stream)
     assert "曲柄摇杆机构" in stream.getvalue()
-
-
-def luminance(colour: tuple[int, int, int]) -> float:
-    """Relative luminance as WCAG 2.2 defines it."""
-    linear = [v / 12.92 if v <= 0.04045 else ((v + 0.055) / 1.055) ** 2.4 for v in (c / 255 for c in colour)]
-    return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
-
-
-@pytest.mark.parametrize("sheet", [(0, 0, 0), (33, 40, 48), (255, 255, 255)])
-def test_every_layer_is_seen_on_dark_and_on_white_sheets(sheet: tuple[int, int, int]) -> None:
-    colours = pytest.importorskip("ezdxf.colors")
-    ground = luminance(sheet)
-    for name, index in LAYERS.items():
-        if index == 7:
-            continue  # white on dark, black on white, by definition of the format
-        ink = luminance(tuple(colours.aci2rgb(index)))
-        contrast = (max(ink, ground) + 0.05) / (min(ink, ground) + 0.05)
-        assert contrast >= 3.0, name
-    assert len(set(LAYERS.values())) == len(LAYERS)
