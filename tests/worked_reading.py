@@ -1,4 +1,4 @@
-"""Reads the printed equations of a worked solution as a reader with a calculator does."""
+"""Reads the equations of a worked solution as a reader with a calculator does, and beside the solver."""
 
 from __future__ import annotations
 
@@ -8,6 +8,10 @@ import operator
 import re
 from collections.abc import Callable
 from typing import Any
+
+from tests.every import every
+
+import linkwright as lw
 
 _BINARY: dict[type, Callable[[float, float], float]] = {
     ast.Add: operator.add,
@@ -55,3 +59,30 @@ def last_digit(result: str) -> float:
 def is_printed_zero(result: str) -> bool:
     """Whether the page says that nothing is left."""
     return re.fullmatch(r"-?0(\.0*)?", result) is not None
+
+
+def reckon_lines(page: lw.Worked) -> list[str]:
+    """Lines that do not come out as printed, of which there are some."""
+    wrong = []
+    for line in every(line for line in page.equations if line.numbers):
+        found, told = reckon(line.numbers), float(line.result)
+        slip = 1e-5 if is_printed_zero(line.result) else 1.001 * last_digit(line.result)
+        if not abs(found - told) <= slip:
+            wrong.append(f"{line.symbol} = {line.numbers} gives {found}, printed {line.result}")
+    return wrong
+
+
+def against_solver(page: lw.Worked, forces: lw.Forces) -> tuple[list[str], set[str]]:
+    """Results that are not the solver's numbers, and the columns that were printed."""
+    columns, wrong, seen = forces.columns(), [], set()
+    for line in every(line for line in page.equations if line.column):
+        seen.add(line.column)
+        value = float(columns[line.column][page.position])
+        told = float(line.result)
+        if line.unit == "°":
+            value = math.degrees(value)
+            told = value + (told - value + 180.0) % 360.0 - 180.0
+        slip = 1e-6 if is_printed_zero(line.result) else 0.51 * last_digit(line.result)
+        if not abs(told - value) <= slip:
+            wrong.append(f"{line.column}: printed {line.result}, solved {value}")
+    return wrong, seen

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.mechanism.drawing import Drawing
 
 PAIRS = {
     "gear": "mesh: {kind: gear, links: [WHEEL, wheel], ratio: -0.75, carrier: CARRIER}",
@@ -146,14 +145,3 @@ drivers:
 def test_a_driver_on_a_driven_link() -> None:
     """The drivers stand in the other order in the file."""
     first(TWO, "A", "B", "H", "V")
-
-
-def test_what_neither_is_drawn_nor_follows_has_no_angle() -> None:
-    """A four-bar with its crank at 200 deg and nothing else drawn; a wheel that is not drawn has no phase."""
-    text = TRAIN.replace("PHASE", "").replace("START", "200 deg").replace("DRAWN", "M: [0.3 m, 0.1 m]")
-    mechanism = lw.loads(text)
-    drawing = Drawing(mechanism)
-    assert drawing.angle("crank") == pytest.approx(math.radians(200))
-    assert mechanism.joints["two"].phase == 0.0  # type: ignore[attr-defined]
-    bars = Drawing(lw.load("gallery:crank_rocker"))
-    assert [bars.angle(link) is None for link in bars.mechanism.links] == [False, True, True]

@@ -9,6 +9,8 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from scipy.integrate import quad
+from tests import store
+from tests.every import every
 from tests.literature.test_metrics_published import crunodal
 
 import linkwright as lw
@@ -16,12 +18,12 @@ from linkwright.metrics import METRICS, Analysis, coupler_curve, metrics
 from linkwright.metrics.base import Metric, Number
 
 DENSE = 7200
-MACHINE = lw.load("gallery:crank_rocker")
+MACHINE = store.machine("crank_rocker")
 
 
 def sampled(output: str) -> tuple[np.ndarray, np.ndarray]:
     """Values and inputs of many positions, by public results."""
-    motion = lw.solve_motion(MACHINE, steps=DENSE)
+    motion = store.motion("crank_rocker", DENSE)
     owner, part = output.rsplit(".", 1)
     if part == "angle":
         return motion.link(owner).angle, motion.input
@@ -31,8 +33,8 @@ def sampled(output: str) -> tuple[np.ndarray, np.ndarray]:
 @pytest.mark.parametrize("forces", [False, True])
 @pytest.mark.parametrize("output", ["rocker.angle", "coupler.angle", "coupler.P.x", "coupler.P.y"])
 def test_summaries_of_angles_and_places(output: str, forces: bool) -> None:
-    motion = lw.solve_motion(MACHINE, steps=90)
-    analysis = Analysis.of(lw.solve_forces(motion) if forces else motion)
+    motion = store.motion("crank_rocker", 90)
+    analysis = Analysis.of(store.forces("crank_rocker", 90) if forces else motion)
     values, inputs = sampled(output)
     exact = {
         "max": values.max(), "min": values.min(), "range": np.ptp(values), "peak": np.abs(values).max(),
@@ -99,7 +101,7 @@ def test_two_crossings_of_a_curve_have_both_inputs_at_the_same_place() -> None:
     for each in (machine, machine.with_dimensions({"driver.speed": -7.0})):
         for steps in (90, 91):
             curve = coupler_curve(lw.solve_motion(each, steps=steps), "coupler.P")
-            for spot, inputs in curve.double_points:
+            for spot, inputs in every(curve.double_points):
                 places = lw.solve_motion(each, at=list(inputs)).point("coupler.P").position
                 assert places == pytest.approx(np.array([spot, spot]), abs=1e-9)
                 assert abs(inputs[0] - inputs[1]) > 0.1
@@ -137,12 +139,12 @@ def test_a_number_of_another_package_is_named_by_its_class() -> None:
         source = "a test"
 
     assert Own().label_in("zh") == "own number" and Own().meaning == "Something of one's own."
-    assert tuple(Own().numbers(Analysis.of(lw.solve_motion(MACHINE, steps=4)))) == ()
-    assert METRICS["stroke"]().unit == "m" and METRICS["stroke"]().label == "stroke"
+    assert tuple(Own().numbers(Analysis.of(store.motion("crank_rocker", 4)))) == ()
+    assert METRICS["stroke"]().unit == "m"
 
 
 def test_values_as_plain_data() -> None:
-    table = metrics(lw.solve_motion(MACHINE, steps=72))
+    table = metrics(store.motion("crank_rocker", 72))
     row = table["transmission_angle"][0]
     data = row.data()
     assert (data["metric"], data["unit"], data["at_unit"]) == ("transmission_angle", "rad", "rad")
@@ -224,7 +226,7 @@ def test_loads_that_begin_and_bend_on_the_way_of_a_cylinder(load: str, drive: st
     assert found.value("peak_input_torque") == pytest.approx(largest, rel=1e-6)
     assert found.value("rms_input_torque") == pytest.approx(np.sqrt(square / 0.2), rel=within)
     assert found.value("mean_power") == pytest.approx(sense * work / 2.0, rel=within)
-    assert all(row.exact for row in found["peak_input_torque"])
+    assert all(row.exact for row in every(found["peak_input_torque"]))
 
 
 @pytest.mark.parametrize("cycle", ["", "cycle: {from: 60 deg, to: 400 deg}"])

@@ -9,8 +9,6 @@ import pytest
 import linkwright as lw
 from linkwright.plot import plot
 from linkwright.plot.animation import animate
-from linkwright.plot.drawing import draw
-from linkwright.words.characters import one_line, printable
 
 NAME = "a\x01b\ufffe\uffff\x1b[31m\x85 <&> %%c"
 LEFT = "ab[31m <&> %%c"
@@ -27,12 +25,6 @@ def forces() -> lw.Forces:
     return lw.solve_forces(lw.solve_motion(replace(lw.loads(text), name=NAME), steps=24))
 
 
-def test_what_cannot_be_written_is_left_out() -> None:
-    assert printable("a\x00b\tc\nd\x7f\x9f\ud800\ufdd0\ufffe") == "ab\tc\nd"
-    assert printable("曲柄 é \U0001f600 ﷼") == "曲柄 é \U0001f600 ﷼"
-    assert one_line(" a\r\n\tb ") == "a b"
-
-
 @pytest.mark.parametrize("kind", ["sva", "torque", "velocity_polygon", "force_polygon"])
 def test_diagrams_are_xml(forces: lw.Forces, kind: str) -> None:
     ET.fromstring(plot(forces, kind).svg())
@@ -40,10 +32,10 @@ def test_diagrams_are_xml(forces: lw.Forces, kind: str) -> None:
 
 
 def test_drawings_are_xml_and_keep_the_rest_of_the_name(forces: lw.Forces, tmp_path: Path) -> None:
-    for svg in (draw(forces.motion, forces=forces).svg, animate(forces.motion, frames=4).svg):
+    for svg in (lw.draw(forces.motion, forces=forces).svg, animate(forces.motion, frames=4).svg):
         assert LEFT in (ET.fromstring(svg)[0].text or "")
     pytest.importorskip("typst")
-    assert draw(forces.motion).save(tmp_path / "a.pdf").stat().st_size > 1000
+    assert lw.draw(forces.motion).save(tmp_path / "a.pdf").stat().st_size > 1000
 
 
 def test_models_for_other_programs(forces: lw.Forces, tmp_path: Path) -> None:

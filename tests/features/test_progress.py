@@ -1,8 +1,5 @@
 """Long work tells how far it is: often, in order, to the end, and with the same results as without."""
 
-import io
-import re
-import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -10,10 +7,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.cli import progress as bars
-from linkwright.core.progress import PACE, paced, part_of
 from linkwright.validation.published import published
-from linkwright.words import speaker
 
 LENGTHS = np.linspace(1.2, 1.3, 400)
 
@@ -96,50 +90,3 @@ def test_what_the_callback_raises_stops_the_work() -> None:
     crusher = lw.load("gallery:jaw_crusher_sixbar")
     with pytest.raises(KeyboardInterrupt), lw.reporting(stop):
         lw.sweep(crusher, {"pitman.length": LENGTHS}, outputs=["jaw.angle range"])
-
-
-def test_pieces_take_as_long_as_they_should() -> None:
-    """3 ms an item: after the first ones, pieces of about the time that is aimed at."""
-    taken = []
-    for first, last in paced(600):
-        begun = time.perf_counter()
-        time.sleep(0.003 * (last - first))
-        taken.append((last - first, time.perf_counter() - begun))
-    assert sum(size for size, _ in taken) == 600
-    assert all(seconds < 3 * PACE for _, seconds in taken)
-
-
-def test_parts_are_one_whole() -> None:
-    calls: list[tuple[int, int]] = []
-    for number in range(3):
-        tell = part_of(lambda done, total: calls.append((done, total)), number, 3)
-        assert tell is not None
-        for done in (150, 300):
-            tell(done, 300)
-    assert calls == [(done, 300) for done in (50, 100, 150, 200, 250, 300)]
-    assert part_of(None, 0, 3) is None
-
-
-class Terminal(io.StringIO):
-    def isatty(self) -> bool:
-        return True
-
-
-@pytest.mark.parametrize(("language", "words"), [("en", "about 3 min left"), ("zh", "约剩 3 min")])
-def test_the_bar_tells_the_time_that_is_left(
-    language: str, words: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """A quarter after a minute: three minutes are left; nothing where nobody looks."""
-    terminal, clock = Terminal(), iter([0.0, 0.5, 60.0])
-    monkeypatch.setattr(bars.sys, "stderr", terminal)
-    monkeypatch.setattr(bars.time, "monotonic", lambda: next(clock))
-    with bars.progress(speaker(language), "sweep.computing") as report:
-        assert report is not None
-        report(1, 400)
-        report(100, 400)
-    first, second = re.findall(r"\d+/400[^\r]*", terminal.getvalue())
-    assert "left" not in first and "约剩" not in first and words in second
-    quiet = io.StringIO()
-    monkeypatch.setattr(bars.sys, "stderr", quiet)
-    with bars.progress(speaker(language), "sweep.computing") as report:
-        assert report is None and not quiet.getvalue()

@@ -1,9 +1,12 @@
 """Against which link a driver turns its link: said where it is not the frame."""
 
+import re
 from pathlib import Path
 
 import numpy as np
 import pytest
+from tests import store
+from tests.refusals import findings, said
 
 import linkwright as lw
 from linkwright.cli import main
@@ -29,22 +32,18 @@ def test_the_driver_sets_the_angle_between_the_two_links_of_its_pin() -> None:
 
 
 @pytest.mark.parametrize(
-    ("driver", "severity", "words"),
+    ("driver", "severity", "values"),
     [
-        ("turn: coupler, about: B,", "note", '"crank" is driven; write relative_to: crank to say so'),
-        ("turn: crank, about: B,", "warning", "if that is meant, else about: A"),
+        ("turn: coupler, about: B,", "note", {"link": "coupler", "pin": "B", "other": "crank"}),
+        ("turn: crank, about: B,", "warning", {"link": "crank", "pin": "B", "other": "coupler"}),
     ],
 )
-def test_check_says_against_which_link(driver: str, severity: str, words: str, tmp_path: Path) -> None:
-    file = tmp_path / "led.yaml"
-    file.write_text(LED_AT_ITS_COUPLER.replace("turn: coupler, about: B,", driver), encoding="utf-8")
-    (finding,) = [each for each in lw.check(file) if each.key == "driver.about"]
-    assert finding.severity == severity and words in str(finding)
+def test_check_says_against_which_link(driver: str, severity: str, values: dict[str, object]) -> None:
+    text = LED_AT_ITS_COUPLER.replace("turn: coupler, about: B,", driver)
+    assert said(findings(text), "doubtful", "driver.about", **values).severity == severity
     other = "crank" if severity == "note" else "coupler"
-    file.write_text(
-        file.read_text().replace("about: B,", f"about: B, relative_to: {other},"), encoding="utf-8"
-    )
-    assert not [each for each in lw.check(file) if each.key == "driver.about"]
+    clear = text.replace("about: B,", f"about: B, relative_to: {other},")
+    assert not [each for each in findings(clear) if each.key == "driver.about"]
 
 
 def test_structure_and_solve_say_against_which_link(
@@ -52,10 +51,13 @@ def test_structure_and_solve_say_against_which_link(
 ) -> None:
     file = tmp_path / "led.yaml"
     file.write_text(LED_AT_ITS_COUPLER, encoding="utf-8")
+    told = re.compile(r"coupler.* B .*crank")
     for words in (["structure"], ["solve", "--steps", "4"]):
         assert main([words[0], str(file), *words[1:]]) == 0
-        assert "turns coupler about B against crank, not against the frame" in capsys.readouterr().out
+        assert any(told.search(line) for line in capsys.readouterr().out.splitlines())
     structure = lw.structure(lw.loads(LED_AT_ITS_COUPLER))
     turned = {"driver": {"link": "coupler", "about": "B", "relative_to": "crank"}}
-    assert structure.data()["turned"] == turned and "相对 crank" in structure.text("zh")
-    assert "against" not in lw.structure(lw.load("gallery:crank_rocker")).text()
+    assert structure.data()["turned"] == turned
+    plain = lw.structure(store.machine("crank_rocker"))
+    assert plain.data()["turned"]["driver"]["relative_to"] == "frame"
+    assert not re.search(r"crank.* O1 .*frame", plain.text())

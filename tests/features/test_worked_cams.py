@@ -6,11 +6,11 @@ import math
 
 import numpy as np
 import pytest
-from tests.features.test_worked_arithmetic import against_solver, reckon_lines
+from tests import store
 from tests.reference.test_cam_joints import GUIDED, SPEED, SWINGING, follower, model
+from tests.worked_reading import against_solver, reckon_lines
 
 import linkwright as lw
-from linkwright.report.formula import formula
 
 SENSES = ("counterclockwise", "clockwise")
 #: One position in each segment of the program but its dwells, degrees of the cam's program, and one in a dwell.
@@ -20,9 +20,6 @@ PLACES = (35.0, 140.0, 225.0)
 def page_of(forces: lw.Forces, index: int) -> tuple[lw.Worked, dict[str, float]]:
     """The worked position and its numbers; every line comes out, every column is the solver's."""
     page = lw.worked(forces, index)
-    for line in page.equations:
-        for latex in (line.latex_symbol, line.latex_formula, line.latex_numbers):
-            formula(latex)  # what no report can print is refused
     assert reckon_lines(page) == []
     wrong, seen = against_solver(page, forces)
     assert wrong == []
@@ -77,7 +74,7 @@ def test_an_oscillating_follower_is_worked_out(touch: str, side: str, sense: str
 
 
 def test_the_press_cam_is_worked_out_between_the_points_of_its_table() -> None:
-    forces = lw.solve_forces(lw.solve_motion(lw.load("gallery:printing_press"), steps=7))
+    forces = store.forces("printing_press", 7)
     for index in (1, 2, 4):
         page, found = page_of(forces, index)
         assert any("compensating_cam" in step.title for step in page.steps)

@@ -7,8 +7,7 @@ import pytest
 
 from linkwright import units
 from linkwright.core.expressions import parse, parse_any, parse_quantity
-from linkwright.errors import ModelError, QuantityError
-from linkwright.files.model_file import loads
+from linkwright.errors import QuantityError
 
 LENGTH, TIME, NONE = units.DIMENSIONS["length"], units.DIMENSIONS["time"], units.NONE
 KINDS = {"l2": LENGTH, "t": TIME, "k": NONE, "m": LENGTH, "g": units.DIMENSIONS["acceleration"]}
@@ -162,32 +161,6 @@ def test_where_a_radian_may_be_a_slip_the_text_has_to_say_it(text: str, dimensio
 )
 def test_a_unit_behind_factors_is_that_of_all_where_it_fits(text: str, dimension: str, value: float) -> None:
     assert read(text, dimension) == pytest.approx(value, rel=1e-14)
-
-
-@pytest.mark.parametrize(
-    ("parameters", "speed", "torque"),
-    [
-        ("{P: 3 kW, n: 90 rpm, M: P/n}", "n", "M"),
-        ("{v: 3 m/s, r: 0.5 m, w: v/r, c: 20 N·m·s/rad}", "w", "c*w"),
-        ("{f: 2 Hz, w: 2*pi*f, k: 30 N·m/rad}", "w", "k*(1 rad)"),
-    ],
-)
-def test_a_parameter_that_is_a_product_is_one_where_it_is_used(
-    parameters: str, speed: str, torque: str
-) -> None:
-    text = (
-        f"format: 1\nparameters: {parameters}\nframe: {{points: {{O: [0 m, 0 m]}}}}\n"
-        "links: {drum: {points: [O, K], length: 80 mm, mass: 3 kg, inertia: 0.02 kg·m²}}\n"
-        f"driver: {{turn: drum, about: O, speed: {speed}}}\n"
-        f"loads: {{brake: {{kind: torque, on: drum, opposes: velocity, magnitude: {torque}}}}}\n"
-    )
-    size = loads(text).dimensions()
-    wanted = {
-        "n": (3 * math.pi, 1000 / math.pi), "w": (6.0, 120.0) if "v" in parameters else (4 * math.pi, 30.0),
-    }[speed]  # fmt: skip
-    assert (size["driver.speed"], size["loads.brake.magnitude"]) == pytest.approx(wanted, rel=1e-14)
-    with pytest.raises(ModelError, match=r"\*rev"):
-        loads(text.replace(f"speed: {speed}", "speed: q").replace("parameters: {", "parameters: {q: 2 Hz, "))
 
 
 @pytest.mark.parametrize("text", ["1/2 m", "pi/6 rad", "n/3 s"])

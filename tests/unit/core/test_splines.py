@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
 
-import linkwright as lw
 from linkwright.core.spline import Spline
 from linkwright.drivers.table import TableLaw
 
@@ -69,38 +68,3 @@ def test_a_periodic_table_with_drift_gains_it_every_period(first: float) -> None
     np.testing.assert_allclose(after[0] - before[0], 3 * 2 * np.pi, rtol=0, atol=1e-10)
     np.testing.assert_allclose(after[1], before[1], rtol=0, atol=1e-8)
     assert law.span() == (-np.inf, np.inf)
-
-
-def test_a_machine_driven_by_a_table_with_drift_closes_its_turn() -> None:
-    rows = ", ".join(f"{45 * k} deg" for k in range(9))
-    text = f"""\
-format: 1
-frame: {{points: {{O1: [0 m, 0 m], O2: [4 m, 0 m]}}}}
-links:
-  crank: {{points: [O1, A], length: 1 m}}
-  coupler: {{points: [A, B], length: 3.5 m}}
-  rocker: {{points: [O2, B], length: 3 m}}
-assembly: {{B: left}}
-driver:
-  turn: crank
-  about: O1
-  table: {{time: [{", ".join(f"{k} s" for k in range(9))}], position: [{rows}], interpolation: periodic}}
-"""
-    even = lw.loads(text.replace(text[text.index("  table:") :], "  speed: 7.5 rpm\n"))
-    motion, reference = lw.solve_motion(lw.loads(text), steps=16), lw.solve_motion(even, steps=16)
-    for name in ("rocker", "coupler"):
-        for quantity in ("angle", "angular_velocity", "angular_acceleration"):
-            found, expected = getattr(motion.link(name), quantity), getattr(reference.link(name), quantity)
-            np.testing.assert_allclose(found, expected, rtol=0, atol=1e-12)
-
-
-def test_drivers_tables_need_no_scipy() -> None:
-    import subprocess
-    import sys
-
-    program = (
-        "import sys, linkwright as lw\n"
-        "lw.solve_motion(lw.load('gallery:excavator'), steps=12)\n"
-        "sys.exit('scipy' in sys.modules)"
-    )
-    assert subprocess.run([sys.executable, "-c", program], check=False).returncode == 0

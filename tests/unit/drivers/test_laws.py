@@ -173,36 +173,3 @@ def test_a_spline_through_points_of_a_cubic_is_that_cubic() -> None:
     at = np.linspace(0, 1.5, 7)
     for order, values in enumerate(found.coordinate(at)):
         assert values == pytest.approx(cubic.deriv(order)(at) if order else cubic(at), abs=1e-12)
-
-
-TURNED = """
-format: 1
-frame: {{points: {{O: [0 m, 0 m], Q: [0.1 m, 0 m]}}}}
-links:
-  crank: {{points: {{O: [0 m, 0 m], A: {place}}}, mass: 1 kg, mass_centre: O, inertia: 0.001 kg·m²}}
-  coupler: {{points: [A, B], length: 0.09 m, mass: 0.4 kg, inertia: 0.0004 kg·m²}}
-  rocker: {{points: [Q, B], length: 0.07 m}}
-assembly: {{B: left}}
-driver:
-  turn: crank
-  about: O
-  program: [{{rise: 60 deg, over: 0.2 s, law: cycloidal}}, {{fall: 60 deg, over: 0.3 s, law: cycloidal}}]
-{more}gravity: [0, -9.81 m/s²]
-"""
-
-
-def test_a_program_from_a_start_is_one_of_a_link_drawn_turned_so_far() -> None:
-    started = lw.loads(TURNED.format(place="[0.03 m, 0 m]", more="  start: 20 deg\n"))
-    x, y = 0.03 * math.cos(math.radians(20)), 0.03 * math.sin(math.radians(20))
-    drawn = lw.loads(TURNED.format(place=f"[{x!r} m, {y!r} m]", more=""))
-    here, there = (lw.solve_forces(each, steps=50) for each in (started, drawn))
-    assert here.motion.input == pytest.approx(there.motion.input + math.radians(20), abs=1e-15)
-    assert here.input_torque == pytest.approx(there.input_torque, abs=1e-14)
-    again = lw.loads(lw.dump(started))
-    assert again.dimensions()["driver.start"] == pytest.approx(math.radians(20), rel=1e-15)
-    absolute = lw.loads(
-        TURNED.format(place="[0.03 m, 0 m]", more="  start: 20 deg\n").replace("rise: 60 deg", "to: 80 deg")
-    )
-    assert lw.solve_motion(absolute, steps=50).input == pytest.approx(here.motion.input, abs=1e-15)
-    longer = started.with_dimensions({"driver.start": 0.5})
-    assert lw.solve_motion(longer, steps=4).input[0] == 0.5

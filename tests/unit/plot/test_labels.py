@@ -1,6 +1,7 @@
 """Labels keep clear of lines and of each other wherever there is room."""
 
 import math
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -96,3 +97,19 @@ def test_lines_of_a_legend_keep_together_what_belongs_together(text: str, kept: 
         assert "".join(rows).replace(" ", "") == text.replace(" ", "")
         assert any(kept in row for row in rows)
         assert not any(row[0] in "，。；" for row in rows)
+
+
+def test_ink_under_boxes_is_that_of_densely_sampled_segments() -> None:
+    noise = np.random.default_rng(3)
+    line = noise.uniform(0.0, 40.0, (30, 2))
+    corner = noise.uniform(0.0, 30.0, (12, 2))
+    boxes = np.hstack([corner, corner + noise.uniform(2.0, 15.0, (12, 2))])
+    found = Obstacles.of([line]).under(boxes)
+    share = (np.arange(20000) + 0.5) / 20000
+    for box, length in zip(boxes, found, strict=True):
+        expected = 0.0
+        for start, end in pairwise(line):
+            places = start + share[:, None] * (end - start)
+            inside = float(((places >= box[:2]) & (places <= box[2:])).all(axis=1).mean())
+            expected += inside * float(np.hypot(*(end - start))) + 4.0 * (inside > 0)
+        assert length == pytest.approx(expected, rel=1e-3, abs=5e-3)

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.errors import LinkwrightError
 from linkwright.plot.diagrams.force_polygon import link_forces
 from linkwright.plot.diagrams.motion_polygons import image_names
 from linkwright.plot.diagrams.motion_vectors import MotionPolygon, acceleration_polygon, velocity_polygon
@@ -87,15 +86,6 @@ def test_a_millimetre_of_the_picture_is_one_of_the_paper() -> None:
         assert np.ptp(one.get_xlim()) == pytest.approx(box.width * wide)
         assert np.ptp(one.get_ylim()) == pytest.approx(box.height * tall)
         assert box.x1 <= 1 + 1e-12 and box.y0 >= 0
-
-
-def test_a_polygon_of_several_results_is_refused() -> None:
-    from linkwright.plot import plot
-
-    motion = at("crank_rocker", 30.0)
-    for kind in ("velocity_polygon", "acceleration_polygon", "force_polygon"):
-        with pytest.raises(LinkwrightError, match="give one result"):
-            plot({"a": motion, "b": motion}, kind)
 
 
 @pytest.mark.parametrize(
