@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+import re
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
+from tests import store
+from tests.refusals import refused
 
 import linkwright as lw
-from linkwright.core.arrays import Floats
-from linkwright.core.outputs import Output
-from linkwright.fields.signals import SwingPhase
-from linkwright.files.model_file import loads
-from linkwright.mechanism.mechanism import Mechanism
+from linkwright import Mechanism, loads
+
+Floats = NDArray[np.float64]
 
 SLIDER = """
 format: 1
@@ -268,20 +269,23 @@ loads:
 
 def test_the_crusher_ramps_between_its_published_limit_positions() -> None:
     """Largest jaw angle at -89.862115°, smallest at -272.43420°: an independent solution."""
-    motion = lw.solve_motion(lw.load("gallery:jaw_crusher_sixbar"), steps=360)
-    got = lw.solve_forces(motion).load("crushing").magnitude
+    got = store.forces("jaw_crusher_sixbar").load("crushing").magnitude
     share = (np.arange(360) - 89.862115) / (272.43420 - 89.862115)
     expected = np.where((share >= 0) & (share <= 1), 85000 * share, 0.0)
     np.testing.assert_allclose(got, expected, rtol=1e-7, atol=0.01)
 
 
+def conveyor(phase: str) -> Mechanism:
+    """The swinging conveyor with its resistance in another phase."""
+    text, count = re.subn(r"phase: \{input: [^}]*\}", f"phase: {{{phase}}}", store.text("swing_conveyor"))
+    assert count == 1
+    return loads(text)
+
+
 def test_the_conveyor_advances_between_its_printed_limit_positions() -> None:
     """The rocker swings forward from 231.6500775° to 348.743° of the crank, as printed in the report."""
-    mechanism = lw.load("gallery:swing_conveyor")
-    advance = SwingPhase(Output("angle", "rocker"), "max", "min")
-    load = replace(mechanism.loads["resistance"], phase=advance)
     at = np.radians([231.649, 231.651, 290.0, 348.742, 348.744])
-    forces = lw.solve_forces(lw.solve_motion(replace(mechanism, loads={"resistance": load}), at=at))
+    forces = lw.solve_forces(lw.solve_motion(conveyor("of: rocker, from: max, to: min"), at=at))
     expected = [0, -2200, -2200, -2200, 0]
     assert forces.load("resistance").force[:, 0] == pytest.approx(expected, abs=1e-9)
 
@@ -291,10 +295,7 @@ def test_a_stroke_ends_at_the_first_of_two_equal_limits() -> None:
 
     Going out from its smallest displacement it stops at the first, before the rocker's own limit position.
     """
-    mechanism = lw.load("gallery:swing_conveyor")
-    stroke = SwingPhase(Output("displacement", "guide"), "min", "max")
-    load = replace(mechanism.loads["resistance"], phase=stroke)
-    motion = lw.solve_motion(replace(mechanism, loads={"resistance": load}), steps=720)
+    motion = lw.solve_motion(conveyor("of: guide, from: min, to: max"), steps=720)
     acts = lw.solve_forces(motion).load("resistance").magnitude > 0
     out = motion.joint("guide").displacement
     first, last = np.flatnonzero(acts)[[0, -1]]
@@ -344,7 +345,7 @@ def test_loads_that_follow_a_point(axis: str) -> None:
     "function", ["min(2, sqrt(sin(input)))", "max(sqrt(sin(input)), 1)", "step(log(sin(input)))"]
 )
 def test_an_expression_is_refused_where_a_part_of_it_has_no_value(function: str) -> None:
-    with pytest.raises(lw.LinkwrightError, match=r"no finite real value at input = 18\d°"):
+    with refused("loads.formula_fails", name="work", input="186°"):
         torque(slider(f'kind: torque, on: crank, magnitude: "1 N·m*{function}"'))
 
 

@@ -12,9 +12,9 @@ import math
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from tests.refusals import findings, refused, said
 
 import linkwright as lw
-from linkwright.errors import LinkwrightError, ModelError
 
 R, ROD = 0.05, 0.2
 PRESS = """
@@ -114,28 +114,28 @@ def test_an_angle_takes_shares_and_angles() -> None:
 
 
 def test_more_than_the_stroke_is_refused_with_its_length() -> None:
-    with pytest.raises(LinkwrightError, match=r"loads\.press: .*last: 0\.12 m.*'guide' moves through 0\.1 m"):
+    with refused(
+        "loads.part_too_long", name="press", part="last", amounts="0.12 m", stroke="0.1 m", output="guide"
+    ):
         pressed(f"{FULL}, last: 120 mm}}")
-    with pytest.raises(LinkwrightError, match=r"free: 0\.06 m \+ 0\.05 m"):
+    with refused("loads.part_too_long", part="free", amounts="0.06 m + 0.05 m"):
         pressed(f"{FULL}, free: [60 mm, 0.5]}}")
 
 
 @pytest.mark.parametrize(
-    ("part", "words"),
+    ("part", "code", "key", "values"),
     [
-        ("last: 1.5", '"1.5" is no part of a stroke; give a share between 0 and 1, or a way such as "10 mm"'),
-        ("last: 0", '"0" is no part'),
-        ("first: -10 mm", '"-10 mm" is no part'),
-        ("last: 10 deg", "length"),
-        ("free: [0.1]", "the number of values is 1, not 2 as needed"),
-        ("first: 0.1, last: 0.1", "several parts of the stroke are given: first, last"),
+        ("last: 1.5", "range", ".last", {"text": "1.5", "example": "10 mm"}),
+        ("last: 0", "range", ".last", {"text": "0"}),
+        ("first: -10 mm", "range", ".first", {"text": "-10 mm"}),
+        ("last: 10 deg", "wrong-dimension", ".last", {"text": "10 deg"}),
+        ("free: [0.1]", "count", ".free", {"given": 1, "count": 2}),
+        ("first: 0.1, last: 0.1", "choice", "", {"words": ("first", "last")}),
     ],
 )
-def test_a_part_that_is_none_is_a_finding(part: str, words: str) -> None:
-    with pytest.raises(ModelError) as caught:
-        lw.loads(PRESS.format(load=f"{FULL}, {part}}}", speed=60))
-    assert words in str(caught.value)
-    assert caught.value.findings[0].where.startswith("<text>:14:") or ":14:" in caught.value.findings[0].where
+def test_a_part_that_is_none_is_a_finding(part: str, code: str, key: str, values: dict[str, object]) -> None:
+    found = findings(PRESS.format(load=f"{FULL}, {part}}}", speed=60))
+    assert said(found, code, f"loads.press.phase{key}", **values).where.startswith("<text>:14:")
 
 
 @pytest.mark.parametrize("part", ["last: 10 mm", "first: 0.25", "free: [0.05, 0.1]", "free: 5 mm"])

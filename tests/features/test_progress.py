@@ -5,9 +5,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests import store
+from tests.course_sheets import FOUR_BAR
 
 import linkwright as lw
-from linkwright.validation.published import published
+from linkwright.validation.published import from_gallery
 
 LENGTHS = np.linspace(1.2, 1.3, 400)
 
@@ -36,7 +38,7 @@ def columns_of(found: object) -> dict[str, np.ndarray]:
 def test_a_sweep_tells_of_its_designs_and_finds_the_same_bits(
     name: str, vary: dict[str, np.ndarray], outputs: list[str]
 ) -> None:
-    mechanism = lw.load(f"gallery:{name}")
+    mechanism = store.machine(name)
     if name == "triad":
         vary = {a: mechanism.dimension(a) * column for a, column in vary.items()}
         outputs = ["crank.angular_velocity max"]
@@ -50,7 +52,7 @@ def test_a_sweep_tells_of_its_designs_and_finds_the_same_bits(
 
 
 def test_studies_parts_comparisons_validations_and_courses_tell_it(tmp_path: Path) -> None:
-    crusher = lw.load("gallery:jaw_crusher_sixbar")
+    crusher = store.machine("jaw_crusher_sixbar")
     few = {"pitman.length": np.linspace(1.2, 1.3, 40)}
     both = ["gallery:jaw_crusher_sixbar", "gallery:jaw_crusher_fourbar"]
     hard = {"outputs": [0.0, 0.26, 0.73], "transmission_angle": 1.5, "least_squares": True}
@@ -58,10 +60,8 @@ def test_studies_parts_comparisons_validations_and_courses_tell_it(tmp_path: Pat
         lambda: lw.study(crusher, {"pitman.length": "1.2..1.3 m:40"}),
         lambda: lw.sweep_parts(crusher, few, tmp_path / "parts", outputs=["jaw.angle range"], part=16),
         lambda: lw.compare(both, metrics=["mean_power", "peak_input_torque"]),
-        lambda: lw.validate(list(published())[:3]),
-        lambda: (
-            lw.variants("gallery:crank_rocker_course", 2) if False else lw.validate(list(published())[:2])
-        ),
+        lambda: lw.validate([*from_gallery("swing_conveyor"), *from_gallery("crank_rocker")]),
+        lambda: lw.variants(lw.loads(FOUR_BAR), 3),
         lambda: lw.report(crusher, sections=["structure", "method"]),
     ):
         _, calls = told(work)
@@ -73,7 +73,7 @@ def test_studies_parts_comparisons_validations_and_courses_tell_it(tmp_path: Pat
 
 def test_a_function_s_own_callback_goes_before_the_surrounding_one() -> None:
     own: list[int] = []
-    crusher = lw.load("gallery:jaw_crusher_sixbar")
+    crusher = store.machine("jaw_crusher_sixbar")
     vary = {"pitman.length": LENGTHS[:20]}
     _, calls = told(
         lambda: lw.sweep(
@@ -87,6 +87,6 @@ def test_what_the_callback_raises_stops_the_work() -> None:
     def stop(done: int, total: int) -> None:
         raise KeyboardInterrupt
 
-    crusher = lw.load("gallery:jaw_crusher_sixbar")
+    crusher = store.machine("jaw_crusher_sixbar")
     with pytest.raises(KeyboardInterrupt), lw.reporting(stop):
         lw.sweep(crusher, {"pitman.length": LENGTHS}, outputs=["jaw.angle range"])

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from tests import store
+from tests.every import every
 
 import linkwright as lw
 from linkwright.study import sweep
@@ -14,7 +16,7 @@ ROD = np.array([150.0, 400.0, 170.0, 220.0]) / 1000
 
 def test_the_stroke_of_an_in_line_slider_crank_is_twice_the_crank() -> None:
     found = sweep(
-        lw.load("gallery:slider_crank_inline"),
+        store.machine("slider_crank_inline"),
         {"crank.length": CRANK, "rod.length": ROD},
         outputs=["cylinder.displacement range", "cylinder.displacement argmax", "cylinder.acceleration peak"],
     )
@@ -31,7 +33,7 @@ def test_the_stroke_of_an_in_line_slider_crank_is_twice_the_crank() -> None:
 
 def test_the_smallest_transmission_angle_of_a_crank_rocker() -> None:
     """cos μ = (b² + c² - (d ∓ a)²)/(2 b c) where the crank lies on the frame line."""
-    mechanism = lw.load("gallery:crank_rocker")
+    mechanism = store.machine("crank_rocker")
     a, d, c = (mechanism.dimension(name) for name in ("crank.length", "frame.O2.x", "rocker.length"))
     b = np.linspace(3.0, 3.9, 7)
     found = sweep(mechanism, {"coupler.length": b}, outputs=[("transmission_angle B", "min")])
@@ -66,7 +68,7 @@ def test_the_angles_of_a_rocker_that_swings_about_half_a_turn() -> None:
 
 
 def test_designs_that_cannot_turn_are_those_that_grashof_excludes() -> None:
-    mechanism = lw.load("gallery:crank_rocker")
+    mechanism = store.machine("crank_rocker")
     a, c, d = (mechanism.dimension(name) for name in ("crank.length", "rocker.length", "frame.O2.x"))
     b = np.linspace(1.013, 7.0, 101)
     found = sweep(mechanism, {"coupler.length": b}, outputs=["rocker.angle range", "B.velocity max"])
@@ -75,13 +77,12 @@ def test_designs_that_cannot_turn_are_those_that_grashof_excludes() -> None:
     assert np.array_equal(np.isfinite(found["rocker.angle range"]), turns)
     assert np.isfinite(found["B.velocity max"][turns]).all()
     assert sum(failure.count for failure in found.failures()) == int((~turns).sum())
-    for failure in found.failures():
-        assert failure.group == "coupler+rocker"
-        assert "cannot be assembled" in failure.example
+    for failure in every(found.failures()):
+        assert (failure.kind, failure.group) == ("unreachable", "coupler+rocker")
 
 
 def test_partial_summaries_are_those_of_the_reached_positions() -> None:
-    mechanism = lw.load("gallery:crank_rocker")
+    mechanism = store.machine("crank_rocker")
     found = sweep(mechanism, {"coupler.length": [2.3]}, outputs=["B.y max"], partial=True)
     motion = lw.solve_motion(mechanism.with_dimensions({"coupler.length": 2.3}), failures="mark")
     assert 0 < found.assembled[0] == motion.ok.sum() < 360
@@ -156,7 +157,7 @@ def _reductions(values: np.ndarray) -> dict[str, float]:
 def test_summaries_are_those_of_every_design_solved_alone(
     name: str, varied: dict[str, tuple[float, float]]
 ) -> None:
-    mechanism = lw.load(f"gallery:{name}")
+    mechanism = store.machine(name)
     rng = np.random.default_rng(3)
     columns = {a: rng.uniform(*r, 6) for a, r in varied.items()}
     last = list(mechanism.links)[-1]
@@ -184,7 +185,7 @@ def test_summaries_are_those_of_every_design_solved_alone(
 
 
 def test_both_back_ends_and_any_number_of_threads_agree() -> None:
-    mechanism = lw.load("gallery:crank_rocker")
+    mechanism = store.machine("crank_rocker")
     b = np.linspace(2.0, 4.5, 97)
     outputs = ["B.velocity rms", "coupler.P.x max", "rocker.angle argmax", "closeness min"]
     plain = sweep(mechanism, {"coupler.length": b}, outputs=outputs, backend="numpy")
@@ -216,7 +217,7 @@ driver: {turn: crank, about: O, speed: 10 rad/s}
 
 
 def test_progress_counts_designs_and_can_stop() -> None:
-    mechanism = lw.load("gallery:crank_rocker")
+    mechanism = store.machine("crank_rocker")
     seen: list[tuple[int, int]] = []
     sweep(
         mechanism,
@@ -231,7 +232,7 @@ def test_progress_counts_designs_and_can_stop() -> None:
 
 def test_rockers_that_drive_a_rack_and_cannot_turn_are_those_that_grashof_excludes() -> None:
     """Turns of the rocker are counted, and the designs at the ends of the range have no first position."""
-    mechanism = lw.load("gallery:rack_and_rocker")
+    mechanism = store.machine("rack_and_rocker")
     a, b, d = (mechanism.dimension(name) for name in ("crank.length", "coupler.length", "frame.O2.x"))
     c = np.array([0.04, 0.12, 0.25, 0.6, 0.7, 3.0])
     found = sweep(mechanism, {"rocker.length": c}, outputs=["rocker.angle range"], steps=60)
@@ -239,17 +240,16 @@ def test_rockers_that_drive_a_rack_and_cannot_turn_are_those_that_grashof_exclud
     assert found.ok.tolist() == turns.tolist() == [False, False, True, True, False, False]
     (failure,) = found.failures()
     assert failure.designs.tolist() == np.flatnonzero(~turns).tolist()
-    assert "cannot be put together" in failure.example
+    assert failure.kind == "followed"
 
 
 def test_a_group_followed_by_newton_that_cannot_pass_fails_with_a_sentence() -> None:
-    mechanism = lw.load("gallery:triad")
+    mechanism = store.machine("triad")
     found = sweep(mechanism, {"crank.A.x": [0.03, 0.08]}, outputs=["plate.angle range"])
     assert found.ok.tolist() == [True, False]
     assert np.isnan(found["plate.angle range"][1])
     (failure,) = found.failures()
-    assert failure.designs.tolist() == [1]
-    assert failure.example
+    assert (failure.kind, failure.designs.tolist()) == ("followed", [1])
 
 
 PARALLELOGRAM = """
@@ -310,7 +310,7 @@ def test_one_design_among_others_that_passes_change_points_is_found() -> None:
     ],
 )
 def test_loads_between_limit_positions(model: str, load: str, varied: dict[str, tuple[float, float]]) -> None:
-    mechanism = lw.loads(f"{lw.dump(lw.load(f'gallery:{model}'))}\nloads: {{push: {load}}}\n")
+    mechanism = lw.loads(f"{lw.dump(store.machine(model))}\nloads: {{push: {load}}}\n")
     columns = {address: np.linspace(*ends, 4) for address, ends in varied.items()}
     found = sweep(mechanism, columns, outputs=["driver.effort rms", "load push max"])
     for index in range(4):
@@ -323,7 +323,7 @@ def test_loads_between_limit_positions(model: str, load: str, varied: dict[str, 
 @pytest.mark.parametrize(("steps", "backend"), [(9, "numpy"), (40, "llvm"), (40, "numpy")])
 def test_few_positions_of_groups_followed_by_newton_are_those_asked_for(steps: int, backend: str) -> None:
     """Between them the group is followed in smaller steps, which count for nothing."""
-    mechanism = lw.load("gallery:triad").with_dimensions({"driver.speed": -6.0})
+    mechanism = store.machine("triad").with_dimensions({"driver.speed": -6.0})
     bars = mechanism.dimension("plate.R.y") * np.array([1.0, 1.01, 0.99])
     kinds = ("min", "max", "mean", "rms", "range", "peak", "argmin", "argmax")
     outputs = ["plate.angular_velocity", "R.x"]
@@ -376,10 +376,8 @@ loads:
     assert all(np.isnan(found[name][1]) for name in outputs) and found.ok.tolist() == [True, False, True]
     (failure,) = found.failures()
     assert (failure.kind, failure.designs.tolist(), failure.example) == ("load", [1], found.unloaded[1])
-    assert failure.example == (
-        "loads.push: its table over cylinder goes from 2 m to 4 m and does not cover what the cycle needs: "
-        "1.9 m to 2 m and 4 m to 4.1 m is missing; add rows, or limit the load by a phase"
-    )
+    for part in ("loads.push", "cylinder", "2 m", "4 m", "1.9 m", "4.1 m"):
+        assert part in failure.example
 
 
 def test_positions_that_can_be_put_together_and_positions_that_are_reached() -> None:

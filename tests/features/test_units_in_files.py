@@ -5,6 +5,7 @@ import re
 
 import numpy as np
 import pytest
+from tests.refusals import findings, refused, said
 
 import linkwright as lw
 from linkwright import units
@@ -84,22 +85,23 @@ def test_a_torque_table_may_begin_anywhere(start: float) -> None:
 
 
 @pytest.mark.parametrize(
-    ("pivot", "coupler", "missing", "word"), [(7.0, 2.0, 1.0, "missing"), (0.4, 5.0, 1.4, "too close")]
+    ("pivot", "coupler", "missing", "least"), [(7.0, 2.0, 1.0, False), (0.4, 5.0, 1.4, True)]
 )
 def test_what_is_missing_is_said_as_a_positive_length(
-    pivot: float, coupler: float, missing: float, word: str
+    pivot: float, coupler: float, missing: float, least: bool
 ) -> None:
     """The pins A (1, 0) and O2 are |pivot - 1| apart; the bars reach coupler + 3 m and need |coupler - 3| m."""
     text = FOUR_BAR.replace("O2: [4 m, 0 m]", f"O2: [{pivot} m, 0 m]").replace("3.5 m", f"{coupler} m")
     motion = lw.solve_motion(lw.loads(text), times=[0.0], failures="mark")
     sentence = str(motion.outcomes[0].sentence)
     assert not motion.ok[0]
-    assert not re.search(r"-\d", sentence), sentence
-    (said,) = re.findall(rf"(\S+) m {word}", sentence)
-    assert float(said) == pytest.approx(missing, rel=1e-6)
-    assert re.findall(r"are (\S+) m apart", sentence) == [f"{abs(pivot - 1.0):g}"]
+    reach = abs(coupler - 3.0) if least else coupler + 3.0
+    told = [float(each) for each in re.findall(r"(-?[\d.]+) m\b", sentence)]
+    assert told == pytest.approx([abs(pivot - 1.0), coupler, 3.0, reach, missing], rel=1e-6)
 
 
 def test_a_name_with_control_characters_is_a_finding_from_files_and_from_code() -> None:
-    with pytest.raises(lw.ModelError, match=r"control character U\+001B"):
-        lw.loads('name: "a\\e[31m"\n' + FOUR_BAR)
+    text = 'name: "a\\e[31m"\n' + FOUR_BAR
+    said(findings(text), "control-character", "name", shown="U+001B")
+    with refused("control-character", lw.ModelError, shown="U+001B"):
+        lw.loads(text)
