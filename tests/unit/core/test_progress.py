@@ -2,7 +2,7 @@
 
 import io
 import re
-import time
+from types import SimpleNamespace
 
 import pytest
 
@@ -11,15 +11,16 @@ from linkwright.core.progress import PACE, paced, part_of
 from linkwright.words import speaker
 
 
-def test_pieces_take_as_long_as_they_should() -> None:
-    """3 ms an item: after the first ones, pieces of about the time that is aimed at."""
+def test_pieces_take_as_long_as_they_should(monkeypatch: pytest.MonkeyPatch) -> None:
+    """3 ms an item by a clock of its own: after the first ones, pieces of the time that is aimed at."""
+    clock = [0.0]
+    monkeypatch.setattr("linkwright.core.progress.time", SimpleNamespace(perf_counter=lambda: clock[0]))
     taken = []
     for first, last in paced(600):
-        begun = time.perf_counter()
-        time.sleep(0.003 * (last - first))
-        taken.append((last - first, time.perf_counter() - begun))
-    assert sum(size for size, _ in taken) == 600
-    assert all(seconds < 3 * PACE for _, seconds in taken)
+        clock[0] += 0.003 * (last - first)
+        taken.append(0.003 * (last - first))
+    assert sum(taken) == pytest.approx(0.003 * 600)
+    assert max(taken) <= PACE and taken[2] == pytest.approx(PACE, abs=0.003)
 
 
 def test_parts_are_one_whole() -> None:
@@ -38,10 +39,8 @@ class Terminal(io.StringIO):
         return True
 
 
-@pytest.mark.parametrize(("language", "words"), [("en", "about 3 min left"), ("zh", "约剩 3 min")])
-def test_the_bar_tells_the_time_that_is_left(
-    language: str, words: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
+@pytest.mark.parametrize("language", ["en", "zh"])
+def test_the_bar_tells_the_time_that_is_left(language: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """A quarter after a minute: three minutes are left; nothing where nobody looks."""
     terminal, clock = Terminal(), iter([0.0, 0.5, 60.0])
     monkeypatch.setattr(bars.sys, "stderr", terminal)
@@ -51,7 +50,7 @@ def test_the_bar_tells_the_time_that_is_left(
         report(1, 400)
         report(100, 400)
     first, second = re.findall(r"\d+/400[^\r]*", terminal.getvalue())
-    assert "left" not in first and "约剩" not in first and words in second
+    assert " min" not in first and "3 min" in second
     quiet = io.StringIO()
     monkeypatch.setattr(bars.sys, "stderr", quiet)
     with bars.progress(speaker(language), "sweep.computing") as report:

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from tests.refusals import refused
 
 import linkwright as lw
 from linkwright.drivers.base import LAWS, Law
@@ -97,10 +98,8 @@ def test_a_table_says_nothing_beyond_its_times(name: str) -> None:
     q, _, _ = found.coordinate(np.array([0.5 - edge, 2.5 + edge]))
     assert q == pytest.approx(np.radians([0, 40]), abs=1e-8)
     for t in ([0.4, 1.0], [1.0, 2.6]):
-        with pytest.raises(lw.LinkwrightError) as caught:
+        with refused("loads.table_range", first=0.5, last=2.5, begin=t[0], end=t[1]):
             found.coordinate(np.array(t))
-        assert "0.5" in str(caught.value) and "2.5" in str(caught.value)
-        assert f"{t[0]:g}" in str(caught.value) and f"{t[1]:g}" in str(caught.value)
 
 
 def test_a_program_is_repeated_where_its_velocity_goes_on() -> None:
@@ -129,9 +128,8 @@ def test_a_program_that_ends_in_motion_says_nothing_beyond_its_end() -> None:
     assert rate == pytest.approx(np.radians([0, 0, 90]), abs=1e-9)
     assert found.span() == (0.0, 1.5) == (0.0, found.natural_duration())
     for t in ([-0.1, 1.0], [1.0, 1.6]):
-        with pytest.raises(lw.LinkwrightError) as caught:
+        with refused("loads.table_range", first=0.0, last=1.5, begin=t[0], end=t[1]):
             found.coordinate(np.array(t))
-        assert all(f"{each:g}" in str(caught.value) for each in (0, 1.5, *t))
 
 
 def test_of_constant_speed() -> None:

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from tests.refusals import refused
 
 from linkwright.core.outputs import Output
-from linkwright.errors import LinkwrightError
 from linkwright.fields.signals import InputPhase, MovingPhase, SwingPhase, Table
 from linkwright.loads.force import Force
 from linkwright.loads.over_cycle import Activity, evaluate
@@ -156,40 +156,40 @@ def test_the_swing_is_between_the_outermost_limits() -> None:
 
 
 @pytest.mark.parametrize(
-    ("phase", "limits", "words"),
+    ("phase", "limits", "code"),
     [
-        (SwingPhase(JAW, "max", "min"), [], "the output 'jaw' never reverses within the cycle"),
+        (SwingPhase(JAW, "max", "min"), [], "loads.never_reverses"),
         (
             SwingPhase(JAW, "max", "min"),
             [Limit(1.0, 0.3, -1.0, "min"), Limit(2.0, 0.6, 1.0, "max")],
-            "does not go from its max to its min within the cycle",
+            "loads.no_such_swing",
         ),
         (
             SwingPhase(JAW, "max", "min"),
             [Limit(1.0, 0.3, 1.0, "max"), Limit(1.0, 0.6, -1.0, "min")],
-            "the input is the same at both limit positions",
+            "loads.ramp_without_length",
         ),
     ],
 )
-def test_a_swing_that_does_not_exist(phase: SwingPhase, limits: list[Limit], words: str) -> None:
+def test_a_swing_that_does_not_exist(phase: SwingPhase, limits: list[Limit], code: str) -> None:
     signals = Turning([0, 10])
     signals.whole = Whole(None)
     signals.limits = lambda _: limits  # type: ignore[method-assign]
-    with pytest.raises(LinkwrightError, match=words):
+    with refused(code, output="jaw"):
         activity(phase, signals, ramp=True)
 
 
 def test_an_input_to_and_fro_needs_an_upward_interval() -> None:
     signals = Turning([0, 10])
     signals.heading = 0
-    for wrong in (degrees(30, -30), degrees(5, 4)):
-        with pytest.raises(LinkwrightError, match="write the smaller angle first"):
-            activity(wrong, signals)
+    for start, end in ((30, -30), (5, 4)):
+        with refused("loads.phase_to_and_fro", start=f"{start}°", end=f"{end}°"):
+            activity(degrees(start, end), signals)
     assert activity(degrees(5, 30), signals).where.tolist() == [False, True]
 
 
 def test_an_interval_longer_than_a_turn_is_refused() -> None:
-    with pytest.raises(LinkwrightError, match="from 0° to 720° is longer than one turn"):
+    with refused("loads.phase_too_long", start="0°", end="720°"):
         activity(degrees(0, 720), Turning([0]))
 
 
@@ -206,7 +206,7 @@ def test_a_table_over_one_turn_and_a_half_takes_angles_as_they_are() -> None:
     table = Table("input", tuple(np.radians([-90.0, 0.0, 180.0, 450.0])), (0.0, 9.0, 0.0, 27.0), "angle")
     values = interpolated(table, Turning([-90, 0, 90, 270, 450]), np.ones(5, dtype=bool))
     assert values == pytest.approx([0.0, 9.0, 4.5, 9.0, 27.0])
-    with pytest.raises(LinkwrightError, match="450° to 460° is missing"):
+    with refused("loads.table_too_short", ranges="450° to 460°"):
         interpolated(table, Turning([0, 460]), np.ones(2, dtype=bool))
 
 
@@ -218,7 +218,7 @@ def test_a_table_over_two_turns_repeats_after_them() -> None:
 
 def test_a_table_that_ends_too_early_says_what_is_missing() -> None:
     table = Table("input", tuple(np.radians([0, 180])), (0.0, 1.0))
-    with pytest.raises(LinkwrightError, match=r"from 0° to 180°.*not cover.*180° to 270° is missing"):
+    with refused("loads.table_too_short", first="0°", last="180°", low="180°", high="270°"):
         interpolated(table, Turning([0, 90, 180, 270]), ALL)
     got = interpolated(table, Turning([0, 90, 180, 270]), np.array([True, True, True, False]))
     np.testing.assert_allclose(got[:3], [0, 0.5, 1])
@@ -229,5 +229,5 @@ def test_a_table_over_an_output() -> None:
     got = interpolated(table, Turning([0, 60, 90, 180]), ALL)
     np.testing.assert_allclose(got, [1, 0.5, 0, 5], atol=1e-12)
     narrow = Table(Output("position", "slider.B", "x", written="B.x"), (-0.5, 1.0), (5.0, 0.0))
-    with pytest.raises(LinkwrightError, match=r"-1 m to -0\.5 m is missing"):
+    with refused("loads.table_too_short", over="B.x", low="-1 m", high="-0.5 m"):
         interpolated(narrow, Turning([0, 60, 90, 180]), ALL)
