@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from tests import store
 from tests.invariants.test_limits_change_points import fourbar
 
 import linkwright as lw
@@ -129,9 +130,7 @@ def test_change_points_and_gaps_are_said_once_with_their_place() -> None:
     assert "a, b" in said and "driver = 60°" in said
     assert "driver = 0.25 m" in passage_notes([replace(passage(1), at=0.25)], row(8, rotary=False))[0]
     assert "driver = 0°" in passage_notes([replace(passage(1), at=-1e-13)], along)[0]
-    kinds = [
-        str(passage_notes([passage(1, kind)], along)[0]) for kind in ("change", "meeting", "gap", "pole")
-    ]
+    kinds = [passage_notes([passage(1, kind)], along)[0].key for kind in ("change", "meeting", "gap", "pole")]
     assert len(set(kinds)) == 4
     assert len(passage_notes([passage(1)], row(8, closed=True))) == 2
     assert len(passage_notes([passage(1), passage(2)], row(8, closed=True))) == 2
@@ -169,12 +168,12 @@ def test_steps_of_a_sliding_driver_are_shares_of_the_size(law: str, pace: float,
 
 @pytest.mark.parametrize(("steps", "count"), [(12, 11), (36, 4), (125, 2), (126, 1), (720, 1)])
 def test_steps_of_a_crank_are_divided_into_parts_of_a_twentieth(steps: int, count: int) -> None:
-    mechanism = lw.load("gallery:crank_rocker")
+    mechanism = store.machine("crank_rocker")
     assert parts(MotionSolver(mechanism), over_cycle(mechanism, steps)) == count
 
 
 def test_places_between_positions_follow_the_laws_or_lines() -> None:
-    mechanism = lw.load("gallery:crank_rocker")
+    mechanism = store.machine("crank_rocker")
     solver, positions = MotionSolver(mechanism), over_cycle(mechanism, 36)
     ((q, rate, _),) = way(solver, positions)(np.array([3.25, 35.5])).coordinates.values()
     begin, speed = positions.coordinates["driver"][0][0], positions.coordinates["driver"][1][0]
@@ -223,7 +222,7 @@ def test_the_same_passages_are_found_however_coarse_the_steps(
 
 
 def test_divided_steps_are_equal_parts_of_the_same_way() -> None:
-    mechanism = lw.load("gallery:crank_rocker")
+    mechanism = store.machine("crank_rocker")
     solver = MotionSolver(mechanism)
     for steps, closed, count in ((4, True, 20), (4, False, 21)):
         whole = over_cycle(mechanism, steps)
@@ -262,7 +261,7 @@ def test_what_shows_passages_is_named_where_steps_are_fine_and_guides_stay_apart
     names = shown(fourbar(1, 3, 2.5, 2, start=20.0), 360)
     assert names == ("quality:coupler+rocker", "fact:coupler+rocker|distance²")
     assert shown(fourbar(1, 3, 2.5, 2, start=20.0), 24) is None
-    assert shown(lw.load("gallery:tangent_mechanism"), 720) is None
+    assert shown(store.machine("tangent_mechanism"), 720) is None
 
 
 def found_between(mechanism: lw.Mechanism, begin: float, end: float, steps: int) -> list[Passage]:
@@ -320,7 +319,7 @@ def test_a_stretch_out_of_reach_lies_behind_the_last_position_that_can_be(start:
 )
 def test_guides_become_parallel_between_the_ends_of_an_open_way(begin: float, end: float, steps: int) -> None:
     """A slotted arm that is square to its rod's guide at 0° is along it at 90° and at 270°."""
-    found = found_between(lw.load("gallery:tangent_mechanism"), begin, end, steps)
+    found = found_between(store.machine("tangent_mechanism"), begin, end, steps)
     low, high = min(begin, end), max(begin, end)
     expected = sorted((a for a in (-90.0, 90.0, 270.0) if low < a < high), reverse=end < begin)
     assert [p.kind for p in found] == ["pole"] * len(expected)
@@ -334,7 +333,7 @@ def test_guides_become_parallel_between_the_ends_of_an_open_way(begin: float, en
 @pytest.mark.parametrize("start", [-40.0, 85.0, 89.99, 100.0, 271.0, 300.0])
 def test_a_slotted_arm_that_turns_fully_has_its_guides_parallel_twice(start: float, steps: int) -> None:
     """At 90° and 270°, also between the last position and the first."""
-    mechanism = lw.load("gallery:tangent_mechanism")
+    mechanism = store.machine("tangent_mechanism")
     driver = mechanism.drivers["driver"]
     law = replace(driver.law, start=np.radians(start))  # type: ignore[type-var]
     mechanism = replace(mechanism, drivers={"driver": replace(driver, law=law)}, cycle=Cycle(turns=1.0))

@@ -6,6 +6,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from tests.every import every
 from tests.invariants.test_certificate import SLOTTED
 
 import linkwright as lw
@@ -110,7 +111,7 @@ def test_rates_that_do_not_fit_the_way_are_refused(which: str, share: float) -> 
     rows, carried = coordinates(h), before(h)
     change = max(abs(way) for way, _, _ in parts(h, rows).values())
     size = mechanism_size(traced()[0].mechanism)
-    for name, (_, _, gap) in parts(h, rows).items():
+    for name, (_, _, gap) in every(parts(h, rows).items(), least=3):
         scale = size if name.startswith("slot:") else 1.0
         wrong = share * (MISFIT * change + ROOM) * scale / (0.5 * h if which == "rate" else h * h / 12.0)
         found = evaluated(BEGIN + h, h, {**carried, f"{which}:{name}": carried[f"{which}:{name}"] + wrong})
@@ -126,7 +127,7 @@ def test_starts_far_from_the_root_are_refused(share: float) -> None:
     rows, carried = coordinates(h), before(h)
     change = max(abs(way) for way, _, _ in parts(h, rows).values())
     size, wrong = mechanism_size(traced()[0].mechanism), share * (CORRECTION * change + ROOM)
-    for name in rows:
+    for name in every(rows, least=3):
         given = dict(carried)
         if name.startswith("slot:"):
             given[f"{name}.s"] += wrong * size

@@ -3,6 +3,7 @@
 import re
 
 import pytest
+from tests.every import every
 
 from linkwright.plot.svg.render import natural_size
 from linkwright.report.document import Document, Figure, Heading
@@ -51,9 +52,7 @@ def test_words_and_links_stand_out_from_the_ground() -> None:
 def test_letters_of_drawings_can_be_read_in_print(name: str) -> None:
     """Names of links are at least 6 points high in both drawings of a report, whatever the machine's shape."""
     document = report(f"gallery:{name}", sections=["drawing"]).document
-    figures = [each for each in document.blocks if isinstance(each, Figure)]
-    assert figures
-    for each in figures:
+    for each in every(each for each in document.blocks if isinstance(each, Figure)):
         ((svg, share),) = each.pictures
         wide, high = natural_size(svg)
         millimetres = min(share * 170.0 / wide, each.tallest / high)

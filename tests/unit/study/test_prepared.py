@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from tests import store
 
 import linkwright as lw
 from linkwright.engine.numpy_backend import NumpyProgram
@@ -26,7 +27,7 @@ def test_positions_are_near_by_the_largest_step_and_the_least_distance(swing: fl
 )
 def test_limits_are_taken_only_where_the_rates_change_their_signs(highest, lowest, agree, forwards) -> None:
     """Limits moved by some steps, or (inf) both at the place of one, are seen by the positions beside them."""
-    crusher = lw.load("gallery:jaw_crusher_sixbar")
+    crusher = store.machine("jaw_crusher_sixbar")
     speed = abs(crusher.dimension("driver.speed")) * (1.0 if forwards else -1.0)
     prepared = lw.prepare(crusher.with_dimensions({"driver.speed": speed}), vary=["pitman.length"])
     limits = {each.kind: each.input for each in lw.limit_positions(prepared.solve({}).motion, "jaw")}

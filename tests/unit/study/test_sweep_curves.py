@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from tests import store
 
 import linkwright as lw
 from linkwright.cycle_programs.one_by_one import OneByOne
@@ -40,7 +41,7 @@ def test_loads_on_groups_that_newton_solves(
         return rows(self, names, columns)
 
     monkeypatch.setattr(OneByOne, "rows", counted)
-    text = lw.dump(lw.load("gallery:triad"))
+    text = lw.dump(store.machine("triad"))
     text += f"\nloads:\n  push: {{kind: force, on: plate, at: R, direction: 90 deg, {size}}}\n"
     mechanism = lw.loads(text).with_dimensions({"driver.speed": speed})
     varied = np.array([0.029, 0.03, 0.031])
@@ -57,7 +58,7 @@ def test_loads_on_groups_that_newton_solves(
 @pytest.mark.parametrize("model", ["crank_rocker", "jaw_crusher_sixbar"])
 def test_curves_of_designs_are_those_of_the_machines(model: str, backend: str) -> None:
     """Design by design the values at the positions; nothing of those that do not pass."""
-    mechanism = lw.load(f"gallery:{model}")
+    mechanism = store.machine(model)
     by, link = ("coupler.length", "rocker") if model == "crank_rocker" else ("pitman.length", "jaw")
     lengths = mechanism.dimension(by) * np.array([1.0, 30.0, 1.01])
     outputs = [f"{link}.angular_velocity", "driver.effort"]
@@ -84,7 +85,7 @@ def test_curves_of_designs_are_those_of_the_machines(model: str, backend: str) -
 @pytest.mark.parametrize("backend", ["numpy", "llvm"])
 def test_curves_and_summaries_through_change_points(backend: Backend) -> None:
     """A parallelogram that goes on as one: B keeps 2 m from A, the rocker turns with the crank."""
-    linkage = replace(lw.load("gallery:parallelogram"), cycle=None)
+    linkage = replace(store.machine("parallelogram"), cycle=None)
     steps, masses = 25, [1.0, 2.0]
     ((where, curves),) = sweep_curves(
         linkage,
