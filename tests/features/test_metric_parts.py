@@ -11,7 +11,6 @@ import pytest
 from scipy.integrate import quad
 from tests import store
 from tests.every import every
-from tests.literature.test_metrics_published import crunodal
 
 import linkwright as lw
 from linkwright.metrics import METRICS, Analysis, coupler_curve, metrics
@@ -94,6 +93,18 @@ def test_a_curve_runs_the_other_way_round_with_its_area_negative() -> None:
     assert forth.area == pytest.approx(swept, rel=1e-3)
     chords = np.hypot(*np.diff(np.vstack([path, path[:1]]), axis=0).T).sum()
     assert forth.length == pytest.approx(chords, rel=1e-3) and forth.length > chords
+
+
+def crunodal(apex: tuple[float, float]) -> lw.Mechanism:
+    """A four-bar whose coupler point crosses its own path."""
+    model = lw.Model("four-bar")
+    model.frame(O1=(0, 0), O2=(2.0, 0))
+    model.link("crank", ["O1", "A"], length=0.6)
+    model.link("coupler", ["A", "B"], length=1.9, also={"P": apex})
+    model.link("rocker", ["O2", "B"], length=1.3)
+    model.drive("crank", about="O1", speed=3)
+    model.assemble(B="left")
+    return model.build()
 
 
 def test_two_crossings_of_a_curve_have_both_inputs_at_the_same_place() -> None:

@@ -168,10 +168,23 @@ def test_designs_of_a_sweep_that_cannot_pass_between_two_positions_fail() -> Non
     assert {failure.kind for failure in every(found.failures())} == {"barred"}
 
 
-def test_designs_whose_guides_become_parallel_fail() -> None:
-    from tests.failures.test_guides_become_parallel import RPP, model
+PARALLEL = """
+format: 1
+frame: {points: {O: [0 m, 0 m], Q: [0 m, 0.2 m]}}
+links:
+  slide: {points: [A]}
+  arm: {points: [A]}
+  block: {points: [Q]}
+joints:
+  outer: {kind: prismatic, guide: frame, through: O, direction: 0 deg, block: slide, at: A}
+  inner: {kind: prismatic, guide: arm, through: A, direction: 0 deg, block: block, at: Q}
+driver: {turn: arm, about: A, relative_to: slide, position: "-0.5 rad + 0.4 rad * sin(2*pi*t/(1 s))"}
+cycle: {duration: 1 s}
+"""
 
-    swing = model(RPP, 'position: "-0.5 rad + 0.4 rad * sin(2*pi*t/(1 s))"', "duration: 1 s")
+
+def test_designs_whose_guides_become_parallel_fail() -> None:
+    swing = lw.loads(PARALLEL)
     moved = swing.with_dimensions({"inner.direction": 0.2})
     assert not lw.solve_motion(moved, steps=40, failures="mark").ok.all()
     found = lw.sweep(
@@ -180,10 +193,24 @@ def test_designs_whose_guides_become_parallel_fail() -> None:
     assert found.ok.tolist() == [True, True, False]
 
 
-def test_designs_whose_pins_pass_each_other_too_near_fail() -> None:
-    from tests.failures.test_gaps import INVERTED
+INVERTED = """
+format: 1
+frame: {points: {P: [0 m, 0 m]}}
+links:
+  slide: {points: [Q]}
+  rocker: {points: {P: [0 m, 0 m], S: [0 m, 0.0005 m]}}
+  bar: {points: [Q]}
+joints:
+  way: {kind: prismatic, guide: frame, through: P, direction: 0 deg, block: slide, at: Q}
+  inner: {kind: prismatic, guide: bar, through: Q, direction: 0 deg, block: rocker, at: S}
+drawing: {Q: [-0.4 m, 0 m], S: [0 m, 0.0005 m]}
+driver: {slide: way, speed: 1 m/s, start: -0.4 m}
+cycle: {from: -0.4 m, to: 0.37 m}
+"""
 
-    mechanism = lw.loads(INVERTED.replace("OFFSET", "0.0005"))
+
+def test_designs_whose_pins_pass_each_other_too_near_fail() -> None:
+    mechanism = lw.loads(INVERTED)
     offsets = {"rocker.S.y": np.array([0.0005, 0.00002])}
     found = lw.sweep(mechanism, offsets, outputs=[("inner.displacement", "max")], steps=17)
     alone = [

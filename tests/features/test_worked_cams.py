@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 from tests import store
-from tests.reference.test_cam_joints import GUIDED, SPEED, SWINGING, follower, model
+from tests.reference.cam_models import GUIDED, SPEED, SWINGING, follower, model
 from tests.worked_reading import against_solver, reckon_lines
 
 import linkwright as lw

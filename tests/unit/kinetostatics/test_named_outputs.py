@@ -11,7 +11,6 @@ import pytest
 from numpy.typing import NDArray
 from tests import store
 from tests.every import every
-from tests.reference.test_friction_forces import SHAPER
 from tests.refusals import refused
 
 import linkwright as lw
@@ -26,7 +25,27 @@ from linkwright.kinetostatics.named_outputs import Named, Quantity
 from linkwright.kinetostatics.programs import force_programs
 
 Floats = NDArray[np.float64]
-DRY = SHAPER.replace("PIN", "0").replace("SLOT", "0").replace("0.1}", "0}").replace("SPEED", "3")
+DRY = """
+format: 1
+name: shaper with dry joints
+frame: {points: {O: [0 m, 0.5 m], Q: [0 m, 0 m], R: [0 m, 0.95 m]}}
+links:
+  crank: {points: [O, A], length: 0.15 m, mass: 4 kg, inertia: 0.02 kg·m²}
+  die: {points: [A], mass: 1 kg}
+  lever: {points: [Q, B], length: 0.9 m, mass: 6 kg, inertia: 0.4 kg·m²}
+  rod: {points: [B, C], length: 0.4 m, mass: 2 kg, inertia: 0.04 kg·m²}
+  ram: {points: [C], mass: 9 kg}
+joints:
+  A: {kind: revolute, pin_radius: 25 mm}
+  B: {kind: revolute, pin_radius: 20 mm}
+  Q: {kind: revolute, pin_radius: 30 mm}
+  slot: {kind: prismatic, guide: lever, through: Q, direction: [Q, B], block: die, at: A}
+  bed: {kind: prismatic, guide: frame, through: R, direction: 0 deg, block: ram, at: C}
+drawing: {A: [0.15 m, 0.5 m], B: [0.25 m, 0.86 m], C: [0.64 m, 0.95 m]}
+driver: {turn: crank, about: O, speed: 3 rad/s}
+gravity: [0, -9.81 m/s²]
+loads: {cutting: {kind: force, on: ram, at: C, components: [-200 N, 0 N]}}
+"""
 PUSHED = """
 format: 1
 name: slider-crank pushed by its slider
