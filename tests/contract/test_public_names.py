@@ -1,6 +1,7 @@
 """The public names: each is there, documented, and seen by type checkers as well."""
 
 import ast
+import importlib
 import subprocess
 import sys
 from pathlib import Path
@@ -27,7 +28,7 @@ def test_type_checkers_see_the_same_names() -> None:
 
 
 def test_a_name_that_is_not_there() -> None:
-    with pytest.raises(AttributeError, match="no attribute 'solve_everything'"):
+    with pytest.raises(AttributeError, match="solve_everything"):
         linkwright.solve_everything  # noqa: B018
 
 
@@ -79,13 +80,12 @@ def test_a_package_is_called_as_its_function_whatever_is_imported_first(name: st
     for line in said:
         parameter, *_, refusal = line.split("|")
         assert parameter in {"mechanism", "result", "source", "text", "results", "motion", "machines"}
-        assert "unexpected keyword argument" in refusal or "missing" in refusal
+        assert parameter in refusal or "no_such_option" in refusal
 
 
 def test_packages_and_functions_work_side_by_side() -> None:
-    import linkwright.metrics
-    import linkwright.structure
-
+    for name in ("metrics", "structure"):
+        importlib.import_module(f"linkwright.{name}")
     mechanism = linkwright.load("gallery:crank_rocker")
     assert isinstance(linkwright.structure(mechanism), linkwright.structure.Structure)
     assert "transmission_angle" in linkwright.metrics.METRICS
@@ -97,5 +97,5 @@ def test_subpackages_are_there_without_an_import_of_their_own() -> None:
     code = "import linkwright as lw; print(lw.parts.load('gallery:simple_beam').kind, lw.tolerance.Clearance)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.startswith("beam <class") and "Clearance" in done.stdout
-    with pytest.raises(AttributeError, match="no attribute 'nothing_like_it'"):
+    with pytest.raises(AttributeError, match="nothing_like_it"):
         _ = linkwright.nothing_like_it

@@ -89,7 +89,7 @@ varied = ["plate.C.y", "frame.O.x", "plate.mass"]
 problem = lw.objective(machine, "driver.effort rms", vary=varied, steps=24)
 value, slope = problem(problem.start)
 page = lw.worked(forces, 5)
-assert "The closed form RRR-PPP of a package gives" in page.text()
+assert "RRR-PPP" in page.text()
 assert reckon_lines(page) == [] and against_solver(page, forces)[0] == []
 assert "RRR-PPP" in lw.worked(forces, 5, language="zh").text()
 open("triad.yaml", "w").write(dump(machine))
