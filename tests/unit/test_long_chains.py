@@ -4,7 +4,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from tests.invariants.test_friction_of_designs import four_bars
+from tests.invariants.fourbars import four_bars
 
 import linkwright as lw
 from linkwright.engine.program import Program

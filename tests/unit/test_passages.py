@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from tests.invariants.test_limits_change_points import fourbar
+from tests.invariants.fourbars import fourbar
 
 import linkwright as lw
 from linkwright.engine.numpy_backend import NumpyProgram

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from tests.invariants.test_quarter_turns import MODEL as WELDED
+from tests.invariants.welded_slider import MODEL as WELDED
 from tests.reference.geared_mechanisms import geared_case
 from tests.reference.test_cam_joints import GUIDED, SWINGING, model
 
