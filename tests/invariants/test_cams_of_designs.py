@@ -159,6 +159,7 @@ def test_numbers_of_one_machine_with_a_cam_are_those_of_a_dense_quadrature() -> 
     assert len(analysis.grid.edges) < 60
 
 
+@pytest.mark.rotating
 def test_reactions_of_the_press_go_side_by_side_though_its_teeth_change_flanks_beside_its_cam() -> None:
     machine = stored("printing_press")
     names = ["peak_reaction", "rms_reaction", "rms_input_torque", "mean_power"]
@@ -169,6 +170,7 @@ def test_reactions_of_the_press_go_side_by_side_though_its_teeth_change_flanks_b
         assert {name: found[name][k] for name in names} == pytest.approx(alone, rel=1e-10)
 
 
+@pytest.mark.rotating
 def test_designs_whose_cam_rocks_go_side_by_side() -> None:
     """The bends of the lift between the ends of the cam's way are passed on the way to and again on the way back."""
     machine = lw.loads(ROCKING)

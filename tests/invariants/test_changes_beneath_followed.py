@@ -66,6 +66,7 @@ def test_note_motion_and_range_agree() -> None:
     )
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("off", [0.0, 1e-12, -1e-12, 1e-9, -1e-9, 1e-7, -1e-7, 1e-4])
 @pytest.mark.parametrize(("sizes", "start"), [(FOLDED, 0.6), (STRETCHED, pi - 0.2)])
 def test_ends_of_ranges_are_as_exact_as_they_say(

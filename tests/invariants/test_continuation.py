@@ -16,6 +16,7 @@ import linkwright as lw
 Floats = NDArray[np.float64]
 
 
+@pytest.mark.rotating
 def test_numbers_of_an_input_that_swings_often_take_no_more_work_at_few_positions() -> None:
     """Ten swings in 36 steps: no reading between two positions is sure, and each was followed by itself."""
     mechanism = lw.loads(

@@ -75,6 +75,7 @@ def test_laws_that_bend_between_the_positions_are_cut_where_they_bend() -> None:
     assert swept["rms_input_torque"][1] == pytest.approx(np.sqrt(squares), rel=1e-12)
 
 
+@pytest.mark.rotating
 def test_peaks_of_sizes_that_polynomials_do_not_meet_are_found_whatever_the_positions() -> None:
     """Two arms that periodic splines jerk to and fro: the pin between them carries m (a - g) of the outer's end."""
     time, place = np.linspace(0.0, SHARP_TIMES[-1], 2_000_001), 0.0

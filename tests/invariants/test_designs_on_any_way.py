@@ -47,6 +47,7 @@ def test_designs_side_by_side_are_those_alone(model: str) -> None:
             assert found[name][k] == pytest.approx(value, **near), name
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("model", WAYS)
 def test_slopes_are_those_of_machines_solved_beside_each_other(model: str) -> None:
     """Differences of fourth order of machines solved alone, off the gallery's symmetric ones."""
@@ -129,6 +130,7 @@ def gone(course: str, crank: complex, rod: complex) -> tuple[complex, complex]:
     return out + inwards, inwards
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("course", COURSES)
 @pytest.mark.parametrize(
     ("load", "which"),
@@ -179,6 +181,7 @@ def work_inwards(course: str, load: str, crank: complex, rod: complex) -> comple
     return complex(-0.5 * (end - start) * np.sum(weights * force * rate))
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("course", INWARDS)
 @pytest.mark.parametrize("load", BETWEEN)
 def test_power_against_a_load_between_limits_is_that_of_its_work(course: str, load: str) -> None:
@@ -232,6 +235,7 @@ def dry(name: str) -> lw.Mechanism:
     return rubbing(plain, 0.1, 0.01)
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("name", RUBBING)
 def test_friction_of_designs_side_by_side_is_that_of_designs_alone(name: str) -> None:
     machine = dry(name)
@@ -245,6 +249,7 @@ def test_friction_of_designs_side_by_side_is_that_of_designs_alone(name: str) ->
         assert {name: found[name][k] for name in names} == pytest.approx(alone, rel=1e-11)
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("name", ["double_slider", "to and fro", "part of a turn"])
 def test_slopes_through_friction_that_turns_round_are_those_of_differences(name: str) -> None:
     machine = dry(name)
@@ -260,6 +265,7 @@ def test_slopes_through_friction_that_turns_round_are_those_of_differences(name:
         )
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize(
     ("course", "load"),
     [

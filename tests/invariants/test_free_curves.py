@@ -35,6 +35,7 @@ def apart(path: np.ndarray, curve: np.ndarray) -> float:
     return (nearest(path, curve) + nearest(drawn, path)) / float(radius)
 
 
+@pytest.mark.long
 def test_the_solver_draws_the_same_curve_within_the_demands() -> None:
     size = 0.02
     found = lw.free_curve(size * FOUR, seconds=2.5, joints=8, count=3)
@@ -66,6 +67,7 @@ def test_the_solver_draws_the_same_curve_within_the_demands() -> None:
     assert found.best.values["size"] == pytest.approx(reach, rel=2e-3)
 
 
+@pytest.mark.long
 def test_an_input_that_swings_keeps_the_demands_while_it_draws() -> None:
     found = lw.free_curve(FOUR, seconds=1.0, joints=8, turning=False, transmission_angle=math.radians(30))
     assert not found.best.turns
@@ -79,6 +81,7 @@ def test_an_input_that_swings_keeps_the_demands_while_it_draws() -> None:
             assert angle >= math.radians(30)
 
 
+@pytest.mark.rotating
 def test_the_curve_of_a_four_bar_is_found_again() -> None:
     crank = np.linspace(0, 2 * np.pi, 201)[:-1]
     pin = np.exp(1j * crank)
@@ -92,6 +95,7 @@ def test_the_curve_of_a_four_bar_is_found_again() -> None:
     assert found.best.values["drawn_as_given"] in (pytest.approx(1, abs=0.01), pytest.approx(0, abs=0.01))
 
 
+@pytest.mark.long
 def test_the_measure_knows_no_place_size_or_turn() -> None:
     draw = np.random.default_rng(2)
     curve = np.cumsum(draw.normal(size=60) + 1j * draw.normal(size=60))

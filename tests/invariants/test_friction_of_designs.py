@@ -42,6 +42,7 @@ def compare(machine: lw.Mechanism, address: str, factors: list[float], accuracy:
     return found
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize(
     ("name", "address"),
     [
@@ -61,11 +62,13 @@ def test_sweeps_with_friction_in_every_joint_equal_single_designs(name: str, add
     compare(machine, address, [1.0, 0.99, 1.001])
 
 
+@pytest.mark.rotating
 def test_friction_in_more_pairs_than_a_block_may_have_goes_group_by_group() -> None:
     """22 pairs, among them pins of three links."""
     compare(rubbing(four_bars(7), 0.05, 0.005), "P1.friction", [1.0, 0.5])
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("seed", range(13, 29))
 def test_random_mechanisms_with_friction_equal_single_designs(seed: int) -> None:
     text = random_mechanism(seed, triads=False, with_loads=True)
@@ -74,6 +77,7 @@ def test_random_mechanisms_with_friction_equal_single_designs(seed: int) -> None
     compare(machine, f"{joint}.friction", [1.0, 0.3, 1.4])
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize(
     ("name", "address"),
     [
@@ -125,6 +129,7 @@ def rms(forces: lw.Forces) -> float:
     return float(np.sqrt(np.mean(forces.input_torque**2)))
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize(
     ("name", "by"),
     [
@@ -148,6 +153,7 @@ def test_gradients_through_friction_are_differences_of_single_designs(name: str,
     assert back.gradient("input_torque rms") == pytest.approx(gradient, rel=1e-9)
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize(
     ("name", "by", "pin", "factors"),
     [
@@ -297,6 +303,7 @@ def test_a_wheel_whose_teeth_change_flanks_has_the_reaction_of_statics() -> None
     assert found["rms_reaction Q"] == pytest.approx(np.sqrt(expected), rel=1e-12)
 
 
+@pytest.mark.rotating
 def test_numbers_of_one_machine_with_friction_are_those_of_a_dense_quadrature() -> None:
     machine = rubbing(stored("shaper_quick_return"), 0.05)
     machine = machine.with_dimensions({"crank.length": 1.002 * machine.dimension("crank.length")})

@@ -36,6 +36,7 @@ def rates_at(mechanism: lw.Mechanism, output: str, found: tuple[LimitPosition, .
     return motion.joint(output).velocity
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("name", [name for name in names() if name not in CHANGE_POINTS])
 def test_gallery(name: str) -> None:
     """At every limit the rate is zero; in a closed cycle maxima and minima take turns; values bound the cycle."""
@@ -325,6 +326,7 @@ driver: {{turn: crank, about: O, table: {{time: [{", ".join(f"{t} s" for t in ti
     assert [each.time for each in inner] == pytest.approx(t[turned].tolist(), abs=2.0 * t[1])
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("seed", [3, 8, 16, 20])
 def test_limits_lie_in_what_is_reached(seed: int) -> None:
     """Machines with tables as laws that reach a part of their cycle: nothing beyond its ends is a limit."""
@@ -335,6 +337,7 @@ def test_limits_lie_in_what_is_reached(seed: int) -> None:
         assert np.isfinite(each.value) and motion.ok[each.index]
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize(
     "name", ["swing_conveyor", "dyad_rpp", "theo_jansen_leg", "planetary_two_inputs", "scotch_yoke"]
 )
@@ -356,6 +359,7 @@ def test_positions_out_of_reach_are_counted_as_they_were_asked_for() -> None:
     assert (note.key, note.values["reached"], note.values["count"]) == ("metrics.part_reached", 3, 8)
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("seed", [100, 135, 138, 139])
 def test_numbers_of_what_is_reached_are_those_for_any_number_of_positions(seed: int) -> None:
     """Machines that come out of reach in a step, some of them before guides become parallel in it."""

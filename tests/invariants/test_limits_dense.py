@@ -135,6 +135,7 @@ def compare(coarse: lw.Motion, fine: lw.Motion, output: str, share: int, wraps: 
     return len(found)
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("name", CASES)
 def test_limits_over_the_cycle(name: str) -> None:
     make, steps = CASES[name]
@@ -146,6 +147,7 @@ def test_limits_over_the_cycle(name: str) -> None:
     assert check(coarse, fine, FINE, wraps) > 1
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("name", ["crank and rocker", "law in time", "triad", "gears"])
 @pytest.mark.parametrize(("begin", "end"), [(0.1, 0.8), (0.9, 0.2)])
 def test_limits_at_times_of_ones_own(name: str, begin: float, end: float) -> None:

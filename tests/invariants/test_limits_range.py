@@ -245,6 +245,7 @@ def test_a_pushed_ram_goes_as_far_as_the_crank_would_take_it(shift: str) -> None
     assert max(found.low.precision, found.high.precision) < 1e-12
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize(("frame", "laps"), [(148.0, 0), (172.0, 2), (172.0, -3)])
 def test_a_fold_behind_a_change_point(frame: float, laps: int) -> None:
     """The output of a triad turns a parallelogram that lines up on one side of the start: nothing but the triad ends
@@ -261,6 +262,7 @@ def test_a_fold_behind_a_change_point(frame: float, laps: int) -> None:
         assert np.spacing(abs(each.value)) <= each.precision < 1e-12
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize(("side", "off"), [(1, -30.0), (1, -0.7), (1, -0.04), (-1, 9.0), (-1, 0.3)])
 def test_a_dyad_before_the_fold_of_a_triad_ends_the_range(side: int, off: float) -> None:
     """A little before the triad is singular, or long before."""
@@ -275,6 +277,7 @@ def test_a_dyad_before_the_fold_of_a_triad_ends_the_range(side: int, off: float)
     assert other.value == pytest.approx(low if side > 0 else high, abs=1e-9)
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("off", [0.2, 0.9, 3.0])
 def test_a_dyad_beyond_the_fold_of_a_triad_does_not(off: float) -> None:
     low, high = ends(input_range(stored("stephenson_sixbar_triad")))

@@ -52,6 +52,7 @@ def test_gradients_are_those_of_differences_of_single_designs(load: str) -> None
     assert gradient[0] == pytest.approx(difference, rel=1e-6, abs=1e-7 * value)
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("load", [load for load in LOADS if load != "table of output"])
 def test_design_numbers_equal_single_designs(load: str) -> None:
     """Exact between positions, the moving edges of parts of a stroke among them."""
@@ -63,6 +64,7 @@ def test_design_numbers_equal_single_designs(load: str) -> None:
         assert found[name][0] == pytest.approx(table.value(name), rel=1e-11)
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("load", OTHER_WAY)
 def test_designs_driven_the_other_way_equal_single_ones(load: str) -> None:
     """Sums over positions, and design numbers between them, of a crank that turns clockwise."""
@@ -81,6 +83,7 @@ def test_designs_driven_the_other_way_equal_single_ones(load: str) -> None:
             assert found[name][k] == pytest.approx(table.value(name), rel=3e-8)
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("load", [*BY_LIMITS, "input", "table"])
 def test_cycles_of_three_turns_of_the_motor_go_side_by_side(load: str) -> None:
     """Where limits tell the phase, the motor's torque is a third of that of the crank turned directly."""
@@ -128,6 +131,7 @@ def test_a_design_whose_load_has_no_value_is_told() -> None:
     assert np.isnan(found["driver.effort max"]).tolist() == [False, True, False]
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("output", ["driver.effort max", "driver.effort rms"])
 @pytest.mark.parametrize("size", ["ramp: [100 N, 900 N]", "magnitude: 800 N", "magnitude: F0*(1 + sin(rod))"])
 @pytest.mark.parametrize("part", ["first: 401 mm", "last: 401 mm", "free: 200.2 mm"])

@@ -32,12 +32,14 @@ def compare(mechanism: lw.Mechanism, address: str, driver: str) -> None:
         assert found[f"{driver}.effort", "rms"][k] == pytest.approx(rms, rel=1e-12)
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("law", [TO_AND_FRO, UNEVEN, SEVERAL_TURNS])
 @pytest.mark.parametrize("load", LOADS)
 def test_designs_under_laws_of_every_kind_are_those_alone(load: str, law: str) -> None:
     compare(machine(law, LOADS[load]), "rod.length", "driver")
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("law", ONE_WAY)
 @pytest.mark.parametrize("load", BETWEEN_LIMITS)
 def test_loads_between_limits_of_designs_under_laws_are_those_alone_with_gradients(
@@ -66,6 +68,7 @@ def test_designs_of_two_drivers_are_those_alone() -> None:
         compare(lw.loads(TWO_DRIVERS), "arm.length", driver)
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("load", ON_THE_PLATE)
 def test_designs_without_closed_form_take_their_loads(load: str) -> None:
     mechanism = pushed_triad(load)

@@ -57,6 +57,7 @@ def test_the_cycle_is_that_of_the_bars(law: str) -> None:
     assert np.abs(forces.balance_residual).max() < 1e-12
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("law", LAWS)
 def test_sweeps_pass_where_a_rise_begins(law: str) -> None:
     """The prediction from a dwell misses the whole step there."""

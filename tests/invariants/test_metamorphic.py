@@ -101,6 +101,7 @@ def close(a: np.ndarray, b: np.ndarray, rtol: float = 1e-6) -> None:
     assert b == pytest.approx(a, rel=rtol, abs=rtol * (1e-3 + np.abs(a).max(initial=0.0)))
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("seed", SEEDS)
 def test_other_units_change_nothing(seed: int) -> None:
     case = told(seed)
@@ -109,6 +110,7 @@ def test_other_units_change_nothing(seed: int) -> None:
     alike(as_it_was(seed), other.solved())
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("seed", SEEDS)
 def test_the_order_of_the_file_changes_nothing(seed: int) -> None:
     case = told(seed)
@@ -127,6 +129,7 @@ def test_the_order_of_the_file_changes_nothing(seed: int) -> None:
     alike(as_it_was(seed), Told(data, case.steps).solved())
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("seed", SEEDS)
 def test_other_names_change_nothing(seed: int) -> None:
     case = told(seed)
@@ -146,6 +149,7 @@ def test_other_names_change_nothing(seed: int) -> None:
     alike(as_it_was(seed), Told(all_named(case.data), case.steps).solved(), named)
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("seed", SEEDS)
 def test_more_steps_hold_the_same_positions(seed: int) -> None:
     case = told(seed)
@@ -306,6 +310,7 @@ def test_the_grashof_margin_of_a_turned_bracket(turn: float) -> None:
     assert swept["grashof"][0] == pytest.approx(p + q - s - longest, rel=1e-12)
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("seed", SEVERAL_LOADS)
 def test_loads_add_up(seed: int) -> None:
     """Without friction reactions and efforts are linear: all loads, less those of one, less those of none."""

@@ -38,6 +38,7 @@ def test_every_number_is_that_of_the_machine_alone(model: str, by: str) -> None:
             assert found[name][index] == pytest.approx(value, **near), name
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize(
     ("model", "by"),
     [
@@ -62,6 +63,7 @@ def test_numbers_by_arrays_and_compiled_are_equal(model: str, by: str) -> None:
         assert one == pytest.approx(other, rel=2e-12, abs=1e-12, nan_ok=True), name
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize(
     ("name", "by"),
     [

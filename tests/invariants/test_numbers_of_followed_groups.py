@@ -131,6 +131,7 @@ def test_numbers_are_those_of_each_machine_alone(loads: dict[str, str]) -> None:
         assert np.isnan(found[name][3]), name
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("name", ["peak_jerk", "peak_reaction Q", "speed_fluctuation", "swept_area"])
 def test_gradients_are_those_of_differences(name: str) -> None:
     """Of values that are those of each machine alone."""
@@ -145,6 +146,7 @@ def test_gradients_are_those_of_differences(name: str) -> None:
         assert gradient[place] == pytest.approx(difference, rel=1e-6)
 
 
+@pytest.mark.rotating
 def test_jerks_over_positions_have_exact_gradients() -> None:
     """Second derivatives of Newton's step are not those of the position."""
     objective = lw.objective(stored("triad"), "plate.angular_jerk rms", vary=["crank.A.x"], steps=36)
@@ -163,6 +165,7 @@ def test_a_phase_that_ends_where_another_begins_is_no_moment_with_both() -> None
     assert largest < value < largest * (1 + 1e-3)
 
 
+@pytest.mark.rotating
 def test_numbers_by_arrays_and_compiled_are_equal() -> None:
     machine, names = triad(damper=DAMPER), ["peak_reaction", "rms_input_torque", "swing_angle"]
     columns = {name: column[1:2] for name, column in columns_of(machine).items()}

@@ -166,6 +166,7 @@ def pushed_triad(phase: str, speed: float) -> lw.Mechanism:
     return lw.loads(f"{text}\nloads: {{push: {load}}}\n").with_dimensions({"driver.speed": speed})
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize(
     ("phase", "speed", "steps"),
     [("of: plate, from: min, to: max", 6.0, 90), ("of: bar_1, from: max, to: min, last: 0.4", -6.0, 24)],
@@ -262,6 +263,7 @@ loads: {cut: {kind: force, on: rack, at: R, components: [0 N, 50 N]}}
 """
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize(
     ("term", "number"),
     [
@@ -307,6 +309,7 @@ def drag_link_of_one_turn() -> lw.Mechanism:
     return lw.loads("\n".join(lines).replace("ratio: -0.7", "ratio: -1"))
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize(
     ("machine", "names", "number"),
     [
@@ -336,6 +339,7 @@ def test_design_numbers_go_through_wheels_on_links_that_a_dyad_places(machine, n
     assert f.values(away[None, :])[0] == pytest.approx(alone(away), rel=1e-9)
 
 
+@pytest.mark.rotating
 def test_a_force_between_limits_of_a_rack_on_a_rocker_has_its_gradient():
     mechanism = rack_cutting_one_way()
     f = lw.objective(mechanism, "driver.effort rms", vary=["coupler.length", "rocker.length"])

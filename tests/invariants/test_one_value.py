@@ -44,8 +44,10 @@ def words_of(diagram: lw.Diagram) -> list[str]:
 
 
 def significant(value: float) -> str:
-    """A number with four digits that count, as diagrams write it."""
-    return f"{float(f'{value:.4g}'):.10g}"
+    """A number with four digits that count or all before its point, as diagrams write it."""
+    places = max(0, 3 - math.floor(math.log10(abs(value))))
+    text = f"{value:.{places}f}"
+    return (text.rstrip("0").rstrip(".") if "." in text else text).replace("-", "−")
 
 
 def said(value: float, dimension: str) -> set[str]:

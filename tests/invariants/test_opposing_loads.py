@@ -88,6 +88,7 @@ def differences(mechanism: lw.Mechanism, address: str) -> dict[str, float]:
     return dict(zip(NUMBERS, slopes.tolist(), strict=True))
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("speed", ["120 rpm", "-120 rpm"])
 @pytest.mark.parametrize("name", CASES)
 def test_gradients_are_those_of_machines_solved_alone(name: str, speed: str) -> None:

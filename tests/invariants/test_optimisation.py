@@ -190,6 +190,7 @@ def test_designs_pass_the_whole_cycle_where_no_number_needs_it() -> None:
         lw.optimize(bars, vary={"crank.length": "2.1..3 m"}, minimize="r", define={"r": "crank.length"})
 
 
+@pytest.mark.rotating
 def test_the_crusher_keeps_its_jaw_and_loses_torque() -> None:
     start = stored("jaw_crusher_sixbar")
     vary = {
@@ -255,6 +256,7 @@ def length_that_serves(crank: float) -> float:
     return crank + brentq(lambda rod: share_of_presses(crank, rod) - 0.9, 0.1, 0.2)
 
 
+@pytest.mark.rotating
 def test_tolerances_of_two_lengths_against_closed_form(press: Path) -> None:
     tolerance = {"crank.length": "0.5 mm", "rod.length": "1 mm"}
     worst = lw.optimize(press, tolerance=tolerance, robust="worst")
@@ -290,6 +292,7 @@ def test_tolerances_of_two_lengths_against_closed_form(press: Path) -> None:
     assert caught.value.nearest.best.values["crank.length"] > 0.079
 
 
+@pytest.mark.rotating
 def test_a_yield_is_reached_by_machines_that_did_not_choose_the_design() -> None:
     """Extreme transmission angles of a four-bar by the cosine rule, of 100 000 machines of its tolerances."""
     bars = stored("crank_rocker")
@@ -309,6 +312,7 @@ def test_a_yield_is_reached_by_machines_that_did_not_choose_the_design() -> None
     assert found.best.made == pytest.approx(share, abs=0.005)
 
 
+@pytest.mark.rotating
 def test_a_path_that_a_known_linkage_draws_is_followed() -> None:
     start = stored("crank_rocker")
     known = {"crank.length": 1.04, "coupler.length": 3.45, "rocker.length": 2.52}
@@ -471,6 +475,7 @@ def test_settings_that_cannot_be_read(
     assert key is None or [each.key for each in said.value.findings] == [key]
 
 
+@pytest.mark.rotating
 def test_designs_that_go_one_by_one_are_polished_by_differences() -> None:
     """A followed group in an open cycle: the best of all is that of a search by one number."""
     machine = stored("stephenson_sixbar_triad")

@@ -71,6 +71,7 @@ CASES = [
 ]
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("way", ["forward", "reverse"])
 @pytest.mark.parametrize(("name", "outputs", "by", "part"), CASES, ids=[case[0] for case in CASES])
 def test_derivatives_are_the_limits_of_differences(

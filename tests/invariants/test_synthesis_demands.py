@@ -67,6 +67,7 @@ def test_a_geared_crank_turns_with_the_speed_asked_for(tmp_path: Path) -> None:
     assert motion.link("geared_crank").angular_velocity == pytest.approx(np.full(13, 40.0))
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize(
     ("linkage", "turning"),
     [("four_bar", False), ("four_bar", True), ("watt", False), ("geared_five_bar", True)],
@@ -83,6 +84,7 @@ def test_function_generators_have_the_transmission_angle(linkage: str, turning: 
     assert found.best.error < (0.02 if linkage == "four_bar" else 2e-3)
 
 
+@pytest.mark.rotating
 def test_slider_cranks_have_the_transmission_angle() -> None:
     for turning, asked in ((True, 40.0), (False, 85.0)):
         found = lw.function_generation(
@@ -97,6 +99,7 @@ def test_slider_cranks_have_the_transmission_angle() -> None:
             assert each.turns >= turning
 
 
+@pytest.mark.rotating
 def test_a_hidden_four_bar_is_found_with_the_angle_that_it_has() -> None:
     """Twelve pairs of a four-bar that does not turn fully, from its closed form: what is a degree less than its
     smallest transmission angle is met without an error, four degrees more only with one."""
@@ -141,6 +144,7 @@ def test_pairs_in_freudenstein_s_equation_refuse_what_they_do_not_have() -> None
         lw.function_generation(INPUTS, LOGARITHM, **given, transmission_angle=found + 0.01)
 
 
+@pytest.mark.rotating
 def test_paths_have_what_is_demanded() -> None:
     asked, pivot, angle = math.radians(30), (0.01, -0.02), 0.4
     found = lw.path_generation(PATH, pivot=pivot, direction=angle, transmission_angle=asked)
@@ -165,6 +169,7 @@ def test_timed_points_are_passed_at_their_angles() -> None:
     assert (off**2).sum() == pytest.approx(best.error, rel=1e-6, abs=1e-15)
 
 
+@pytest.mark.rotating
 def test_links_of_a_demanded_ratio() -> None:
     """A family whose smallest ratio is 2.917: 3 is met, 2 is refused with that number."""
     demands = SUFFICIENT["crank_rocker"]

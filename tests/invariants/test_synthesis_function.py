@@ -22,6 +22,7 @@ def turned_by_motion(candidate: lw.Candidate, inputs: np.ndarray, output: str = 
     return np.unwrap(angles) - angles[0]
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("count", [3, 4, 5])
 def test_exact_pairs_are_met_by_the_motion(count: int) -> None:
     x = 1.5 - 0.5 * np.cos((np.arange(count) + 0.5) * np.pi / count)
@@ -32,6 +33,7 @@ def test_exact_pairs_are_met_by_the_motion(count: int) -> None:
         assert turned_by_motion(each, inputs, name) == pytest.approx(outputs - outputs[0], abs=1e-7)
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("linkage", ["four_bar", "watt", "stephenson"])
 def test_least_squares_errors_are_those_of_the_motion(linkage: str) -> None:
     best = lw.function_generation(INPUTS, LOGARITHM, linkage=linkage).best
@@ -41,6 +43,7 @@ def test_least_squares_errors_are_those_of_the_motion(linkage: str) -> None:
     assert best.error < (2e-4 if linkage == "four_bar" else 2e-5)
 
 
+@pytest.mark.rotating
 def test_slider_crank_follows_its_function() -> None:
     best = lw.function_generation(INPUTS, 0.1 * LOGARITHM, linkage="slider_crank").best
     start = best.linkage.start
@@ -50,12 +53,14 @@ def test_slider_crank_follows_its_function() -> None:
     assert best.error < 1e-3 * 0.1
 
 
+@pytest.mark.rotating
 def test_zero_angles_do_not_matter_where_they_are_free() -> None:
     first = lw.function_generation(INPUTS, LOGARITHM)
     second = lw.function_generation(INPUTS + 0.8, LOGARITHM - 1.1)
     assert first.best.error == pytest.approx(second.best.error, rel=0.02)
 
 
+@pytest.mark.rotating
 def test_a_free_scale_is_no_worse() -> None:
     scaled = lw.function_generation(INPUTS, LOGARITHM, scale_free=True).best
     assert scaled.error <= lw.function_generation(INPUTS, LOGARITHM).best.error

@@ -43,6 +43,7 @@ def test_hidden_slider_crank_is_found_from_five_poses() -> None:
     )
 
 
+@pytest.mark.rotating
 def test_defects_are_those_that_the_motion_shows() -> None:
     """A linkage without defects passes all poses when its input turns through its range; others do not say so."""
     p, phi, _, _ = hidden_four_bars(12, 5, 5)
@@ -70,6 +71,7 @@ def test_three_poses_with_given_pivots() -> None:
     assert math.isfinite(found.best.transmission_angle)
 
 
+@pytest.mark.rotating
 def test_mixed_poses_and_points_are_met() -> None:
     """Four poses and two points leave as many numbers free as there are conditions: exact solutions."""
     theta = np.array([0.3, 1.1, 2.0, 3.1, 4.2, 5.2])

@@ -30,6 +30,7 @@ def worth(each: lw.Candidate, demand: float) -> float:
     return float(np.sin(each.transmission_angle) * min(1.0, 3.0 / size) * min(1.0, 10.0 / unequal))
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize(
     ("found", "demand"),
     [

@@ -21,6 +21,7 @@ def cases() -> Iterator[tuple[str, bool, int, float]]:
         yield kind, False, 14, 0.5
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize(("kind", "timed", "count", "share"), list(cases()))
 def test_hidden_four_bars_are_found_again(kind: str, timed: bool, count: int, share: float) -> None:
     rng = np.random.default_rng(11)
@@ -31,6 +32,7 @@ def test_hidden_four_bars_are_found_again(kind: str, timed: bool, count: int, sh
         assert relative(best, points) < (1e-9 if timed else 1e-3)
 
 
+@pytest.mark.rotating
 def test_noise_leaves_the_least_that_other_descents_find() -> None:
     """From the hidden four-bar itself, and from the solution, SciPy's least squares goes no lower."""
     rng = np.random.default_rng(4)

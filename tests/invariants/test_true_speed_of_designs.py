@@ -39,6 +39,7 @@ def test_pendulums_turn_over_by_the_elliptic_integral(sense: int) -> None:
         assert found["reached_fluctuation"][index] == pytest.approx((fastest - slowest) / mean, rel=1e-9)
 
 
+@pytest.mark.rotating
 def test_a_cycle_of_several_turns_of_the_motor_has_the_speeds_of_its_one_turn_of_the_crank() -> None:
     """A motor without inertia that turns the pendulum through a chain, three times as fast: all at once."""
     text = PENDULUM.format(speed=270, torque=-7).replace(
@@ -127,6 +128,7 @@ def test_designs_run_as_each_does_alone(name: str, inertia: float, by: str) -> N
         assert found["reached_fluctuation"][index] == pytest.approx(running.speed.fluctuation, rel=1e-10)
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("name", [*OWN, *SIZED])
 @pytest.mark.parametrize(
     ("machine", "inertia", "by"),
@@ -230,6 +232,7 @@ def test_random_machines_run_as_an_independent_reduction_says() -> None:
             )
 
 
+@pytest.mark.rotating
 def test_by_arrays_and_compiled_and_in_blocks_the_speeds_are_the_same() -> None:
     crusher = heavier("jaw_crusher_sixbar", 20.0)
     names, lengths = [*OWN, *SIZED, "peak_input_torque"], np.linspace(0.99, 1.005, 700)
@@ -315,6 +318,7 @@ def test_speeds_stand_where_they_occur() -> None:
     assert all(METRICS[name].on_request for name in (*OWN, *SIZED))
 
 
+@pytest.mark.rotating
 def test_friction_of_pins_is_that_at_the_mean_speed() -> None:
     """As in ``steady_running``, side by side."""
     crusher = heavier("jaw_crusher_sixbar", 20.0)

@@ -23,6 +23,8 @@ from linkwright.kinematics.certificate import (
 )
 from linkwright.kinematics.closed_loops import ClosedLoops
 
+pytestmark = pytest.mark.rotating
+
 Floats = NDArray[np.float64]
 MACHINES = (
     "triad", "class_four_group", "fourth_order_group", "stephenson_sixbar_triad", "slotted", "geared", "mixed",

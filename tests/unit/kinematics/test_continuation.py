@@ -23,6 +23,8 @@ from linkwright.kinematics.reach_sentences import branch_notes
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.metrics import Analysis
 
+pytestmark = pytest.mark.rotating
+
 Floats = NDArray[np.float64]
 
 

@@ -14,6 +14,8 @@ from linkwright.kinematics.solve import MotionRun
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinetostatics.run import forces_at_once, run_forces
 
+pytestmark = pytest.mark.rotating
+
 SIXBAR = "gallery:jaw_crusher_sixbar"
 
 

@@ -35,6 +35,7 @@ def parallel_cranks(o3: float = 1.0, length: float = 1.0, angle: float = 70.0, e
     return PARALLEL_CRANKS.format(o3=o3, length=length, x=x, y=y, bx=2 + x - 2 * error, cx=1 + x)
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("name", names())
 def test_gallery_rank_is_the_mobility_of_the_structure(name: str) -> None:
     mechanism, motion = machine(name), moved(name, 7)
@@ -45,6 +46,7 @@ def test_gallery_rank_is_the_mobility_of_the_structure(name: str) -> None:
         assert len(report.redundant) == report.mobility - report.grubler
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("name", names())
 def test_solved_positions_satisfy_the_joints(name: str) -> None:
     """The equations are built here from the joints alone, not from the groups that solved them."""

@@ -10,6 +10,8 @@ from linkwright.kinematics.solve import MotionRun
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinetostatics.run import forces_at_once, run_forces
 
+pytestmark = pytest.mark.rotating
+
 
 @pytest.mark.parametrize("load", LOADS)
 def test_loads_traced_with_the_motion_are_those_found_from_it(load: str) -> None:

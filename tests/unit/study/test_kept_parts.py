@@ -21,6 +21,8 @@ from linkwright.study.study import PIECE, _Work
 from linkwright.study.sweep_run import SweepRun
 from linkwright.words.sentence import Sentence
 
+pytestmark = pytest.mark.rotating
+
 CRANK = "gallery:crank_rocker"
 VARY = ["--vary", "coupler.length=3.2..3.8m:7"]  # so few that they are found one by one
 STUDY = ["study", CRANK, *VARY, "--metrics", "travel", "transmission_angle", "--json"]

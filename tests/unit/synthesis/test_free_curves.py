@@ -42,7 +42,10 @@ from linkwright.synthesis.free_curve.target import (
     symmetric_distance,
 )
 
-pytestmark = pytest.mark.skipif(not machine_code.available(), reason="llvmlite does not run here")
+pytestmark = [
+    pytest.mark.skipif(not machine_code.available(), reason="llvmlite does not run here"),
+    pytest.mark.rotating,
+]
 FOUR = np.array([0.9, 0.9 + 1.7j, 0.6j, 1.3 + 0.6j])  # a figure 4 in one stroke
 #: The one dyad slides, and both ends of sliding dyads move.
 SLIDING: tuple[list[Node], ...] = (

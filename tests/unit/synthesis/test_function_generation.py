@@ -7,6 +7,8 @@ from linkwright.synthesis.function_generation.exact import chebyshev_spacing, fi
 from linkwright.synthesis.function_generation.generators import KINDS, GearedFiveBar
 from linkwright.synthesis.function_generation.proven_extremes import extremes
 
+pytestmark = pytest.mark.rotating
+
 
 def test_five_pairs_of_a_hidden_four_bar() -> None:
     rng = np.random.default_rng(4)

@@ -24,7 +24,10 @@ from linkwright.synthesis.free_curve.nodes import FOUR_BAR, Design, flat
 from linkwright.synthesis.free_curve.search import Search, polished
 from linkwright.synthesis.free_curve.target import Target
 
-pytestmark = pytest.mark.skipif(not machine_code.available(), reason="llvmlite does not run here")
+pytestmark = [
+    pytest.mark.skipif(not machine_code.available(), reason="llvmlite does not run here"),
+    pytest.mark.rotating,
+]
 FOUR = np.array([0.9, 0.9 + 1.7j, 0.6j, 1.3 + 0.6j])  # a figure 4 in one stroke
 RING = [
     (20, 10),

@@ -8,6 +8,8 @@ from linkwright.synthesis.motion_generation.burmester import five_poses
 from linkwright.synthesis.motion_generation.families import cubic
 from linkwright.synthesis.motion_generation.mixed_poses import counted_solutions
 
+pytestmark = pytest.mark.rotating
+
 
 def test_hidden_four_bars_are_among_the_solutions_of_five_poses() -> None:
     p, phi, a, b = hidden_four_bars(1000, 5, 7)

@@ -14,6 +14,8 @@ from linkwright.synthesis.path_generation.compiled_starts import CompiledPaths
 from linkwright.synthesis.path_generation.projection import Demand, ProjectedPaths
 from linkwright.synthesis.result import different
 
+pytestmark = pytest.mark.rotating
+
 
 @pytest.mark.skipif(not available(), reason="llvmlite does not run here")
 @pytest.mark.parametrize(
