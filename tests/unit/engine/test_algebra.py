@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from tests.contract.test_engine_backends import random_program
 from tests.every import every
+from tests.unit.engine.random_programs import random_program
 
 from linkwright.engine import kernel, kernel_complex, linear, trace
 from linkwright.engine.lines import Lines

@@ -10,8 +10,7 @@ from types import SimpleNamespace
 from typing import Any, ClassVar
 
 import pytest
-from tests.contract.test_joints_traced import loaded
-from tests.contract.test_joints_written import read
+from tests.contract.joints_of_every_kind import MODEL, WRITTEN
 from tests.refusals import refused
 
 import linkwright as lw
@@ -28,6 +27,11 @@ joints: {pair: {links: [one, two], phase: 17 deg, ENTRY}}
 driver: {turn: one, about: A, speed: 1 rad/s}
 """
 CENTRES = 0.1 + 0.2j, 0.7 + 0.65j
+
+
+def written(kind: str) -> lw.Mechanism:
+    """A mechanism with a joint of a kind, of those that the contract of joints has."""
+    return lw.loads(MODEL.replace("JOINTS", WRITTEN[kind]))
 
 
 def pair(entry: str) -> tuple[lw.Mechanism, Any]:
@@ -154,7 +158,7 @@ def test_what_follows_changed_dimensions(
 )
 def test_an_edge_points_where_the_follower_is_lifted(kind: str) -> None:
     """Along the guide, or across the arm to the side on which it lies."""
-    mechanism = loaded(kind)
+    mechanism = written(kind)
     cam, edge = mechanism.joints["pair"].marks(mechanism, {})
     one = {name: complex(*place) for name, place in mechanism.links["one"].points.items()}
     arm = math.degrees(cmath.phase(one["P"] - one["A"]))
@@ -215,7 +219,7 @@ def test_a_kind_says_which_of_its_parts_is_lacking() -> None:
 @pytest.mark.parametrize("kind", ["rack", "rack, right", "rack, by module", "rack, by points"])
 def test_what_follows_changed_dimensions_of_a_rack(kind: str) -> None:
     """The pinion's radius and the line's direction from the dimensions; on which side the pinion lies."""
-    mechanism = read(kind)
+    mechanism = written(kind)
     rack = mechanism.joints["pair"]
     way = rack.following(mechanism)
     size = way.pinion.radius

@@ -1,7 +1,7 @@
 """Long chains of dyads cost what their links cost: no program of its own for every link or group."""
 
 import pytest
-from tests.invariants.test_friction_of_designs import four_bars
+from tests.invariants.fourbars import four_bars
 
 import linkwright as lw
 from linkwright.engine.program import Program

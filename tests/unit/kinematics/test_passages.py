@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from tests import store
-from tests.invariants.test_limits_change_points import fourbar
+from tests.invariants.fourbars import fourbar
 
 import linkwright as lw
 from linkwright.engine.numpy_backend import NumpyProgram

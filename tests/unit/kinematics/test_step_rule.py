@@ -7,7 +7,7 @@ from functools import cache
 import numpy as np
 import pytest
 from tests.every import every
-from tests.invariants.test_certificate import SLOTTED
+from tests.unit.kinematics.slotted_triad import SLOTTED
 
 import linkwright as lw
 from linkwright.cycle_programs.traced_outputs import Traced

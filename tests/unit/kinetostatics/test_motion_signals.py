@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from tests.unit.kinematics.test_whole_turns import DRAG, ROCKER, fourbar
+from tests.unit.kinematics.geared_followers import DRAG, ROCKER, fourbar
 
 import linkwright as lw
 from linkwright.core.outputs import Output

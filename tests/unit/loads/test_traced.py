@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from tests import store
 from tests.refusals import refused
-from tests.unit.loads.test_phases import Turning
+from tests.unit.loads.turning_crank import JAW, Turning
 
 from linkwright.core.expressions import parse
 from linkwright.core.outputs import Output
@@ -32,7 +32,6 @@ from linkwright.loads.magnitude import (
 )
 from linkwright.loads.over_cycle import evaluate
 
-JAW = Output("angle", "jaw")
 PLACE = Output("position", "jaw.P", "x")
 TURN = 2 * np.pi
 

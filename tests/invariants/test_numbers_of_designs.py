@@ -2,14 +2,18 @@
 
 import numpy as np
 import pytest
+from tests.invariants.numbers_alone import numbers_alone
+from tests.store import machine as stored
+from tests.store import motion as moved
 
 import linkwright as lw
-from linkwright.cycle_programs.metric_cycle import metric_cycle
 from linkwright.metrics import METRICS, metrics
 from linkwright.metrics.base import METRICS as REGISTRY
 from linkwright.metrics.base import Metric, Number
 
-NAMES = [name for name, metric in METRICS.items() if not metric.on_request]
+NAMES = [name for name, metric in METRICS.items() if not metric.on_request and name != "limit_position"]
+#: Numbers that are found of each design by itself.
+ALONE = ("double_point", "range_of_motion", "singularity")
 
 
 @pytest.mark.parametrize(
@@ -23,22 +27,18 @@ NAMES = [name for name, metric in METRICS.items() if not metric.on_request]
     ],
 )
 def test_every_number_is_that_of_the_machine_alone(model: str, by: str) -> None:
-    mechanism = lw.load(f"gallery:{model}")
-    cycle = metric_cycle(mechanism, [by], NAMES)
-    assert cycle is not None
+    mechanism = stored(model)
     columns = {by: mechanism.dimension(by) * np.array([1.0, 0.9993, 1.0007])}
-    found = cycle.evaluate(columns)
-    assert found.certain.all()
-    assert len(cycle.terms) >= 10
-    for index in (0, 2):
-        table = metrics(lw.solve_forces(mechanism.with_dimensions({by: float(columns[by][index])})))
-        for term in cycle.terms:
-            values = [row.value for row in table[term.name]]
-            better = METRICS[term.name].better
-            one = min(values) if better == "higher" else max(values, key=abs) if better else values[0]
-            assert found.values[term.name][index] == pytest.approx(one, rel=1e-11, abs=1e-9), term.name
+    alone = [numbers_alone(mechanism, columns, index, NAMES) for index in (0, 2)]
+    assert len(alone[0]) >= 10
+    found = lw.sweep(mechanism, columns, outputs=list(alone[0]))
+    for index, expected in zip((0, 2), alone, strict=True):
+        for name, value in expected.items():
+            near = {"rel": 1e-8} if name == "swept_area" else {"rel": 1e-11, "abs": 1e-9}
+            assert found[name][index] == pytest.approx(value, **near), name
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize(
     ("model", "by"),
     [
@@ -50,24 +50,20 @@ def test_every_number_is_that_of_the_machine_alone(model: str, by: str) -> None:
 def test_numbers_by_arrays_and_compiled_are_equal(model: str, by: str) -> None:
     """Design by design and in blocks, with a design that cannot be assembled among them. Sizes: two extremes of equal
     size and unlike signs govern in turn where the mechanism is symmetrical."""
-    mechanism = lw.load(f"gallery:{model}")
-    cycle = metric_cycle(mechanism, [by], NAMES)
-    assert cycle is not None
-    factors = np.linspace(0.98, 1.02, 300)
-    factors[7] = 0.01
-    columns = {by: mechanism.dimension(by) * factors}
-    compiled = cycle.evaluate(columns, backend="llvm")
-    arrays = cycle.evaluate(columns, backend="numpy")
-    assert not compiled.certain[7]
-    assert (compiled.certain == arrays.certain).all()
-    assert compiled.certain.sum() > 290
-    for name, values in arrays.values.items():
-        sure = arrays.certain
-        assert np.abs(compiled.values[name][sure]) == pytest.approx(
-            np.abs(values[sure]), rel=2e-12, abs=1e-12
-        ), name
+    mechanism = stored(model)
+    columns = {by: mechanism.dimension(by) * np.array([1.0, 0.99, 0.01, 1.01])}
+    names = [name for name in numbers_alone(mechanism, {}, 0, NAMES) if name not in ALONE]
+    assert len(names) >= 10
+    compiled, arrays = (
+        lw.sweep(mechanism, columns, outputs=names, backend=each) for each in ("llvm", "numpy")
+    )
+    assert compiled.ok.tolist() == arrays.ok.tolist() == [True, True, False, True]
+    for name in names:
+        one, other = (np.abs(each[name]) for each in (compiled, arrays))
+        assert one == pytest.approx(other, rel=2e-12, abs=1e-12, nan_ok=True), name
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize(
     ("name", "by"),
     [
@@ -86,7 +82,7 @@ def test_numbers_by_arrays_and_compiled_are_equal(model: str, by: str) -> None:
 )
 def test_gradients_are_those_of_differences_of_machines_alone(name: str, by: list[str]) -> None:
     """The crusher's load jumps at limit positions, which move with the dimensions."""
-    mechanism = lw.load("gallery:jaw_crusher_sixbar")
+    mechanism = stored("jaw_crusher_sixbar")
     objective = lw.objective(mechanism, name, vary=by)
     value, gradient = objective(objective.start)
     for place, address in enumerate(by):
@@ -102,7 +98,7 @@ def test_gradients_are_those_of_differences_of_machines_alone(name: str, by: lis
 
 def test_a_study_of_many_designs_equals_the_design_alone() -> None:
     """Numbers of the shared output and the flywheel among them; a design that cannot move is left out."""
-    mechanism = lw.load("gallery:jaw_crusher_sixbar")
+    mechanism = stored("jaw_crusher_sixbar")
     names = [
         "travel",
         "output_acceleration",
@@ -142,7 +138,7 @@ def test_a_metric_of_another_package_goes_the_same_way() -> None:
             )
 
     try:
-        mechanism = lw.load("gallery:jaw_crusher_sixbar")
+        mechanism = stored("jaw_crusher_sixbar")
         objective = lw.objective(mechanism, {"pin_work": 2.0, "peak_power": 1e-3}, vary=["toggle.length"])
         value, gradient = objective(objective.start)
         table = metrics(lw.solve_forces(mechanism), ["pin_work", "peak_power"])
@@ -158,7 +154,7 @@ def test_a_metric_of_another_package_goes_the_same_way() -> None:
 
 def test_sweeps_and_sensitivities_take_design_numbers() -> None:
     """A mechanism whose designs go side by side, and one with friction."""
-    crusher = lw.load("gallery:jaw_crusher_sixbar")
+    crusher = stored("jaw_crusher_sixbar")
     toggles = crusher.dimension("toggle.length") * np.array([1.0, 1.002, 40.0])
     found = lw.sweep(crusher, {"toggle.length": toggles}, outputs=["peak_reaction O5", "driver.effort max"])
     assert found.ok.tolist() == [True, True, False]
@@ -178,29 +174,26 @@ def test_sweeps_and_sensitivities_take_design_numbers() -> None:
     assert slopes.gradient("peak_reaction O5") == pytest.approx(gradient, rel=1e-11)
 
 
-def test_gradients_of_several_numbers_from_one_evaluation_are_those_of_each() -> None:
-    crusher, by = lw.load("gallery:jaw_crusher_sixbar"), ["toggle.length", "jaw.mass", "crank.length"]
+def test_gradients_of_sums_are_sums_of_gradients() -> None:
+    crusher, by = stored("jaw_crusher_sixbar"), ["toggle.length", "crank.length"]
     names = ["peak_reaction O5", "peak_input_torque", "transmission_angle"]
-    cycle = metric_cycle(crusher, by, names)
-    assert cycle is not None
     draw = np.random.default_rng(0)
     columns = {each: crusher.dimension(each) * draw.uniform(0.99, 1.01, 5) for each in by}
+    designs = np.stack(list(columns.values()), axis=1)
     sums = [*({name: 1.0} for name in names), {names[0]: 2.0, names[1]: -3.0}]
-    values, slopes = cycle.gradients(sums, columns, by)
-    for k, name in enumerate(names):
-        (value,), (slope,) = cycle.gradients([{name: 1.0}], columns, by)
-        assert values[k] == pytest.approx(value, rel=1e-13) and slopes[k] == pytest.approx(slope, rel=1e-11)
-    assert values[3] == pytest.approx(2 * values[0] - 3 * values[1], rel=1e-12)
-    assert slopes[3] == pytest.approx(2 * slopes[0] - 3 * slopes[1], rel=1e-9)
+    known = [lw.objective(crusher, each, vary=by).many(designs) for each in sums]
+    assert known[3][0] == pytest.approx(2 * known[0][0] - 3 * known[1][0], rel=1e-12)
+    assert known[3][1] == pytest.approx(2 * known[0][1] - 3 * known[1][1], rel=1e-9)
     # against differences of the values alone
     step = 1e-6 * crusher.dimension("toggle.length")
     ends = [
-        cycle.evaluate({**columns, "toggle.length": columns["toggle.length"] + sign * step}).values
+        lw.sweep(crusher, {**columns, "toggle.length": columns["toggle.length"] + sign * step}, outputs=names)
         for sign in (1, -1)
     ]
-    for k, name in enumerate(names):
+    for (values, slopes), name in zip(known, names, strict=False):
         rate = (ends[0][name] - ends[1][name]) / (2 * step)
-        assert slopes[k, :, 0] == pytest.approx(rate, rel=1e-5)
+        assert values == pytest.approx(0.5 * (ends[0][name] + ends[1][name]), rel=1e-7)
+        assert slopes[:, 0] == pytest.approx(rate, rel=1e-5)
 
 
 def test_a_slider_that_its_guide_presses_from_both_sides_has_the_numbers_of_the_machine_alone() -> None:
@@ -226,7 +219,7 @@ driver: {turn: crank, about: O, speed: 120 rpm}
 @pytest.mark.parametrize("name", ["stephenson_sixbar", "whitworth", "double_slider"])
 def test_masses_alone_take_no_work_in_a_cycle(name: str) -> None:
     """What is left of the mean power by rounding is shown as zero."""
-    forces = lw.solve_forces(lw.solve_motion(lw.load(f"gallery:{name}"), steps=72))
+    forces = lw.solve_forces(moved(name, 72))
     assert np.abs(forces.input_torque).max() > 0.1
     assert lw.metrics(forces, ["mean_power"]).value("mean_power") == 0.0
 
@@ -256,7 +249,7 @@ def test_torques_and_powers_that_are_nothing_beside_the_forces_are_zero(asked: l
 
 def test_a_constant_power_is_its_mean_over_inputs_of_ones_own() -> None:
     """40 N·m on the wheel of twice the teeth at 600 rpm: 20 · 20 π W at the motor, however uneven the inputs."""
-    motion = lw.solve_motion(lw.load("gallery:external_gear_pair"), at=[0.0, 0.1, 0.9, 1.0, 3.0])
+    motion = lw.solve_motion(stored("external_gear_pair"), at=[0.0, 0.1, 0.9, 1.0, 3.0])
     assert lw.metrics(lw.solve_forces(motion), ["mean_power"]).value("mean_power") == pytest.approx(
         400 * np.pi
     )

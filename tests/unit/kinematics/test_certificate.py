@@ -10,6 +10,7 @@ from itertools import product
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from tests.unit.kinematics.slotted_triad import SLOTTED
 
 import linkwright as lw
 from linkwright.kinematics.certificate import (
@@ -22,19 +23,12 @@ from linkwright.kinematics.certificate import (
 )
 from linkwright.kinematics.closed_loops import ClosedLoops
 
+pytestmark = pytest.mark.rotating
+
 Floats = NDArray[np.float64]
 MACHINES = (
     "triad", "class_four_group", "fourth_order_group", "stephenson_sixbar_triad", "slotted", "geared", "mixed",
 )  # fmt: skip
-SLOTTED = """format: 1
-name: Triad with a slot
-frame: {points: {O1: [0 mm, 0 mm], O2: [130 mm, -210 mm], O3: [360 mm, 90 mm]}}
-links: {crank: {points: [O1, A]}, bar: {points: [A, E]}, bar_2: {points: [O2, Q]}, bar_3: {points: [O3, R]},
-  plate: {points: [P, Q, R]}}
-drawing: {A: [30 mm, 0 mm], P: [210 mm, 90 mm], Q: [190 mm, -10 mm], R: [235 mm, 5 mm], E: [210 mm, 90 mm]}
-joints: {slot: {kind: prismatic, guide: bar, through: A, direction: [A, E], block: plate, at: P}}
-driver: {turn: crank, about: O1, speed: 10 rad/s}
-"""
 #: Wheels that turn against each other: one rotation is -2/3 of the other, which is unknown.
 GEARED = """format: 1
 name: Geared five-bar moved at its pin
