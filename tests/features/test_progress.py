@@ -9,7 +9,6 @@ from tests import store
 from tests.course_sheets import FOUR_BAR
 
 import linkwright as lw
-from linkwright.validation.published import from_gallery
 
 LENGTHS = np.linspace(1.2, 1.3, 400)
 
@@ -51,7 +50,7 @@ def test_a_sweep_tells_of_its_designs_and_finds_the_same_bits(
     assert [done for done, _ in calls] == sorted(done for done, _ in calls) and calls[-1][0] == count
 
 
-def test_studies_parts_comparisons_validations_and_courses_tell_it(tmp_path: Path) -> None:
+def test_studies_parts_comparisons_and_courses_tell_it(tmp_path: Path) -> None:
     crusher = store.machine("jaw_crusher_sixbar")
     few = {"pitman.length": np.linspace(1.2, 1.3, 40)}
     both = ["gallery:jaw_crusher_sixbar", "gallery:jaw_crusher_fourbar"]
@@ -60,7 +59,6 @@ def test_studies_parts_comparisons_validations_and_courses_tell_it(tmp_path: Pat
         lambda: lw.study(crusher, {"pitman.length": "1.2..1.3 m:40"}),
         lambda: lw.sweep_parts(crusher, few, tmp_path / "parts", outputs=["jaw.angle range"], part=16),
         lambda: lw.compare(both, metrics=["mean_power", "peak_input_torque"]),
-        lambda: lw.validate([*from_gallery("swing_conveyor"), *from_gallery("crank_rocker")]),
         lambda: lw.variants(lw.loads(FOUR_BAR), 3),
         lambda: lw.report(crusher, sections=["structure", "method"]),
     ):

@@ -6,8 +6,10 @@ from types import SimpleNamespace
 
 import pytest
 
+import linkwright as lw
 from linkwright.cli import progress as bars
 from linkwright.core.progress import PACE, paced, part_of
+from linkwright.validation.published import from_gallery
 from linkwright.words import speaker
 
 
@@ -32,6 +34,14 @@ def test_parts_are_one_whole() -> None:
             tell(done, 300)
     assert calls == [(done, 300) for done in (50, 100, 150, 200, 250, 300)]
     assert part_of(None, 0, 3) is None
+
+
+def test_validations_tell_of_their_cases() -> None:
+    cases = [*from_gallery("swing_conveyor"), *from_gallery("crank_rocker")]
+    calls: list[tuple[int, int]] = []
+    with lw.reporting(lambda done, total: calls.append((done, total))):
+        lw.validate(cases)
+    assert calls == [(k, len(cases)) for k in range(1, len(cases) + 1)]
 
 
 class Terminal(io.StringIO):
