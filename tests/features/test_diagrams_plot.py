@@ -50,7 +50,7 @@ def test_hodograph_has_equal_scales_and_the_forces(forces: lw.Forces) -> None:
         assert axes.get_aspect() == 1.0
         force = forces.reaction("O5", on="jaw", axes=view) / 1e3
         drawn = np.concatenate([np.column_stack(line.get_data()) for line in axes.lines])
-        for each in force[::10]:
+        for each in every(force[::10]):
             assert np.abs(drawn - each).max(axis=1).min() < 1e-12
 
 
@@ -198,7 +198,7 @@ def test_an_option_without_use_is_refused_by_every_kind(option: str, forces: lw.
 
 def test_limit_positions_and_phase_stand_where_the_gallery_file_says(forces: lw.Forces) -> None:
     diagram = plot(forces.motion, "sva")
-    for axes in diagram.figure.axes:
+    for axes in every(diagram.figure.axes, least=3):
         upright = [
             line.get_xdata()[0]
             for line in axes.lines
@@ -266,5 +266,6 @@ def test_a_plot_imports_nothing_that_it_does_not_write() -> None:
 def test_a_joint_that_carries_nothing_has_a_point_for_a_hodograph() -> None:
     """The guide of a yoke in line with its load: 4e-15 N by rounding were drawn as a scribble."""
     axes = plot(store.forces("scotch_yoke"), "hodographs", of=["guide"]).figure.axes[0]
-    assert all(not np.any(line.get_xydata()) for line in axes.lines if len(line.get_xydata()) > 2)
+    curves = every(line for line in axes.lines if len(line.get_xydata()) > 2)
+    assert not any(np.any(line.get_xydata()) for line in curves)
     assert axes.get_xlim()[1] > 0.5 and axes.get_xlabel() == "Fx (N)"

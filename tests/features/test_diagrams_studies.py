@@ -75,7 +75,7 @@ def test_a_comparison_lays_its_curves_over_each_other(comparison: Comparison) ->
     for axes, overlay, factor in zip(diagram.figure.axes, overlays, factors, strict=True):
         curves = drawn(axes, 91)
         assert len(curves) == 2
-        for (x, y), (passed, values) in zip(curves, overlay.lines.values(), strict=True):
+        for (x, y), (passed, values) in every(zip(curves, overlay.lines.values(), strict=True)):
             assert x[:-1] == pytest.approx(np.degrees(passed)) and y[:-1] == pytest.approx(values * factor)
             assert x[-1] == pytest.approx(360.0) and y[-1] == pytest.approx(y[0])  # the curves close
     labels = [axes.get_ylabel() for axes in diagram.figure.axes]

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from tests import store
+from tests.every import every
 from tests.refusals import refused
 
 import linkwright as lw
@@ -131,7 +132,7 @@ def test_names_of_arrows_stay_in_the_picture_over_the_whole_motion() -> None:
     """The tip of the bucket moves along the edge of the picture, with the name of its velocity."""
     animation = animate(store.motion("excavator", 40), velocities=True, frames=20)
     names: set[str] = set()
-    for index in animation.run:
+    for index in every(animation.run):
         root = ET.fromstring(animation.frame(index))
         left, top, width, height = map(float, root.get("viewBox", "").split())
         for group in root.iter(f"{SVG}g"):

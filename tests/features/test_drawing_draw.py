@@ -162,7 +162,7 @@ def test_both_limit_positions_lie_inside_the_picture(name: str) -> None:
     pins = circles_on_paper(both, "lw-pin")
     assert len(pins) > len(circles_on_paper(draw(motion), "lw-pin"))
     left, top, wide, tall = map(float, ET.fromstring(both.svg).get("viewBox", "").split())
-    for x, y in pins:
+    for x, y in every(pins):
         assert left < x < left + wide and top < y < top + tall
 
 

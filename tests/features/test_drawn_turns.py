@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from tests.every import every
 
 import linkwright as lw
 
@@ -40,7 +41,7 @@ def first(text: str, *points: str) -> None:
     mechanism = lw.loads(text)
     motion = lw.solve_motion(mechanism, steps=12, failures="mark")
     assert motion.ok[0]
-    for name in points:
+    for name in every(points):
         assert motion.point(name).position[0] == pytest.approx(mechanism.drawing[name], abs=1e-9)
 
 

@@ -32,7 +32,7 @@ def test_a_cycle_agrees(name: str) -> None:
         (begin, end), dt=(end - begin) / 180, config=rumoca.SimConfig(rtol=1e-9, atol=1e-11)
     )
     motion = lw.solve_motion(store.machine(name), times=np.clip(result.time, begin, end))
-    for link in motion.mechanism.links:
+    for link in every(motion.mechanism.links):
         found = motion.link(link)
         assert np.asarray(result[f"{link}_phi"]) == pytest.approx(found.angle, abs=2e-9)
         speed, bend = found.angular_velocity, found.angular_acceleration
@@ -50,7 +50,7 @@ def test_rates_keep_the_assembly_where_positions_may_lose_it() -> None:
     config = rumoca.SimConfig(rtol=1e-9, atol=1e-11)
     result = model.simulate((0.0, float(motion.time[-1])), dt=float(motion.time[1]), config=config)
     motion = lw.solve_motion(motion.mechanism, times=np.asarray(result.time))
-    for link in motion.mechanism.links:
+    for link in every(motion.mechanism.links):
         assert np.asarray(result[f"{link}_phi"]) == pytest.approx(motion.link(link).angle, abs=1e-6)
 
 

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from tests import store
+from tests.every import every
 from tests.refusals import refused
 
 import linkwright as lw
@@ -42,7 +43,7 @@ def test_csv_has_every_column_with_all_digits(forces: Forces, tmp_path: Path) ->
     path = export(forces, tmp_path / "a.csv")
     rows = rows_of(path)
     assert len(rows) == forces.steps
-    for name, values in forces.columns().items():
+    for name, values in every(forces.columns().items()):
         assert [float(row[name]) for row in rows] == values.tolist()
     load = [float(row["crushing.force.magnitude [N]"]) for row in rows]
     assert load == forces.load("crushing").magnitude.tolist()
@@ -80,7 +81,7 @@ def test_json_has_units_structure_and_a_model_that_loads(forces: Forces, tmp_pat
 def test_parquet_keeps_numbers_and_units(forces: Forces, tmp_path: Path) -> None:
     parquet = pytest.importorskip("pyarrow.parquet")
     table = parquet.read_table(export(forces, tmp_path / "a.parquet"))
-    for name, values in forces.columns().items():
+    for name, values in every(forces.columns().items()):
         assert np.array_equal(table[name].to_numpy(), values)
     field = table.schema.field("jaw.angular_velocity [rad/s]")
     assert field.metadata[b"unit"] == b"rad/s" and field.metadata[b"owner"] == b"jaw"

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from tests import store
 from tests.course_sheets import FOUR_BAR
+from tests.every import every
 
 import linkwright as lw
 
@@ -44,7 +45,9 @@ def test_a_sweep_tells_of_its_designs_and_finds_the_same_bits(
     count = len(next(iter(vary.values())))
     found, calls = told(lambda: lw.sweep(mechanism, vary, outputs=outputs))
     alone = columns_of(lw.sweep(mechanism, vary, outputs=outputs))
-    assert all(np.array_equal(alone[key], each, equal_nan=True) for key, each in columns_of(found).items())
+    assert all(
+        np.array_equal(alone[key], each, equal_nan=True) for key, each in every(columns_of(found).items())
+    )
     together = outputs == ["driver.effort rms"] and name != "kite"  # one piece of so few
     assert len(calls) > (0 if together else 1) and {total for _, total in calls} == {count}
     assert [done for done, _ in calls] == sorted(done for done, _ in calls) and calls[-1][0] == count

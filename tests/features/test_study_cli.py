@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from tests.cli.commands import is_refused
+from tests.every import every
 
 from linkwright.cli import main
 
@@ -37,7 +38,7 @@ def test_a_comparison_is_written_with_its_curves(tmp_path: Path, capsys: pytest.
     assert [row[0] for row in rows] == ["metric", "peak_input_torque [N·m]", "travel [rad]"]
     assert [float(cell) for cell in rows[1][1:]] == data["metrics"][0]["values"]
     lines = {each["name"]: each["lines"] for each in json.loads(curves.read_text())}
-    assert all(len(line["x"]) == len(line["y"]) == 360 for line in lines["input_torque"].values())
+    assert all(len(line["x"]) == len(line["y"]) == 360 for line in every(lines["input_torque"].values()))
     assert main(["compare", SIX, FOUR, "--output", str(table)]) == 2
 
 

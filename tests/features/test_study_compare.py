@@ -63,7 +63,7 @@ def test_every_value_is_the_one_of_the_machine_solved_alone(crushers: Comparison
 def test_the_flywheel_is_that_of_the_energy_of_the_torque(crushers: Comparison) -> None:
     """J = ΔE/(δ ω²) less what the links bring; ΔE by summing (mean - T) Δφ over fine steps."""
     omega = 170 * 2 * np.pi / 60
-    for each in crushers.alternatives:
+    for each in every(crushers.alternatives):
         forces = lw.solve_forces(lw.solve_motion(each.mechanism, steps=14400))
         torque, turn = forces.input_torque, 2 * np.pi / 14400
         energy = np.cumsum((torque - torque.mean()) * turn)
@@ -136,7 +136,7 @@ def test_equal_machines_are_equal() -> None:
     found = compare([machine, machine], metrics=["peak_input_torque", "flywheel"])
     assert found.labels == (FOUR, f"{FOUR} (2)")
     assert [rank.score for rank in found.ranking] == [1.0, 1.0]
-    assert all(row.best == () for row in found.rows)
+    assert all(row.best == () for row in every(found.rows))
 
 
 def test_outputs_are_named_per_machine() -> None:

@@ -31,7 +31,7 @@ def test_same_as_solving_alone(name: str, changes: dict[str, float], backend: st
     alone = lw.solve_forces(mechanism.with_dimensions(changes))
     torque = alone.input_torque
     assert np.abs(found.input_torque - torque).max() <= 1e-9 * np.abs(torque).max()
-    for joint in mechanism.joints:
+    for joint in every(mechanism.joints):
         on = [link for link in mechanism.joints[joint].joined if link != "frame"][-1]
         want = alone.reaction(joint, on=on)
         assert np.abs(found.reaction(joint, on=on) - want).max() <= 1e-9 * (np.abs(want).max() + 1)

@@ -26,7 +26,7 @@ def test_parts_are_the_sweep_and_a_restart_makes_what_is_missing(tmp_path: Path)
     mesh = np.meshgrid(np.linspace(3.2, 4, 40), np.linspace(2, 2.8, 30), indexing="ij")
     whole = lw.sweep(crank, dict(zip(VARY, map(np.ravel, mesh), strict=True)), outputs=NUMBERS, steps=60)
     columns = found.columns()
-    for name, column in whole.columns().items():
+    for name, column in every(whole.columns().items()):
         assert columns[name] == pytest.approx(column, rel=1e-12, nan_ok=True)
     best = found.best("rocker.angle range", 3, largest=True)
     assert best["rocker.angle range"][0] == np.nanmax(columns["rocker.angle range"])

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 import numpy as np
 import pytest
+from tests.every import every
 
 from linkwright.core.piecewise import NODES, POINTS, WEIGHTS
 from linkwright.cycle_programs.piece_summaries import PieceSummaries, Reduced
@@ -116,7 +117,7 @@ def test_compiled_is_as_by_arrays(pieces: int) -> None:
     pytest.importorskip("llvmlite")
     (compiled, edges), (arrays, _) = (reduced(pieces, each) for each in ("llvm", "numpy"))
     assert compiled.bounds.keys() == arrays.bounds.keys() and compiled.peaks.keys() == arrays.peaks.keys()
-    for name, rows in arrays.bounds.items():
+    for name, rows in every(arrays.bounds.items()):
         size = np.maximum(np.abs(rows[0]), np.abs(rows[1])) + 1.0
         for mine, other in zip(compiled.bounds[name], rows, strict=True):
             assert np.abs(mine - other) / size == pytest.approx(0.0, abs=2e-14), name
@@ -124,7 +125,7 @@ def test_compiled_is_as_by_arrays(pieces: int) -> None:
         for mine, other in zip(compiled.powers[name], rows, strict=True):
             size = np.abs(rows[1]) + 1.0
             np.testing.assert_allclose(mine / size, other / size, rtol=0, atol=2e-14, err_msg=name)
-    for (name, side), rows in arrays.peaks.items():
+    for (name, side), rows in every(arrays.peaks.items()):
         size = np.maximum(*np.abs(arrays.bounds[name][:2])) + 1.0
         mine = compiled.peaks[name, side]
         assert np.abs(mine[2] - rows[2]) / size == pytest.approx(0.0, abs=3e-13), (name, side)

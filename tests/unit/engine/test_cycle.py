@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from tests.every import every
 
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.cycle_gradient import cycle_gradient
@@ -113,7 +114,7 @@ def test_a_design_that_cannot_turn_has_no_results(backend: Backend) -> None:
     table[4, 1] = 0.9 * table[4, 0]
     got = whole().evaluate(table, INPUT, backend=backend)
     want = whole().evaluate(np.delete(table, 4, axis=0), INPUT, backend=backend)
-    for name in whole().results:
+    for name in every(whole().results):
         np.testing.assert_array_equal(np.delete(got[name], 4), want[name])
         assert math.isnan(got[name][4]) or got[name][4] == -1, name
     assert math.isnan(got["stroke"][4])
@@ -148,7 +149,7 @@ def test_results_depend_neither_on_threads_nor_on_the_other_designs(backend: Bac
         np.testing.assert_array_equal(values, two[name])
         np.testing.assert_array_equal(values[700:717], part[name])
     empty = cycle.evaluate(table[:0], INPUT, backend=backend)
-    assert all(values.shape == (0,) for values in empty.values())
+    assert all(values.shape == (0,) for values in every(empty.values()))
 
 
 @pytest.mark.parametrize("backend", BACKENDS)

@@ -9,6 +9,7 @@ import mpmath
 import numpy as np
 import pytest
 from mpmath import mpf
+from tests.every import every
 from tests.objectives import Term, gradient_of, table_of
 
 from linkwright.engine.derivative import forward, reverse
@@ -133,7 +134,7 @@ def test_gradients_equal_differences(terms: list[Term], backend: str) -> None:
         at = {n: float(v[d]) for n, v in designs.items()}
         want = objective_exactly(program, terms, {k: mpf(v) for k, v in at.items()})
         assert values[d] == pytest.approx(float(want), rel=1e-12)
-        for column, name in enumerate(gradient.wrt):
+        for column, name in every(enumerate(gradient.wrt)):
             slope = difference(program, name, at, lambda v: objective_exactly(program, terms, v))
             assert slopes[d, column] == pytest.approx(slope, rel=1e-11, abs=1e-12)
 

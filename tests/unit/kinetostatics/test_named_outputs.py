@@ -339,7 +339,7 @@ def test_conditioning_is_the_determinant_of_the_cuts_rates(name: str) -> None:
     for cut in every(group.cuts, least=2):
         assert not cut.slides
     columns = []
-    for step in group.unknowns:
+    for step in every(group.unknowns):
         assert step.turns
         pivot = motion.point(step.joint).position
         column = []

@@ -85,7 +85,7 @@ def test_equations_too_wide_for_a_line_are_set_below_each_other_and_lose_nothing
     ]
     found = list(set_lines(sides, 20.0, 9.0))
     assert [line.place for line in found] == ["left", "right", "further", "sign", "further"]
-    assert all(width(line.row) <= 20.0 for line in found)
+    assert all(width(line.row) <= 20.0 for line in every(found))
     items = [item for line in found for item in line.row.items]
     assert items == [*sides[0].items, SIGN, *sides[1].items, SIGN, *sides[2].items]
     assert [line.place for line in set_lines([sides[2], sides[0]], 15.0, 9.0)] == ["left", "below"]
