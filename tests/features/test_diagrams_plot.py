@@ -63,7 +63,7 @@ def test_mean_torque_is_marked_as_the_power_over_the_speed(forces: lw.Forces) ->
         if len(set(line.get_ydata())) == 1 and line.get_ydata()[0]
     ]
     assert any(line.get_ydata()[0] == pytest.approx(mean, rel=1e-4) for line in levels)
-    assert any(text.startswith("mean −") and text.endswith("N·m") for text in words_of(diagram))
+    assert any("−" in text and text.endswith(" N·m") for text in words_of(diagram))
 
 
 def test_a_small_mean_has_a_unit_in_which_it_can_be_read() -> None:
@@ -77,11 +77,11 @@ driver: {turn: wheel, about: O, speed: 10 rad/s}
 loads:
   push: {kind: torque, on: wheel, magnitude: "1e8 N·m * sin(input) - MEAN N·m"}
 """
-    for mean, shown in ((9426, "mean 9426 N·m"), (9426e3, "mean 9.426 MN·m"), (0, "mean 0 MN·m")):
+    for mean, shown in ((9426, " 9426 N·m"), (9426e3, " 9.426 MN·m"), (0, " 0 MN·m")):
         forces = lw.solve_forces(lw.loads(model.replace("MEAN", str(mean))))
         diagram = lw.plot(forces, "torque")
         assert any("(MN·m)" in text for text in words_of(diagram))
-        assert shown in words_of(diagram)
+        assert [text for text in words_of(diagram) if text.endswith(shown)]
 
 
 def test_results_draw_themselves(forces: lw.Forces) -> None:

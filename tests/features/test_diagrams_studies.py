@@ -59,6 +59,12 @@ def words_of(diagram: Diagram) -> set[str]:
     return {text.get_text() for text in diagram.figure.findobj(Text) if text.get_text()}
 
 
+def named_in_legend(diagram: Diagram) -> set[str]:
+    """What the legends of a diagram name."""
+    legends = [*diagram.figure.legends, *(axes.get_legend() for axes in diagram.figure.axes)]
+    return {text.get_text() for each in legends if each is not None for text in each.get_texts()}
+
+
 def drawn(axes: Axes, count: int | None = None) -> list[tuple[Floats, Floats]]:
     """Abscissas and ordinates of the lines, or of those that have so many points."""
     found = [
@@ -80,7 +86,7 @@ def test_a_comparison_lays_its_curves_over_each_other(comparison: Comparison) ->
             assert x[-1] == pytest.approx(360.0) and y[-1] == pytest.approx(y[0])  # the curves close
     labels = [axes.get_ylabel() for axes in diagram.figure.axes]
     assert [label.rpartition("\n")[2] for label in labels] == ["(°)", "(rad/s)", "(rad/s²)", "(kN)", "(N·m)"]
-    assert diagram.figure.axes[-1].get_xlabel() == "input passed φ (°)"
+    assert diagram.figure.axes[-1].get_xlabel().endswith(" φ (°)")
     assert set(comparison.labels) <= words_of(diagram)
 
 
@@ -108,8 +114,8 @@ def test_outputs_that_turn_and_that_slide_have_panels_of_their_own() -> None:
     )
     figure = found.plot(of=["travel", "velocity"]).figure
     assert [len(drawn(axes, 37)) for axes in figure.axes] == [1, 1, 1, 1]
-    assert [axes.get_ylabel() for axes in figure.axes] == [
-        "angle θ\n(°)", "displacement s\n(mm)", "angular velocity ω\n(rad/s)", "velocity v\n(m/s)",
+    assert [axes.get_ylabel().split()[-2:] for axes in figure.axes] == [
+        ["θ", "(°)"], ["s", "(mm)"], ["ω", "(rad/s)"], ["v", "(m/s)"],
     ]  # fmt: skip
 
 
@@ -126,7 +132,7 @@ def test_a_study_over_one_dimension_is_a_curve_with_its_failures(one: Study) -> 
     best = one.best("transmission_angle")
     assert (x[0], y[0]) == pytest.approx((b[best], np.degrees(one["transmission_angle"][best])))
     assert angle.get_ylabel().endswith("\n(°)") and speed.get_xlabel() == "coupler.length (m)"
-    assert {"design fails", "best"} <= words_of(diagram)
+    assert len(named_in_legend(diagram)) == 2  # designs that fail, and the best one
 
 
 def test_a_study_over_two_dimensions_is_a_map(two: Study) -> None:
@@ -141,7 +147,7 @@ def test_a_study_over_two_dimensions_is_a_map(two: Study) -> None:
         *zip(two["coupler.length"][~two.ok], two["rocker.length"][~two.ok] * 1e3, strict=True)
     }
     assert (axes.get_xlabel(), axes.get_ylabel()) == ("coupler.length (m)", "rocker.length (mm)")
-    assert bar.get_ylabel() == "travel of the output (°)"
+    assert bar.get_ylabel().endswith("(°)")
 
 
 def test_a_sobol_study_is_a_cloud_over_every_dimension() -> None:
@@ -207,7 +213,7 @@ def test_sensitivity_curves_are_changes_for_one_per_cent() -> None:
         ((x, y),) = drawn(axes, 36)
         assert x == pytest.approx(np.degrees(found.input))
         assert y == pytest.approx(found.slope(name, "crank.length") * step * factor)
-    assert angle.get_ylabel() == "change of jaw.angle\n(°)" and "crank.length + 1 %" in words_of(diagram)
+    assert angle.get_ylabel().endswith("jaw.angle\n(°)") and "crank.length + 1 %" in words_of(diagram)
 
 
 def test_numbers_stand_against_their_limits() -> None:
@@ -218,7 +224,7 @@ def test_numbers_stand_against_their_limits() -> None:
     (x, _), (limit, _) = drawn(axes)[-1], drawn(axes)[0]
     assert x == pytest.approx(np.degrees([row.value for row in rows]))
     assert limit == pytest.approx([40.0, 40.0])
-    assert axes.get_xlabel().endswith("(°)") and "recommended limit" in words_of(diagram)
+    assert axes.get_xlabel().endswith("(°)") and len(named_in_legend(diagram)) >= 1
     bare = metrics(store.motion("crank_rocker", 72), "coupler_curve_length")
     with refused("picture.no_limit", RequestError, name="coupler_curve_length"):
         bare.plot()
@@ -234,7 +240,8 @@ def test_a_torque_curve_jumps_upright_and_shows_its_mean() -> None:
     jump = int(np.argmin(np.diff(y)))
     assert (x[jump], x[jump + 1]) == pytest.approx((90.0, 90.0), abs=1e-6)
     assert (y[jump], y[jump + 1]) == pytest.approx((800.0, -300.0), abs=1e-3)
-    assert "mean −112.5 N·m" in words_of(diagram) and axes.get_ylabel() == "torque T\n(N·m)"
+    assert [text for text in words_of(diagram) if text.endswith(" −112.5 N·m")]
+    assert axes.get_ylabel().endswith(" T\n(N·m)")
 
 
 def test_a_balancing_shows_before_and_after(balanced: Balancing) -> None:
@@ -246,8 +253,8 @@ def test_a_balancing_shows_before_and_after(balanced: Balancing) -> None:
     for axes, name in ((moment, "shaking_moment"), (torque, "input_torque")):
         for (_, y), forces in zip(drawn(axes, 73), (balanced.before, balanced.after), strict=True):
             assert y[:-1] == pytest.approx(getattr(forces, name)) and y[-1] == pytest.approx(y[0])
-    assert force.get_xlabel() == "Fx (N)" and moment.get_ylabel() == "shaking moment M\n(N·m)"
-    assert {"without counterweights", "with counterweights"} <= words_of(diagram)
+    assert force.get_xlabel() == "Fx (N)" and moment.get_ylabel().endswith(" M\n(N·m)")
+    assert len(named_in_legend(diagram)) == 2
 
 
 def test_a_coupler_curve_is_closed_and_holds_its_area() -> None:
@@ -267,8 +274,7 @@ def test_double_points_are_ringed() -> None:
     diagram = found.plot()
     (ring,) = drawn(diagram.figure.axes[0], len(found.double_points))
     assert np.column_stack(ring) == pytest.approx(np.array([spot for spot, _ in found.double_points]) * 1e3)
-    assert "double point" in words_of(diagram)
-    assert "double point" not in words_of(found.plot(marks=False))
+    assert words_of(diagram) > words_of(found.plot(marks=False))
 
 
 def test_chinese_diagrams_have_no_boxes(comparison: Comparison, two: Study, balanced: Balancing) -> None:

