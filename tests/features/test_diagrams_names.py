@@ -10,6 +10,7 @@ import linkwright as lw
 from linkwright.plot import plot
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize(
     ("name", "kind"),
     [

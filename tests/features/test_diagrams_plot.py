@@ -107,6 +107,7 @@ def test_several_results_lie_over_each_other() -> None:
         plot([CRUSHER, longer])
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("kind", ["sva", "hodograph", "torque", "acceleration_polygon", "force_polygon"])
 def test_chinese_with_greek_letters_and_units_has_no_boxes(kind: str, forces: lw.Forces) -> None:
     diagram = drawn_in_chinese(forces, kind, at=-0.7 if "polygon" in kind else None)
@@ -252,6 +253,7 @@ def test_sizes_beyond_all_paper_are_refused(forces: lw.Forces) -> None:
         plot(forces, "torque").png(dpi=1e5)
 
 
+@pytest.mark.rotating
 def test_a_plot_imports_nothing_that_it_does_not_write() -> None:
     code = (
         "import sys, linkwright as lw; from linkwright.plot import plot;"

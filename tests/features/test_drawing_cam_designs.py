@@ -33,6 +33,7 @@ def test_what_turns_stands_on_supports_and_what_slides_is_guided(
     assert len(grounds) == supports + walls
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("kind", ["cam_motion", "cam_checks", "cam_vibration"])
 @pytest.mark.parametrize("language", ["en", "zh"])
 def test_every_panel_names_its_quantity_and_its_unit(kind: str, language: str) -> None:

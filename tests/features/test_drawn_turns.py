@@ -84,6 +84,7 @@ driver: {turn: crank, about: O, speed: 10 rpm}
 """
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("pair", PAIRS)
 @pytest.mark.parametrize(("along", "yoke"), [(0, 0), (360, 0), (-180, -180), (180, 540)])
 @pytest.mark.parametrize(("across", "block"), [(90, 90), (-270, 90), (90, 450)])

@@ -25,6 +25,7 @@ def forces() -> lw.Forces:
     return lw.solve_forces(lw.solve_motion(replace(lw.loads(text), name=NAME), steps=24))
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("kind", ["sva", "torque", "velocity_polygon", "force_polygon"])
 def test_diagrams_are_xml(forces: lw.Forces, kind: str) -> None:
     ET.fromstring(plot(forces, kind).svg())

@@ -34,6 +34,7 @@ def chain(dyads: int, order: str) -> lw.Mechanism:
     )
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("order", ["file", "reversed", "shuffled"])
 def test_structure_grows_linearly(order: str) -> None:
     few, many = chain(FEW, order), chain(MANY, order)

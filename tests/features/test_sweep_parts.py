@@ -64,6 +64,7 @@ def test_the_command(tmp_path: Path) -> None:
     is_refused([*words, "--folder", str(tmp_path / "a"), "--part", "32"], "study.other_sweep")
 
 
+@pytest.mark.rotating
 def test_a_cluster_gives_the_same_bits(tmp_path: Path) -> None:
     distributed = pytest.importorskip("distributed")
     from tests.cluster import TEETH

@@ -44,6 +44,7 @@ def test_gallery_comes_out_with_a_calculator(name: str) -> None:
     assert wrong == []
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("seed", range(24))
 def test_any_mechanism_comes_out_with_a_calculator(seed: int) -> None:
     forces = forces_of(lw.loads(random_mechanism(seed, with_loads=True)), steps=3)
@@ -53,6 +54,7 @@ def test_any_mechanism_comes_out_with_a_calculator(seed: int) -> None:
     assert wrong == []
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("seed", [10, 13, 18, 23, 26, 33])
 def test_geared_loops_and_racks_come_out_with_a_calculator(seed: int) -> None:
     times = np.linspace(0.0, 0.12, 5)
@@ -66,6 +68,7 @@ def test_geared_loops_and_racks_come_out_with_a_calculator(seed: int) -> None:
     assert [name for name in moving if name not in seen and not any(word in name for word in BESIDE)] == []
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("seed", [2, 7, 8, 13, 20])
 def test_loops_whose_pairs_act_on_cut_pins_come_out_with_a_calculator(seed: int) -> None:
     """Gears, belts and racks between links of a loop, read in an order in which a pin beside them is cut."""
@@ -118,6 +121,7 @@ def test_every_joint_force_and_effort_is_found(name: str) -> None:
     assert set(efforts) <= seen
 
 
+@pytest.mark.long
 def test_a_wrong_line_would_be_found() -> None:
     assert reckon("2·(-3)² - √(16)/cos(60°)") == pytest.approx(10.0)
     assert reckon("-3²") == -9.0

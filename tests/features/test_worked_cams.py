@@ -58,6 +58,7 @@ def test_a_guided_follower_is_worked_out(touch: str, sense: str, offset: float) 
         checked(forces, index, cam, phi, turn * phi - inputs[index])
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("touch", ["roller", "knife", "flat"])
 @pytest.mark.parametrize("side", ["right", "left"])
 @pytest.mark.parametrize("sense", SENSES)

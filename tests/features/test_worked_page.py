@@ -58,6 +58,7 @@ def test_both_languages_say_the_same_equations(conveyor: lw.Forces) -> None:
     assert not [one for one, other in titles if one == other and one.isascii()]
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("name", [name for name in lw.gallery_names() if name != "printing_press"])
 def test_every_page_keeps_its_width_and_its_braces(name: str) -> None:
     motion = lw.solve_motion(store.machine(name), steps=4, failures="mark")

@@ -17,6 +17,7 @@ def _tracks(count: int, seed: int) -> np.ndarray:
     return np.concatenate([crank, rocker, random.normal(size=(count, 2))])
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("seed", range(12))
 @pytest.mark.parametrize("count", [2, 10, 360])
 def test_hull_is_that_of_scipy(count: int, seed: int) -> None:

@@ -15,6 +15,7 @@ def knots(count: int, seed: int) -> tuple[np.ndarray, np.ndarray]:
     return np.cumsum(rng.uniform(0.1, 2.0, count)) - 3.0, rng.normal(size=count)
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("seed", range(3))
 @pytest.mark.parametrize("count", COUNTS)
 def test_it_is_the_spline_of_scipy(count: int, seed: int) -> None:
@@ -26,6 +27,7 @@ def test_it_is_the_spline_of_scipy(count: int, seed: int) -> None:
         np.testing.assert_allclose(found, expected, rtol=0, atol=1e-12 * max(1.0, np.abs(expected).max()))
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("seed", range(3))
 @pytest.mark.parametrize("count", COUNTS)
 def test_the_periodic_one_is_that_of_scipy(count: int, seed: int) -> None:

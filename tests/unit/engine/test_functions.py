@@ -359,6 +359,7 @@ def test_a_slope_in_the_trace_is_a_value_like_others() -> None:
         tr.slope(y, {tr.Trace().position("x"): 1.0})
 
 
+@pytest.mark.long
 @needs_compiler
 @pytest.mark.parametrize("name", ["sin", "cos", "atan", "angle"])
 def test_functions_in_all_lanes_are_exact_to_two_units_in_the_last_place(name: str) -> None:

@@ -55,6 +55,7 @@ def test_a_wheel_on_the_crank_itself(ratio: str, turns: int | None) -> None:
     assert whole_turns(mechanism, np.pi) == turns
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize(("ratio", "turns"), [("-0.025", 40), ("-0.03225806451612903", 1240)])
 def test_wheels_on_crank_and_follower_are_back_together(ratio: str, turns: int) -> None:
     """1/40 on the crank; 1/40 or 1/31 on the follower: of 1240 turns no cycle is made."""

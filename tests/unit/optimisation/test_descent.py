@@ -82,6 +82,7 @@ def test_known_curvature_ends_a_narrow_valley_in_few_steps() -> None:
     assert np.abs(descended(squares(0.0), starts, 8) - least).max() > 1e-2
 
 
+@pytest.mark.rotating
 def test_the_least_largest_of_many_beside_linear_programming() -> None:
     draw = np.random.default_rng(2)
     rows, wanted = draw.normal(size=(15, 5)), draw.normal(size=15)

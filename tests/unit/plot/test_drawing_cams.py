@@ -29,6 +29,7 @@ def seen(motion: lw.Motion, link: str, *points: tuple[float, float]) -> np.ndarr
     return np.stack([placed.world(point) @ [1, 1j] for point in points], axis=1)
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("sense", ["counterclockwise", "clockwise"])
 @pytest.mark.parametrize(("held", "side"), CASES)
 @pytest.mark.parametrize("touch", ["roller", "knife", "groove"])

@@ -108,6 +108,7 @@ def test_pole_and_points_never_share_a_letter(points: list[str], pole: str, name
     assert len({pole, *images.values()}) == len(points) + 1 and all(n.endswith("′") for n in images.values())
 
 
+@pytest.mark.rotating
 def test_every_mechanism_of_the_gallery_has_distinct_letters() -> None:
     for name in every(store.names(), least=40):
         motion = lw.solve_motion(store.machine(name), steps=7, failures="mark")
