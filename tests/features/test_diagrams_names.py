@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from matplotlib.patches import Circle
 from matplotlib.text import Annotation
+from tests import store
 from tests.every import every
 
 import linkwright as lw
@@ -23,8 +24,8 @@ from linkwright.plot import plot
 )
 def test_names_do_not_lie_on_each_other(name: str, kind: str) -> None:
     """Ends of a swing, where inputs are near each other, and points where a path begins."""
-    solved = lw.solve_motion(lw.load(f"gallery:{name}"), steps=180)
-    figure = plot(solved if kind == "paths" else lw.solve_forces(solved), kind).figure
+    solved = store.motion(name, 180) if kind == "paths" else store.forces(name, 180)
+    figure = plot(solved, kind).figure
     figure.draw_without_rendering()
     names = 0
     for axes in figure.axes:
@@ -41,8 +42,8 @@ def test_names_do_not_lie_on_each_other(name: str, kind: str) -> None:
 
 def test_positions_show_pitch_circles_whole() -> None:
     """Gears of 20, 30 and 60 teeth beside a polygon: their radii, and that they lie within the axes."""
-    mechanism = lw.load("gallery:geared_fivebar_third")
-    figure = plot(lw.solve_motion(mechanism, steps=72), "velocity_polygon").figure
+    mechanism = store.machine("geared_fivebar_third")
+    figure = plot(store.motion("geared_fivebar_third", 72), "velocity_polygon").figure
     axes = figure.axes[0]
     circles = [each for each in axes.patches if isinstance(each, Circle)]
     radii = sorted(each.radius for each in circles)
@@ -57,7 +58,7 @@ def test_positions_show_pitch_circles_whole() -> None:
 
 def test_supports_stand_above_pins_from_which_links_hang() -> None:
     """The crusher's jaw hangs from O5; its crank and its rocker stand on O1 and O3."""
-    figure = plot(lw.solve_motion(lw.load("gallery:jaw_crusher_sixbar"), steps=72), "velocity_polygon").figure
+    figure = plot(store.motion("jaw_crusher_sixbar", 72), "velocity_polygon").figure
     drawn = [
         (float(np.ravel(line.get_ydata())[0]), line.get_marker().vertices[:, 1].min() < 0)
         for line in figure.axes[0].lines

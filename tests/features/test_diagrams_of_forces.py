@@ -61,7 +61,7 @@ def test_every_driver_has_a_panel_with_its_own_force(forces: lw.Forces) -> None:
 
 
 def test_a_turning_driver_has_a_torque() -> None:
-    shaper = lw.load("gallery:shaper_quick_return")
+    shaper = store.machine("shaper_quick_return")
     (axes,) = plot(shaper, "torque").figure.axes
     assert axes.get_ylabel().endswith("(N·m)")
     curve = max(axes.lines, key=lambda line: len(line.get_xdata()))

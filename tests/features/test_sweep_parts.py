@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from tests import store
 from tests.cli.commands import data, is_refused, shown
+from tests.cluster import TEETH
 from tests.every import every
 from tests.refusals import refused
 
@@ -67,9 +68,7 @@ def test_the_command(tmp_path: Path) -> None:
 @pytest.mark.rotating
 def test_a_cluster_gives_the_same_bits(tmp_path: Path) -> None:
     distributed = pytest.importorskip("distributed")
-    from tests.cluster import TEETH
-
-    crank, pair = lw.load("gallery:crank_rocker"), lw.loads(TEETH)  # whose teeth go one by one
+    crank, pair = store.machine("crank_rocker"), lw.loads(TEETH)  # whose teeth go one by one
     draw = np.random.default_rng(1)
     columns = {"coupler.length": draw.uniform(3.2, 4, 4100), "rocker.length": draw.uniform(2, 2.8, 4100)}
     search = {"evaluations": 12, "population": 6}

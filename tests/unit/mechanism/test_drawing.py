@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 import pytest
+from tests import store
 
 import linkwright as lw
 from linkwright.mechanism.drawing import Drawing
@@ -30,5 +31,5 @@ def test_what_neither_is_drawn_nor_follows_has_no_angle() -> None:
     drawing = Drawing(mechanism)
     assert drawing.angle("crank") == pytest.approx(math.radians(200))
     assert mechanism.joints["two"].phase == 0.0  # type: ignore[attr-defined]
-    bars = Drawing(lw.load("gallery:crank_rocker"))
+    bars = Drawing(store.machine("crank_rocker"))
     assert [bars.angle(link) is None for link in bars.mechanism.links] == [False, True, True]
