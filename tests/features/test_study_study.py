@@ -19,6 +19,23 @@ from linkwright import study
 from linkwright.errors import RequestError
 
 
+@pytest.mark.parametrize(
+    ("address", "given", "values"),
+    [
+        ("pitman.length", "1.2..1.3 m:11", np.linspace(1.2, 1.3, 11)),
+        ("pitman.length", "1200 mm .. 1.3 m : 3", [1.2, 1.25, 1.3]),
+        ("jaw.mass", "700, 900 kg", [700.0, 900.0]),
+        ("jaw.mass", "700..900 kg", np.linspace(700.0, 900.0, 11)),
+        ("jaw.mass", [1.0, 2.0], [1.0, 2.0]),
+        ("frame.O3.y", "-1.1..-0.9 m:2", [-1.1, -0.9]),
+        ("driver.speed", "-60..60 rpm:2", [-2 * np.pi, 2 * np.pi]),
+    ],
+)
+def test_a_range_is_what_it_says(address: str, given: object, values: list[float]) -> None:
+    found = study(store.machine("jaw_crusher_sixbar"), {address: given}, metrics=["B.velocity max"], steps=12)
+    assert found[address] == pytest.approx(values, rel=1e-15)
+
+
 def test_a_grid_has_every_combination_and_closed_form_values() -> None:
     """Transmission angle of a crank-rocker at the frame line; its rocker's swing from the cosine law."""
     machine = store.machine("crank_rocker")

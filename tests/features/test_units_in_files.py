@@ -1,4 +1,4 @@
-"""Units with powers in expressions, parameters in laws, tables that begin elsewhere, and what is written."""
+"""Parameters of laws and lengths that change and are written, tables that begin elsewhere, names that cannot be."""
 
 import math
 import re

@@ -36,6 +36,7 @@ def gallery_page(name: str) -> tuple[lw.Forces, lw.Worked]:
     return forces, lw.worked(forces, reached(forces))
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("name", GALLERY)
 def test_gallery_comes_out_with_a_calculator(name: str) -> None:
     forces, page = gallery_page(name)
@@ -96,6 +97,7 @@ def test_the_row_of_a_pair_is_put_into_the_closure_equations() -> None:
     assert not any("φ4" in each for each in closures)
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("name", GALLERY)
 def test_nothing_of_the_motion_is_left_out(name: str) -> None:
     forces, page = gallery_page(name)
@@ -109,6 +111,7 @@ def test_nothing_of_the_motion_is_left_out(name: str) -> None:
     assert [column for column in moving if column not in seen] == []
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("name", GALLERY)
 def test_every_joint_force_and_effort_is_found(name: str) -> None:
     forces, page = gallery_page(name)

@@ -1,7 +1,7 @@
 """Magnitudes at one position against magnitudes over arrays of positions, for cranks turned either way.
 
 The formulas are the same; how a stroke is found is not: by limits of the input in one turn, or by times. The numbers
-of the formulas stand in ``test_load_phases`` and ``test_load_magnitudes``, from closed forms.
+of the formulas stand in ``test_phases`` and ``test_load_magnitudes``, from closed forms.
 """
 
 from __future__ import annotations
