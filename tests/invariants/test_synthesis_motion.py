@@ -11,6 +11,7 @@ from tests.refusals import refused
 import linkwright as lw
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("poses", [2, 3, 4, 5])
 def test_every_candidate_takes_every_pose(poses: int) -> None:
     p, phi, _, _ = hidden_four_bars(1, poses, 3)
