@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from benchmarks.free_curves import curve_distance
+from tests.every import every
 from tests.refusals import refused
 
 import linkwright as lw
@@ -41,7 +42,7 @@ def test_the_solver_draws_the_same_curve_within_the_demands() -> None:
     found = lw.free_curve(size * FOUR, seconds=2.5, joints=8, count=3)
     assert found.best.error < 0.1 < found.candidates[-1].error
     assert found.best.values["links"] > found.candidates[-1].values["links"] == 4
-    for each in found:
+    for each in every(found):
         machine = each.mechanism()
         motion = lw.solve_motion(machine, steps=1500)
         path = motion.point("P").position @ [1, 1j]
@@ -71,7 +72,7 @@ def test_the_solver_draws_the_same_curve_within_the_demands() -> None:
 def test_an_input_that_swings_keeps_the_demands_while_it_draws() -> None:
     found = lw.free_curve(FOUR, seconds=1.0, joints=8, turning=False, transmission_angle=math.radians(30))
     assert not found.best.turns
-    for each in found:
+    for each in every(found):
         machine = each.mechanism()
         motion = lw.solve_motion(machine, steps=1500)
         assert apart(motion.point("P").position @ [1, 1j], FOUR) == pytest.approx(each.error, rel=0.03)
