@@ -12,7 +12,7 @@ from pathlib import Path
 from time import process_time
 
 import numpy as np
-from tests.invariants.test_friction_of_designs import rubbing
+from tests.invariants.rubbing import rubbing
 
 import linkwright as lw
 from linkwright.cycle_programs.terms import measured

@@ -132,11 +132,14 @@ class QuantityError(LinkwrightError):
     ``column`` is the place in the text, counted from 0.
     """
 
-    code = ""
-
     def __init__(self, message: str, remedy: str = "", *, column: int = 0, code: str = "quantity") -> None:
-        self.message, self.remedy, self.column, self.code = message, remedy, column, code
+        self.message, self.remedy, self.column, self._code = message, remedy, column, code
         super().__init__(with_remedy(message, remedy))
+
+    @property
+    def code(self) -> str:
+        """What is the matter as a short stable word."""
+        return self._code
 
 
 def require_language(language: str) -> None:

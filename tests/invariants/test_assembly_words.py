@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from tests.refusals import refused
 
 import linkwright as lw
 
@@ -117,20 +118,25 @@ def test_dyads_with_one_mode_take_no_word(kind: str, word: str) -> None:
     links, joints, inner = ONE_MODE[kind]
     motion = solved(links, joints, "")
     assert kind in repr(motion.structure)
-    with pytest.raises(lw.LinkwrightError, match=f"assembly.{inner}"):
+    with pytest.raises(lw.LinkwrightError) as said:
         solved(links, joints, f"assembly: {{{inner}: {word}}}")
+    if word == "both":
+        (finding,) = said.value.findings  # type: ignore[attr-defined]
+        assert (finding.code, finding.key) == ("unknown-word", f"assembly.{inner}")
+    else:
+        assert (said.value.code, said.value.values["joint"]) == ("motion.not_inner", inner)
 
 
-@pytest.mark.parametrize(("word", "offer"), [("forward", "left or right"), ("lefft", 'did you mean "left"')])
-def test_a_wrong_word_is_refused_with_the_right_ones(word: str, offer: str) -> None:
+def test_a_wrong_word_is_refused_with_the_right_ones() -> None:
     bars = ["coupler: {points: [A, B], length: 0.7 m}", "rocker: {points: [O2, B], length: 0.5 m}"]
-    with pytest.raises(lw.LinkwrightError, match=offer):
-        solved(bars, "", f"assembly: {{B: {word}}}")
+    with refused("motion.no_mode", first="left", second="right", joint="B", word="forward", signature="RRR"):
+        solved(bars, "", "assembly: {B: forward}")
+    with refused("unknown-word", lw.ModelError, text="lefft") as said:
+        solved(bars, "", "assembly: {B: lefft}")
+    assert [each.key for each in said.value.findings] == ["assembly.B"]  # type: ignore[attr-defined]
 
 
 def test_a_word_for_a_joint_that_is_no_inner_one_is_refused() -> None:
     bars = ["coupler: {points: [A, B], length: 0.7 m}", "rocker: {points: [O2, B], length: 0.5 m}"]
-    with pytest.raises(
-        lw.LinkwrightError, match=r"assembly.A: .*did you mean|assembly.A: .*inner joints are: B"
-    ):
+    with refused("motion.not_inner", joint="A", names=("B",)):
         solved(bars, "", "assembly: {A: left}")

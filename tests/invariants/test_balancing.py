@@ -2,6 +2,9 @@
 
 import numpy as np
 import pytest
+from tests.every import every
+from tests.refusals import refused
+from tests.store import machine
 
 import linkwright as lw
 
@@ -42,14 +45,14 @@ def test_full_balance_leaves_no_shaking_force(text: str) -> None:
     before = np.abs(found.before.shaking_force).max()
     assert before > 10
     assert np.abs(found.after.shaking_force).max() < 1e-12 * before
-    title, *weights, head = found.text().splitlines()[: len(found.counterweights) + 2]
-    assert found.mechanism.name in title and head.split() == ["peak", "of", "without", "with"]
+    title, *weights, _ = found.text().splitlines()[: len(found.counterweights) + 2]
+    assert found.mechanism.name in title
     for weight, line in zip(found.counterweights, weights, strict=True):
-        assert line.strip().startswith(f"{weight.link}: {weight.mass:.6g} kg at ({weight.place[0]:.6g}")
-    for (name, (without, having)), line in zip(
+        assert weight.link in line and f"{weight.mass:.6g} kg" in line and f"({weight.place[0]:.6g}" in line
+    for (_, (without, having)), line in zip(
         found.effect().items(), found.text().splitlines()[len(weights) + 2 :], strict=True
     ):
-        assert line.split()[-2:] == [f"{without:.6g}", f"{having:.6g}"] and line.strip().startswith(name)
+        assert line.split()[-2:] == [f"{without:.6g}", f"{having:.6g}"]
 
 
 def test_partial_balance_of_a_slider_crank_lowers_the_peak_and_raises_the_cross_force() -> None:
@@ -62,22 +65,22 @@ def test_partial_balance_of_a_slider_crank_lowers_the_peak_and_raises_the_cross_
     assert np.abs(before[:, 1]).max() == pytest.approx(rotating * 100**2, rel=1e-9)
 
 
-def test_other_mechanisms_are_refused_with_a_sentence() -> None:
-    with pytest.raises(lw.LinkwrightError, match="neither a four-bar nor a slider-crank"):
-        lw.balance(lw.load("gallery:jaw_crusher_sixbar"), radius=0.1)
+def test_other_mechanisms_are_refused() -> None:
+    with refused("forces.not_balanced"):
+        lw.balance(machine("jaw_crusher_sixbar"), radius=0.1)
     whitworth = FOURBAR.replace(
         "coupler: {points: [A, B], length: 0.35 m,", "coupler: {points: [A],"
     ).replace("rocker: {points: [O2, B], length: 0.25 m,", "rocker: {points: [O2],")
     slot = "joints: {slot: {kind: prismatic, guide: rocker, through: O2, direction: 0 deg, block: coupler, at: A}}"
-    with pytest.raises(lw.LinkwrightError, match="'rocker' and 'coupler' share no pin"):
+    with refused("forces.no_pin_shared", a="rocker", b="coupler"):
         lw.balance(lw.loads(whitworth + slot), radius=0.1)
     for share in (-0.1, 1.1):
-        with pytest.raises(lw.LinkwrightError, match=f"{share}"):
+        with refused("forces.share", share=share):
             lw.balance(lw.loads(FOURBAR), radius=0.1, share=share)
-    with pytest.raises(lw.LinkwrightError, match="rocker"):
+    with refused("forces.weight_no_radius", link="rocker"):
         lw.balance(lw.loads(FOURBAR), radius={"crank": 0.1})
     for radius in (0.0, -0.1):
-        with pytest.raises(lw.LinkwrightError, match=f"is {radius:g} m; give a positive one"):
+        with refused("forces.weight_radius", link="crank", distance=radius):
             lw.balance(lw.loads(FOURBAR), radius=radius)
 
 
@@ -89,7 +92,7 @@ def test_a_part_of_a_four_bar_s_balance_leaves_the_rest(share: float) -> None:
     assert len(before) == 24
     assert after == pytest.approx((1 - share) * before, abs=1e-9 * np.abs(before).max())
     assert len(found.counterweights) == (2 if share else 0)
-    for weight, radius in zip(found.counterweights, (0.05, 0.12), strict=False):
+    for weight, radius in zip(found.counterweights, (0.05, 0.12) if share else (), strict=True):
         assert np.hypot(*weight.place) == pytest.approx(radius)
 
 
@@ -97,7 +100,7 @@ def test_a_counterweight_adds_its_own_inertia_about_its_pin() -> None:
     """J + m d² of a link about its pin on the frame grows by m r² of the weight; so does the kinetic energy."""
     plain = lw.loads(FOURBAR)
     found = lw.balance(plain, radius=0.08)
-    for weight in found.counterweights:
+    for weight in every(found.counterweights, least=2):
         old, new = (machine.links[weight.link] for machine in (plain, found.mechanism))
         assert new.mass == pytest.approx(old.mass + weight.mass)
         about = [

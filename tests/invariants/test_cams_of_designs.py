@@ -5,79 +5,19 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 from scipy.optimize import brentq
-from tests.invariants.test_friction_of_designs import dense
+from tests.invariants.dense import dense
+from tests.invariants.numbers_alone import numbers_alone
+from tests.invariants.turned_cams import GEARED, ROCKING, UNEVEN
+from tests.refusals import findings
+from tests.store import machine as stored
 
 import linkwright as lw
-from linkwright.core.arrays import Floats
-from linkwright.cycle_programs.gauss_cycle import GaussCycle
-from linkwright.cycle_programs.metric_cycle import metric_cycle
-from linkwright.cycle_programs.terms import measured
-from linkwright.files.model_file import read_text
-from linkwright.joints.cam import CamJoint
 from linkwright.metrics import METRICS, Analysis
-from linkwright.study.design_numbers import numbers_of
 
-GEARED = """
-format: 1
-name: cam behind gears
-frame: {points: {M: [-90 mm, 0 mm], O: [0 mm, 0 mm], G: [6 mm, 0 mm]}}
-links:
-  motor: {points: {M: [0 mm, 0 mm], R: [10 mm, 0 mm]}, mass_centre: [0 mm, 0 mm], mass: 1 kg, inertia: 0.001 kg·m²}
-  cam: {points: {O: [0 mm, 0 mm], X: [30 mm, 0 mm]}, mass_centre: [0 mm, 0 mm], mass: 1 kg, inertia: 0.001 kg·m²}
-  slide: {points: {P: [0 mm, 0 mm], Q: [0 mm, 40 mm]}, mass: 0.5 kg, inertia: 0.001 kg·m²}
-joints:
-  guide: {kind: prismatic, guide: frame, through: G, direction: 90 deg, block: slide, at: P, block_angle: 90 deg}
-  mesh: {kind: gear, links: [motor, cam], teeth: [30, 60], module: 2 mm, phase: 15 deg}
-  lobe:
-    kind: cam
-    cam: cam
-    follower: slide
-    at: P
-    touch: roller
-    roller_radius: 10 mm
-    base_radius: 50 mm
-    phase: 20 deg
-    program:
-      - {rise: 18 mm, over: 110 deg, law: double_harmonic}
-      - {dwell: 60 deg}
-      - {fall: 18 mm, over: 100 deg, law: {kind: modified_sine, crossover: 0.45}}
-      - {dwell: 90 deg}
-driver: {turn: motor, about: M, speed: -180 rpm}
-gravity: [0, -9.81 m/s²]
-loads: {spring: {kind: force, on: slide, at: P, direction: -90 deg, magnitude: 60 N}}
-"""
-UNEVEN = """
-format: 1
-name: cam on the driven crank of a double crank
-frame: {points: {M: [-30 mm, 0 mm], O: [0 mm, 0 mm], G: [0 mm, 0 mm]}}
-links:
-  shaft: {points: [M, A], length: 100 mm}
-  coupler: {points: [A, B], length: 110 mm}
-  cam: {points: {O: [0 mm, 0 mm], B: [90 mm, 0 mm]}}
-  slide: {points: {P: [0 mm, 0 mm]}, mass: 0.5 kg}
-joints:
-  guide: {kind: prismatic, guide: frame, through: G, direction: 90 deg, block: slide, at: P}
-  lobe:
-    kind: cam
-    cam: cam
-    follower: slide
-    at: P
-    touch: roller
-    roller_radius: 10 mm
-    base_radius: 50 mm
-    phase: 20 deg
-    program:
-      - {rise: 18 mm, over: 110 deg, law: double_harmonic}
-      - {dwell: 60 deg}
-      - {fall: 18 mm, over: 100 deg, law: {kind: modified_sine, crossover: 0.45}}
-      - {dwell: 90 deg}
-assembly: {B: right}
-driver: {turn: shaft, about: M, speed: 180 rpm}
-loads:
-  spring: {kind: force, on: slide, at: P, direction: -90 deg, magnitude: 60 N}
-  press: {kind: force, on: slide, at: P, direction: -90 deg, magnitude: 40 N, phase: {input: [70 deg, 200 deg]}}
-"""
+Floats = NDArray[np.float64]
+
 BY = ("lobe.phase", "lobe.base_radius", "slide.mass")
 #: Which limit of a cycle is the first changes with the phase.
 NAMES = [name for name, metric in METRICS.items() if not metric.on_request and name != "limit_position"]
@@ -107,37 +47,29 @@ def columns(mechanism: lw.Mechanism) -> dict[str, Floats]:
 
 def test_designs_are_cut_where_the_lift_of_the_cam_bends() -> None:
     mechanism = lw.loads(GEARED)
-    cycle = metric_cycle(mechanism, BY, NAMES)
-    assert cycle is not None
     given = columns(mechanism)
-    found = cycle.evaluate(given)
-    assert found.certain.all()
-    area, _, _ = numbers_of(mechanism, given, ["swept_area"], np.arange(3))
+    names = list(numbers_alone(mechanism, given, 0, NAMES))
+    found = lw.sweep(mechanism, given, outputs=names)
     torque = [rms_torque(mechanism, mass) for mass in given["slide.mass"]]
-    assert found.values["rms_input_torque"] == pytest.approx(torque, rel=1e-8)
+    assert found["rms_input_torque"] == pytest.approx(torque, rel=1e-8)
     for index in (1, 2):
-        alone = mechanism.with_dimensions({name: float(column[index]) for name, column in given.items()})
-        analysis = Analysis.of(lw.solve_forces(alone))
-        assert (measured("swept_area", analysis) or (0.0,))[0] == pytest.approx(
-            area["swept_area"][index], rel=1e-7
-        )
-        assert {"peak_reaction", "mean_power", "peak_jerk", "stroke"} <= {term.name for term in cycle.terms}
-        for term in cycle.terms:
-            known = measured(term.name, analysis)
-            assert known is not None
-            assert found.values[term.name][index] == pytest.approx(known[0], rel=1e-11, abs=1e-9), term.name
+        alone = numbers_alone(mechanism, given, index, names)
+        assert alone.keys() >= {"peak_reaction", "mean_power", "peak_jerk", "stroke", "swept_area"}
+        for name, value in alone.items():
+            near = {"rel": 1e-7} if name == "swept_area" else {"rel": 1e-11, "abs": 1e-9}
+            assert found[name][index] == pytest.approx(value, **near), name
 
 
 def test_the_cuts_move_with_the_cam() -> None:
     """The torque of a follower that gravity holds along its guide does not know when the cam began."""
     mechanism = lw.loads(GEARED)
-    cycle = metric_cycle(mechanism, BY, ["rms_input_torque"])
-    assert cycle is not None
     given = columns(mechanism)
-    values, slopes = cycle.gradients([{"rms_input_torque": 1.0}], given, ["lobe.phase", "slide.mass"])
-    assert slopes[0, :, 0] == pytest.approx(0.0, abs=1e-9 * float(values[0].max()))
+    by = ["lobe.phase", "slide.mass"]
+    objective = lw.objective(mechanism, "rms_input_torque", vary=by)
+    values, slopes = objective.many(np.stack([given[name] for name in by], axis=1))
+    assert slopes[:, 0] == pytest.approx(0.0, abs=1e-9 * float(values.max()))
     step = 1e-4
-    for row, slope, mass in zip(values[0], slopes[0, :, 1], given["slide.mass"], strict=True):
+    for row, slope, mass in zip(values, slopes[:, 1], given["slide.mass"], strict=True):
         near = [rms_torque(mechanism, mass + side * step) for side in (1.0, -1.0)]
         assert slope == pytest.approx((near[0] - near[1]) / (2.0 * step), rel=1e-6), row
 
@@ -193,18 +125,15 @@ def test_cams_that_turn_unevenly_are_cut_where_their_lifts_bend() -> None:
     mechanism = lw.loads(UNEVEN)
     asked = ["rms_input_torque", "peak_input_torque"]
     by = ("coupler.length", "slide.mass", "lobe.phase")
-    cycle = metric_cycle(mechanism, by, asked)
-    assert cycle is not None
     given = {"coupler.length": np.array([0.11, 0.112, 0.1]), "slide.mass": np.array([0.5, 0.9, 0.4])}
     given["lobe.phase"] = np.radians([20.0, 75.0, -12.0])
-    found, designs = cycle.evaluate(given), np.stack([given[name] for name in by], axis=1)
-    assert found.certain.all()
+    found, designs = lw.sweep(mechanism, given, outputs=asked), np.stack([given[each] for each in by], axis=1)
     known = np.array([torque_of(mechanism, *design) for design in designs])
-    assert found.values["rms_input_torque"] == pytest.approx(known[:, 0], rel=1e-9)
-    assert found.values["peak_input_torque"] == pytest.approx(known[:, 1], rel=1e-6)
-    values, slopes = cycle.gradients([{"rms_input_torque": 1.0}], given, by)
-    assert values[0] == pytest.approx(known[:, 0], rel=1e-9)
-    for design, slope in zip(designs, slopes[0], strict=True):
+    assert found["rms_input_torque"] == pytest.approx(known[:, 0], rel=1e-9)
+    assert found["peak_input_torque"] == pytest.approx(known[:, 1], rel=1e-6)
+    values, slopes = lw.objective(mechanism, "rms_input_torque", vary=by).many(designs)
+    assert values == pytest.approx(known[:, 0], rel=1e-9)
+    for design, slope in zip(designs, slopes, strict=True):
         for number, step in enumerate((1e-6, 1e-5, 1e-5)):
             sides = [
                 torque_of(mechanism, *(design + side * step * np.eye(3)[number]))[0] for side in (1.0, -1.0)
@@ -215,7 +144,7 @@ def test_cams_that_turn_unevenly_are_cut_where_their_lifts_bend() -> None:
 def test_a_heavy_wheel_beside_a_cam_is_a_warning() -> None:
     """The cam's own size needs its pivot, which is found after the file is read."""
     text = GEARED.replace("inertia: 0.001", "inertia: 9")
-    assert {each.code for each in read_text(text, "<text>")[1]} == {"unlikely"}
+    assert {each.code for each in findings(text)} == {"unlikely"}
 
 
 def test_numbers_of_one_machine_with_a_cam_are_those_of_a_dense_quadrature() -> None:
@@ -230,62 +159,39 @@ def test_numbers_of_one_machine_with_a_cam_are_those_of_a_dense_quadrature() -> 
     assert len(analysis.grid.edges) < 60
 
 
+@pytest.mark.rotating
 def test_reactions_of_the_press_go_side_by_side_though_its_teeth_change_flanks_beside_its_cam() -> None:
-    machine = lw.load("gallery:printing_press")
+    machine = stored("printing_press")
     names = ["peak_reaction", "rms_reaction", "rms_input_torque", "mean_power"]
-    cycle = metric_cycle(machine, ["rod.length"], names)
-    assert cycle is not None
-    assert {each.name for each in cycle.terms} == set(names)
-    lengths = machine.dimension("rod.length") * np.array([1.0, 1.002])
-    found = cycle.evaluate({"rod.length": lengths})
-    assert found.certain.all()
-    for k, length in enumerate(lengths.tolist()):
-        analysis = Analysis.of(lw.solve_forces(machine.with_dimensions({"rod.length": length})))
-        for name in names:
-            known = measured(name, analysis)
-            assert known is not None
-            assert found.values[name][k] == pytest.approx(known[0], rel=1e-10)
+    given = {"rod.length": machine.dimension("rod.length") * np.array([1.0, 1.002])}
+    found = lw.sweep(machine, given, outputs=names)
+    for k in range(2):
+        alone = numbers_alone(machine, given, k, names)
+        assert {name: found[name][k] for name in names} == pytest.approx(alone, rel=1e-10)
 
 
-#: A crank that turns the cam to and fro by 89°.
-ROCKING = (
-    UNEVEN.partition("  press:")[0]
-    .replace("M: [-30 mm, 0 mm]", "M: [-110 mm, 0 mm]")
-    .replace("length: 100 mm", "length: 60 mm")
-)
-
-
+@pytest.mark.rotating
 def test_designs_whose_cam_rocks_go_side_by_side() -> None:
     """The bends of the lift between the ends of the cam's way are passed on the way to and again on the way back."""
     machine = lw.loads(ROCKING)
-    cycle = metric_cycle(machine, ["lobe.phase", "slide.mass"], ["rms_input_torque", "peak_reaction"])
-    assert cycle is not None
-    bends = machine.joints["lobe"].bends
-    angle = lw.solve_motion(machine).link("cam").angle
-    assert bends is not None
-    there = np.array(bends.angles) + machine.dimension("lobe.phase")
-    passed = np.mod(there - angle.min(), 2.0 * np.pi) < np.ptp(angle)
-    assert len(cycle.gauss.cuts) == 2 * passed.sum() > 0
     phases = machine.dimension("lobe.phase") + np.radians([0.0, 0.7, -0.5])
     given = {"lobe.phase": phases, "slide.mass": np.array([0.5, 0.5, 0.6])}
-    found = cycle.evaluate(given)
-    assert found.certain.all()
-    values, slopes = cycle.gradients([{"rms_input_torque": 1.0}], given, list(given))
-    assert values[0] == pytest.approx(found.values["rms_input_torque"], rel=1e-13)
+    found = lw.sweep(machine, given, outputs=["rms_input_torque", "peak_reaction"])
+    objective = lw.objective(machine, "rms_input_torque", vary=list(given))
+    values, slopes = objective.many(np.transpose(list(given.values())))
+    assert values == pytest.approx(found["rms_input_torque"], rel=1e-13)
     for k, design in enumerate(np.transpose(list(given.values())).tolist()):
 
         def rms(changed: list[float]) -> float:
             return dense(machine.with_dimensions(dict(zip(given, changed, strict=True))), 1.0 / 3.0)[1]
 
-        assert found.values["rms_input_torque"][k] == pytest.approx(rms(design), rel=1e-12)
+        assert found["rms_input_torque"][k] == pytest.approx(rms(design), rel=1e-12)
         for number, step in enumerate((1e-4, 1e-4)):
             near = [[x + side * step * (i == number) for i, x in enumerate(design)] for side in (1, -1)]
             difference = (rms(near[0]) - rms(near[1])) / (2.0 * step)
-            assert slopes[0, k, number] == pytest.approx(difference, rel=1e-5, abs=1e-8)
-        alone = Analysis.of(lw.solve_forces(machine.with_dimensions(dict(zip(given, design, strict=True)))))
-        known = measured("peak_reaction", alone)
-        assert known is not None
-        assert found.values["peak_reaction"][k] == pytest.approx(known[0], rel=1e-10)
+            assert slopes[k, number] == pytest.approx(difference, rel=1e-5, abs=1e-8)
+        known = numbers_alone(machine, given, k, ["peak_reaction"])["peak_reaction"]
+        assert found["peak_reaction"][k] == pytest.approx(known, rel=1e-10)
 
 
 @pytest.mark.parametrize("law", ["cycloidal", "modified_sine", "modified_trapezoidal", "polynomial_4567"])
@@ -295,22 +201,7 @@ def test_lifts_come_to_rest_where_their_laws_do(law: str) -> None:
     ways = [f"{{{way}: 4 mm, over: {over} deg, law: {law}}}" for way, over in (("rise", 5), ("fall", 345))]
     segments = f"[{ways[0]}, {{dwell: 10 deg}}, {ways[1]}]"
     joint = lw.loads(f"{begin}program: {segments}\ndriver:{rest.partition('driver:')[2]}").joints["lobe"]
-    assert isinstance(joint, CamJoint)
     for bend in np.radians([0.0, 5.0, 15.0]):
         rate = joint.lift.curves(np.array([np.nextafter(bend, -1.0), bend]))[1]
         largest = 4e-3 * 2.0 / np.radians(5.0)
         assert np.abs(rate).max() < 1e-13 * largest
-
-
-def test_a_cam_behind_wheels_takes_no_more_pieces_than_its_bends_ask_for() -> None:
-    """Over five turns of the shaft every stretch between bends is as short as those of the cam itself."""
-    machine = lw.loads(GEARED.replace("teeth: [30, 60]", "teeth: [15, 75]"))
-    cycle = metric_cycle(machine, ["slide.mass"], ["rms_input_torque"])
-    assert cycle is not None and isinstance(cycle.gauss, GaussCycle)
-    gauss, bends = cycle.gauss, machine.joints["lobe"].bends
-    assert gauss.turns == 5 and bends is not None
-    longest = np.abs(np.diff([*bends.angles, 2.0 * np.pi])).max() / (2.0 * np.pi)
-    assert gauss.pieces == gauss.stretches * np.ceil(gauss.wanted * 5 * longest)
-    found = cycle.evaluate({"slide.mass": np.array([0.5])})
-    (known,) = lw.metrics(lw.solve_forces(machine), "rms_input_torque")
-    assert found.values["rms_input_torque"][0] == pytest.approx(known.value, rel=1e-11)

@@ -4,13 +4,14 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from tests.invariants.test_friction_of_designs import refuse_single, rubbing
+from tests.every import every
+from tests.invariants.numbers_alone import numbers_alone
+from tests.invariants.rams import BETWEEN, COURSES, INWARDS, RAM, ram
+from tests.invariants.rubbing import rubbing
+from tests.store import machine as stored
 
 import linkwright as lw
-from linkwright.cycle_programs.metric_cycle import metric_cycle
-from linkwright.cycle_programs.terms import Term, term
-from linkwright.loads.phases import NEAR
-from linkwright.metrics import METRICS, Analysis, metrics
+from linkwright.metrics import METRICS, metrics
 
 #: Machines with what varies: an expression, a table and an expression of three cylinders, a part of a turn, two
 #: drivers of speeds 1 : -2, a driven slide.
@@ -24,33 +25,34 @@ WAYS = {
 NUMBERS = ["peak_reaction", "rms_reaction", "rms_input_torque", "transmission_angle", "swept_area"]
 
 
-def _alone(machine: lw.Mechanism, columns: dict[str, np.ndarray], k: int) -> Analysis:
+#: How much more of a stroke a part of it holds, a share: a position at its very end belongs to it.
+NEAR = 1e-9
+
+
+def _alone(machine: lw.Mechanism, columns: dict[str, np.ndarray], k: int) -> lw.Forces:
     design = machine.with_dimensions({name: float(column[k]) for name, column in columns.items()})
-    return Analysis.of(lw.solve_forces(design))
+    return lw.solve_forces(design)
 
 
 @pytest.mark.parametrize("model", WAYS)
 def test_designs_side_by_side_are_those_alone(model: str) -> None:
-    machine, rng = lw.load(f"gallery:{model}"), np.random.default_rng(7)
+    machine, rng = stored(model), np.random.default_rng(7)
     columns = {name: machine.dimension(name) * (1.0 - 0.02 * rng.uniform(size=3)) for name in WAYS[model]}
-    analysis = Analysis.of(lw.solve_forces(machine))
-    known = (term(name, analysis) for name, kind in METRICS.items() if kind().applies(analysis))
-    names = [each.name for each in known if isinstance(each, Term)]
-    cycle = metric_cycle(machine, columns, names)
-    assert cycle is not None and len(cycle.terms) >= len(names) - 3
-    found, compared = cycle.evaluate(columns), 0
-    for k in np.flatnonzero(found.certain).tolist():
-        alone, compared = _alone(machine, columns, k), compared + 1
-        for each in cycle.terms:
-            own = found.values[each.name][k]
-            assert own == pytest.approx(each.measured(alone), rel=2e-12, abs=1e-12), each.name
-    assert compared
+    names = [name for name, metric in METRICS.items() if not metric.on_request and name != "limit_position"]
+    names = list(numbers_alone(machine, {}, 0, names))
+    assert len(names) >= 8
+    found = lw.sweep(machine, columns, outputs=names)
+    for k in range(3):
+        for name, value in every(numbers_alone(machine, columns, k, names).items(), least=8):
+            near = {"rel": 1e-8} if name == "swept_area" else {"rel": 2e-12, "abs": 1e-12}
+            assert found[name][k] == pytest.approx(value, **near), name
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("model", WAYS)
 def test_slopes_are_those_of_machines_solved_beside_each_other(model: str) -> None:
     """Differences of fourth order of machines solved alone, off the gallery's symmetric ones."""
-    machine, rng = lw.load(f"gallery:{model}"), np.random.default_rng(3)
+    machine, rng = stored(model), np.random.default_rng(3)
     addresses = WAYS[model]
     machine = machine.with_dimensions(
         {name: machine.dimension(name) * (1.0 - 0.03 * float(rng.uniform())) for name in addresses}
@@ -76,7 +78,7 @@ def test_slopes_are_those_of_machines_solved_beside_each_other(model: str) -> No
 
 def test_slopes_of_a_tangent_mechanism() -> None:
     """s = d tan φ from -40° to 40°: ds/dφ = d/cos² φ is largest at the ends."""
-    machine = lw.load("gallery:tangent_mechanism")
+    machine = stored("tangent_mechanism")
     distance, end = 0.12, np.radians(40.0)
     rate = distance / np.cos(end) ** 2
     wanted = {
@@ -90,8 +92,7 @@ def test_slopes_of_a_tangent_mechanism() -> None:
 
 def test_what_moves_the_inputs_goes_one_by_one() -> None:
     """The start of a part of a turn, and speeds, move all times."""
-    kite = lw.load("gallery:kite")
-    assert metric_cycle(kite, ["driver.speed"], ["transmission_angle"]) is None
+    kite = stored("kite")
     speeds = np.array([5.0, 7.0])
     found = lw.sweep(kite, {"driver.speed": speeds}, outputs=["peak_acceleration"])["peak_acceleration"]
     assert found[1] / found[0] == pytest.approx((speeds[1] / speeds[0]) ** 2, rel=1e-9)
@@ -102,63 +103,12 @@ def test_hulls_reach_the_ends_of_open_ways(model: str) -> None:
     """Corners at ends of curves that are hollow there, against the hull of 20 000 positions."""
     from scipy.spatial import ConvexHull
 
-    from linkwright.metrics.swept_area import points
-
-    machine = lw.load(f"gallery:{model}")
+    machine = stored(model)
     machine = machine.with_dimensions({"crank.length": 0.997 * machine.dimension("crank.length")})
     motion = lw.solve_motion(machine, steps=20_000)
-    dense = ConvexHull(np.concatenate([motion.point(key).position for key in points(machine)])).volume
+    of_links = {f"{link}.{name}": name for link, each in machine.links.items() for name in each.points}
+    dense = ConvexHull(np.concatenate([motion.point(key).position for key in of_links])).volume
     assert metrics(lw.solve_motion(machine)).value("swept_area") == pytest.approx(dense, rel=1e-8)
-
-
-#: An offset slider-crank without masses, whose ram turns back at another time in every design.
-RAM = """
-format: 1
-name: ram
-frame: {points: {O: [0 m, 0 m], Y: [0 m, -0.02 m]}}
-links:
-  crank: {points: [O, A], length: 0.05 m}
-  rod: {points: [A, B], length: 0.16 m}
-  ram: {points: [B]}
-joints: {guide: {kind: prismatic, guide: frame, through: Y, direction: 0 deg, block: ram, at: B}}
-assembly: {B: forward}
-driver: {turn: crank, about: O, LAW}
-cycle: {CYCLE}
-loads: {work: {kind: force, on: ram, at: B, LOAD}}
-"""
-#: Laws with their cycles, the time that these take, s, and the angles, rad, between which the crank goes one way.
-COURSES = {
-    "expression": (
-        'position: "3 rad*t/(1 s) + 0.3 rad*sin(t/(1 s))"',
-        "duration: 1.5 s",
-        1.5,
-        [0.0, 4.5 + 0.3 * np.sin(1.5)],
-    ),
-    "to and fro": (
-        'position: "2.5 rad + 1.2 rad*sin(3*t/(1 s))"',
-        "duration: 2 s",
-        2.0,
-        [2.5, 3.7, 1.3, 2.5 + 1.2 * np.sin(6.0)],
-    ),
-    "part of a turn": ("speed: 3 rad/s", "from: 0.3 rad, to: 4.5 rad", 1.4, [0.3, 4.5]),
-    "table": (
-        "table: {time: [0 s, 0.5 s, 1.2 s, 2 s], position: [0 rad, 1.1 rad, 3.1 rad, 5 rad], interpolation: cubic}",
-        "duration: 2 s",
-        2.0,
-        [0.0, 5.0],
-    ),
-    "program": (
-        "program: [{rise: 4 rad, over: 0.7 s, law: modified_sine}, {dwell: 0.2 s}, {fall: 4 rad, over: 1.1 s}]",
-        "duration: 2 s",
-        2.0,
-        [0.0, 4.0, 0.0],
-    ),
-}
-
-
-def ram(course: str, load: str) -> lw.Mechanism:
-    law, cycle, *_ = COURSES[course]
-    return lw.loads(RAM.replace("LAW", law).replace("CYCLE", cycle).replace("LOAD", load))
 
 
 def ram_place(angle: complex, crank: complex, rod: complex) -> complex:
@@ -181,6 +131,7 @@ def gone(course: str, crank: complex, rod: complex) -> tuple[complex, complex]:
     return out + inwards, inwards
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("course", COURSES)
 @pytest.mark.parametrize(
     ("load", "which"),
@@ -190,10 +141,9 @@ def gone(course: str, crank: complex, rod: complex) -> tuple[complex, complex]:
     ],
 )
 def test_power_against_a_load_that_goes_by_a_velocity_is_that_of_the_way(
-    course: str, load: str, which: int, monkeypatch: pytest.MonkeyPatch
+    course: str, load: str, which: int
 ) -> None:
     """Force times way over the time, and its derivatives by complex steps."""
-    refuse_single(monkeypatch)
     machine, by = ram(course, load), ["crank.length", "rod.length"]
     points = [(0.05, 0.16), (0.051, 0.158), (0.0485, 0.161)]
     swept = lw.sweep(machine, dict(zip(by, np.array(points).T, strict=True)), outputs=["mean_power"])
@@ -209,39 +159,6 @@ def test_power_against_a_load_that_goes_by_a_velocity_is_that_of_the_way(
         for place, slope in enumerate(gradient):
             shifted = [x + 1e-30j * (place == j) for j, x in enumerate(point)]
             assert slope == pytest.approx(power(*shifted).imag / 1e-30, rel=1e-10)
-
-
-#: Laws with their cycles, the time that these take, s, and the angles, rad, that the crank has gone through in order
-#: when it has gone inwards as far as it does.
-INWARDS = {
-    "expression": (
-        'position: "-0.5 rad + 3 rad*t/(1 s) + 0.3 rad*sin(t/(1 s))"',
-        "duration: 1.6 s",
-        1.6,
-        (-0.5, 4.3),
-    ),
-    "part of a turn": ("speed: 3 rad/s", "from: 0.3 rad, to: 4.5 rad", 1.4, (0.3, 4.5)),
-    "table": (
-        "table: {time: [0 s, 0.5 s, 1.2 s, 2 s], position: [-0.5 rad, 1.1 rad, 3.1 rad, 5.2 rad], "
-        "interpolation: cubic}",
-        "duration: 2 s",
-        2.0,
-        (-0.5, 5.2),
-    ),
-    "program": (
-        "program: [{rise: 2.6 rad, over: 0.7 s, law: modified_sine}, {dwell: 0.2 s}, {fall: 2.6 rad, over: 1.1 s}]",
-        "duration: 2 s",
-        2.0,
-        (0.0, 2.6),
-    ),
-}
-#: Loads between the outermost and the innermost place of the ram, with the forces, N, with which they begin and end.
-BETWEEN = {
-    "magnitude: 100 N, phase: {of: guide, from: max, to: min}": (100.0, 100.0),
-    "ramp: [10 N, 100 N], phase: {of: guide, from: max, to: min}": (10.0, 100.0),
-    "ramp: [100 N, 0 N], phase: {moving: guide, direction: decreasing}": (100.0, 0.0),
-    "magnitude: 100 N, phase: {of: guide, from: max, to: min, last: 20 mm}": None,
-}
 
 
 def work_inwards(course: str, load: str, crank: complex, rod: complex) -> complex:
@@ -265,20 +182,16 @@ def work_inwards(course: str, load: str, crank: complex, rod: complex) -> comple
     return complex(-0.5 * (end - start) * np.sum(weights * force * rate))
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("course", INWARDS)
 @pytest.mark.parametrize("load", BETWEEN)
-def test_power_against_a_load_between_limits_is_that_of_its_work(
-    course: str, load: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_power_against_a_load_between_limits_is_that_of_its_work(course: str, load: str) -> None:
     """The limits lie at other times in every design, beyond the part of a turn, or where the driver turns round."""
-    refuse_single(monkeypatch)
     law, cycle, time, _ = INWARDS[course]
     text = RAM.replace("LAW", law).replace("CYCLE", cycle).replace("LOAD", f"direction: 0 deg, {load}")
     machine, by = lw.loads(text), ["crank.length", "rod.length"]
     points = [(0.05, 0.16), (0.051, 0.158), (0.0485, 0.161)]
     columns = dict(zip(by, np.array(points).T, strict=True))
-    cycle = metric_cycle(machine, by, ["mean_power"])
-    assert cycle is not None and cycle.evaluate(columns).certain.all()
     swept = lw.sweep(machine, columns, outputs=["mean_power"])
     objective = lw.objective(machine, "mean_power", vary=by)
     for k, point in enumerate(points):
@@ -302,12 +215,9 @@ def test_designs_whose_limits_are_others_are_found_alone() -> None:
     )
     machine = lw.loads(text)
     columns = {"crank.length": np.array([0.05, 0.09])}
-    cycle = metric_cycle(machine, columns, ["mean_power", "rms_input_torque"])
-    assert cycle is not None
-    assert cycle.evaluate(columns).certain.tolist() == [True, False]
     swept = lw.sweep(machine, columns, outputs=["rms_input_torque"])
     for k in range(2):
-        alone = metrics(_alone(machine, columns, k), ["rms_input_torque"]).value("rms_input_torque")
+        alone = metrics(_alone(machine, columns, k), "rms_input_torque").value("rms_input_torque")
         assert swept["rms_input_torque"][k] == pytest.approx(alone, rel=1e-12)
 
 
@@ -322,29 +232,25 @@ RUBBING = {
 
 
 def dry(name: str) -> lw.Mechanism:
-    plain = (
-        ram(name, "opposes: velocity, magnitude: 100 N") if name in COURSES else lw.load(f"gallery:{name}")
-    )
+    plain = ram(name, "opposes: velocity, magnitude: 100 N") if name in COURSES else stored(name)
     return rubbing(plain, 0.1, 0.01)
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("name", RUBBING)
 def test_friction_of_designs_side_by_side_is_that_of_designs_alone(name: str) -> None:
     machine = dry(name)
     by, asked = RUBBING[name], ["rms_input_torque", "mean_power", "peak_power", "peak_reaction"]
     columns = {each: machine.dimension(each) * np.array([1.0, 0.995, 1.003]) for each in by}
-    analysis = Analysis.of(lw.solve_forces(machine))
-    names = [each for each in asked if isinstance(term(each, analysis), Term)]
-    cycle = metric_cycle(machine, by, names)
-    assert cycle is not None and len(cycle.terms) == len(names) >= 3
-    found = cycle.evaluate(columns)
-    assert found.certain.all()
+    names = list(numbers_alone(machine, {}, 0, asked))
+    assert len(names) >= 3
+    found = lw.sweep(machine, columns, outputs=names)
     for k in range(3):
-        alone = _alone(machine, columns, k)
-        for each in cycle.terms:
-            assert found.values[each.name][k] == pytest.approx(each.measured(alone), rel=1e-11), each.name
+        alone = numbers_alone(machine, columns, k, names)
+        assert {name: found[name][k] for name in names} == pytest.approx(alone, rel=1e-11)
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("name", ["double_slider", "to and fro", "part of a turn"])
 def test_slopes_through_friction_that_turns_round_are_those_of_differences(name: str) -> None:
     machine = dry(name)
@@ -360,6 +266,7 @@ def test_slopes_through_friction_that_turns_round_are_those_of_differences(name:
         )
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize(
     ("course", "load"),
     [
@@ -368,7 +275,7 @@ def test_slopes_through_friction_that_turns_round_are_those_of_differences(name:
         ("table", "ramp: [10 N, 100 N], phase: {of: guide, from: max, to: min}"),
     ],
 )
-def test_designs_far_from_each_other_are_those_alone_or_left_to_be_found_so(course: str, load: str) -> None:
+def test_designs_far_from_each_other_are_those_alone(course: str, load: str) -> None:
     """A fifth off in every length, with friction: limits and reversals come, go, and pass each other."""
     law, cycle, *_ = INWARDS[course]
     text = RAM.replace("LAW", law).replace("CYCLE", cycle).replace("LOAD", f"direction: 0 deg, {load}")
@@ -378,12 +285,8 @@ def test_designs_far_from_each_other_are_those_alone_or_left_to_be_found_so(cour
         "rod.length": 0.16 * rng.uniform(0.8, 1.2, 8),
         "frame.Y.y": rng.uniform(-0.03, 0.03, 8),
     }
-    found_together = metric_cycle(machine, columns, ["mean_power", "rms_input_torque", "peak_power"])
-    assert found_together is not None
-    found = found_together.evaluate(columns)
-    assert found.certain.sum() >= 2
-    for k in np.flatnonzero(found.certain).tolist():
-        alone = _alone(machine, columns, k)
-        for each in found_together.terms:
-            own = found.values[each.name][k]
-            assert own == pytest.approx(each.measured(alone), rel=1e-11, abs=1e-11), each.name
+    names = ["mean_power", "rms_input_torque", "peak_power"]
+    found = lw.sweep(machine, columns, outputs=names)
+    for k in every(np.flatnonzero(found.ok & np.isfinite(found["mean_power"])).tolist(), least=2):
+        alone = numbers_alone(machine, columns, k, names)
+        assert {name: found[name][k] for name in names} == pytest.approx(alone, rel=1e-11, abs=1e-11)

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from tests.refusals import refused
 
 import linkwright as lw
 
@@ -51,9 +52,10 @@ def test_designs_whose_stroke_has_tied_limits_have_no_ratio_and_the_others_keep_
         assert found[NAMES[0]][:2] == pytest.approx(ratio(), rel=1e-9)
         assert np.isnan(found[NAMES[0]][2])
         assert np.isfinite(found[NAMES[1]]).all()
-    for failures in (swept.failures(), study.failures):
-        assert [each.designs.tolist() for each in failures] == [[2]]
-        assert "has no value for 'guide'" in failures[0].example.replace('"', "'")
+    for failures, code in ((swept.failures(), "metrics.no_value"), (study.failures, "study.no_value_for")):
+        (failure,) = failures
+        assert failure.designs.tolist() == [2]
+        assert failure.example.key == code and failure.example.values["subject"] == "guide"
 
 
 def test_alternatives_are_compared_although_one_lacks_a_number() -> None:
@@ -69,5 +71,5 @@ def test_alternatives_are_compared_although_one_lacks_a_number() -> None:
 def test_a_subject_that_no_design_can_have_is_refused_at_once() -> None:
     machine = lw.loads(TOGGLE.replace("DIRECTION", "60 deg"))
     columns = {"guide.direction": np.radians(DIRECTIONS)}
-    with pytest.raises(lw.LinkwrightError, match='did you mean "guide"'):
+    with refused("metrics.no_value", name="quick_return_ratio", subject="gide", offer="guide"):
         lw.sweep(machine, columns, outputs=["quick_return_ratio gide"], steps=72)

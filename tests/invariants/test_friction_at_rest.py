@@ -5,25 +5,10 @@ import re
 
 import numpy as np
 import pytest
+from tests.invariants.brackets import BRACKET
 
 import linkwright as lw
-from linkwright.page.programs import PagePrograms
 
-BRACKET = """
-format: 1
-frame: {points: {O: [0 m, 0 m]}}
-links:
-  crank: {points: {O: [0 m, 0 m], P: [0.3 m, 0 m], Q: [0.5 m, 0.1 m]}}
-  bar_1: {points: [P, T], length: 0.3 m}
-  bar_2: {points: [Q, T], length: 0.25 m, mass: 5 kg, inertia: 0.05 kg·m²}
-joints:
-  P: {kind: revolute, pin_radius: 20 mm, friction: 0.3}
-  Q: {kind: revolute, pin_radius: 20 mm, friction: 0.3}
-  T: {kind: revolute, pin_radius: 20 mm, friction: 0.3}
-assembly: {T: left}
-driver: {turn: crank, about: O, speed: 60 rpm}
-gravity: [0, -9.81 m/s²]
-"""
 #: A block on a guide of the crank, held in its place by a bar from the crank.
 GUIDE = """
 format: 1
@@ -94,14 +79,6 @@ def test_designs_side_by_side_and_their_gradients_rub_where_they_move_only() -> 
     h = 1e-6
     rms = [np.hypot(*centre(0.25 + step)) * 5.0 * 9.81 / math.sqrt(2.0) for step in (-h, h)]
     assert slope.gradient("driver.effort rms") == pytest.approx((rms[1] - rms[0]) / (2.0 * h), rel=1e-8)
-
-
-def test_a_page_is_told_which_joints_move() -> None:
-    motion = lw.solve_motion(lw.loads(BRACKET), steps=36)
-    programs = PagePrograms(motion)
-    program, (first, *_) = programs.main, programs.friction()
-    assert {each["rate"] for each in programs.friction()} <= set(dict(program.outputs))
-    assert str(first["rate"]).startswith("moving ")
 
 
 OPPOSED = """

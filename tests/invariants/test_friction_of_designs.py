@@ -1,31 +1,19 @@
 """Friction of many designs at once: that of each design alone, which is iterated until it agrees; its derivatives."""
 
 from collections.abc import Callable
-from dataclasses import replace
 
 import numpy as np
 import pytest
+from tests.invariants.dense import dense
+from tests.invariants.fourbars import four_bars
+from tests.invariants.rubbing import PAIR, YOKE, rubbing
 from tests.reference.random_mechanisms import random_mechanism
+from tests.store import machine as stored
 
 import linkwright as lw
-from linkwright.cycle_programs.metric_cycle import metric_cycle
-from linkwright.cycle_programs.one_by_one import OneByOne
 from linkwright.metrics import Analysis
-from linkwright.study.prepared import Prepared
 
 STEPS = 48
-
-
-def rubbing(mechanism: lw.Mechanism, coefficient: float = 0.1, radius: float = 0.01) -> lw.Mechanism:
-    """The same with friction in every pin, of a radius in m, and guide."""
-    joints = {
-        name: replace(joint, friction=coefficient, pin_radius=radius)
-        if joint.coordinate == "turn"
-        else replace(joint, friction=coefficient)
-        for name, joint in mechanism.joints.items()
-        if joint.coordinate in ("turn", "slide")
-    }
-    return replace(mechanism, joints={**mechanism.joints, **joints})
 
 
 def outputs_of(mechanism: lw.Mechanism) -> list[str]:
@@ -34,33 +22,6 @@ def outputs_of(mechanism: lw.Mechanism) -> list[str]:
         link = joint.joined[-1]
         found += [f"reaction {name} on {link} max"]
     return found
-
-
-def four_bars(count: int) -> lw.Mechanism:
-    """Four-bars one behind the other: the rocker of each moves the coupler of the next."""
-    bars = range(1, count + 1)
-    links = [
-        f"  rod{k}: {{points: [P{k - 1}, P{k}], length: {0.4 if k > 1 else 0.35} m, mass: 0.5 kg, "
-        "inertia: 0.01 kg·m²}\n"
-        f"  rocker{k}: {{points: [Q{k}, P{k}], length: 0.3 m, mass: 0.8 kg, inertia: 0.01 kg·m²}}\n"
-        for k in bars
-    ]
-    return lw.loads(f"""
-format: 1
-name: four-bars
-frame: {{points: {{O: [0 m, 0 m], {", ".join(f"Q{k}: [{0.4 * k} m, -0.3 m]" for k in bars)}}}}}
-links:
-  crank: {{points: [O, P0], length: 0.05 m}}
-{"".join(links)}
-drawing: {{P0: [0.05 m, 0 m], {", ".join(f"P{k}: [{0.4 * k} m, 0 m]" for k in bars)}}}
-driver: {{turn: crank, about: O, speed: 9 rad/s}}
-gravity: [0, -9.81 m/s²]
-loads: {{work: {{kind: torque, on: rocker{count}, magnitude: -3 N·m}}}}
-""")
-
-
-def refuse_single(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(OneByOne, "rows", lambda *_, **__: pytest.fail("found one by one"))
 
 
 def compare(machine: lw.Mechanism, address: str, factors: list[float], accuracy: float = 1e-11) -> lw.Sweep:
@@ -81,6 +42,7 @@ def compare(machine: lw.Mechanism, address: str, factors: list[float], accuracy:
     return found
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize(
     ("name", "address"),
     [
@@ -95,22 +57,18 @@ def compare(machine: lw.Mechanism, address: str, factors: list[float], accuracy:
         ("printing_press", "A.friction"),
     ],
 )
-def test_sweeps_with_friction_in_every_joint_equal_single_designs(
-    name: str, address: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    machine = rubbing(lw.load(f"gallery:{name}"), 0.05)
-    refuse_single(monkeypatch)
+def test_sweeps_with_friction_in_every_joint_equal_single_designs(name: str, address: str) -> None:
+    machine = rubbing(stored(name), 0.05)
     compare(machine, address, [1.0, 0.99, 1.001])
 
 
-def test_friction_in_more_pairs_than_a_block_may_have_goes_group_by_group(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+@pytest.mark.rotating
+def test_friction_in_more_pairs_than_a_block_may_have_goes_group_by_group() -> None:
     """22 pairs, among them pins of three links."""
-    refuse_single(monkeypatch)
     compare(rubbing(four_bars(7), 0.05, 0.005), "P1.friction", [1.0, 0.5])
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("seed", range(13, 29))
 def test_random_mechanisms_with_friction_equal_single_designs(seed: int) -> None:
     text = random_mechanism(seed, triads=False, with_loads=True)
@@ -119,27 +77,24 @@ def test_random_mechanisms_with_friction_equal_single_designs(seed: int) -> None
     compare(machine, f"{joint}.friction", [1.0, 0.3, 1.4])
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize(
-    ("name", "address", "at_once"),
+    ("name", "address"),
     [
-        ("jaw_crusher_sixbar", "toggle.length", True),
-        ("shaper_quick_return", "slot.friction", True),
-        ("toggle_press", "driver.speed", False),  # another law of the driver
-        ("excavator", "stick.mass", False),  # too near its change points between two positions
+        ("jaw_crusher_sixbar", "toggle.length"),
+        ("shaper_quick_return", "slot.friction"),
+        ("toggle_press", "driver.speed"),  # another law of the driver
+        ("excavator", "stick.mass"),  # too near its change points between two positions
     ],
 )
-def test_prepared_machines_with_friction_are_those_solved_alone(
-    name: str, address: str, at_once: bool, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Joint forces, friction and effort, without solving any machine by itself where that is said."""
-    machine = rubbing(lw.load(f"gallery:{name}"), 0.05)
+def test_prepared_machines_with_friction_are_those_solved_alone(name: str, address: str) -> None:
+    """Joint forces, friction and effort."""
+    machine = rubbing(stored(name), 0.05)
     prepared = lw.prepare(machine, vary=[address])
     alone = [
         lw.solve_forces(machine.with_dimensions({address: factor * machine.dimension(address)}))
         for factor in (1.0, 0.995)
     ]
-    if at_once:
-        monkeypatch.setattr(Prepared, "_solve_alone", lambda *_: pytest.fail("solved by itself"))
     for expected in alone:
         found = prepared.solve({address: expected.motion.mechanism.dimension(address)})
         largest = max(np.abs(expected.reaction(n, on=j.joined[-1])).max() for n, j in machine.joints.items())
@@ -174,6 +129,7 @@ def rms(forces: lw.Forces) -> float:
     return float(np.sqrt(np.mean(forces.input_torque**2)))
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize(
     ("name", "by"),
     [
@@ -185,7 +141,7 @@ def rms(forces: lw.Forces) -> float:
     ],
 )
 def test_gradients_through_friction_are_differences_of_single_designs(name: str, by: list[str]) -> None:
-    machine = rubbing(lw.load(f"gallery:{name}"), 0.05)
+    machine = rubbing(stored(name), 0.05)
     objective = lw.objective(machine, "input_torque rms", vary=by, steps=STEPS)
     value, gradient = objective(objective.start)
     assert value == pytest.approx(rms(lw.solve_forces(machine, steps=STEPS)), rel=1e-11)
@@ -197,6 +153,7 @@ def test_gradients_through_friction_are_differences_of_single_designs(name: str,
     assert back.gradient("input_torque rms") == pytest.approx(gradient, rel=1e-9)
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize(
     ("name", "by", "pin", "factors"),
     [
@@ -208,18 +165,16 @@ def test_design_numbers_with_friction_go_side_by_side_with_gradients(
     name: str, by: list[str], pin: str, factors: list[float]
 ) -> None:
     """Pins turn round where two links do, the shaper's four times; its guides are pressed from both sides."""
-    machine = rubbing(lw.load(f"gallery:{name}"), 0.05)
+    machine = rubbing(stored(name), 0.05)
     names = ["rms_input_torque", "mean_power", "energy_fluctuation", f"peak_reaction {pin}"]
-    cycle = metric_cycle(machine, by, names)
-    assert cycle is not None
     lengths = machine.dimension(by[0]) * np.array(factors)
-    found = cycle.evaluate({by[0]: lengths, by[1]: np.full(len(lengths), machine.dimension(by[1]))})
-    assert found.certain.all()
+    columns = {by[0]: lengths, by[1]: np.full(len(lengths), machine.dimension(by[1]))}
+    found = lw.sweep(machine, columns, outputs=names)
     for k, length in enumerate(lengths):
         single = lw.solve_forces(machine.with_dimensions({by[0]: float(length)}))
         alone = lw.metrics(single, [name.split()[0] for name in names])
         for name in names:
-            assert found.values[name][k] == pytest.approx(alone.value(*name.split()), rel=1e-10)
+            assert found[name][k] == pytest.approx(alone.value(*name.split()), rel=1e-10)
     objective = lw.objective(machine, "rms_input_torque", vary=by)
     assert objective(objective.start)[1] == pytest.approx(
         differences(
@@ -266,23 +221,7 @@ def test_a_wedge_takes_the_force_of_statics_until_it_locks() -> None:
     expected = [lifting(5 * 9.81, mu, mu).real for mu in coefficients[:3]]
     assert found.ok.tolist() == [True, True, True, False]
     assert found["driver.effort", "max"][:3] == pytest.approx(expected, rel=1e-11)
-    assert "locking" in found.unloaded[3]
-
-
-YOKE = """
-format: 1
-name: dry scotch yoke
-frame: {points: {O: [0 m, 0 m]}}
-links:
-  crank: {points: [O, A], length: 0.1 m}
-  die: {points: [A]}
-  yoke: {points: [Y], mass: 3 kg}
-joints:
-  slot: {kind: prismatic, guide: yoke, through: Y, direction: 90 deg, block: die, at: A, friction: 0.2}
-  bed: {kind: prismatic, guide: frame, through: O, direction: 0 deg, block: yoke, at: Y, friction: 0.3}
-driver: {turn: crank, about: O, speed: 9 rad/s, start: 4 deg}
-loads: {work: {kind: force, on: yoke, at: Y, components: [-70 N, 0 N]}}
-"""
+    assert found.unloaded[3].key == "forces.self_locking"
 
 
 def yoke_torque(slot: complex, bed: complex, mass: complex) -> complex:
@@ -295,7 +234,7 @@ def yoke_torque(slot: complex, bed: complex, mass: complex) -> complex:
     return complex(np.mean((0.1 * (rubbing - normal * np.sin(angle))) ** 2))
 
 
-def test_value_and_gradient_of_a_dry_yoke_are_those_of_statics(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_value_and_gradient_of_a_dry_yoke_are_those_of_statics() -> None:
     machine = lw.loads(YOKE)
     names = ["slot.friction", "bed.friction", "yoke.mass"]
     objective = lw.objective(machine, "input_torque rms", vary=names, steps=STEPS)
@@ -306,7 +245,6 @@ def test_value_and_gradient_of_a_dry_yoke_are_those_of_statics(monkeypatch: pyte
         for k, slope in enumerate(gradient):
             shifted = [x + 1e-30j * (i == k) for i, x in enumerate(point)]
             assert slope == pytest.approx(yoke_torque(*shifted).imag / (2e-30 * value), rel=1e-11)
-    refuse_single(monkeypatch)
     columns = dict(zip(names, np.array(points).T, strict=True))
     swept = lw.sweep(machine, columns, outputs=["input_torque rms"], steps=STEPS)
     expected = [np.sqrt(yoke_torque(*point).real) for point in points]
@@ -335,12 +273,9 @@ def yoke_numbers(slot: complex, bed: complex, mass: complex) -> np.ndarray:
     return np.array([np.sqrt(shares @ torque**2), 9.0 * (shares @ torque)])
 
 
-def test_numbers_of_a_yoke_pressed_from_both_sides_are_those_of_statics(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_numbers_of_a_yoke_pressed_from_both_sides_are_those_of_statics() -> None:
     machine = lw.loads(YOKE.replace("mass: 3 kg", "mass: 10 kg"))
     names, by = ["rms_input_torque", "mean_power"], ["slot.friction", "bed.friction", "yoke.mass"]
-    refuse_single(monkeypatch)
     points = [(0.2, 0.3, 10.0), (0.5, 0.4, 10.0), (0.01, 0.7, 10.0)]
     swept = lw.sweep(machine, dict(zip(by, np.array(points).T, strict=True)), outputs=names)
     for k, point in enumerate(points):
@@ -356,77 +291,28 @@ def test_numbers_of_a_yoke_pressed_from_both_sides_are_those_of_statics(
             assert gradient == pytest.approx(np.array(shifted) / 1e-30, rel=1e-10)
 
 
-PAIR = """
-format: 1
-name: wheels one above the other
-frame: {points: {O: [0 m, 0 m], Q: [0 m, -0.3 m]}}
-links:
-  pinion: {points: [O]}
-  wheel: {points: [Q], mass: 5 kg}
-joints: {mesh: {kind: gear, links: [pinion, wheel], teeth: [20, 40], pressure_angle: 20 deg}}
-driver: {turn: pinion, about: O, speed: 6 rad/s}
-gravity: [0, -9.81 m/s²]
-loads: {work: {kind: torque, on: wheel, magnitude: 8 N·m + 20 N·m * sin(input)}}
-"""
-
-
 def test_a_wheel_whose_teeth_change_flanks_has_the_reaction_of_statics() -> None:
     """The tooth force F = T/r goes sideways, |F| tan α pushes the wheel down; with T = a + b sin φ the mean of |T| is
     2/π (√(b² - a²) + a asin(a/b))."""
     machine = lw.loads(PAIR)
     masses = np.array([5.0, 1.0, 20.0])
-    cycle = metric_cycle(machine, ["wheel.mass"], ["rms_reaction Q"])
-    assert cycle is not None
-    found = cycle.evaluate({"wheel.mass": masses})
-    assert found.certain.all()
+    found = lw.sweep(machine, {"wheel.mass": masses}, outputs=["rms_reaction Q"])
     a, b, r, slope, weight = 8.0, 20.0, 0.2, np.tan(np.radians(20.0)), masses * 9.81
     square, size = a * a + 0.5 * b * b, 2.0 / np.pi * (np.sqrt(b * b - a * a) + a * np.arcsin(a / b))
     expected = square / r**2 * (1.0 + slope**2) + weight**2 + 2.0 * weight * slope * size / r
-    assert found.values["rms_reaction Q"] == pytest.approx(np.sqrt(expected), rel=1e-12)
+    assert found["rms_reaction Q"] == pytest.approx(np.sqrt(expected), rel=1e-12)
 
 
-def dense(machine: lw.Mechanism, period: float, panels: int = 360) -> tuple[float, float]:
-    """Mean power and root mean square torque: panels that are halved until rules of 13 places with their ends agree,
-    as the ends see jumps beside them."""
-    places = -np.cos(np.pi * np.arange(13) / 12)
-    weights = np.linalg.solve(np.polynomial.legendre.legvander(places, 12).T, np.eye(13)[0] * 2.0)
-
-    def integrals(low: np.ndarray, high: np.ndarray) -> np.ndarray:
-        half = 0.5 * (high - low)
-        time = low[:, None] + half[:, None] * (1.0 + places)
-        torque = lw.solve_forces(lw.solve_motion(machine, times=time.ravel())).input_torque
-        torque = torque.reshape(time.shape)
-        return np.stack([(torque @ weights) * half, (torque**2 @ weights) * half])
-
-    low = np.linspace(0.0, period, panels + 1)
-    low, high = low[:-1], low[1:]
-    known, total = integrals(low, high), np.zeros(2)
-    limit = 1e-14 * np.abs(known).sum(axis=1)[:, None]
-    for _ in range(44):
-        middle = 0.5 * (low + high)
-        first, second = integrals(low, middle), integrals(middle, high)
-        rough = (np.abs(first + second - known) > limit).any(axis=0)
-        total += (first + second)[:, ~rough].sum(axis=1)
-        low, high = np.append(low[rough], middle[rough]), np.append(middle[rough], high[rough])
-        known = np.concatenate([first[:, rough], second[:, rough]], axis=1)
-        if not len(low):
-            break
-    mean, square = (total + known.sum(axis=1)) / period
-    (driver,) = machine.drivers.values()
-    return mean * driver.law.constant_speed, np.sqrt(square)
-
-
+@pytest.mark.rotating
 def test_numbers_of_one_machine_with_friction_are_those_of_a_dense_quadrature() -> None:
-    machine = rubbing(lw.load("gallery:shaper_quick_return"), 0.05)
+    machine = rubbing(stored("shaper_quick_return"), 0.05)
     machine = machine.with_dimensions({"crank.length": 1.002 * machine.dimension("crank.length")})
     expected = dense(machine, 2.0 * np.pi / machine.dimension("driver.speed"))
     names = ["mean_power", "rms_input_torque"]
     alone = lw.metrics(lw.solve_forces(machine), names)
     assert [alone.value(name) for name in names] == pytest.approx(expected, rel=1e-12)
-    cycle = metric_cycle(machine, ["crank.length"], names)
-    assert cycle is not None
-    found = cycle.evaluate({"crank.length": np.array([machine.dimension("crank.length")])})
-    assert [found.values[name][0] for name in names] == pytest.approx(expected, rel=1e-12)
+    found = lw.sweep(machine, {"crank.length": [machine.dimension("crank.length")]}, outputs=names)
+    assert [found[name][0] for name in names] == pytest.approx(expected, rel=1e-12)
 
 
 def test_numbers_of_one_yoke_pressed_from_both_sides_are_those_of_statics() -> None:

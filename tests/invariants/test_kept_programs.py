@@ -1,164 +1,89 @@
-"""Programs are kept by a mechanism's shape: results depend on its numbers only, never on what was solved before."""
+"""Results depend on the numbers of a mechanism only, never on what was solved before, to the bit."""
+
+from __future__ import annotations
 
 import pickle
+import subprocess
+import sys
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
+from tests.every import every
+from tests.invariants.edited_machines import EDITS, RUBBING, torque
+from tests.store import machine
 
 import linkwright as lw
-from linkwright.engine.recently_made import Recent
-from linkwright.kinematics import programs
-from linkwright.kinematics.cycle import over_cycle
-from linkwright.kinematics.program_shape import shape
-from linkwright.kinematics.solve import MotionRun
-from linkwright.kinematics.solver import MotionSolver
-from linkwright.kinetostatics.run import forces_at_once, run_forces
 
-SIXBAR = "gallery:jaw_crusher_sixbar"
+ROOT = Path(__file__).resolve().parents[2]
 
 
-def torque(mechanism):
-    return lw.solve_forces(lw.solve_motion(mechanism, steps=24)).input_torque
+@pytest.fixture(scope="module")
+def alone(tmp_path_factory: pytest.TempPathFactory) -> dict[str, NDArray[np.float64]]:
+    """Torques of the edited machines, found by a process that has solved nothing else."""
+    file = tmp_path_factory.mktemp("alone") / "torques.npz"
+    subprocess.run(
+        [sys.executable, "-m", "tests.invariants.edited_machines", str(file)],
+        cwd=ROOT,
+        check=True,
+        timeout=300,
+    )
+    with np.load(file) as found:
+        return dict(found)
 
 
-def forget():
-    """As if nothing had been solved before."""
-    programs._kept = Recent(32)
-
-
-def alone(mechanism):
-    forget()
-    return torque(mechanism)
-
-
-@pytest.mark.parametrize(
-    "name", ["jaw_crusher_sixbar", "swing_conveyor", "triad", "scotch_yoke", "excavator"]
-)
-def test_an_edited_value_gives_the_same_bits_whatever_was_solved_before(name):
-    mechanism = lw.load(f"gallery:{name}")
-    lengths = [address for address in mechanism.dimensions() if address.endswith(".length")]
-    changed = mechanism.with_dimensions({a: mechanism.dimension(a) * 1.0002 for a in lengths})
-    expected = alone(changed)
-    alone(mechanism)
-    assert np.array_equal(torque(changed), expected)
+@pytest.mark.parametrize("name", EDITS)
+def test_an_edited_machine_gives_the_same_bits_whatever_was_solved_before(
+    name: str, alone: dict[str, NDArray[np.float64]]
+) -> None:
+    before, after = EDITS[name]()
+    was = torque(before)
+    now = torque(after)
+    assert np.array_equal(now, alone[name])
+    assert not np.array_equal(now, was)
 
 
 @pytest.mark.parametrize("static", [False, True])
 @pytest.mark.parametrize(
-    ("name", "at_once"),
+    "name",
     [
-        ("jaw_crusher_sixbar", True),
-        ("swing_conveyor", True),
-        ("toggle_press", True),
-        ("excavator", True),
-        ("parallelogram", False),
-        ("triad", False),
-        ("change_point_fourbar", False),
+        "jaw_crusher_sixbar",
+        "swing_conveyor",
+        "toggle_press",
+        "excavator",
+        "parallelogram",
+        "triad",
+        "change_point_fourbar",
     ],
 )
-def test_motion_and_forces_at_once_have_the_bits_of_one_after_the_other(name, at_once, static):
-    mechanism = lw.load(f"gallery:{name}")
-    run = MotionRun(MotionSolver(mechanism), over_cycle(mechanism, 144))
-    assert (forces_at_once(run, static) is not None) == at_once
-    apart = run_forces(lw.solve_motion(mechanism, steps=144), static)
+def test_motion_and_forces_together_have_the_bits_of_one_after_the_other(name: str, static: bool) -> None:
+    mechanism = machine(name)
+    apart = lw.solve_forces(lw.solve_motion(mechanism, steps=144), static=static)
     together = lw.solve_forces(mechanism, steps=144, static=static)
     for other in (together, lw.solve_forces(apart.motion, static=static)):
-        assert other.notes == apart.notes
-        assert other.motion.notes == apart.motion.notes
-        for name in apart.rows.index:
-            assert np.array_equal(*(each.fetch((name,))[0] for each in (other, apart)), equal_nan=True)
-    for name in apart.motion.rows.index:
-        pair = (each.motion.rows.row(name, each.motion.evaluate) for each in (together, apart))
-        assert np.array_equal(*pair, equal_nan=True)
+        assert (other.notes, other.motion.notes) == (apart.notes, apart.motion.notes)
+        for one, two in zip(every(apart.columns().items()), other.columns().items(), strict=True):
+            assert one[0] == two[0] and np.array_equal(one[1], two[1], equal_nan=True), one[0]
 
 
-def test_an_edited_value_is_not_traced_again(monkeypatch):
-    mechanism = lw.load(SIXBAR)
-    torque(mechanism)
-    monkeypatch.setattr(programs, "trace_motion", lambda *_, **__: pytest.fail("traced again"))
-    assert np.isfinite(torque(mechanism.with_dimensions({"crank.length": 0.11}))).all()
-
-
-@pytest.mark.parametrize(
-    ("address", "value"),
-    [("crank.mass", 3.0), ("jaw.mass", 0.0), ("gravity.x", 1.0), ("O1.x", None), ("jaw.D.y", 0.1)],
-)
-def test_values_that_become_zero_or_cease_to_be_are_followed(address, value):
-    mechanism = lw.load(SIXBAR)
-    address, value = ("frame.O1.x", 0.01) if value is None else (address, value)
-    changed = mechanism.with_dimensions({address: value})
-    expected = alone(changed)
-    alone(mechanism)
-    assert np.array_equal(torque(changed), expected)
-    assert shape(changed) != shape(mechanism)
-    assert not np.allclose(expected, torque(mechanism), rtol=1e-9) or address == "jaw.D.y"
-
-
-def test_angles_that_become_quarter_turns_are_followed():
-    mechanism = lw.load("gallery:scotch_yoke")
-    angles = [a for a in mechanism.dimensions() if a.endswith((".direction", ".block_angle"))]
-    changed = mechanism.with_dimensions({a: mechanism.dimension(a) + 0.1 for a in angles[:1]})
-    assert shape(changed) != shape(mechanism)
-
-
-@pytest.mark.parametrize(("first", "second"), [(0.0, 0.5), (0.5, 0.0), (0.5, 1.0), (0.0, 0.1), (0.1, 0.2)])
-def test_a_guide_that_is_turned_gives_the_same_bits_whatever_was_solved_before(first, second):
-    given = lw.load("gallery:slider_crank_inline")
-    mechanism, changed = (given.with_dimensions({"cylinder.direction": x * np.pi}) for x in (first, second))
-    expected = alone(changed)
-    alone(mechanism)
-    assert np.array_equal(torque(changed), expected)
-
-
-def test_the_programs_used_last_are_the_ones_that_stay(monkeypatch):
-    monkeypatch.setattr(programs, "_kept", Recent(2))
-    first, second, third = (lw.load(f"gallery:{name}") for name in ("crank_rocker", "kite", "scotch_yoke"))
-    for each in (first, second, first, third):
-        torque(each)
-    monkeypatch.setattr(programs, "trace_motion", lambda *_, **__: pytest.fail("traced again"))
-    for each in (first, third):
-        assert np.isfinite(torque(each)).all()
-
-
-def test_friction_follows_the_coefficient():
-    text = """
-format: 1
-name: slider-crank with friction
-frame: {points: {O: [0 m, 0 m]}}
-links:
-  crank: {points: [O, A], length: 0.1 m}
-  rod: {points: [A, B], length: 0.4 m, mass: 1 kg, inertia: 0.01 kg·m²}
-  slider: {points: [B], mass: 2 kg}
-joints:
-  guide: {kind: prismatic, guide: frame, through: O, direction: 0 rad, block: slider, at: B, friction: 0.1}
-driver: {turn: crank, about: O, speed: 10 rad/s}
-gravity: [0, -9.81 m/s²]
-"""
-    low = lw.loads(text)
-    high = lw.loads(text.replace("friction: 0.1", "friction: 0.2"))
-    first = torque(low)
-    assert np.array_equal(alone(high), (alone(low), torque(high))[1])
-    assert np.abs(torque(high) - first).max() > 1e-3
-
-
-def test_eight_threads_share_the_programs():
-    mechanism = lw.load(SIXBAR)
-    designs = [mechanism.with_dimensions({"crank.length": 0.1 + 1e-3 * k}) for k in range(16)]
-    expected = [torque(design) for design in designs]
-    forget()
+def test_eight_threads_find_what_one_does() -> None:
+    """A machine of names of its own, of which nothing is known before the threads begin."""
+    given = lw.loads(RUBBING.replace("rod", "shared_rod"))
+    designs = [given.with_dimensions({"crank.length": 0.1 + 1e-3 * k}) for k in range(16)]
     with ThreadPoolExecutor(8) as pool:
         found = list(pool.map(torque, designs))
-    for one, other in zip(found, expected, strict=True):
-        assert np.array_equal(one, other)
+    for one, design in zip(found, designs, strict=True):
+        assert np.array_equal(one, torque(design))
 
 
 @pytest.mark.parametrize(
     "name", ["jaw_crusher_sixbar", "excavator", "planetary_two_inputs", "rack_and_rocker", "swing_conveyor"]
 )
-def test_every_changed_value_is_in_the_elements_of_the_new_mechanism(name):
-    mechanism = lw.load(f"gallery:{name}")
-    for address, value in mechanism.dimensions().items():
+def test_every_changed_value_is_in_the_elements_of_the_new_mechanism(name: str) -> None:
+    mechanism = machine(name)
+    for address, value in every(mechanism.dimensions().items()):
         if value and address not in mechanism.expressions:
             changed = mechanism.with_dimensions({address: 1.0001 * value})
             found_anew = pickle.loads(pickle.dumps(changed)).dimensions()

@@ -5,43 +5,43 @@ from __future__ import annotations
 from dataclasses import replace
 from itertools import pairwise
 from math import acos, degrees, pi, radians, sqrt
-from pathlib import Path
 
 import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
+from tests.every import every
+from tests.invariants.driven_slides import ARM, driven
 from tests.reference.general_case import general_case
+from tests.store import machine as stored
+from tests.store import motion as moved
+from tests.store import names
 
 import linkwright as lw
-from linkwright.drivers.constant_speed import ConstantSpeed
-from linkwright.kinematics.brackets import zero_between
-from linkwright.kinematics.limits import LimitPosition, limit_positions
-from linkwright.mechanism.mechanism import Cycle, Mechanism
+from linkwright import LimitPosition, limit_positions
 
-GALLERY = sorted(path.stem for path in (Path(lw.__file__).parent / "gallery").glob("*.yaml"))
 CHANGE_POINTS = {"change_point_fourbar", "truss", "two_bars_equilibrium"}
 
 
-def outputs(mechanism: Mechanism) -> list[str]:
+def outputs(mechanism: lw.Mechanism) -> list[str]:
     guides = [name for name, joint in mechanism.joints.items() if joint.kind == "prismatic"]
     points = [f"{link}.{point}.{axis}" for link in mechanism.links for point in ("centre",) for axis in "xy"]
     known = [text for text in points if text.split(".")[1] in mechanism.links[text.split(".")[0]].points]
     return [*mechanism.links, *guides, *known]
 
 
-def rates_at(mechanism: Mechanism, output: str, found: tuple[LimitPosition, ...]) -> np.ndarray:
+def rates_at(mechanism: lw.Mechanism, output: str, found: tuple[LimitPosition, ...]) -> np.ndarray:
     motion = lw.solve_motion(mechanism, times=[each.time for each in found])
     if output in mechanism.links:
         return motion.link(output).angular_velocity
     return motion.joint(output).velocity
 
 
-@pytest.mark.parametrize("name", [name for name in GALLERY if name not in CHANGE_POINTS])
+@pytest.mark.rotating
+@pytest.mark.parametrize("name", [name for name in names() if name not in CHANGE_POINTS])
 def test_gallery(name: str) -> None:
     """At every limit the rate is zero; in a closed cycle maxima and minima take turns; values bound the cycle."""
-    mechanism = lw.load(f"gallery:{name}")
-    motion = lw.solve_motion(mechanism, steps=120)
-    for output in outputs(mechanism):
+    mechanism, motion = stored(name), moved(name, 120)
+    for output in every(outputs(mechanism)):
         found = limit_positions(motion, output)
         kinds = [each.kind for each in found]
         assert all(a != b for a, b in pairwise(kinds))
@@ -63,11 +63,10 @@ def test_gallery(name: str) -> None:
     "name", ["jaw_crusher_sixbar", "theo_jansen_leg", "triad", "class_four_group", "shaper_quick_return"]
 )
 def test_independent_of_steps(name: str) -> None:
-    mechanism = lw.load(f"gallery:{name}")
-    for output in outputs(mechanism):
-        fine = limit_positions(lw.solve_motion(mechanism, steps=360), output)
+    for output in every(outputs(stored(name))):
+        fine = limit_positions(moved(name), output)
         for steps in (40, 121):
-            coarse = limit_positions(lw.solve_motion(mechanism, steps=steps), output)
+            coarse = limit_positions(moved(name, steps), output)
             assert [each.kind for each in coarse] == [each.kind for each in fine]
             assert np.allclose([e.input for e in coarse], [e.input for e in fine], rtol=0, atol=5e-13)
 
@@ -75,14 +74,9 @@ def test_independent_of_steps(name: str) -> None:
 @pytest.mark.parametrize("start", [-200.0, 33.557309761920706, 90.0, 216.8698976458, 350.0])
 def test_independent_of_start(start: float) -> None:
     """Also where the cycle begins exactly at a limit: none is lost, none counts twice."""
-    mechanism = lw.load("gallery:crank_rocker")
-    driver = mechanism.drivers["driver"]
-    assert isinstance(driver.law, ConstantSpeed)
-    moved = replace(
-        mechanism, drivers={"driver": replace(driver, law=replace(driver.law, start=radians(start)))}
-    )
+    begun = stored("crank_rocker").with_dimensions({"driver.start": radians(start)})
     for endpoint in (False, True):
-        motion = lw.solve_motion(moved, endpoint=endpoint)
+        motion = lw.solve_motion(begun, endpoint=endpoint)
         found = limit_positions(motion, "rocker")
         assert sorted(round(degrees(each.input) % 360, 8) for each in found) == [33.55730976, 216.86989765]
         for each in found:
@@ -91,31 +85,13 @@ def test_independent_of_start(start: float) -> None:
 
 
 def test_backward_motion_gives_the_same_places() -> None:
-    mechanism = lw.load("gallery:crank_rocker")
-    driver = mechanism.drivers["driver"]
-    assert isinstance(driver.law, ConstantSpeed)
-    law = replace(driver.law, speed=-driver.law.speed)
-    back = replace(mechanism, drivers={"driver": replace(driver, law=law)})
-    ahead = limit_positions(lw.solve_motion(mechanism), "rocker")
+    mechanism = stored("crank_rocker")
+    back = mechanism.with_dimensions({"driver.speed": -mechanism.dimension("driver.speed")})
+    ahead = limit_positions(moved("crank_rocker"), "rocker")
     behind = limit_positions(lw.solve_motion(back), "rocker")
     assert {(round(e.input % (2 * pi), 12), e.kind) for e in ahead} == {
         (round(e.input % (2 * pi), 12), e.kind) for e in behind
     }
-
-
-SLIDE = """
-format: 1
-name: driven slide
-frame: {{points: {{O: [0 m, 0 m]}}}}
-links: {{slide: {{points: [A]}}}}
-joints: {{guide: {{kind: prismatic, guide: frame, through: O, direction: 0 deg, block: slide, at: A}}}}
-driver: {{slide: guide, {law}}}
-cycle: {{duration: 2 s}}
-"""
-
-
-def driven(law: str) -> Mechanism:
-    return lw.loads(SLIDE.format(law=law))
 
 
 def test_touching_zero_is_no_limit() -> None:
@@ -154,7 +130,7 @@ def test_two_limits_between_neighbouring_positions() -> None:
 
 
 def test_ends_of_an_open_range_are_no_limits() -> None:
-    mechanism = lw.load("gallery:crank_rocker")
+    mechanism = stored("crank_rocker")
     motion = lw.solve_motion(mechanism, at=np.radians(np.arange(40.0, 200.0)))
     assert limit_positions(motion, "rocker") == ()
     wider = lw.solve_motion(mechanism, at=np.radians(np.arange(20.0, 200.0)))
@@ -164,7 +140,7 @@ def test_ends_of_an_open_range_are_no_limits() -> None:
 
 def test_law_in_time() -> None:
     """The ladder's head is highest where its foot passes the wall, lowest where the foot turns."""
-    motion = lw.solve_motion(lw.load("gallery:double_slider"), steps=77)
+    motion = moved("double_slider", 77)
     found = limit_positions(motion, "wall")
     highest = [each for each in found if each.kind == "max"]
     lowest = [each for each in found if each.kind == "min"]
@@ -175,7 +151,7 @@ def test_law_in_time() -> None:
 
 def test_limits_at_change_points() -> None:
     """The pins of a parallelogram are outermost where its links line up."""
-    mechanism = replace(lw.load("gallery:parallelogram"), cycle=None)
+    mechanism = replace(stored("parallelogram"), cycle=None)
     for steps in (45, 360, 361):
         motion = lw.solve_motion(mechanism, steps=steps, failures="mark")
         for output, shift in (("A.x", 0.0), ("B.x", 2.0)):
@@ -203,7 +179,8 @@ def test_two_turns_through_a_change_point_show_the_limits_of_both_modes() -> Non
     of cosines 28.9550° on both sides of the frame line; folded they pass the change point."""
     mechanism = lw.loads(CHANGE_POINT)
     one = limit_positions(lw.solve_motion(mechanism, steps=359), "rocker")
-    two = limit_positions(lw.solve_motion(replace(mechanism, cycle=Cycle(turns=2.0)), steps=719), "rocker")
+    twice = lw.loads(f"{CHANGE_POINT}cycle: {{turns: 2}}\n")
+    two = limit_positions(lw.solve_motion(twice, steps=719), "rocker")
     assert [each.input for each in one] == pytest.approx([e.input for e in two if e.input < 2 * pi], abs=1e-9)
     assert sum(each.kind == "max" for each in two) == sum(each.kind == "min" for each in two) > 0
     assert degrees(two[0].input) == pytest.approx(degrees(acos(0.875)), abs=1e-12)
@@ -229,9 +206,8 @@ def test_a_circle_reverses_at_its_four_ends(
 ) -> None:
     """x = r cos θ and y = r sin θ: place, time, value, kind and the position before, on plain numbers."""
     text = TURNED.replace("SPEED", f"{speed}").replace("START", f"{start}")
-    motion = lw.solve_motion(
-        replace(lw.loads(text), cycle=Cycle(turns=turns)), steps=steps, endpoint=endpoint
-    )
+    mechanism = lw.loads(f"{text}cycle: {{turns: {turns}}}\n")
+    motion = lw.solve_motion(mechanism, steps=steps, endpoint=endpoint)
     closed, begin = turns in (1.0, 2.0), radians(start)
     time, period = motion.time, turns * 2 * pi / abs(speed)
     for axis, shift in (("x", 0.0), ("y", pi / 2)):
@@ -249,16 +225,6 @@ def test_a_circle_reverses_at_its_four_ends(
             assert each.value == pytest.approx(0.3 if kind == "max" else -0.3, abs=1e-16)
             last = period if each.index == len(time) - 1 else time[each.index + 1]
             assert time[each.index] <= each.time < last + 1e-14
-
-
-ARM = """
-format: 1
-frame: {points: {O: [0 m, 0 m]}}
-links: {crank: {points: [O, C], length: 1 m}, arm: {points: [C, T], length: LENGTH m}}
-drivers:
-  spin: {turn: crank, about: O, speed: SPEED rad/s, start: START deg}
-  wrist: {turn: arm, about: C, speed: SPEED rad/s, start: START deg}
-"""
 
 
 @pytest.mark.parametrize("speed", [1.0, -1.0])
@@ -332,26 +298,6 @@ def test_a_rate_that_comes_near_to_zero_between_two_positions_is_none(least: flo
     assert limit_positions(lw.solve_motion(driven(law), steps=20), "guide") == ()
 
 
-def test_the_first_guess_of_a_zero_is_the_cubic_of_the_share_over_the_rate() -> None:
-    """Exact where the share is a cubic of the rate, whatever its slopes; the straight line where it leaves 0…1."""
-    random, inside = np.random.default_rng(7), 0
-    for _ in range(60):
-        a, b = random.uniform(-3.0, -0.2), random.uniform(0.2, 3.0)
-        ramp, width = np.polynomial.Polynomial([-a, 1.0]) / (b - a), b - a
-        slopes = random.uniform(0.1, 6.0, 2) / width
-        share = ramp**2 * (3.0 - 2.0 * ramp) + width * (
-            slopes[0] * ramp * (1.0 - ramp) ** 2 - slopes[1] * ramp**2 * (1.0 - ramp)
-        )
-        assert (share(a), share(b)) == (pytest.approx(0.0, abs=1e-12), pytest.approx(1.0, abs=1e-12))
-        assert share.deriv()(np.array([a, b])) == pytest.approx(slopes)
-        exact, straight = float(share(0.0)), -a / width
-        good = 0.0 < exact < 1.0
-        inside += good
-        assert zero_between(a, b, *(1.0 / slopes)) == pytest.approx(exact if good else straight, abs=1e-12)
-    assert 30 < inside < 60
-    assert zero_between(-1.0, 3.0, 0.0, 1.0) == zero_between(-1.0, 3.0, 1.0, 0.0) == 0.25
-
-
 @pytest.mark.parametrize("steps", [24, 60, 499])
 def test_all_reversals_are_found_however_many_turns_lie_between_two_positions(steps: int) -> None:
     """A table with two near times makes its spline run some turns; reversals of the rocker by a dense closed form."""
@@ -380,22 +326,24 @@ driver: {{turn: crank, about: O, table: {{time: [{", ".join(f"{t} s" for t in ti
     assert [each.time for each in inner] == pytest.approx(t[turned].tolist(), abs=2.0 * t[1])
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("seed", [3, 8, 16, 20])
 def test_limits_lie_in_what_is_reached(seed: int) -> None:
     """Machines with tables as laws that reach a part of their cycle: nothing beyond its ends is a limit."""
     motion = lw.solve_motion(lw.loads(general_case(seed).text), steps=60, failures="mark")
     assert motion.ok.any() and not motion.ok.all()
-    for output in outputs(motion.mechanism):
-        for each in limit_positions(motion, output):
-            assert np.isfinite(each.value) and motion.ok[each.index]
+    limits = [each for output in outputs(motion.mechanism) for each in limit_positions(motion, output)]
+    for each in every(limits):
+        assert np.isfinite(each.value) and motion.ok[each.index]
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize(
     "name", ["swing_conveyor", "dyad_rpp", "theo_jansen_leg", "planetary_two_inputs", "scotch_yoke"]
 )
 def test_numbers_of_a_cycle_in_few_positions_are_those_in_many(name: str) -> None:
     """Two positions hide turns, and of four reversals close to each other some."""
-    model = lw.load(f"gallery:{name}")
+    model = stored(name)
     many, *few = (
         {(row.metric, row.subject): row.value for row in lw.metrics(lw.solve_forces(model, steps=steps))}
         for steps in (360, 1, 2, 4, 7)
@@ -405,11 +353,13 @@ def test_numbers_of_a_cycle_in_few_positions_are_those_in_many(name: str) -> Non
 
 
 def test_positions_out_of_reach_are_counted_as_they_were_asked_for() -> None:
-    short = lw.load("gallery:crank_rocker").with_dimensions({"coupler.length": 1.5})
+    short = stored("crank_rocker").with_dimensions({"coupler.length": 1.5})
     table = lw.metrics(lw.solve_motion(short, steps=8, failures="mark"))
-    assert "of 8 positions" in table.text()
+    (note,) = table.notes
+    assert (note.key, note.values["reached"], note.values["count"]) == ("metrics.part_reached", 3, 8)
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("seed", [100, 135, 138, 139])
 def test_numbers_of_what_is_reached_are_those_for_any_number_of_positions(seed: int) -> None:
     """Machines that come out of reach in a step, some of them before guides become parallel in it."""

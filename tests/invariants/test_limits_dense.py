@@ -4,36 +4,34 @@ positions: none is lost, none is made up, whatever the steps, the law, the sense
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from tests.invariants.test_limits_change_points import fourbar
-from tests.invariants.test_limits_cycle import ARM, driven
+from tests.invariants.driven_slides import ARM, driven
+from tests.invariants.fourbars import fourbar
+from tests.store import machine as gallery
+from tests.store import text
 
 import linkwright as lw
-from linkwright.mechanism.mechanism import Cycle, Mechanism
 
 Floats = NDArray[np.float64]
 #: Positions of the fine motion for one of the coarse one.
 FINE = 15
 
 
-def gallery(name: str) -> Mechanism:
-    return lw.load(f"gallery:{name}")
-
-
-def backwards(name: str) -> Mechanism:
+def backwards(name: str) -> lw.Mechanism:
     mechanism = gallery(name)
-    driver = mechanism.drivers["driver"]
-    law = replace(driver.law, speed=-driver.law.speed)  # type: ignore[type-var]
-    return replace(mechanism, drivers={"driver": replace(driver, law=law)})
+    return mechanism.with_dimensions({"driver.speed": -mechanism.dimension("driver.speed")})
 
 
-def over(name: str, begin: float, end: float) -> Mechanism:
-    return replace(gallery(name), cycle=Cycle(start=np.radians(begin), end=np.radians(end)))
+def over(name: str, cycle: str) -> lw.Mechanism:
+    return lw.loads(f"{text(name)}\ncycle: {{{cycle}}}\n")
+
+
+def twice(mechanism: lw.Mechanism) -> lw.Mechanism:
+    return lw.loads(f"{lw.dump(mechanism)}\ncycle: {{turns: 2}}\n")
 
 
 SWING = """
@@ -47,19 +45,19 @@ assembly: {B: left}
 driver: {turn: crank, about: O1, position: "70 deg + 65 deg*sin(2*pi*t/(3 s)) + 20 deg*cos(6*pi*t/(3 s))"}
 cycle: {duration: 3 s}
 """
-CASES: dict[str, tuple[Callable[[], Mechanism], int]] = {
+CASES: dict[str, tuple[Callable[[], lw.Mechanism], int]] = {
     "crank and rocker": (lambda: gallery("crank_rocker"), 24),
     "backwards": (lambda: backwards("crank_rocker"), 25),
-    "open way": (lambda: over("crank_rocker", 40, 300), 18),
-    "open way back": (lambda: over("jaw_crusher_sixbar", 300, -70), 31),
-    "two turns": (lambda: replace(gallery("crank_rocker"), cycle=Cycle(turns=2.0)), 47),
+    "open way": (lambda: over("crank_rocker", "from: 40 deg, to: 300 deg"), 18),
+    "open way back": (lambda: over("jaw_crusher_sixbar", "from: 300 deg, to: -70 deg"), 31),
+    "two turns": (lambda: over("crank_rocker", "turns: 2"), 47),
     "law in time": (lambda: lw.loads(SWING), 40),
     "sliding": (lambda: gallery("double_slider"), 33),
     "two drivers": (lambda: lw.loads(ARM.replace("LENGTH", "0.6").replace("SPEED", "-2").replace("START", "7")), 30),
     "out of reach": (lambda: fourbar(3, 1, 2.8, 3.2, start=50), 90),
     "change point": (lambda: fourbar(1, 3, 2, 4, start=3), 37),
     "turns through a change point": (
-        lambda: replace(fourbar(1, 3, 2, 4, start=3), cycle=Cycle(turns=2.0)), 61),
+        lambda: twice(fourbar(1, 3, 2, 4, start=3)), 61),
     "triad": (lambda: gallery("triad"), 30),
     "triad to and fro": (lambda: gallery("stephenson_sixbar_triad"), 24),
     "gears": (lambda: gallery("geared_fivebar"), 36),
@@ -67,7 +65,7 @@ CASES: dict[str, tuple[Callable[[], Mechanism], int]] = {
 }  # fmt: skip
 
 
-def outputs(mechanism: Mechanism) -> list[str]:
+def outputs(mechanism: lw.Mechanism) -> list[str]:
     owned = [f"{link}.{point}" for link, each in mechanism.links.items() for point in each.points]
     points = [f"{point}.{axis}" for point in owned for axis in "xy"]
     return [*mechanism.links, *mechanism.guides, *points]
@@ -137,6 +135,7 @@ def compare(coarse: lw.Motion, fine: lw.Motion, output: str, share: int, wraps: 
     return len(found)
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("name", CASES)
 def test_limits_over_the_cycle(name: str) -> None:
     make, steps = CASES[name]
@@ -148,6 +147,7 @@ def test_limits_over_the_cycle(name: str) -> None:
     assert check(coarse, fine, FINE, wraps) > 1
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("name", ["crank and rocker", "law in time", "triad", "gears"])
 @pytest.mark.parametrize(("begin", "end"), [(0.1, 0.8), (0.9, 0.2)])
 def test_limits_at_times_of_ones_own(name: str, begin: float, end: float) -> None:

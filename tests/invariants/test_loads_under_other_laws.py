@@ -1,61 +1,23 @@
 """Loads of many designs at once under laws and over cycles of every kind: those of each design alone."""
 
-from importlib.resources import files
-
 import numpy as np
 import pytest
-from tests.unit.test_load_magnitudes import SLIDER
+from tests.invariants.loaded_sliders import (
+    BETWEEN_LIMITS,
+    LOADS,
+    ON_THE_PLATE,
+    ONE_WAY,
+    SEVERAL_TURNS,
+    SLIDER,
+    TO_AND_FRO,
+    TWO_DRIVERS,
+    UNEVEN,
+    machine,
+    pushed_triad,
+)
+from tests.refusals import agrees, refused
 
 import linkwright as lw
-from linkwright.cycle_programs.one_by_one import OneByOne
-
-GALLERY = files("linkwright.gallery")
-TO_AND_FRO, UNEVEN, SEVERAL_TURNS = (
-    'position: "2 rad*sin(3*t/(1 s))"',
-    'position: "3 rad*t/(1 s) + 0.3 rad*sin(t/(1 s))"',
-    "speed: 10 rad/s",
-)
-LOADS = {
-    "interval": "ramp: [3 N, 18 N], phase: {input: [30 deg, 200 deg]}",
-    "expression": 'magnitude: "3 N*sin(input) + 2 N/m*B.x + 1 N*t/(1 s) + 2 N*rod/rad"',
-    "one way": "magnitude: 7 N, phase: {moving: B.x, direction: decreasing}",
-    "table over the input": "table: {over: input, x: [0 deg, 90 deg, 360 deg], y: [1 N, 9 N, 1 N]}",
-    "table over the time": "table: {over: time, x: [0 s, 1 s, 4 s], y: [1 N, 9 N, 1 N]}",
-    "table over an output": "table: {over: cylinder, x: [1 m, 3 m, 4.5 m], y: [1 N, 9 N, 1 N]}",
-    "smooth table over an output": "table: {over: cylinder, x: [1 m, 2.4 m, 3 m, 4.5 m], y: [1 N, 2 N, 9 N, 1 N],"
-    " interpolation: cubic}",
-    "periodic table over the input": "table: {over: input, x: [0 deg, 90 deg, 200 deg, 360 deg],"
-    " y: [1 N, 9 N, 2 N, 1 N], interpolation: periodic}",
-}
-#: The rod's angle goes once from its smallest value to its largest one; in several turns it does so in every turn.
-ONE_WAY = (UNEVEN, SEVERAL_TURNS)
-BETWEEN_LIMITS = {
-    "stroke": "magnitude: 7 N, phase: {of: rod, from: min, to: max}",
-    "ramp": "ramp: [3 N, 18 N], phase: {of: rod, from: min, to: max}",
-    "ramp of a velocity": "ramp: [3 N, 18 N], phase: {moving: rod, direction: increasing}",
-    "part of a stroke": "magnitude: 7 N, phase: {of: rod, from: min, to: max, first: 10 deg}",
-}
-TWO_DRIVERS = """
-format: 1
-name: five-bar with two cranks
-frame: {points: {O: [0 m, 0 m], Q: [2 m, 0 m]}}
-links:
-  left: {points: [O, A], length: 1 m}
-  right: {points: [Q, B], length: 0.8 m}
-  rod: {points: [A, P], length: 3 m}
-  arm: {points: [B, P], length: 2.5 m}
-assembly: {P: left}
-drivers:
-  first: {turn: left, about: O, speed: 10 rad/s}
-  second: {turn: right, about: Q, speed: -20 rad/s}
-loads:
-  work: {kind: force, on: rod, at: P, direction: 0 deg, magnitude: "3 N*sin(input) + 2 N/m*P.y + 1 N*rod/rad"}
-"""
-
-
-def machine(law: str, load: str) -> lw.Mechanism:
-    text = SLIDER.replace("loads:", "cycle: {duration: 1.5 s}\nloads:").replace("speed: SPEED", law)
-    return lw.loads(text.replace("LOAD", f"{{kind: force, on: piston, at: B, direction: 0 deg, {load}}}"))
 
 
 def compare(mechanism: lw.Mechanism, address: str, driver: str) -> None:
@@ -70,21 +32,19 @@ def compare(mechanism: lw.Mechanism, address: str, driver: str) -> None:
         assert found[f"{driver}.effort", "rms"][k] == pytest.approx(rms, rel=1e-12)
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("law", [TO_AND_FRO, UNEVEN, SEVERAL_TURNS])
 @pytest.mark.parametrize("load", LOADS)
-def test_designs_under_laws_of_every_kind_go_at_once(
-    load: str, law: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(OneByOne, "rows", lambda *_, **__: pytest.fail("found one by one"))
+def test_designs_under_laws_of_every_kind_are_those_alone(load: str, law: str) -> None:
     compare(machine(law, LOADS[load]), "rod.length", "driver")
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("law", ONE_WAY)
 @pytest.mark.parametrize("load", BETWEEN_LIMITS)
-def test_loads_between_limits_of_designs_under_laws_go_at_once_with_gradients(
-    load: str, law: str, monkeypatch: pytest.MonkeyPatch
+def test_loads_between_limits_of_designs_under_laws_are_those_alone_with_gradients(
+    load: str, law: str
 ) -> None:
-    monkeypatch.setattr(OneByOne, "rows", lambda *_, **__: pytest.fail("found one by one"))
     mechanism = machine(law, BETWEEN_LIMITS[load])
     compare(mechanism, "rod.length", "driver")
     objective = lw.objective(mechanism, "input_torque rms", vary=["rod.length"], steps=90)
@@ -103,31 +63,15 @@ def test_loads_between_limits_of_designs_under_laws_go_at_once_with_gradients(
     assert found.gradient("input_torque rms") == pytest.approx([slope], rel=1e-11)
 
 
-def test_designs_of_two_drivers_go_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(OneByOne, "rows", lambda *_, **__: pytest.fail("found one by one"))
+def test_designs_of_two_drivers_are_those_alone() -> None:
     for driver in ("first", "second"):
         compare(lw.loads(TWO_DRIVERS), "arm.length", driver)
 
 
-@pytest.mark.parametrize(
-    "load",
-    [
-        'at: R, direction: 30 deg, magnitude: "20 N + 400 N/m*R.x + 9 N*sin(plate)"',
-        "at: R, direction: 30 deg, ramp: [40 N, 10 N], phase: {input: [330 deg, 130 deg]}",
-        "at: R, direction: 30 deg, table: {over: input, x: [0 deg, 90 deg, 360 deg], y: [1 N, 30 N, 1 N]}",
-        "at: R, direction: 30 deg, table: {over: time, x: [0 s, 0.2 s, 1 s], y: [1 N, 30 N, 8 N]}",
-        "at: R, opposes: velocity, magnitude: 30 N",
-        "at: R, direction: 30 deg, magnitude: 30 N, phase: {moving: R.x, direction: increasing}",
-    ],
-)
-def test_designs_without_closed_form_take_their_loads_at_once(
-    load: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    text = GALLERY.joinpath("triad.yaml").read_text(encoding="utf-8")
-    mechanism = lw.loads(
-        text.replace("gravity:", f"loads: {{work: {{kind: force, on: plate, {load}}}}}\ngravity:")
-    )
-    monkeypatch.setattr(OneByOne, "rows", lambda *_, **__: pytest.fail("found one by one"))
+@pytest.mark.rotating
+@pytest.mark.parametrize("load", ON_THE_PLATE)
+def test_designs_without_closed_form_take_their_loads(load: str) -> None:
+    mechanism = pushed_triad(load)
     compare(mechanism, "plate.R.x", "driver")
 
 
@@ -148,7 +92,7 @@ def test_what_moves_with_the_cycle_is_that_of_single_designs_as_well(
 @pytest.mark.parametrize("law", [UNEVEN, SEVERAL_TURNS, "speed: -10 rad/s"])
 def test_an_interval_longer_than_a_turn_is_refused_of_many_designs_too(law: str) -> None:
     mechanism = machine(law, "magnitude: 5 N, phase: {input: [0 deg, 720 deg]}")
-    with pytest.raises(lw.LinkwrightError, match="from 0° to 720° is longer than one turn"):
+    with refused("loads.phase_too_long", name="work", start="0°", end="720°"):
         lw.prepare(mechanism, vary=["rod.length"], steps=90).solve({"rod.length": 3.1})
     found = lw.sweep(mechanism, {"rod.length": [3.0, 3.1]}, outputs=["input_torque rms"], steps=90)
     assert not found.ok.any()
@@ -163,11 +107,13 @@ def test_designs_whose_own_interval_is_longer_than_a_turn_are_refused(output: st
     ends = np.radians([200.0, 395.0, 389.0])
     found = lw.sweep(mechanism, {address: ends}, outputs=[output], steps=90)
     assert found.ok.tolist() == [True, False, True]
-    assert "from 30° to 395° is longer than one turn" in found.unloaded[1]
+    why = found.unloaded[1].values["cause"]
+    agrees(why.values, {"start": "30°", "end": "395°"})
+    assert why.code == "loads.phase_too_long"
     objective = lw.objective(mechanism, output, vary=[address], steps=90)
     assert np.isnan(objective.many(ends[:, None])[0]).tolist() == [False, True, False]
     prepared = lw.prepare(mechanism, vary=[address], steps=90)
-    with pytest.raises(lw.LinkwrightError, match="from 30° to 395° is longer than one turn"):
+    with refused("loads.phase_too_long", name="work", start="30°", end="395°"):
         prepared.solve({address: ends[1]})
 
 

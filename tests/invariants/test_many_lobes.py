@@ -25,6 +25,7 @@ loads:
 """
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("seed", range(8))
 def test_no_position_is_beyond_the_largest_values(seed):
     random = np.random.default_rng(seed)
@@ -71,6 +72,7 @@ driver: {{turn: first, about: O1, speed: 60 rpm}}
 """
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize(("teeth", "others"), [(20, 361), (361, 360), (97, 101)])
 @pytest.mark.parametrize("steps", [12, 360])
 def test_numbers_of_a_cycle_of_hundreds_of_turns(teeth, others, steps):

@@ -5,12 +5,14 @@ from typing import Any
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
+from tests.invariants.numbers_alone import numbers_alone
+from tests.store import machine as stored
 
 import linkwright as lw
-from linkwright.core.arrays import Floats
-from linkwright.cycle_programs.terms import measured
-from linkwright.metrics import METRICS, Analysis
-from linkwright.study.design_numbers import side_by_side
+from linkwright.metrics import METRICS
+
+Floats = NDArray[np.float64]
 
 PHASE = "{of: plate, from: min, to: max}"
 PUSH = f"{{kind: force, on: plate, at: R, direction: 90 deg, ramp: [50 N, 200 N], phase: {PHASE}}}"
@@ -22,8 +24,7 @@ VARIED = ["crank.A.x", "plate.R.y", "bar_1.mass"]
 
 def triad(**loads: str) -> lw.Mechanism:
     """The triad of the gallery with a heavy crank."""
-    text = lw.dump(lw.load("gallery:triad"))
-    text = text.replace("[O1, A]}", "[O1, A], mass: 1 kg, inertia: 3 kg·m²}")
+    text = lw.dump(stored("triad")).replace("[O1, A]}", "[O1, A], mass: 1 kg, inertia: 3 kg·m²}")
     found = "".join(f"  {name}: {load}\n" for name, load in loads.items())
     return lw.loads(f"{text}\nloads:\n{found}")
 
@@ -89,9 +90,8 @@ def test_numbers_are_those_of_an_energy_balance_of_loops_closed_here() -> None:
     machine = triad(damper=DAMPER)
     columns = columns_of(machine)
     names = ["swing_angle bar_3", "rms_input_torque", "mean_power", "energy_fluctuation"]
-    (cycle,) = side_by_side(machine, VARIED, names)
-    found = cycle.evaluate(columns)
-    assert found.certain.tolist() == [True, True, True, False]
+    found = lw.sweep(machine, columns, outputs=names)
+    assert found.ok.tolist() == [True, True, True, False]
     speed = machine.dimension("driver.speed")
     for index in (0, 1):
         design = alone(machine, columns, index)
@@ -109,34 +109,30 @@ def test_numbers_are_those_of_an_energy_balance_of_loops_closed_here() -> None:
             torque.mean() * speed,
             np.ptp(fine(torque, integrated=True)),
         ]
-        assert [found.values[name][index] for name in names] == pytest.approx(expected, rel=1e-8)
+        assert [found[name][index] for name in names] == pytest.approx(expected, rel=1e-8)
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize(
-    ("loads", "many"),
-    [({"push": PUSH, "brake": BRAKE}, 22), ({"push": PART}, 22), ({"damper": DAMPER}, 22)],
+    "loads",
+    [{"push": PUSH, "brake": BRAKE}, {"push": PART}, {"damper": DAMPER}],
     ids=["between limits", "part of a stroke", "true speed"],
 )
-def test_numbers_are_those_of_each_machine_alone(loads: dict[str, str], many: int) -> None:
+def test_numbers_are_those_of_each_machine_alone(loads: dict[str, str]) -> None:
     """Loads that begin and end at the same limits, and numbers of the true speed; swept areas beside them."""
     machine = triad(**loads)
     columns = columns_of(machine)
-    names = [name for name, metric in METRICS.items() if not metric.on_request] + [
-        "exact_flywheel",
-        "slowest_speed",
-    ]
-    ways = side_by_side(machine, VARIED, names)
-    assert len(ways[0].terms) == many
-    analysis = Analysis.of(lw.solve_forces(alone(machine, columns, 2)))
-    for way in ways:
-        found = way.evaluate(columns)
-        assert found.certain.tolist() == [True, True, True, False]
-        for term in way.terms:
-            value = measured(term.name, analysis)
-            assert value is not None
-            assert found.values[term.name][2] == pytest.approx(value[0], rel=1e-11, abs=1e-12), term.name
+    names = [name for name, metric in METRICS.items() if not metric.on_request]
+    expected = numbers_alone(machine, columns, 2, [*names, "exact_flywheel", "slowest_speed"])
+    assert len(expected) >= 22
+    found = lw.sweep(machine, columns, outputs=list(expected))
+    assert found.ok.tolist() == [True, True, True, False]
+    for name, value in expected.items():
+        assert found[name][2] == pytest.approx(value, rel=1e-11, abs=1e-12), name
+        assert np.isnan(found[name][3]), name
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("name", ["peak_jerk", "peak_reaction Q", "speed_fluctuation", "swept_area"])
 def test_gradients_are_those_of_differences(name: str) -> None:
     """Of values that are those of each machine alone."""
@@ -151,9 +147,10 @@ def test_gradients_are_those_of_differences(name: str) -> None:
         assert gradient[place] == pytest.approx(difference, rel=1e-6)
 
 
+@pytest.mark.rotating
 def test_jerks_over_positions_have_exact_gradients() -> None:
     """Second derivatives of Newton's step are not those of the position."""
-    objective = lw.objective(lw.load("gallery:triad"), "plate.angular_jerk rms", vary=["crank.A.x"], steps=36)
+    objective = lw.objective(stored("triad"), "plate.angular_jerk rms", vary=["crank.A.x"], steps=36)
     (start,) = objective.start
     values = objective.values(start * (1 + 1e-3 * np.array([[-2], [-1], [1], [2]])))
     difference = (values[0] - 8 * values[1] + 8 * values[2] - values[3]) / (12e-3 * start)
@@ -169,11 +166,10 @@ def test_a_phase_that_ends_where_another_begins_is_no_moment_with_both() -> None
     assert largest < value < largest * (1 + 1e-3)
 
 
+@pytest.mark.rotating
 def test_numbers_by_arrays_and_compiled_are_equal() -> None:
     machine, names = triad(damper=DAMPER), ["peak_reaction", "rms_input_torque", "swing_angle"]
-    (cycle,) = side_by_side(machine, VARIED, names)
     columns = {name: column[1:2] for name, column in columns_of(machine).items()}
-    arrays, compiled = (cycle.evaluate(columns, backend=each) for each in ("numpy", "llvm"))
-    assert arrays.certain.all() and compiled.certain.all()
+    arrays, compiled = (lw.sweep(machine, columns, outputs=names, backend=each) for each in ("numpy", "llvm"))
     for name in names:
-        assert arrays.values[name] == pytest.approx(compiled.values[name], rel=1e-12)
+        assert arrays[name] == pytest.approx(compiled[name], rel=1e-12)

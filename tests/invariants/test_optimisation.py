@@ -7,11 +7,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 from scipy.optimize import brentq, minimize_scalar
+from tests.invariants.meshing_pair import GEARS
+from tests.refusals import refused
+from tests.store import machine as stored
 
 import linkwright as lw
-from linkwright.optimisation.evolution import crowding
-from linkwright.optimisation.measures import Measures
-from linkwright.optimisation.optimum import hypervolume
 
 SLIDER = """\
 format: 1
@@ -94,15 +94,15 @@ def test_whole_numbers_and_catalogues(press: Path) -> None:
 
 
 def test_demands_that_cannot_be_met_name_the_failing_one(press: Path) -> None:
-    with pytest.raises(lw.OptimizeError, match=r"stroke guide ≥ 200 mm \(160 mm\)") as caught:
+    with refused("optimize.failing", lw.OptimizeError, demands=("stroke guide ≥ 200 mm (160 mm)",)) as caught:
         lw.optimize(press, keep={"stroke guide": "at least 200 mm"}, evaluations=400)
     assert caught.value.nearest.best.values["crank.length"] == pytest.approx(0.08)
-    assert "不能同时满足" in caught.value.say("zh")
 
 
 def test_demands_out_of_all_proportion_are_answered_with_the_nearest_design(press: Path) -> None:
-    for least, told in (("at least 4 km", r"4e\+06 mm"), ("0..1e-12 mm", "stroke guide")):
-        with pytest.raises(lw.OptimizeError, match=told) as caught:
+    for least, missed in (("at least 4 km", "≥ 4e+06 mm (160 mm)"), ("0..1e-12 mm", "0..1e-12 mm (40 mm)")):
+        failing = (f"stroke guide {missed}",)
+        with refused("optimize.failing", lw.OptimizeError, demands=failing) as caught:
             lw.optimize(press, keep={"stroke guide": least}, evaluations=300)
         wanted = 0.08 if "km" in least else 0.02  # stroke 2 r
         assert caught.value.nearest.best.values["crank.length"] == pytest.approx(wanted, rel=1e-5)
@@ -123,13 +123,13 @@ def test_an_interrupted_search_goes_on_as_if_nothing_had_been(press: Path, tmp_p
     assert rest.data() == whole.data()
     assert rest.history == whole.history
     assert dict(rest.best.values) == dict(whole.best.values)
-    with pytest.raises(lw.LinkwrightError, match="another problem"):
+    with refused("optimize.other_state", path=state):
         lw.optimize(press, evaluations=800, seed=4, state=state)
     loaded = SLIDER + "loads: {work: {kind: force, on: ram, at: B, direction: 180 deg, magnitude: 2 kN}}\n"
     changed = press.with_name("changed.yaml")
     for text in (loaded, SLIDER.replace("120 rpm", "121 rpm"), SLIDER.replace("B: forward", "B: backward")):
         changed.write_text(text)
-        with pytest.raises(lw.LinkwrightError, match="another problem"):
+        with refused("optimize.other_state", path=state):
             lw.optimize(changed, evaluations=800, seed=3, state=state)
 
 
@@ -145,39 +145,14 @@ def test_an_interruption_says_from_which_file_it_goes_on(
     far = lw.optimize(
         press, keep={"stroke guide": "at least 200 mm"}, evaluations=200, progress=stop, state="far.json"
     )
-    assert (
-        far.best.missed == ("stroke guide",) and "--state far.json" in far.text()
-    )  # not that none can meet it
+    assert far.best.missed == ("stroke guide",) and far.interrupted  # not that none can meet it
+    assert far.state == Path("far.json")
     vary = {"crank.length": "300..400 mm", "rod.length": "100..200 mm"}
-    with pytest.raises(KeyboardInterrupt, match=r"--state still\.json"):  # not that none can move
+    with pytest.raises(lw.Interrupted) as stopped:  # not that none can move
         lw.optimize(press, vary=vary, evaluations=200, progress=stop, state="still.json")
+    assert stopped.value.state == Path("still.json")
     assert [each and each.name for each in files] == ["Press.state", "Press_2.state"]
     assert all(each is not None and each.exists() for each in files)
-
-
-def test_designs_that_go_one_by_one_are_kept_by_an_interruption_before_the_first_population(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    state, judged, measured = tmp_path / "state.json", list[float](), Measures.measured
-
-    def one(self: Measures, dimensions: dict[str, float]) -> tuple[float, ...]:
-        if len(judged) == 5:
-            raise KeyboardInterrupt
-        judged.append(dimensions["count"])
-        return measured(self, dimensions)
-
-    settings = {
-        "vary": {"count": {"whole": "45..60"}}, "minimize": "count", "keep": {"peak_input_torque": "at most 15 N·m"},
-    }  # fmt: skip
-    whole = lw.optimize(lw.loads(GEARS), **settings, evaluations=60)
-    monkeypatch.setattr(Measures, "measured", one)
-    with pytest.raises(KeyboardInterrupt, match=r"--state .*state\.json"):
-        lw.optimize(lw.loads(GEARS), **settings, evaluations=60, state=state)
-    first = judged[:]
-    judged.append(0.0)
-    rest = lw.optimize(lw.loads(GEARS), **settings, evaluations=60, state=state)
-    assert len(set(first)) == 5 and not set(first) & set(judged[6:])
-    assert rest.history == whole.history and dict(rest.best.values) == dict(whole.best.values)
 
 
 @pytest.mark.parametrize("address", ["count", "mesh.teeth.0"])
@@ -186,27 +161,23 @@ def test_numbers_of_teeth_are_not_varied_in_fractions(address: str) -> None:
     gears = lw.loads(GEARS)
     if address not in gears.dimensions():
         (address,) = [each for each in gears.dimensions() if ".teeth." in each][:1]
-    with pytest.raises(lw.ModelError, match=rf"{address} gives numbers of teeth.*whole: 17\.\.20"):
+    with refused("optimize", lw.ModelError, address=address, low=17, high=20):
         lw.optimize(gears, vary={address: "16.5..20"}, minimize="peak_input_torque")
 
 
 def test_designs_of_which_none_moves_and_numbers_that_none_has(press: Path) -> None:
-    none = (
-        r"no design of Press within .* \(crank\.length \d+.* mm, .* fails in \d+ of 360 positions: group RRP"
-    )
-    with pytest.raises(lw.LinkwrightError, match=none):
+    with refused("optimize.none_whole", signature="RRP", links=("rod", "ram")):
         lw.optimize(press, vary={"crank.length": "300..400 mm", "rod.length": "100..200 mm"}, evaluations=200)
     for goals in (["flywheel"], ["r", "flywheel"]):  # the ram only swings to and fro: no work in a cycle
-        with pytest.raises(lw.LinkwrightError, match="has a value of flywheel") as caught:
+        with refused("optimize.no_values", numbers=("flywheel",)):
             lw.optimize(press, minimize=goals, keep={}, evaluations=200)
-        assert "没有一个设计有 flywheel 的值" in caught.value.say("zh")
-    with pytest.raises(lw.LinkwrightError, match='"flywheel" is an inertia'):
+    with refused("optimize", text="flywheel", given="1 kg", right="1 kg·m²"):
         lw.optimize(press, keep={"flywheel": "at most 1 kg"}, evaluations=200)
 
 
 def test_designs_pass_the_whole_cycle_where_no_number_needs_it() -> None:
     """A four-bar of 3.5, 2.5 and 4 m turns fully with cranks below 2 m (Grashof)."""
-    bars = lw.load("gallery:crank_rocker")
+    bars = stored("crank_rocker")
     assert [bars.dimension(each) for each in ("coupler.length", "rocker.length", "frame.O2.x")] == [
         3.5,
         2.5,
@@ -215,12 +186,13 @@ def test_designs_pass_the_whole_cycle_where_no_number_needs_it() -> None:
     longest = lw.optimize(bars, vary={"crank.length": "0.5..3 m"}, maximize="r", define={"r": "crank.length"})
     assert 1.99 < longest.best.values["crank.length"] < 2.0
     lw.solve_motion(longest.mechanism(), steps=3600)
-    with pytest.raises(lw.LinkwrightError, match=r"no design of .* fails in \d+ of 360 positions"):
+    with refused("optimize.none_whole", signature="RRR"):
         lw.optimize(bars, vary={"crank.length": "2.1..3 m"}, minimize="r", define={"r": "crank.length"})
 
 
+@pytest.mark.rotating
 def test_the_crusher_keeps_its_jaw_and_loses_torque() -> None:
-    start = lw.load("gallery:jaw_crusher_sixbar")
+    start = stored("jaw_crusher_sixbar")
     vary = {
         "pitman.length": "1.15..1.35 m", "toggle.length": "1.05..1.25 m", "rocker.length": "0.9..1.1 m",
         "crank.length": "0.08..0.12 m", "frame.O3.x": "0.85..1.05 m", "frame.O3.y": "-1.1..-0.9 m",
@@ -284,6 +256,7 @@ def length_that_serves(crank: float) -> float:
     return crank + brentq(lambda rod: share_of_presses(crank, rod) - 0.9, 0.1, 0.2)
 
 
+@pytest.mark.rotating
 def test_tolerances_of_two_lengths_against_closed_form(press: Path) -> None:
     tolerance = {"crank.length": "0.5 mm", "rod.length": "1 mm"}
     worst = lw.optimize(press, tolerance=tolerance, robust="worst")
@@ -294,7 +267,7 @@ def test_tolerances_of_two_lengths_against_closed_form(press: Path) -> None:
     assert {
         text: each == pytest.approx(at_worst[text], rel=1e-5) for text, each in worst.best.worst.items()
     } == (dict.fromkeys(at_worst, True))
-    assert worst.best.made == 1.0 and "stroke guide 60 mm, r/l 0.2" in worst.text()
+    assert worst.best.made == 1.0
     most = lw.optimize(press, tolerance=tolerance, robust="yield", **{"yield": 0.9})
     assert most.best.made is not None and most.best.made >= 0.9
     crank, rod = (most.best.values[f"{each}.length"] for each in ("crank", "rod"))
@@ -306,10 +279,12 @@ def test_tolerances_of_two_lengths_against_closed_form(press: Path) -> None:
     narrow = {
         "stroke guide": "60..60.5 mm"
     }  # 2 · 0.25 mm of room for ± 1 mm: a quarter of the machines at best
-    with pytest.raises(lw.OptimizeError, match=r"stroke guide .* \(59\.25 mm\.\.61\.25 mm\)"):
+    narrowed = ("stroke guide 60..60.5 mm (59.25 mm..61.25 mm)",)
+    with refused("optimize.failing", lw.OptimizeError, demands=narrowed):
         lw.optimize(press, tolerance=tolerance, robust="worst", keep=narrow, evaluations=1500)
-    with pytest.raises(lw.OptimizeError, match=r"25\.\d % meet all demands at best, not 99 %"):
+    with refused("optimize.failing_yield", lw.OptimizeError, wanted="99") as said:
         lw.optimize(press, tolerance=tolerance, robust="yield", keep=narrow, evaluations=1500)
+    assert float(str(said.value.values["share"])) == pytest.approx(25.0, abs=1.0)
     with pytest.raises(
         lw.OptimizeError
     ) as caught:  # no machine reaches 161 mm: the nearest has the largest crank
@@ -317,9 +292,10 @@ def test_tolerances_of_two_lengths_against_closed_form(press: Path) -> None:
     assert caught.value.nearest.best.values["crank.length"] > 0.079
 
 
+@pytest.mark.rotating
 def test_a_yield_is_reached_by_machines_that_did_not_choose_the_design() -> None:
     """Extreme transmission angles of a four-bar by the cosine rule, of 100 000 machines of its tolerances."""
-    bars = lw.load("gallery:crank_rocker")
+    bars = stored("crank_rocker")
     tolerance = {"crank.length": 0.02, "coupler.length": 0.04, "rocker.length": 0.03}
     found = lw.optimize(
         bars, vary={"crank.length": "0.4..1.8 m", "coupler.length": "1.6..6 m", "rocker.length": "1.2..4 m"},
@@ -336,8 +312,9 @@ def test_a_yield_is_reached_by_machines_that_did_not_choose_the_design() -> None
     assert found.best.made == pytest.approx(share, abs=0.005)
 
 
+@pytest.mark.rotating
 def test_a_path_that_a_known_linkage_draws_is_followed() -> None:
-    start = lw.load("gallery:crank_rocker")
+    start = stored("crank_rocker")
     known = {"crank.length": 1.04, "coupler.length": 3.45, "rocker.length": 2.52}
     target = lw.solve_motion(start.with_dimensions(known), steps=36).point("coupler.P").position
     vary = {name: f"{0.9 * value}..{1.1 * value} m" for name, value in known.items()}
@@ -345,7 +322,6 @@ def test_a_path_that_a_known_linkage_draws_is_followed() -> None:
     assert found.exact
     assert dict(found.best.values) == pytest.approx(known, rel=1e-5)
     assert found.best.numbers["path_error"] < 1e-10
-    assert "m²" in found.text() or "mm²" in found.text()
     loose = {"frame.O2.x": "1 mm", "crank.length": "1 mm"}
     made = lw.optimize(
         start,
@@ -371,25 +347,10 @@ def test_a_path_that_a_known_linkage_draws_is_followed() -> None:
     both = lw.optimize(start, vary=vary, minimize=["shape", "c"], define=define, evaluations=1200)
     assert min(each.numbers["shape"] for each in both) < 1e-7
     assert min(each.numbers["c"] for each in both) == pytest.approx(0.9 * 1.04, rel=1e-3)
-    with pytest.raises(lw.ModelError, match="list of places"):
+    with refused("optimize", lw.ModelError):
         lw.optimize(
             start, vary=vary, minimize="shape", define={"shape": {"point": "coupler.P", "target": [3]}}
         )
-
-
-GEARS = """\
-format: 1
-name: Pair
-parameters: {count: 40}
-frame: {points: {O: [0 mm, 0 mm], Q: [(20 + count)*1 mm, 0 mm]}}
-links:
-  pinion: {points: {O: [0 mm, 0 mm], P: [16 mm, 0 mm]}, mass: 1 kg, inertia: 0.0002 kg·m², mass_centre: [0 mm, 0 mm]}
-  wheel: {points: {Q: [0 mm, 0 mm], W: [34 mm, 0 mm]}, mass: 4 kg, inertia: 0.0032 kg·m², mass_centre: [0 mm, 0 mm]}
-joints:
-  mesh: {kind: gear, links: [pinion, wheel], teeth: [20, count], module: 2 mm}
-driver: {turn: pinion, about: O, speed: 600 rpm}
-loads: {work: {kind: torque, on: wheel, magnitude: 40 N·m}}
-"""
 
 
 def test_teeth_change_the_cycle_and_are_varied_one_by_one() -> None:
@@ -413,7 +374,6 @@ def test_few_pairs_of_teeth_are_all_judged() -> None:
     # the torque 40 N·m · small / count grows with small, as the sum does: the front has the least pinion
     front = [(17.0, float(count)) for count in range(34, 29, -1)]
     assert sorted(tuple(each.values.values()) for each in found) == sorted(front)
-    assert "differences" not in found.text()
 
 
 def test_all_trains_are_judged_where_nothing_has_to_be_solved() -> None:
@@ -477,37 +437,48 @@ def test_the_least_cam_whose_follower_presses_no_harder_on_its_guide() -> None:
     assert press(found.best.values["lobe.base_radius"]) == pytest.approx(15, rel=2e-5)
 
 
-def test_hypervolume_and_crowding_in_closed_form() -> None:
-    points = np.array([[0.0, 2.0], [1.0, 1.0], [2.0, 0.0]])
-    assert hypervolume(points, np.array([3.0, 3.0])) == pytest.approx(6 / 9)
-    cube = np.array([[0.0, 0.0, 1.0], [1.0, 1.0, 0.0]])
-    assert hypervolume(cube, np.array([2.0, 2.0, 2.0])) == pytest.approx((4 + 1) / 8)
-    assert crowding(points)[1] == pytest.approx(2.0)
-
-
 @pytest.mark.parametrize(
-    ("settings", "told"),
+    ("settings", "code", "key", "values"),
     [
-        ({"vary": {"crank.lenght": "20..80 mm"}}, "crank.length"),
-        ({"vary": {"crank.length": "20..20 mm"}}, "equal bounds"),
-        ({"keep": {"stroke guide": "more than 2"}}, "at least 40 deg"),
-        ({"keep": {"stroke guide": "at least 2 kg"}}, "length"),
-        ({"keep": {"stroke guide": "90..50 mm"}}, "falls from 90 mm to 50 mm"),
-        ({"minimize": "nothing at all"}, "nothing"),
-        ({"minimize": "peak_reacton"}, "did you mean .*peak_reaction"),
-        ({"minimise": "r"}, "minimize"),
-        ({"robust": "worst"}, "needs tolerance"),
-        ({"evaluations": 0}, "evaluations"),
+        (
+            {"vary": {"crank.lenght": "20..80 mm"}}, "optimize", "optimize.vary.crank.lenght",
+            {"address": "crank.lenght", "offer": "crank.length"},
+        ),
+        (
+            {"vary": {"crank.length": "20..20 mm"}}, "optimize", "optimize.vary.crank.length",
+            {"address": "crank.length"},
+        ),
+        (
+            {"keep": {"stroke guide": "more than 2"}}, "optimize", "optimize.keep.stroke guide",
+            {"given": "more than 2"},
+        ),
+        (
+            {"keep": {"stroke guide": "at least 2 kg"}}, "optimize", "optimize.keep.stroke guide",
+            {"given": "2 kg", "right": "2 mm"},
+        ),
+        (
+            {"keep": {"stroke guide": "90..50 mm"}}, "optimize", "optimize.keep.stroke guide",
+            {"low": "90 mm", "high": "50 mm"},
+        ),
+        ({"minimize": "nothing at all"}, "study.no_metric", None, {"name": "nothing at all"}),
+        ({"minimize": "peak_reacton"}, "study.no_metric", None, {"name": "peak_reacton", "offer": "peak_reaction"}),
+        ({"minimise": "r"}, "optimize", "optimize.minimise", {"offer": "minimize"}),
+        ({"robust": "worst"}, "optimize", "optimize.tolerance", {}),
+        ({"evaluations": 0}, "optimize", "optimize.evaluations", {"given": "0"}),
     ],
-)
-def test_settings_that_cannot_be_read(press: Path, settings: dict, told: str) -> None:
-    with pytest.raises(lw.LinkwrightError, match=told):
+)  # fmt: skip
+def test_settings_that_cannot_be_read(
+    press: Path, settings: dict, code: str, key: str | None, values: dict
+) -> None:
+    with refused(code, **values) as said:
         lw.optimize(press, **settings)
+    assert key is None or [each.key for each in said.value.findings] == [key]
 
 
+@pytest.mark.rotating
 def test_designs_that_go_one_by_one_are_polished_by_differences() -> None:
     """A followed group in an open cycle: the best of all is that of a search by one number."""
-    machine = lw.load("gallery:stephenson_sixbar_triad")
+    machine = stored("stephenson_sixbar_triad")
 
     def torque(length: float) -> float:
         forces = lw.solve_forces(machine.with_dimensions({"crank.length": length}), steps=360)
@@ -519,4 +490,3 @@ def test_designs_that_go_one_by_one_are_polished_by_differences() -> None:
     )
     assert found.best.values["crank.length"] == pytest.approx(searched.x, abs=2e-6)
     assert found.best.numbers["rms_input_torque"] == pytest.approx(searched.fun, rel=1e-9)
-    assert "differences" in found.text()

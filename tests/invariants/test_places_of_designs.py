@@ -5,11 +5,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 from scipy.special import ellipe, ellipk
+from tests.refusals import refused
 
 import linkwright as lw
 from linkwright.metrics import metrics
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize(
     ("model", "by", "name"),
     [
@@ -111,9 +113,7 @@ def test_what_is_no_formula_is_found_design_by_design() -> None:
         assert found["transmission_angle"][k] == pytest.approx(table.value("transmission_angle"), rel=1e-12)
     assert found["range_of_motion"] == pytest.approx(2 * np.pi)
     assert set(found["double_point"]) == {0.0, 1.0}
-    with pytest.raises(
-        lw.LinkwrightError, match=r"double_point of .* is no number over the cycle that has a"
-    ):
+    with refused("study.objective_metric", names=("double_point",)):
         lw.objective(mechanism, "double_point", vary=["coupler.P.y"])
 
 

@@ -11,8 +11,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.structure.constraints import ConstraintGraph
-from linkwright.structure.group import Group, Structure
+from linkwright.structure import Group, Structure
 
 #: By signature: class, order, the links with their own pins (lower case: on links before), guides (guide, block).
 GROUPS: dict[str, tuple[int, int, dict[str, str], list[tuple[str, str]]]] = {
@@ -159,12 +158,3 @@ def test_a_machine_is_taken_apart_into_the_groups_of_which_it_was_made(seed: int
         else:
             assert group.signature == "R" and len(group.drivers) == 1 and group.unknowns == ()
         solved.update(group.links)
-
-
-def test_a_chain_of_equal_wheels_on_links_that_a_guide_holds_at_an_angle_is_redundant() -> None:
-    graph = ConstraintGraph(dict.fromkeys(("frame", "a", "b"), 3), [])
-    graph.hold_rotation("guide", "a", "b")
-    graph.sum_rotations("chain", {"a": 1.0, "b": -1.0})
-    graph.sum_rotations("gear", {"a": 1.0, "b": 1.0})
-    assert graph.redundant == ["chain"]
-    assert [equation.source for equation in graph.equations] == ["guide", "gear"]

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 import linkwright as lw
-from linkwright.core.arrays import Floats
+
+Floats = NDArray[np.float64]
 
 SPEED, TORQUE = 10.0, 5.0
 MODEL = """
