@@ -36,6 +36,25 @@ def run(*arguments: str) -> Ended:
     return Ended(code, out.getvalue(), err.getvalue(), said[-1] if said else None)
 
 
+class Terminal(StringIO):
+    """An output that passes for a terminal."""
+
+    def isatty(self) -> bool:
+        return True
+
+
+def on_terminal(*arguments: str, columns: int = 100, **environment: str) -> str:
+    """What a command prints on a terminal of a width, with its colours."""
+    out = Terminal()
+    with pytest.MonkeyPatch.context() as patch, redirect_stdout(out), redirect_stderr(StringIO()):
+        for name in ("NO_COLOR", "LINKWRIGHT_LANG"):
+            patch.delenv(name, raising=False)
+        for name, value in {"TERM": "xterm", "COLUMNS": str(columns), **environment}.items():
+            patch.setenv(name, value)
+        assert main(list(arguments)) in (0, 1)
+    return out.getvalue()
+
+
 def shown(*arguments: str, code: int = 0) -> str:
     """What a command prints as its result."""
     ended = run(*arguments)

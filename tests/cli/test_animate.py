@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 from tests.cli.commands import is_refused, run
-from tests.cli.machines import STUCK
+from tests.cli.machines import STUCK, out_of_reach
 from tests.cli.tables import numbers
 
 from linkwright.cli import main
@@ -59,12 +59,11 @@ def test_wrong_usage(options: list[str], code: str, values: dict[str, object], t
 
 
 def test_positions_left_out_are_told_with_their_number(tmp_path: Path) -> None:
-    """The crank turns 133.54° to both sides of the frame."""
     model = tmp_path / "stuck.yaml"
     model.write_text(STUCK, encoding="utf-8")
     ended = run("animate", str(model), "--output", str(tmp_path / "a.svg"))
     left_out, positions = numbers(ended.err)[:2]
-    assert left_out / positions == pytest.approx(1 - 2 * 133.542 / 360, abs=2 / positions)
+    assert left_out == out_of_reach(int(positions))
     assert ended.code == 1
     assert (tmp_path / "a.svg").exists()
 

@@ -12,6 +12,8 @@ from tests.cli.machines import TEETH
 from tests.cli.tables import cells, numbers, rows, width
 from tests.every import every
 
+from linkwright import words
+
 PRESS, CONVEYOR = "gallery:slider_crank_offset", "gallery:swing_conveyor"
 CRANK, ROD, OFFSET = 0.198, 0.7025, 0.0605
 
@@ -31,7 +33,7 @@ def test_the_offset_slider_crank() -> None:
 
 
 def test_the_table_shows_units_limits_and_warnings() -> None:
-    """The rows of the data in their order, those with a warning marked; below, what is said of several is said once."""
+    """The rows of the data in their order, those with a warning marked; below, each remark once."""
     rated = data("metrics", CONVEYOR)
     found = shown("metrics", CONVEYOR)
     _, table, warnings = found.split("\n\n")
@@ -104,12 +106,17 @@ def test_solve_does_not_warn_where_none_is_near() -> None:
     assert "!" not in shown("solve", "gallery:jaw_crusher_sixbar")
 
 
+def in_words(kind: str, language: str) -> str:
+    return kind if language == "en" else words.say(f"nouns.{kind}", language)
+
+
 def test_what_comes_at_every_turn_is_shown_a_few_times_and_counted(tmp_path: Path) -> None:
     """One limit of each kind in every turn of the wheel; the data have all of them."""
     file = tmp_path / "teeth.yaml"
     file.write_text(TEETH, encoding="utf-8")
     for name in ("limit_position", "dead_point"):
-        for language, kinds in (("en", ("max", "min")), ("zh", ("最大", "最小"))):
+        for language in ("en", "zh"):
+            kinds = [in_words(each, language) for each in ("max", "min")]
             table = rows(shown("metrics", str(file), "--names", name, "--lang", language))[1:]
             of = [each[1] for each in table if each[0] == table[0][0]]
             assert len(of) == 14

@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 from tests.every import every
-from tests.files.test_docs_examples import PAGES, blocks, name
+from tests.files.documentation import PAGES, blocks, name
 from tests.refusals import refused
 
 import linkwright as lw

@@ -14,8 +14,18 @@ from linkwright.metrics import METRICS, Analysis, MetricsTable, metrics
 SKIPPED = {"truss", "two_bars_equilibrium"}
 
 
+@pytest.mark.parametrize("name", ["jaw_crusher_sixbar", "slider_crank_inline"])
+def test_table_of_a_machine(name: str) -> None:
+    is_a_table(name)
+
+
+@pytest.mark.rotating
 @pytest.mark.parametrize("name", sorted(set(names()) - SKIPPED))
 def test_table_of_every_machine(name: str) -> None:
+    is_a_table(name)
+
+
+def is_a_table(name: str) -> None:
     forces = lw.solve_forces(lw.solve_motion(lw.load(f"gallery:{name}"), steps=72, failures="mark"))
     table = metrics(forces)
     asked = [name for name, metric in METRICS.items() if metric.on_request and metric().applies(forces)]

@@ -30,10 +30,10 @@ gravity: [0, -9.81 m/s²]
 Edit = Callable[[], tuple[lw.Mechanism, lw.Mechanism]]
 
 
-def longer(name: str) -> tuple[lw.Mechanism, lw.Mechanism]:
-    """All lengths a little larger."""
+def longer(name: str, ending: str = ".length") -> tuple[lw.Mechanism, lw.Mechanism]:
+    """All dimensions of a name a little larger."""
     machine = lw.load(f"gallery:{name}")
-    lengths = [address for address in machine.dimensions() if address.endswith(".length")]
+    lengths = [address for address in machine.dimensions() if address.endswith(ending)]
     return machine, machine.with_dimensions({a: machine.dimension(a) * 1.0002 for a in lengths})
 
 
@@ -52,8 +52,9 @@ def turned(first: float, second: float) -> tuple[lw.Mechanism, lw.Mechanism]:
 EDITS: dict[str, Edit] = {
     **{
         name: lambda name=name: longer(name)
-        for name in ("jaw_crusher_sixbar", "swing_conveyor", "triad", "scotch_yoke", "excavator")
+        for name in ("jaw_crusher_sixbar", "swing_conveyor", "scotch_yoke", "excavator")
     },
+    "triad": lambda: longer("triad", "crank.A.x"),
     **{
         f"{address} {value}": lambda address=address, value=value: changed(
             "jaw_crusher_sixbar", {address: value}

@@ -4,6 +4,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from tests.every import every
 from tests.invariants.numbers_alone import numbers_alone
 from tests.invariants.rams import BETWEEN, COURSES, INWARDS, RAM, ram
 from tests.invariants.rubbing import rubbing
@@ -42,7 +43,7 @@ def test_designs_side_by_side_are_those_alone(model: str) -> None:
     assert len(names) >= 8
     found = lw.sweep(machine, columns, outputs=names)
     for k in range(3):
-        for name, value in numbers_alone(machine, columns, k, names).items():
+        for name, value in every(numbers_alone(machine, columns, k, names).items(), least=8):
             near = {"rel": 1e-8} if name == "swept_area" else {"rel": 2e-12, "abs": 1e-12}
             assert found[name][k] == pytest.approx(value, **near), name
 
@@ -286,7 +287,6 @@ def test_designs_far_from_each_other_are_those_alone(course: str, load: str) -> 
     }
     names = ["mean_power", "rms_input_torque", "peak_power"]
     found = lw.sweep(machine, columns, outputs=names)
-    assert np.isfinite(found["mean_power"]).sum() >= 2
-    for k in np.flatnonzero(found.ok & np.isfinite(found["mean_power"])).tolist():
+    for k in every(np.flatnonzero(found.ok & np.isfinite(found["mean_power"])).tolist(), least=2):
         alone = numbers_alone(machine, columns, k, names)
         assert {name: found[name][k] for name in names} == pytest.approx(alone, rel=1e-11, abs=1e-11)

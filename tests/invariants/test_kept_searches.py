@@ -1,4 +1,4 @@
-"""Syntheses that are stopped go on from a file, with results equal to the bit."""
+"""Syntheses whose parts are kept in a file give results that are equal to the bit."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.refusals import refused
 
 import linkwright as lw
 
@@ -29,16 +30,17 @@ def data(task: str) -> str:
 
 
 @pytest.mark.parametrize("task", TASKS)
-def test_an_interrupted_search_goes_on_with_the_same_bits(task: str, tmp_path: Path) -> None:
-    whole, calls, state = data(task), list[float](), tmp_path / "a.state"
+def test_a_search_that_has_its_parts_in_a_file_gives_the_same_bits(task: str, tmp_path: Path) -> None:
+    whole, state = data(task), tmp_path / "a.state"
+    for _ in range(2):
+        with lw.kept_in(state, task):
+            assert data(task) == whole
+        assert state.exists()
 
-    def interrupt(done: int, total: int) -> None:
-        calls.append(done / total)
-        if calls[-1] > 0.4:
-            raise KeyboardInterrupt
 
-    with pytest.raises(lw.Interrupted) as stopped, lw.kept_in(state, task), lw.reporting(interrupt):
-        data(task)
-    assert stopped.value.state == state and state.exists()
-    with lw.kept_in(state, task):
-        assert data(task) == whole
+def test_a_file_of_another_search_is_refused(tmp_path: Path) -> None:
+    state = tmp_path / "a.state"
+    with lw.kept_in(state, "path", 1):
+        data("path")
+    with refused("optimize.other_state", path=state), lw.kept_in(state, "path", 2):
+        data("path")

@@ -112,6 +112,7 @@ def test_numbers_are_those_of_an_energy_balance_of_loops_closed_here() -> None:
         assert [found[name][index] for name in names] == pytest.approx(expected, rel=1e-8)
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize(
     "loads",
     [{"push": PUSH, "brake": BRAKE}, {"push": PART}, {"damper": DAMPER}],

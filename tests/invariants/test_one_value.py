@@ -139,6 +139,7 @@ def test_the_speed_of_the_diagram_is_that_of_the_table() -> None:
     assert found["equivalent_inertia_largest"] == pytest.approx(inertia.max(), rel=1e-7)
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("name", ["cam_roller", "cam_flat_face"])
 def test_the_diagrams_of_a_cam_have_the_numbers_of_its_table(name: str) -> None:
     design = parts.load(f"gallery:{name}").solve()

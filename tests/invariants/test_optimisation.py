@@ -460,7 +460,7 @@ def test_the_least_cam_whose_follower_presses_no_harder_on_its_guide() -> None:
             {"keep": {"stroke guide": "90..50 mm"}}, "optimize", "optimize.keep.stroke guide",
             {"low": "90 mm", "high": "50 mm"},
         ),
-        ({"minimize": "nothing at all"}, "study.no_metric", None, {"name": "nothing"}),
+        ({"minimize": "nothing at all"}, "study.no_metric", None, {"name": "nothing at all"}),
         ({"minimize": "peak_reacton"}, "study.no_metric", None, {"name": "peak_reacton", "offer": "peak_reaction"}),
         ({"minimise": "r"}, "optimize", "optimize.minimise", {"offer": "minimize"}),
         ({"robust": "worst"}, "optimize", "optimize.tolerance", {}),

@@ -11,6 +11,7 @@ import linkwright as lw
 from linkwright.metrics import metrics
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize(
     ("model", "by", "name"),
     [

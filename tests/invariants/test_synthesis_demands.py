@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.every import every
 from tests.refusals import agrees, refused
 
 import linkwright as lw
@@ -77,7 +78,7 @@ def test_function_generators_have_the_transmission_angle(linkage: str, turning: 
     found = lw.function_generation(
         INPUTS, LOGARITHM, linkage=linkage, transmission_angle=asked, turning=turning
     )
-    for each in found:
+    for each in every(found):
         assert each.transmission_angle >= asked - 1e-9 and each.turns >= turning
         around = np.linspace(0, 2 * math.pi, 721) if each.turns else np.linspace(0, INPUTS[-1], 181)
         assert sines(each, around).min() >= math.sin(asked) - 1e-9
@@ -148,15 +149,15 @@ def test_pairs_in_freudenstein_s_equation_refuse_what_they_do_not_have() -> None
 def test_paths_have_what_is_demanded() -> None:
     asked, pivot, angle = math.radians(30), (0.01, -0.02), 0.4
     found = lw.path_generation(PATH, pivot=pivot, direction=angle, transmission_angle=asked)
-    for each in found:
+    for each in every(found):
         points = each.linkage.points
         assert points["O1"] == pytest.approx(complex(*pivot), abs=1e-12)
         assert np.angle((points["O2"] - points["O1"]) * np.exp(-1j * angle)) == pytest.approx(0, abs=1e-9)
         assert sines(each, np.linspace(0, 2 * math.pi, 721)).min() >= math.sin(asked) - 1e-9
         assert each.turns
-    for each in lw.path_generation(PATH, bound=0.03):
+    for each in every(lw.path_generation(PATH, bound=0.03)):
         assert max(each.linkage.lengths().values()) <= 0.03 + 1e-12
-    for each in lw.path_generation(PATH, turning=False, transmission_angle=asked, bound=0.05):
+    for each in every(lw.path_generation(PATH, turning=False, transmission_angle=asked, bound=0.05)):
         assert each.transmission_angle >= asked - 1e-9
         assert max(each.linkage.lengths().values()) <= 0.05 + 1e-12
 
@@ -173,7 +174,7 @@ def test_timed_points_are_passed_at_their_angles() -> None:
 def test_links_of_a_demanded_ratio() -> None:
     """A family whose smallest ratio is 2.917: 3 is met, 2 is refused with that number."""
     demands = SUFFICIENT["crank_rocker"]
-    for each in lw.synthesize("crank_rocker", **demands, link_ratio=3.0):
+    for each in every(lw.synthesize("crank_rocker", **demands, link_ratio=3.0)):
         lengths = each.linkage.lengths().values()
         assert max(lengths) <= 3 * min(lengths) * (1 + 1e-9)
     with refused("synthesize.link_ratio_unmet", lw.SynthesisError, given="2", least="2.917") as caught:
@@ -184,7 +185,7 @@ def test_links_of_a_demanded_ratio() -> None:
         lw.synthesize(
             "crank_rocker", swing_angle=0.711, quick_return_ratio=1.5, frame=0.1, rocker=0.075, link_ratio=3.0
         )
-    for each in lw.motion_generation(POSES, link_ratio=2.5):
+    for each in every(lw.motion_generation(POSES, link_ratio=2.5)):
         assert each.link_ratio <= 2.5
     with refused("synthesize.link_ratio_unmet", lw.SynthesisError, given="1.01"):
         lw.motion_generation(POSES, link_ratio=1.01)
@@ -200,7 +201,7 @@ def test_pivots_lie_within_the_region_for_any_number_of_poses() -> None:
     poses = list(zip(pin.real, pin.imag, along, strict=True))
     found = lw.motion_generation(poses, within=[(-0.3, -0.3), (0.8, 0.8)])
     assert found.best.error < 1e-9
-    for each in found:
+    for each in every(found):
         places = [each.linkage.points[name] for name in ("O1", "O2", "A", "B") if name in each.linkage.points]
         assert all(-0.3 <= place.real <= 0.8 and -0.3 <= place.imag <= 0.8 for place in places)
     with refused("synthesize.motion.no_pairs", lw.SynthesisError):

@@ -80,7 +80,7 @@ def test_zero_angles_told_are_those_of_the_links(given: dict[str, float]) -> Non
     """Also of links that the equation has with a negative length, whose zeros were told half a turn off: the model
     turned from the zeros that are told has the demanded outputs."""
     inputs, outputs = np.radians([30.0, 75.0, 120.0]), np.radians([60.0, 85.0, 140.0])
-    for each in lw.function_generation(inputs, outputs, count=12, **given):
+    for each in every(lw.function_generation(inputs, outputs, count=12, **given)):
         start, end = each.values["input_zero [rad]"], each.values["output_zero [rad]"]
         motion = lw.solve_motion(each.mechanism(), at=inputs + start)
         off = motion.link("output").angle - outputs - end

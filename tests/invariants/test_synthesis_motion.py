@@ -11,12 +11,13 @@ from tests.refusals import refused
 import linkwright as lw
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("poses", [2, 3, 4, 5])
 def test_every_candidate_takes_every_pose(poses: int) -> None:
     p, phi, _, _ = hidden_four_bars(1, poses, 3)
     found = lw.motion_generation(np.column_stack([p[0].real, p[0].imag, phi[0]]))
     assert len(found) > 0
-    for each in found:
+    for each in every(found):
         points = each.linkage.points
         for pin, pivot in (("A", "O1"), ("B", "O2")):
             body = (points[pin] - p[0, 0]) * np.exp(-1j * phi[0, 0])
@@ -101,7 +102,7 @@ def test_poses_and_points_without_a_real_four_bar_have_a_nearest_one() -> None:
 def test_fixed_pivots_lie_on_the_demanded_line() -> None:
     """Three poses: any line; four: the line through two centre points that are known."""
     given = [(0, 0, 0), (1, 0.4, 0.3), (1.6, 1.2, 0.9), (1.7, 2.1, 1.5)]
-    for each in lw.motion_generation(given[:3], pivot_line=[(-3, 3), (3, -3)]):
+    for each in every(lw.motion_generation(given[:3], pivot_line=[(-3, 3), (3, -3)])):
         for name in ("O1", "O2"):
             place = each.linkage.points[name]
             assert place.real + place.imag == pytest.approx(0, abs=1e-6)
@@ -109,6 +110,6 @@ def test_fixed_pivots_lie_on_the_demanded_line() -> None:
     o1, o2 = free["O1"], free["O2"]
     ends = [(o1 + t * (o2 - o1)) for t in (-0.5, 1.5)]
     found = lw.motion_generation(given, pivot_line=[(z.real, z.imag) for z in ends])
-    for each in found:
+    for each in every(found):
         for name in ("O1", "O2"):
             assert abs(((each.linkage.points[name] - o1) / (o2 - o1)).imag) < 1e-6

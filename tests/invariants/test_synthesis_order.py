@@ -52,6 +52,7 @@ def test_the_order_of_equals_is_that_of_the_documentation(
     assert order == sorted(order, reverse=True)
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("seed", range(3))
 def test_a_compact_linkage_comes_before_one_of_a_better_angle(seed: int) -> None:
     """A path of 20 m had first a four-bar of 139 m with an angle of 62 degrees, before one of 34 m with 44."""

@@ -52,7 +52,7 @@ def test_crank_rockers_of_a_given_rocker(swing: float, k: float, frame: float, c
     """By the law of cosines in both limit positions, from the lengths alone."""
     found = crank_rocker(swing, quick_return_ratio=k, rocker=0.075, **({"frame": frame} if frame else {}))
     assert len(list(found)) == count
-    for each in found:
+    for each in every(found):
         lengths = each.linkage.lengths()
         a, b, c, d = (lengths[name] for name in ("crank", "coupler", "rocker", "frame"))
         assert c == pytest.approx(0.075, rel=1e-12)
@@ -107,7 +107,9 @@ def test_toggle_has_its_stroke() -> None:
 
 
 def test_dwell_rests_and_swings() -> None:
-    for each in lw.synthesize("dwell", crank_angle=math.radians(80), swing_angle=math.radians(30), frame=0.2):
+    for each in every(
+        lw.synthesize("dwell", crank_angle=math.radians(80), swing_angle=math.radians(30), frame=0.2)
+    ):
         angle = np.unwrap(lw.solve_motion(each.mechanism(), steps=3600).link("output").angle)
         assert np.ptp(angle) == pytest.approx(math.radians(30), abs=1e-7)
         assert np.ptp(angle[:801]) / 2 == pytest.approx(each.error, rel=1e-5)

@@ -20,6 +20,8 @@ TAKING = ("startswith", "removeprefix", "partition", "split", "rsplit", "rpartit
 
 def told(text: str) -> Iterator[int]:
     """Lines that put a row or an input together, or take one apart: ``f"r:{joint}"``, ``name.startswith("r:")``."""
+    if not any(f"{quote}{prefix}" in text for prefix in PREFIXES for quote in "\"'"):
+        return
     for node in ast.walk(ast.parse(text)):
         if isinstance(node, ast.JoinedStr):
             first = node.values[0] if node.values else None
