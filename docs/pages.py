@@ -2,7 +2,7 @@
 
 Gallery and reference numbers are made when the documentation is built; they have the ending ``.markdown`` and stand
 in ``docs/made``, outside the repository. The reference of keys and names (``model_file.md``, ``functions.md``,
-``api.md``) is part of the repository, so that a clone has it: ``python docs/pages.py`` writes it anew.
+``codes.md``, ``api.md``) is part of the repository, so that a clone has it: ``python docs/pages.py`` writes it anew.
 """
 
 from __future__ import annotations
@@ -26,9 +26,11 @@ from linkwright import gallery
 from linkwright.core.plot_method import Plotted
 from linkwright.errors import LinkwrightError
 from linkwright.validation.validate import validate
+from linkwright.words import say
 from linkwright.words.titles import title_said
 
 sys.path.insert(0, str(Path(__file__).parent))
+import codes as coded
 from chinese import FORMS, MEANINGS, NAMES
 
 ROOT = Path(__file__).parent
@@ -81,6 +83,7 @@ def reference() -> dict[Path, str]:
     for language in ("en", "zh"):
         found[ROOT / language / "model_file.md"] = model_file(language)
         found[ROOT / language / "functions.md"] = functions(language)
+        found[ROOT / language / "codes.md"] = codes(language)
     return {path: "\n".join(lines).rstrip() + "\n" for path, lines in found.items()}
 
 
@@ -346,6 +349,74 @@ def used(node: ast.AST) -> list[str]:
     if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("linkwright"):
         return [each.name for each in node.names]
     return []
+
+
+# codes ------------------------------------------------------------------------------------------
+CODE_WORDS = {
+    "en": {
+        "title": "Codes of findings and errors",
+        "intro": """\
+Every finding and every error has a **code**, a short word for programs: `Finding.code`, `LinkwrightError.code`, and
+`"code"` in what `linkwright check --json` and every refused command with `--json` print. `values` holds by name what
+the sentence is about: numbers, names, units. The wording of a sentence may change with any version, and there are
+several languages; a code does not change, and does not come to mean something else. So a program compares codes and
+reads values:""",
+        "files": "Findings about files",
+        "code": "| code | what is the matter |\n|---|---|",
+        "calculations": "Findings about calculations and motion programs",
+        "sentence": "| code | its sentence |\n|---|---|",
+        "errors": "Errors",
+        "parts": """\
+The code of an error is `AREA.WORD`; where an error passes another one on (`--at: …`) it has that one's code, and a
+`ModelError` the code of its first error. Texts that are no quantity (`QuantityError`) have the codes of findings.
+Those of some areas:""",
+        "areas": "| area | about | such as |\n|---|---|---|",
+    },
+    "zh": {
+        "title": "检查结果与错误的代码",
+        "intro": """\
+每条检查结果和每个错误都有一个**代码**，即供程序使用的短词：`Finding.code`、`LinkwrightError.code`，
+以及 `linkwright check --json` 和带 `--json` 的命令被拒绝时输出的 `"code"`。
+`values` 按名称给出句子所涉及的内容：数、名称、单位。句子的措辞可以随版本改变，语言也不止一种；
+代码则不变，也不改变含义。因此程序应比较代码、读取 `values`：""",
+        "files": "关于文件的检查结果",
+        "code": "| 代码 | 问题 |\n|---|---|",
+        "calculations": "关于计算和运动规律的检查结果",
+        "sentence": "| 代码 | 句子 |\n|---|---|",
+        "errors": "错误",
+        "parts": """\
+错误的代码是“领域.词”；转述另一错误的错误（`--at：…`）用后者的代码，`ModelError` 用其第一个错误的代码。
+不是物理量的文本（`QuantityError`）用检查结果的代码。部分领域：""",
+        "areas": "| 领域 | 关于 | 例如 |\n|---|---|---|",
+    },
+}
+CODE_EXAMPLE = """\
+```python
+import linkwright as lw
+
+try:
+    lw.solve_motion(lw.load("gallery:crank_rocker"), steps=0)
+except lw.LinkwrightError as error:
+    print(error.code, error.values["given"])
+# given_instead.no_whole_from 0
+```
+"""
+
+
+def codes(language: str) -> Iterator[str]:
+    """The codes of findings with what they mean, and those of errors by area."""
+    words, column = CODE_WORDS[language], ("en", "zh").index(language)
+    yield f"# {words['title']}\n\n{words['intro']}\n\n{CODE_EXAMPLE}"
+    yield f"## {words['files']}\n\n{words['code']}"
+    for code in sorted(coded.of_findings()):
+        yield f"| `{code}` | {coded.MEANINGS[code][column]} |"
+    yield f"\n## {words['calculations']}\n\n{words['sentence']}"
+    for code, key in sorted(coded.of_calculations().items()):
+        yield f"| `{code}` | {cell(plain(re.sub('{.*?}', '…', say(key, language))))} |"
+    yield f"\n## {words['errors']}\n\n{words['parts']}\n\n{words['areas']}"
+    for area, some in coded.of_errors().items():
+        shown = ", ".join(f"`{each}`" for each in some[:3])
+        yield f"| `{area}` | {coded.AREAS[area][column]} | {shown} |"
 
 
 # API --------------------------------------------------------------------------------------------

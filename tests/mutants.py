@@ -26,8 +26,9 @@ from pathlib import Path
 from signal import SIG_IGN, SIGINT, signal
 from typing import ClassVar
 
-from tests.mutation.covering import ROOT, SOURCE, Covering, covering, fingerprint
+from tests.mutation.covering import ROOT, Covering, covering, fingerprint
 from tests.mutation.mutate import Mutant, mutants
+from tests.mutation.probes import SOURCE
 from tests.mutation.trial import killed, preload
 
 PACKAGES = (
@@ -80,7 +81,7 @@ def tried(mutant: Mutant, cover: Covering, known: dict[str, str], budget: float,
     reason = known.get(key) or known.get(f"{mutant.path} | {mutant.changed_lines(source)[0]} | *")
     if reason:
         return Trial(key, mutant.kind, place, "equivalent", reason, 0.0)
-    tests = cover.of(mutant.path, range(mutant.lines[0], mutant.lines[1] + 1))
+    tests = cover.of(mutant)
     if not tests:
         return Trial(key, mutant.kind, place, "not run", "no test runs the line", 0.0)
     chosen, began = cover.by_promise(tests, budget, Path(mutant.path).stem), time.monotonic()
@@ -139,7 +140,7 @@ def run(given: argparse.Namespace) -> int:
     only = given.only or PACKAGES
     population = all_mutants(only)
     chosen = random.Random(given.seed).sample(population, min(given.count, len(population)))
-    Work.cover = covering(folder / "covering", given.workers, keep=given.keep)
+    Work.cover = covering(folder / "covering", chosen, given.workers)
     Work.known, Work.budget, Work.again = equivalents(), given.budget, given.again
     preload()
     _check_unchanged(Work.cover, chosen)
@@ -167,7 +168,7 @@ def run(given: argparse.Namespace) -> int:
 def _check_unchanged(cover: Covering, chosen: list[Mutant]) -> None:
     """The tests must pass on the unchanged modules, else every mutant would seem to be killed."""
     for mutant in chosen[:5]:
-        tests = cover.of(mutant.path, range(mutant.lines[0], mutant.lines[1] + 1))
+        tests = cover.of(mutant)
         source = (SOURCE / mutant.path).read_text("utf-8")
         failed, said = (
             killed(mutant.path, source, cover.by_promise(tests, 5.0), 300) if tests else (False, "")
@@ -209,9 +210,6 @@ def main() -> int:
         "--again", type=float, default=0.0, help="seconds of more tests of the line (default 0)"
     )
     parser.add_argument("--folder", type=Path, help="where the record is kept (default build/mutants)")
-    parser.add_argument(
-        "--keep", action="store_true", help="use the kept record although sources have changed"
-    )
     return run(parser.parse_args())
 
 

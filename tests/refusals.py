@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import json
 import tempfile
 from collections.abc import Iterable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, redirect_stdout
 from dataclasses import replace
+from io import StringIO
 from pathlib import Path
 
 import pytest
 
-from linkwright import Finding, LinkwrightError, check
+from linkwright import Finding, LinkwrightError, ModelError, check
+from linkwright.cli import main
 
 
 @contextmanager
@@ -24,6 +27,14 @@ def refused(
     agrees(caught.value.values, values)
 
 
+@contextmanager
+def faulty(code: str, key: str, /, **values: object) -> Iterator[pytest.ExceptionInfo[ModelError]]:
+    """What is done inside raises a ModelError, one of whose findings has a code, a key and at least these values."""
+    with pytest.raises(ModelError) as caught:
+        yield caught
+    said(caught.value.findings, code, key, **values)
+
+
 def findings(text: str, name: str = "<text>") -> list[Finding]:
     """All findings of the text of a model file; places name the file as given."""
     with tempfile.TemporaryDirectory() as folder:
@@ -32,13 +43,38 @@ def findings(text: str, name: str = "<text>") -> list[Finding]:
         return [replace(each, where=name + each.where.removeprefix(path.name)) for each in check(path)]
 
 
+def checked(path: Path) -> tuple[int, list[Finding]]:
+    """What the command ``check`` answers about a file: its exit code, and the findings that it tells as data."""
+    with redirect_stdout(StringIO()) as told:
+        code = main(["check", str(path), "--json"])
+    (file,) = json.loads(told.getvalue())["files"]
+    return code, [Finding(**each) for each in file["findings"]]
+
+
 def said(found: Iterable[Finding], code: str, key: str | None = None, /, **values: object) -> Finding:
-    """The one finding with a code (at a key of the model, where one is given), which has at least these values."""
+    """The one finding with a code (at a key of the model, where one is given), which has at least these values.
+
+    Values are those of its message and of its remedy; ``message`` and ``remedy`` are the two themselves, by key.
+    """
     told = list(found)
     matching = [each for each in told if each.code == code and key in (None, each.key)]
     assert len(matching) == 1, f"{len(matching)} findings {code}, {key}, among {[str(each) for each in told]}"
-    agrees(matching[0].values, values)
+    agrees(_values(matching[0]), values)
     return matching[0]
+
+
+def noted(notes: Iterable[str], code: str, /, **values: object) -> str:
+    """The one note of a result (or of what became of a position) with a code, and at least these values."""
+    told = list(notes)
+    matching = [each for each in told if LinkwrightError(each).code == code]
+    assert len(matching) == 1, f"{len(matching)} notes {code} among {[str(each) for each in told]}"
+    agrees(LinkwrightError(matching[0]).values, values)
+    return matching[0]
+
+
+def _values(found: Finding) -> dict[str, object]:
+    own = {"message": found.message, "remedy": found.remedy}
+    return {**replace(found, message=found.remedy).values, **own, **found.values}
 
 
 def agrees(found: Mapping[str, object], wanted: Mapping[str, object]) -> None:

@@ -1,69 +1,89 @@
-"""Everything that a reader of Chinese sees is Chinese: titles, names that the program gives, findings, refusals."""
+"""What a reader of Chinese sees holds no English besides identifiers; the sentences stand in `tests/words/`."""
 
+import json
 import re
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from tests import store
+from tests.cli.commands import data, run, shown
+from tests.cli.tables import cells
+from tests.every import every
 
 import linkwright as lw
 from linkwright import gallery, words
-from linkwright.cli import main
-from linkwright.cli.commands.gallery import _heading
-from linkwright.plot.diagrams.diagram_by_name import kinds
-from linkwright.words.titles import CHINESE
 
-#: Words that stay: identifiers of commands, options, files, units, symbols.
+CHINESE = re.compile("[一-鿿]")
 LATIN = re.compile(r"[A-Za-z][A-Za-z']{2,}")
+#: Words of a sentence, which identifiers, units and symbols never are.
+ENGLISH = re.compile(r"[a-z]{3,} [a-z]{2,} [a-z]{2,}")
 
 
-def shown(capsys: pytest.CaptureFixture[str], *arguments: str) -> str:
-    main([*arguments, "--lang", "zh"])
-    said = capsys.readouterr()
-    return said.out + said.err
+def said(*arguments: str) -> str:
+    """All that a command prints in Chinese."""
+    ended = run(*arguments, "--lang", "zh")
+    return ended.out + ended.err
 
 
-def test_every_title_of_the_gallery_is_chinese(capsys: pytest.CaptureFixture[str]) -> None:
-    own = {name: lw.load(f"gallery:{name}").name for name in gallery.names()}
-    own |= {name: lw.parts.load(f"gallery:{name}").name for name in gallery.calculations()}
-    own |= {name: _heading(name)["title"] for name in gallery.tasks()}
-    assert set(own.values()) <= set(CHINESE)
-    assert all(re.search("[一-鿿]", title) for title in CHINESE.values())
-    listed = shown(capsys, "gallery", "list")
-    assert all(CHINESE[title] in listed for title in own.values())
-    assert CHINESE[own["propped_cantilever"]] in shown(capsys, "beam", "gallery:propped_cantilever")
-    main(["beam", "gallery:propped_cantilever"])
-    assert own["propped_cantilever"] in capsys.readouterr().out
-    assert "铰链式颚式破碎机，六杆" in shown(capsys, "solve", "gallery:jaw_crusher_sixbar", "--steps", "2")
-    assert (
-        "Hinged jaw crusher"
-        in (main(["solve", "gallery:jaw_crusher_sixbar", "--steps", "2"]), capsys.readouterr())[1].out
+def latin(text: str) -> set[str]:
+    return {word.lower() for word in LATIN.findall(text)}
+
+
+def test_every_title_of_the_gallery_is_chinese() -> None:
+    """In the list and above every result; in English and in data the titles are those of the files."""
+    own = {entry["name"]: entry["title"] for entry in data("gallery", "list")}
+    english, chinese = (
+        dict(
+            row[:2]
+            for row in map(cells, shown("gallery", "list", "--lang", language).splitlines())
+            if len(row) > 1
+        )
+        for language in ("en", "zh")
     )
+    for name in every([*gallery.names(), *gallery.calculations(), *gallery.tasks()], least=80):
+        assert english[name] == own[name]
+        assert CHINESE.search(chinese[name]) and not ENGLISH.search(chinese[name]), name
+    for command, name in (
+        ("beam", "propped_cantilever"),
+        ("solve", "jaw_crusher_sixbar"),
+        ("structure", "kite"),
+    ):
+        for language, titles in (("en", english), ("zh", chinese)):
+            first = shown(command, f"gallery:{name}", "--lang", language).splitlines()[0]
+            assert first.startswith(titles[name])
 
 
-def test_frame_and_driver_have_their_words(capsys: pytest.CaptureFixture[str]) -> None:
-    table = shown(
-        capsys, "metrics", "gallery:jaw_crusher_sixbar", "--names", "instant_centre", "peak_input_torque"
-    )
-    assert "机架" in table and "驱动" in table and not re.search(r"\bframe\b|\bdriver\b", table)
-    english = (main(["metrics", "gallery:crank_rocker", "--names", "instant_centre"]), capsys.readouterr())[
-        1
-    ].out
-    assert "frame, crank" in english
+def test_frame_and_driver_have_their_words() -> None:
+    asked = ["metrics", "gallery:jaw_crusher_sixbar", "--names", "instant_centre", "peak_input_torque"]
+    english, chinese = shown(*asked), said(*asked)
+    for noun in ("frame", "driver"):
+        assert re.search(rf"\b{noun}\b", english) and not re.search(rf"\b{noun}\b", chinese)
+        assert words.say(f"nouns.{noun}", "zh") in chinese
 
 
-def test_the_driver_without_a_name_has_its_word(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_driver_without_a_name_has_its_word() -> None:
     """Files with one driver give it no name; names that a file gives stay as they are."""
-    said = shown(capsys, "structure", "gallery:jaw_crusher_sixbar")
-    assert "铰链式颚式破碎机，六杆" in said and not re.search("driver|Hinged", said)
-    several = shown(capsys, "structure", "gallery:excavator")
-    assert all(name in several for name in lw.load("gallery:excavator").drivers)
+    assert "driver" not in said("structure", "gallery:jaw_crusher_sixbar")
+    several = said("structure", "gallery:excavator")
+    assert all(name in several for name in every(store.machine("excavator").drivers, least=2))
 
 
-BASE = (gallery.file("crank_rocker")).read_text(encoding="utf-8")
+FOURBAR = """\
+format: 1
+name: Four-bar
+frame: {points: {O1: [0 mm, 0 mm], O2: [400 mm, 0 mm]}}
+links:
+  crank: {points: [O1, A], length: 100 mm}
+  coupler: {points: [A, B], length: 350 mm, mass: 2 kg}
+  rocker: {points: [O2, B], length: 250 mm}
+assembly: {B: left}
+driver: {turn: crank, about: O1, speed: 10 rad/s}
+"""
 DAMAGES = [
     ("length", "lenght"),
     ("mm", "mn"),
-    ("rad/s", ""),
+    (" rad/s", ""),
     ("links:", "links: 3\nlinkz:"),
     ("[O1, A]", "[O1]"),
     ("[A, B]", "[A, A]"),
@@ -75,40 +95,51 @@ DAMAGES = [
     ("frame:", "fram:"),
     ("driver:", "drivr:"),
     ("{", "{{"),
-    ("points:", "\tpoints:"),
+    ("  crank: ", "\tcrank: "),
     (": ", ":"),
 ]
-KNOWN = set(
-    re.findall(
-        r"\w+",
-        "yaml format name frame points links crank rocker coupler length also lengths angle assembly driver drivers "
-        "turn slide about speed start joints loads gravity cycle parameters drawing mass inertia centre position "
-        "table law relative left right forward backward link duration from turns mm deg rpm rad kind guide block "
-        "through direction offset purpose source expected synthesis damaged linkz fram drivr crnk lft lenght linkage "
-        "null none mn report optimize optimise",
-    )
-)
 
 
-def foreign(text: str, path: Path) -> set[str]:
-    """Latin words that are no identifiers of a model, in what is said of a file (its path left out)."""
-    return {
-        word.lower() for word in LATIN.findall(text.replace(str(path), "").replace(path.name, ""))
-    } - KNOWN
+def identifiers(schema: object) -> Iterator[str]:
+    """Keys and words of model files."""
+    if isinstance(schema, dict):
+        for key, value in schema.items():
+            if key in ("enum", "const"):
+                yield from map(str, value if isinstance(value, list) else [value])
+            elif key != "description":
+                yield key
+                yield from identifiers(value)
+    elif isinstance(schema, list):
+        for each in schema:
+            yield from identifiers(each)
 
 
-@pytest.mark.parametrize("number", range(len(DAMAGES)))
-def test_findings_of_damaged_files_hold_no_english(
-    number: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    old, new = DAMAGES[number]
-    if old not in BASE:
-        pytest.skip("the model has no such text")
+KEYS = latin(" ".join(identifiers(json.loads(json.dumps(lw.json_schema()))))) | {"yaml", "rpm"}
+
+
+@pytest.mark.parametrize(("right", "wrong"), DAMAGES)
+def test_findings_of_damaged_files_hold_no_english(right: str, wrong: str, tmp_path: Path) -> None:
+    """Besides what the file itself holds, and the keys that it may hold."""
+    assert right in FOURBAR
     path = tmp_path / "damaged.yaml"
-    path.write_text(BASE.replace(old, new, 1), encoding="utf-8")
-    said = shown(capsys, "check", str(path))
-    quoted = {*LATIN.findall(BASE.replace(old, new, 1)), *lw.json_schema()["properties"]}
-    assert foreign(said, path) - {word.lower() for word in quoted} == set(), said
+    text = FOURBAR.replace(right, wrong, 1)
+    path.write_text(text, encoding="utf-8")
+    (file,) = data("check", str(path), code=1)["files"]
+    lines = [line for line in said("check", str(path)).splitlines() if line.startswith("damaged.yaml:")]
+    assert len(lines) == len(every(file["findings"]))
+    for line in lines:
+        told = line.removeprefix("damaged.yaml:")
+        assert CHINESE.search(told), line
+        assert latin(told) <= latin(text) | KEYS, line
+
+
+def plain(value: object) -> Iterator[str]:
+    """The texts among a value that are no sentences: names, paths, what was asked."""
+    if isinstance(value, tuple | list):
+        for each in value:
+            yield from plain(each)
+    elif type(value) is str:
+        yield value
 
 
 @pytest.mark.parametrize(
@@ -133,39 +164,28 @@ def test_findings_of_damaged_files_hold_no_english(
         ["plot", "gallery:crank_rocker", "--kind", "torqe", "--output", "a.svg"],
         ["plot", "gallery:crank_rocker", "--kind", "reactions", "--output", "a.svg"],
         ["animate", "gallery:crank_rocker", "--output", "a.xyz"],
+        ["grade", "no/key.json", "no.csv"],
+        ["study", "gallery:slider_crank_offset", "--vary", "rod.length=0.01..0.2m:2", "--steps", "4"],
+        ["draw", "gallery:crank_rocker", "--output", "d.xyz"],
+        ["studio", "--no-browser", "--port", "99999"],
+        ["optimize", "gallery:crank_rocker"],
+        ["gallery", "shw"],
+        ["solve", "gallery:crank_rocker", "--at", "1,5 deg"],
     ],
+    ids=" ".join,
 )
-def test_refusals_hold_no_english(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> None:
-    said = shown(capsys, *arguments)
-    assert re.search("[一-鿿]", said), said
-    model = {word.lower() for name in ("crank_rocker", "kite", "excavator") for word in LATIN.findall(
-        (gallery.file(name)).read_text(encoding="utf-8"))}  # fmt: skip
-    own = {word.lower() for each in arguments for word in LATIN.findall(each)}
-    names = {word for name in [*lw.metrics.METRICS, *gallery.names(), *kinds()] for word in name.split("_")}
-    known = (
-        KNOWN
-        | model
-        | own
-        | names
-        | {"linkwright", "help", "gallery", "travel", "point", "flywheel", "faded"}
-    )
-    left = {
-        word.lower() for word in LATIN.findall(re.sub(r"\.\w+|--\w+|\w+_\w+|\w+\.[\w.]+", "", said))
-    } - known
-    assert left <= {
-        "csv",
-        "effort",
-        "closeness",
-        "joint",
-        "max",
-        "min",
-        "rms",
-        "output",
-        "polyline",
-        "spline",
-        "degrees",
-        "study",
-    }, (left, said)
+def test_refusals_hold_no_english(arguments: list[str]) -> None:
+    """Besides the names in them, and what stands in the Chinese sentence of their code."""
+    ended = run(*arguments, "--lang", "zh")
+    assert ended.code in (1, 2) and ended.told is not None
+    code, left = ended.told.code, ended.err
+    assert CHINESE.search(left)
+    assert not ENGLISH.search(left)
+    given = {text for value in ended.told.values.values() for text in plain(value) if LATIN.search(text)}
+    for text in sorted({*given, *arguments, *gallery.names()}, key=len, reverse=True):
+        left = left.replace(text, "")
+    own = latin(words.say(code, "zh")) if words.has(code) else set()
+    assert latin(left) <= own | {"help", "crank", "slider", "cycle", "from"}, left
 
 
 #: Units and symbols of results, roots of names.
@@ -190,21 +210,9 @@ SYMBOLS = {"rad", "mm", "min"}
     ],
     ids=lambda task: task[0].removeprefix("gallery:"),
 )
-def test_synthesis_is_chinese(task: list[str], capsys: pytest.CaptureFixture[str]) -> None:
-    said = shown(capsys, "synthesize", *task)
-    assert "方案 1：" in said and set(LATIN.findall(said)) <= SYMBOLS, said
-
-
-def test_names_of_synthesis_have_words() -> None:
-    """Counts and values are keys of mappings in the code: each has its word."""
-    known = words.catalogue("synthesis_names", "zh")
-    root = Path(lw.__file__).parent / "synthesis"
-    code = "".join(path.read_text(encoding="utf-8") for path in root.rglob("*.py"))
-    with_units = set(re.findall(r'"(\w+) \[(?:rad|m)\]":', code)) - {"lengths", "points"}
-    counted = set(re.findall(r'(?:counts=|counts = |"exact_path", [^\n]*|target, )\{"(\w+)": ', code))
-    assert len(with_units) > 12 and len(counted) > 5
-    assert (with_units | counted) - {"transmission_angle_min", "longest", "extent"} <= set(known)
-    assert all(re.search("[一-鿿]", text) for text in known.values())
+def test_synthesis_is_chinese(task: list[str]) -> None:
+    printed = said("synthesize", *task)
+    assert CHINESE.search(printed) and set(LATIN.findall(printed)) <= SYMBOLS, printed
 
 
 MISSING = """format: 1
@@ -219,50 +227,31 @@ driver: {turn: crank, about: O1, speed: 1 rad/s}
 @pytest.mark.parametrize(
     "text", [MISSING, *(f"format: 1\nkind: {kind}\n" for kind in ("beam", "belt", "vibration", "mounts"))]
 )
-def test_missing_keys_are_said_in_chinese(
-    text: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_missing_keys_are_said_in_chinese(text: str, tmp_path: Path) -> None:
     """The key with YAML's colon, its quantity or form, and an example; the English description stays English."""
     path = tmp_path / "missing.yaml"
     path.write_text(text, encoding="utf-8")
-    said = [line for line in shown(capsys, "check", str(path)).splitlines() if "缺少键" in line]
-    assert said
-    for line in said:
-        key, remedy = re.search("缺少键“(.*?)”；(.*)", line).groups()  # type: ignore[union-attr]
-        assert remedy.startswith(f"请补上 {key}: ") and not re.search("[A-Za-z]{2,} [a-z]{2,}", remedy), line
-    main(["check", str(path)])
-    assert "the key" in capsys.readouterr().out
-
-
-def test_titles_of_published_cases_are_chinese(capsys: pytest.CaptureFixture[str]) -> None:
-    from linkwright.validation.published import from_data
-
-    assert {each.case for each in from_data()} <= set(CHINESE)
-    said = shown(capsys, "validate", "--case", "conveyor")
-    assert (
-        "摆动式输送机，外极限位置：rocker.angle：所印" in said and "反余弦" in said and "conveyor" not in said
-    )
+    (file,) = data("check", str(path), code=1)["files"]
+    printed = said("check", str(path)).splitlines()
+    for found in every([each for each in file["findings"] if each["code"] == "missing-key"]):
+        place = f"{found['where']}: {found['key']}: " if found["key"] else f"{found['where']}: "
+        (key,) = re.findall(r'"(.*?)"', found["message"])
+        (line,) = [
+            each for each in printed if each.startswith(place) and f"{key}: " in each.removeprefix(place)
+        ]
+        assert CHINESE.search(line) and not re.search("[A-Za-z]{2,} [a-z]{2,}", line.removeprefix(place)), (
+            line
+        )
 
 
 @pytest.mark.parametrize(
-    ("arguments", "part"),
+    "arguments",
     [
-        (["grade", "no/key.json", "no.csv"], "没有这个文件或文件夹"),
-        (["metrics", "gallery:change_point_fourbar", "--steps", "6"], "极限位置            rocker 最小"),
-        (
-            ["study", "gallery:slider_crank_offset", "--vary", "rod.length=0.01..0.2m:2", "--steps", "4"],
-            "无法装配",
-        ),
-        (["draw", "gallery:crank_rocker", "--output", "d.xyz"], ".svg、.png、.pdf"),
-        (["studio", "--no-browser", "--port", "99999"], "端口 99999 不能使用：端口为 0 到 65535"),
-        (["optimize", "gallery:crank_rocker"], "带连杆点的曲柄摇杆机构 没有"),
-        (["gallery", "shw"], "可选：list、show、copy"),
-        (["solve", "gallery:crank_rocker", "--at", "1,5 deg"], "--at：“1,5 deg”用了逗号作小数点"),
+        ["validate", "--case", "conveyor"],
+        ["metrics", "gallery:change_point_fourbar", "--steps", "6"],
     ],
-    ids=lambda value: value[0] if isinstance(value, list) else "",
+    ids=lambda arguments: arguments[0],
 )
-def test_results_and_reasons_are_chinese(
-    arguments: list[str], part: str, capsys: pytest.CaptureFixture[str]
-) -> None:
-    said = shown(capsys, *arguments)
-    assert part in said and not re.search("[a-z]{3,} [a-z]{2,} [a-z]{2,}", said), said
+def test_results_are_chinese(arguments: list[str]) -> None:
+    printed = said(*arguments)
+    assert CHINESE.search(printed) and not ENGLISH.search(printed), printed

@@ -1,22 +1,18 @@
 """Completion: bash is asked as it asks; the other scripts hold every command and option."""
 
+import re
 import shutil
 import subprocess
 from pathlib import Path
 
 import pytest
+from tests.cli.commands import is_refused, shown
+from tests.every import every
 
-from linkwright.cli import commands, main
-from linkwright.cli.help import command_parser
-from linkwright.cli.shells import SHELLS, options_of
-from linkwright.words import speaker
+from linkwright import words
+from linkwright.cli import commands
 
 BASH = shutil.which("bash")
-
-
-def printed(shell: str, capsys: pytest.CaptureFixture[str]) -> str:
-    assert main(["completion", shell]) == 0
-    return capsys.readouterr().out
 
 
 def completed(script: str, line: str, folder: Path) -> set[str]:
@@ -37,11 +33,9 @@ printf '%s\\n' "${{COMPREPLY[@]}}"
 
 
 @pytest.mark.skipif(BASH is None, reason="there is no bash")
-def test_bash_completes_commands_options_choices_files_and_models(
-    capsys: pytest.CaptureFixture[str], tmp_path: Path
-) -> None:
+def test_bash_completes_commands_options_choices_files_and_models(tmp_path: Path) -> None:
     (tmp_path / "press.yaml").write_text("format: 1\n")
-    script = printed("bash", capsys)
+    script = shown("completion", "bash")
     expected = {name for name in commands.names() if name.startswith("st")}
     assert {"structure", "study"} <= expected
     assert completed(script, "linkwright st", tmp_path) == expected
@@ -52,28 +46,30 @@ def test_bash_completes_commands_options_choices_files_and_models(
     assert completed(script, "linkwright draw gallery:jaw_crusher_f", tmp_path) == {"jaw_crusher_fourbar"}
 
 
-@pytest.mark.parametrize("shell", SHELLS)
-def test_every_command_and_option_is_in_the_script(shell: str, capsys: pytest.CaptureFixture[str]) -> None:
-    script = printed(shell, capsys)
-    for name in commands.names():
+def options_of(name: str) -> set[str]:
+    """The options that the help of a command lists."""
+    listed = re.findall(r"^  (-.*?)(?:  |$)", shown("help", name), re.MULTILINE)
+    return {word for line in listed for word in re.findall(r"(?<![\w-])--?[a-z][a-z-]*", line)}
+
+
+@pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
+def test_every_command_and_option_is_in_the_script(shell: str) -> None:
+    script = shown("completion", shell)
+    for name in every(commands.names(), least=30):
         assert name in script
-        for option in options_of(command_parser(name, speaker("en"))):
-            for word in option.names:
-                spelled = (
-                    word
-                    if shell != "fish"
-                    else f"-l {word[2:]}"
-                    if word.startswith("--")
-                    else f"-s {word[1:]}"
-                )
-                assert spelled in script, (name, word)
+        for word in every(options_of(name), least=5):
+            dash = "-l" if word.startswith("--") else "-s"
+            spelled = f"{dash} {word.lstrip('-')}" if shell == "fish" else word
+            assert spelled in script, (name, word)
 
 
-def test_fish_says_what_a_command_does_in_the_language(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["completion", "fish", "--lang", "zh"]) == 0
-    assert "机构运动简图" in capsys.readouterr().out
+def test_fish_says_what_a_command_does_in_the_language() -> None:
+    for language in words.LANGUAGES:
+        script = shown("completion", "fish", "--lang", language)
+        for name in every(commands.names()):
+            summary = words.say(f"{name}.summary", language).replace("'", "\\'")
+            assert f"-a {name} -d '{summary}'" in script
 
 
-def test_an_unknown_shell_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["completion", "tcsh"]) == 2
-    assert '"tcsh"; choose from bash, zsh, fish' in capsys.readouterr().err
+def test_an_unknown_shell_is_refused() -> None:
+    is_refused(["completion", "tcsh"], "cli.bad_choice", value="tcsh", choices={"bash", "zsh", "fish"})

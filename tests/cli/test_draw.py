@@ -1,28 +1,20 @@
 """``linkwright draw``: pictures by their endings, choices, refusals, whole files."""
 
-import json
 import math
 import re
+import sys
 import xml.etree.ElementTree as ET
 from pathlib import Path
 
 import pytest
+from tests.cli.commands import data, is_refused, run
+from tests.cli.machines import STUCK, out_of_reach
+from tests.cli.tables import numbers
 
 from linkwright.cli import main
 
 CRUSHER = "gallery:jaw_crusher_sixbar"
 SVG = "{http://www.w3.org/2000/svg}"
-STUCK = """\
-format: 1
-name: Stuck four-bar
-frame: {points: {O1: [0 m, 0 m], O2: [2 m, 0 m]}}
-links:
-  crank: {points: [O1, A], length: 0.9 m}
-  coupler: {points: [A, B], length: 1.2 m}
-  rocker: {points: [O2, B], length: 1.5 m}
-assembly: {B: left}
-driver: {turn: crank, about: O1, speed: 10 rad/s, start: 60 deg}
-"""
 
 
 def drawn(tmp_path: Path, *options: str, model: str = CRUSHER) -> ET.Element:
@@ -39,14 +31,19 @@ def texts(root: ET.Element) -> set[str]:
     return {"".join(e.itertext()) for e in root.iter(f"{SVG}text")}
 
 
-def test_positions_out_of_reach_are_told_in_the_language_asked_for(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_positions_out_of_reach_are_told_in_the_language_asked_for(tmp_path: Path) -> None:
+    """With the same numbers: how many, of how many, and by how much the first one is out of reach."""
     model = tmp_path / "stuck.yaml"
     model.write_text(STUCK, encoding="utf-8")
-    assert main(["draw", str(model), "--output", str(tmp_path / "out.svg"), "--lang", "zh"]) == 0
-    told = capsys.readouterr().err
-    assert "RRR 杆组" in told and "无法装配" in told and "cannot" not in told
+    english, chinese = (
+        run("draw", str(model), "--output", str(tmp_path / f"{language}.svg"), "--lang", language)
+        for language in ("en", "zh")
+    )
+    assert english.code == chinese.code == 0
+    left_out, positions, *_ = numbers(english.err)
+    assert left_out == out_of_reach(int(positions))
+    assert sorted(numbers(chinese.err)) == sorted(numbers(english.err))
+    assert re.search("[\u4e00-\u9fff]", chinese.err) and not re.search("[a-z]{3,} [a-z]{2,}", chinese.err)
 
 
 def test_drawing_shows_what_is_asked_for(tmp_path: Path) -> None:
@@ -103,64 +100,57 @@ def test_png_and_pdf(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("options", "words"),
+    ("options", "code", "values"),
     [
-        (["--paths", "Cc"], 'did you mean "C"'),
-        (["--velocities", "Q"], '--velocities: there is no point "Q"'),
-        (["--dimensions", "jam"], 'did you mean "jaw"'),
-        (["--dimensions", "O1:Q"], 'no point "Q"'),
-        (["--forces", "Q"], 'no joint "Q"'),
-        (["--overlay", "limits:jam"], 'did you mean "jaw"'),
-        (["--at", "30"], "has no unit"),
-        (["--at", "30 deg, 40 deg"], "more than one value"),
-        (["--at", "1 deg", "--time", "1 s"], "--time"),
-        (["--labels", "some"], "points"),
-        (["--steps", "0"], "--steps"),
+        (["--paths", "Cc"], "names.no_such", {"name": "--paths", "noun": "point", "offer": "C"}),
+        (["--velocities", "Q"], "names.no_such", {"name": "--velocities", "noun": "point"}),
+        (["--dimensions", "jam"], "names.no_such", {"noun": "link", "offer": "jaw"}),
+        (["--dimensions", "O1:Q"], "names.no_such", {"noun": "point"}),
+        (["--forces", "Q"], "names.no_such", {"name": "--forces", "noun": "joint"}),
+        (["--overlay", "limits:jam"], "motion.no_output", {"name": "--overlay", "offer": "jaw"}),
+        (["--at", "30"], "missing-unit", {"name": "--at", "text": "30"}),
+        (["--at", "30 deg, 40 deg"], "draw.one_position", {"option": "--at"}),
+        (["--at", "1 deg", "--time", "1 s"], "cli.not_together", {"name": "--time", "other": "--at"}),
+        (["--labels", "some"], "cli.bad_choice", {"choices": {"all", "points", "none"}}),
+        (["--steps", "0"], "cli.bad_whole", {"name": "--steps", "value": "0"}),
     ],
 )
-def test_wrong_usage(
-    options: list[str], words: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert main(["draw", CRUSHER, *options, "--output", str(tmp_path / "a.svg")]) == 2
-    assert words in capsys.readouterr().err
+def test_wrong_usage(options: list[str], code: str, values: dict[str, object], tmp_path: Path) -> None:
+    is_refused(["draw", CRUSHER, *options, "--output", str(tmp_path / "a.svg")], code, **values)
     assert list(tmp_path.iterdir()) == []
 
 
-def test_wrong_targets(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    target = tmp_path / "a.svg"
+def test_wrong_targets(tmp_path: Path) -> None:
+    target, folder = tmp_path / "a.svg", tmp_path / "no"
     target.write_text("mine", encoding="utf-8")
-    assert main(["draw", CRUSHER, "--output", str(target)]) == 2
+    is_refused(["draw", CRUSHER, "--output", str(target)], "file.exists", path=target, remedy="--force")
     assert target.read_text(encoding="utf-8") == "mine"
-    assert main(["draw", CRUSHER, "--output", str(tmp_path / "a.bmp")]) == 2
-    assert main(["draw", CRUSHER, "--output", str(tmp_path / "no" / "a.svg")]) == 2
-    assert main(["draw", CRUSHER]) == 2
-    shown = capsys.readouterr().err
-    assert "--force" in shown and ".svg, .png, .pdf" in shown and "create it first" in shown
-    assert "--output" in shown
+    bitmap = ["draw", CRUSHER, "--output", str(tmp_path / "a.bmp")]
+    is_refused(bitmap, "cli.bad_suffix", endings={".svg", ".png", ".pdf"})
+    is_refused(["draw", CRUSHER, "--output", str(folder / "a.svg")], "file.no_folder", path=folder)
+    is_refused(["draw", CRUSHER], "cli.missing", names={"--output"})
     assert main(["draw", CRUSHER, "--output", str(target), "--force"]) == 0
     assert target.read_text(encoding="utf-8").startswith("<svg")
 
 
-def test_position_out_of_reach(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    model = tmp_path / "stuck.yaml"
+def test_a_position_out_of_reach_is_not_drawn(tmp_path: Path) -> None:
+    """The pins are 2.8906 m apart, both links together 2.7 m long."""
+    model, target = tmp_path / "stuck.yaml", tmp_path / "a.svg"
     model.write_text(STUCK, encoding="utf-8")
-    target = tmp_path / "a.svg"
-    assert main(["draw", str(model), "--at", "170 deg", "--output", str(target)]) == 1
+    apart = math.sqrt(0.9**2 + 2**2 - 2 * 0.9 * 2 * math.cos(math.radians(170)))
+    asked = ["draw", str(model), "--at", "170 deg", "--output", str(target)]
+    told = is_refused(asked, "picture.the_position", ends=1, links={"coupler", "rocker"})
+    assert float(str(told.values["distance"]).split()[0]) == pytest.approx(apart, rel=1e-6)
     assert not target.exists()
-    assert main(["draw", str(model), "--output", str(target)]) == 0
-    assert "positions cannot be reached" in capsys.readouterr().err
 
 
-def test_json_names_the_file(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_json_names_the_file(tmp_path: Path) -> None:
     target = tmp_path / "a.svg"
-    assert main(["draw", CRUSHER, "--output", str(target), "--json"]) == 0
-    assert json.loads(capsys.readouterr().out) == {"ok": True, "written": str(target)}
+    assert data("draw", CRUSHER, "--output", str(target)) == {"ok": True, "written": str(target)}
 
 
-def test_missing_package_is_named_with_its_remedy(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setitem(__import__("sys").modules, "resvg_py", None)
-    assert main(["draw", CRUSHER, "--output", str(tmp_path / "a.png")]) == 1
-    assert 'pip install "linkwright[plot]"' in capsys.readouterr().err
+def test_missing_package_is_named_with_its_remedy(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "resvg_py", None)
+    told = is_refused(["draw", CRUSHER, "--output", str(tmp_path / "a.png")], "picture.png_needs", ends=1)
+    assert "linkwright[plot]" in str(told)
     assert list(tmp_path.iterdir()) == []

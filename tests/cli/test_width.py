@@ -1,17 +1,15 @@
 """On a terminal sentences and tables take its width; in a pipe and in files lines are whole."""
 
 import re
-import subprocess
-import sys
 
 import pytest
-from tests.cli.test_colour import on_terminal
-
-from linkwright.words.characters import aligned, aligned_within, cells, folded, folded_lines
+from tests.cli.commands import on_terminal, shown
+from tests.cli.tables import widest, width
 
 CODES = re.compile("\x1b\\[[0-9;]*m")
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("language", ["en", "zh"])
 @pytest.mark.parametrize(
     "command",
@@ -33,70 +31,30 @@ CODES = re.compile("\x1b\\[[0-9;]*m")
     ids=" ".join,
 )
 def test_lines_fit_a_terminal_of_80_columns(command: list[str], language: str) -> None:
-    shown = CODES.sub("", on_terminal([*command, "--lang", language], COLUMNS="80"))
-    assert shown.strip()
-    assert [line for line in shown.split("\n") if cells(line) > 80] == []
+    printed = CODES.sub("", on_terminal(*command, "--lang", language, columns=80))
+    assert printed.strip()
+    assert [line for line in printed.split("\n") if width(line) > 80] == []
 
 
 def test_folding_loses_nothing() -> None:
-    narrow = CODES.sub("", on_terminal(["metrics", "gallery:jaw_crusher_sixbar"], COLUMNS="80"))
-    wide = CODES.sub("", on_terminal(["metrics", "gallery:jaw_crusher_sixbar"], COLUMNS="200"))
+    narrow, wide = (
+        CODES.sub("", on_terminal("metrics", "gallery:jaw_crusher_sixbar", columns=columns))
+        for columns in (80, 200)
+    )
+    assert widest(narrow.splitlines()) <= 80 < widest(wide.splitlines())
     assert sorted("".join(narrow.split())) == sorted("".join(wide.split()))
 
 
-def test_a_pipe_has_whole_lines() -> None:
+def test_a_pipe_has_whole_lines(monkeypatch: pytest.MonkeyPatch) -> None:
     """So that rows can be searched, whatever COLUMNS says."""
-    shown = subprocess.run(
-        [sys.executable, "-m", "linkwright", "solve", "gallery:jaw_crusher_sixbar", "--steps", "12"],
-        capture_output=True,
-        text=True,
-        check=True,
-    ).stdout
-    (line,) = [each for each in shown.split("\n") if each.startswith("Left out for width")]
-    assert line.endswith("columns.")
+    monkeypatch.setenv("COLUMNS", "60")
+    asked = ["solve", "gallery:jaw_crusher_sixbar", "--steps", "12"]
+    (line,) = [each for each in shown(*asked).split("\n") if "--columns" in each]
+    assert width(line) > 60 and "--output" in line
+    assert not [each for each in on_terminal(*asked, columns=60).split("\n") if width(each) > 60]
 
 
 def test_data_are_never_folded() -> None:
-    shown = on_terminal(["gallery", "show", "jaw_crusher_sixbar"], COLUMNS="40")
-    assert max(map(len, shown.split("\n"))) > 100
-
-
-@pytest.mark.parametrize(
-    ("text", "width", "lines"),
-    [
-        ("one two three", 8, ["one two", "three"]),
-        ("a mass of 5 kg here", 12, ["a mass of", "5 kg here"]),
-        ("曲柄推动颚板，摆动", 12, ["曲柄推动颚", "板，摆动"]),
-        ("unbreakable", 4, ["unbreakable"]),
-        ("upper_rod+upper_plate", 12, ["upper_rod+", "upper_plate"]),
-        ("short", 10, ["short"]),
-    ],
-)
-def test_folded(text: str, width: int, lines: list[str]) -> None:
-    assert folded(text, width) == lines
-
-
-def test_what_follows_is_indented_and_narrow_columns_stay() -> None:
-    assert folded_lines("  a sentence that is long", 14) == "  a sentence\n    that is\n    long"
-    assert folded_lines("name  value  unit", 8) == "name  value  unit"
-
-
-def test_the_last_column_is_folded_below_itself() -> None:
-    line = "  1.  RRR  outer joints O3 and A, inner joint B"
-    assert folded_lines(line, 34).split("\n") == [
-        "  1.  RRR  outer joints O3 and A,",
-        "           inner joint B",
-    ]
-    assert folded_lines(line, 20) == line  # no room for it
-
-
-def test_tables_fold_their_widest_texts() -> None:
-    rows = [
-        ("name", "of", "value"),
-        ("smallest transmission angle", "rocker", "40"),
-        ("stroke", "slide", "3"),
-    ]
-    assert aligned_within(rows, "<<>", None) == [[line] for line in aligned(rows, "<<>")]
-    lines = aligned_within(rows, "<<>", 34)
-    assert [len(each) for each in lines] == [1, 2, 1]
-    assert max(cells(line) for each in lines for line in each) <= 34
+    printed = on_terminal("gallery", "show", "jaw_crusher_sixbar", columns=40)
+    assert printed == shown("gallery", "show", "jaw_crusher_sixbar")
+    assert widest(printed.split("\n")) > 100

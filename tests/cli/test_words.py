@@ -22,6 +22,7 @@ def test_areas_are_the_same_in_every_language() -> None:
 @pytest.mark.parametrize("area", words.areas("en"))
 def test_keys_and_values_are_the_same_in_every_language(area: str) -> None:
     english = words.catalogue(area, "en")
+    assert english
     for language in words.LANGUAGES:
         other = words.catalogue(area, language)
         assert set(other) == set(english)
@@ -45,8 +46,10 @@ def test_unknown_keys_and_languages_are_refused() -> None:
 
 
 def test_values_are_put_in() -> None:
-    assert words.speaker("en")("cli.written", path="a.csv") == "written: a.csv"
-    assert "a.csv" in words.speaker("zh")("cli.written", path="a.csv")
+    for language in words.LANGUAGES:
+        text = words.catalogue("cli", language)["written"]
+        assert "{path}" in text
+        assert words.speaker(language)("cli.written", path="a.csv") == text.replace("{path}", "a.csv")
 
 
 #: Half-width marks where a Chinese sentence goes on; between a key and its value of the file format they stay.

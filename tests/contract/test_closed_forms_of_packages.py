@@ -6,11 +6,13 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
+from tests.contract.elements_for_a_while import taken_away
+from tests.refusals import refused
 
 import linkwright as lw
-from linkwright.errors import LinkwrightError
-from linkwright.groups.base import DYADS, Solved
-from linkwright.structure.group import Group
+from linkwright.groups import DYADS
+from linkwright.groups.base import Solved
+from linkwright.structure import Group
 
 GEARS = """
 format: 1
@@ -26,6 +28,8 @@ loads:
   work: {{kind: torque, on: wheel, magnitude: 40 N·m}}
 """
 UNITS = ["1e-12", "1", "1e12"]
+#: What the package says; it stands in what the user reads.
+REASON = "the wheels stand too far apart"
 
 
 class Meshing:
@@ -43,14 +47,14 @@ class Meshing:
         return Solved((-0.5 * tracer.angles("pinion"),), 1.0, root * unit, unit)
 
     def explain(self, facts: object) -> str:
-        return "the wheels stand too far apart"
+        return REASON
 
 
 @pytest.fixture(autouse=True, scope="module")
 def registered() -> Iterator[None]:
     DYADS.register("meshing")(Meshing)
     yield
-    del DYADS._elements["meshing"]
+    taken_away(DYADS, "meshing")
 
 
 def gears(root: str, unit: str) -> lw.Mechanism:
@@ -68,11 +72,14 @@ def test_it_places_its_links(unit: str) -> None:
 
 @pytest.mark.parametrize("unit", UNITS)
 def test_it_says_why_its_links_do_not_reach(unit: str) -> None:
-    with pytest.raises(LinkwrightError, match="the wheels stand too far apart"):
+    with refused("motion.refused", lw.PositionError, name="external gears", failed=4) as caught:
         lw.solve_motion(gears("-0.5", unit), steps=4)
+    assert (caught.value.outcome.kind, caught.value.outcome.group) == ("unreachable", "wheel")
+    assert REASON in str(caught.value)
 
 
 @pytest.mark.parametrize("unit", UNITS)
 def test_it_is_singular_where_its_root_vanishes(unit: str) -> None:
-    with pytest.raises(LinkwrightError, match="singular"):
+    with refused("motion.refused", lw.PositionError, name="external gears", failed=4) as caught:
         lw.solve_motion(gears("1e-14", unit), steps=4)
+    assert (caught.value.outcome.kind, caught.value.outcome.group) == ("singular", "wheel")

@@ -4,27 +4,28 @@ import copy
 import dataclasses
 import pickle
 from collections.abc import Callable
-from functools import cache
+from functools import cache, partial
 from itertools import islice
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from tests import store
+from tests.contract.calculations import solved
 
 import linkwright as lw
 from linkwright import parts
 from linkwright.metrics import coupler_curve
-from linkwright.parts.file import gallery_names as part_names
-from linkwright.validation.published import published
+from linkwright.validation.published import from_gallery
 
 
 def crusher(steps: int = 24) -> lw.Forces:
-    return lw.solve_forces(lw.solve_motion(lw.load("gallery:jaw_crusher_sixbar"), steps=steps))
+    return store.forces("jaw_crusher_sixbar", steps)
 
 
 def triad() -> lw.Forces:
-    return lw.solve_forces(lw.solve_motion(lw.load("gallery:stephenson_sixbar_triad"), steps=24))
+    return store.forces("stephenson_sixbar_triad", 24)
 
 
 def broken() -> lw.Motion:
@@ -80,12 +81,13 @@ def grades() -> list[lw.Grade]:
 
 
 SIX = "gallery:jaw_crusher_sixbar"
+CRUSHER = partial(store.machine, "jaw_crusher_sixbar")
 RESULTS: dict[str, Callable[[], Any]] = {
-    "mechanism": lambda: lw.load(SIX),
+    "mechanism": CRUSHER,
     "model under construction": model,
     "document": lambda: lw.read_document("gallery:kite"),
     "findings": lambda: list(model_error().findings),
-    "structure": lambda: lw.structure(lw.load(SIX)),
+    "structure": lambda: lw.structure(CRUSHER()),
     "motion": lambda: crusher().motion,
     "motion of a triad": lambda: triad().motion,
     "motion with gaps": broken,
@@ -97,7 +99,7 @@ RESULTS: dict[str, Callable[[], Any]] = {
     "forces of a triad": triad,
     "load": lambda: crusher().load("crushing"),
     "limits": lambda: lw.limit_positions(crusher(72).motion, "jaw"),
-    "range": lambda: lw.input_range(lw.load(SIX)),
+    "range": lambda: lw.input_range(CRUSHER()),
     "metrics": lambda: lw.metrics(crusher()),
     "coupler curve": lambda: coupler_curve(
         lw.solve_motion(lw.load("gallery:chebyshev_lambda"), steps=48), "P"
@@ -111,14 +113,15 @@ RESULTS: dict[str, Callable[[], Any]] = {
     "balancing": lambda: lw.balance(lw.load("gallery:crank_rocker"), radius=0.1),
     "worked": lambda: lw.worked(crusher(), 0),
     "comparison": lambda: lw.compare([SIX, "gallery:jaw_crusher_fourbar"], steps=48),
-    "study": lambda: lw.study(lw.load(SIX), {"crank.length": "90..100 mm:3"}, steps=48),
+    "study": lambda: lw.study(CRUSHER(), {"crank.length": "90..100 mm:3"}, steps=48),
     "sweep": lambda: lw.sweep(
-        lw.load(SIX), {"crank.length": np.linspace(0.09, 0.1, 3)}, outputs=["driver.effort rms"], steps=48
+        CRUSHER(),
+        {"crank.length": np.linspace(0.09, 0.1, 3)},
+        outputs=["driver.effort rms"],
+        steps=48,
     ),
-    "sensitivity": lambda: lw.sensitivity(
-        lw.load(SIX), of=["driver.effort rms"], by=["crank.length"], steps=48
-    ),
-    "prepared": lambda: lw.prepare(lw.load(SIX), vary=["crank.length"], steps=24),
+    "sensitivity": lambda: lw.sensitivity(CRUSHER(), of=["driver.effort rms"], by=["crank.length"], steps=48),
+    "prepared": lambda: lw.prepare(CRUSHER(), vary=["crank.length"], steps=24),
     "position error": position_error,
     "model error": model_error,
     "synthesis error": synthesis_error,
@@ -127,7 +130,10 @@ RESULTS: dict[str, Callable[[], Any]] = {
     "diagram": lambda: lw.plot(lw.solve_motion(lw.load("gallery:kite"), steps=24)),
     "gear": lambda: lw.Gear(20, 0.002),
     "optimum": lambda: lw.optimize(
-        lw.load(SIX), vary={"pitman.length": "1.2..1.3 m"}, minimize="peak_input_torque", evaluations=48
+        CRUSHER(),
+        vary={"pitman.length": "1.2..1.3 m"},
+        minimize="peak_input_torque",
+        evaluations=48,
     ),
     "motion law": lambda: lw.motion_law("modified_sine"),
     "motion program": motion_program,
@@ -136,12 +142,11 @@ RESULTS: dict[str, Callable[[], Any]] = {
     "cam, solved": lambda: cam().solve(),
     "follower": lambda: cam().follower,
     "report": lambda: lw.report("gallery:crank_rocker", sections=["task", "structure"]),
-    "validation": lambda: lw.validate(islice(published(), 4)),
+    "validation": lambda: lw.validate(islice(from_gallery("jaw_crusher_sixbar"), 4)),
     "variants": variants,
     "grades": grades,
     "interruption": lambda: lw.Interrupted(Path("crank.state")),
     "synthesis": lambda: lw.synthesize("slider_crank", stroke=0.3, rod_ratio=3.5),
-    **{f"part {name}": lambda name=name: parts.load(f"gallery:{name}").solve() for name in part_names()},
 }
 
 
@@ -201,7 +206,16 @@ def numbers(value: Any, depth: int = 0) -> list[Any]:
 
 @pytest.mark.parametrize("name", RESULTS)
 def test_a_copy_says_the_same(name: str) -> None:
-    result = made(name)
+    copies_say_the_same(made(name))
+
+
+@pytest.mark.rotating
+@pytest.mark.parametrize("name", parts.gallery_names())
+def test_a_copy_of_a_calculation_says_the_same(name: str) -> None:
+    copies_say_the_same(solved(name))
+
+
+def copies_say_the_same(result: Any) -> None:
     said = numbers(result)
     for way, copied in WAYS.items():
         again = copied(result)
@@ -209,6 +223,7 @@ def test_a_copy_says_the_same(name: str) -> None:
         assert numbers(again) == said, way
 
 
+@pytest.mark.rotating
 def test_every_public_type_is_among_them() -> None:
     found = {type(each) for name in RESULTS for each in _flat(made(name))}
 

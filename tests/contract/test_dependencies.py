@@ -1,14 +1,13 @@
 """What the package requires is what it imports, and the lock file names the public index alone."""
 
-import ast
 import re
 import sys
 import tomllib
 from pathlib import Path
 
-import linkwright
+from tests.contract.sources import MODULES, imports_of
+from tests.every import every
 
-ROOT = Path(linkwright.__file__).parent
 PROJECT = Path(__file__).parents[2] / "pyproject.toml"
 #: Names of distributions by what they are imported as, where the two differ.
 DISTRIBUTIONS = {"yaml": "pyyaml", "PIL": "pillow", "resvg_py": "resvg-py", "docx": "python-docx"}
@@ -19,13 +18,7 @@ def declared(requirements: list[str]) -> set[str]:
 
 
 def imported() -> set[str]:
-    found = set[str]()
-    for path in ROOT.rglob("*.py"):
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-            if isinstance(node, ast.Import):
-                found |= {alias.name.split(".")[0] for alias in node.names}
-            elif isinstance(node, ast.ImportFrom) and node.module:
-                found.add(node.module.split(".")[0])
+    found = {name.split(".")[0] for module in every(MODULES, least=100) for _, name in imports_of(module)}
     return {DISTRIBUTIONS.get(name, name) for name in found - sys.stdlib_module_names - {"linkwright"}}
 
 

@@ -10,7 +10,9 @@ from types import FunctionType
 from typing import Any
 
 import pytest
-from tests.files.test_docs_examples import PAGES, blocks, name
+from tests.every import every
+from tests.files.documentation import PAGES, blocks, name
+from tests.refusals import refused
 
 import linkwright as lw
 from linkwright import parts
@@ -60,14 +62,18 @@ def documented_arguments(doc: str) -> list[str]:
     return [each.strip().lstrip("*") for head in heads for each in head.split(",")]
 
 
-@pytest.mark.parametrize("whole", [each for each, (_, found) in CALLABLES.items() if found.__doc__])
-def test_arguments_of_a_docstring_exist(whole: str) -> None:
-    _, found = CALLABLES[whole]
-    taken = signature(found)
-    if taken is None or any(each.kind is each.VAR_KEYWORD for each in taken.parameters.values()):
-        return
-    known = set(taken.parameters) | set(getattr(found, "__dataclass_fields__", ()))
-    assert set(documented_arguments(inspect.getdoc(found) or "")) <= known
+def test_arguments_of_docstrings_exist() -> None:
+    told = {
+        whole: set(documented_arguments(inspect.getdoc(found) or ""))
+        for whole, (_, found) in CALLABLES.items()
+    }
+    for whole in every((whole for whole, names in told.items() if names), least=20):
+        _, found = CALLABLES[whole]
+        taken = signature(found)
+        if taken is None or any(each.kind is each.VAR_KEYWORD for each in taken.parameters.values()):
+            continue
+        known = set(taken.parameters) | set(getattr(found, "__dataclass_fields__", ()))
+        assert told[whole] <= known, whole
 
 
 def keywords_of(page: Path) -> Iterator[tuple[str, str]]:
@@ -124,7 +130,7 @@ def test_a_file_that_is_there_is_replaced_only_with_force(what: str, tmp_path: P
     (first,) = tmp_path.iterdir()
     kept = b"another file"
     first.write_bytes(kept)
-    with pytest.raises(lw.LinkwrightError, match="force=True"):
+    with refused("file.exists", path=first, remedy="force=True"):
         write(tmp_path)
     assert first.read_bytes() == kept
     write(tmp_path, force=True)
@@ -132,8 +138,10 @@ def test_a_file_that_is_there_is_replaced_only_with_force(what: str, tmp_path: P
 
 
 def test_everything_that_writes_has_the_rule() -> None:
-    for whole, (called, found) in CALLABLES.items():
-        taken = signature(found) if called in SAVES else None
-        if taken is not None and {"path", "folder", "target"} & set(taken.parameters):
-            force = taken.parameters.get("force")
-            assert force is not None and force.kind is force.KEYWORD_ONLY and force.default is False, whole
+    taken = {whole: signature(found) for whole, (called, found) in CALLABLES.items() if called in SAVES}
+    writing = {whole: each.parameters for whole, each in taken.items()
+               if each is not None and {"path", "folder", "target"} & set(each.parameters)}  # fmt: skip
+    assert {whole.rpartition(".")[2] for whole in writing} == set(SAVES)
+    for whole, parameters in writing.items():
+        force = parameters.get("force")
+        assert force is not None and force.kind is force.KEYWORD_ONLY and force.default is False, whole

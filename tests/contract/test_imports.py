@@ -3,15 +3,13 @@
 import ast
 import subprocess
 import sys
-from collections.abc import Iterable, Iterator
-from functools import cache
+from collections.abc import Iterable
 from pathlib import Path
 
 import pytest
+from tests.contract.sources import MODULES, imports, imports_of
+from tests.every import every
 
-import linkwright
-
-ROOT = Path(linkwright.__file__).parent
 STAGES = (
     (
         "errors",
@@ -19,7 +17,6 @@ STAGES = (
         "registry",
         "lazy",
         "whole_files",
-        "references",
         "words",
         "gallery",
         "core",
@@ -58,7 +55,6 @@ FRONT_END_PACKAGES = {
     "fastapi", "starlette", "uvicorn", "typer", "rich", "argparse", "click",
 }  # fmt: skip
 SLOW = ("scipy", "pandas", "matplotlib", "networkx", "sympy", "numba", "jax", "llvmlite")
-MODULES = sorted(path.relative_to(ROOT) for path in ROOT.rglob("*.py") if path != ROOT / "__init__.py")
 
 
 def package_of(module: Path) -> str:
@@ -76,26 +72,6 @@ ENGINE = [module for module in MODULES if package_of(module) == "engine"]
 ANALYSIS = [module for module in MODULES if STAGE.get(package_of(module), FRONT) < FRONT]
 
 
-def imports(tree: ast.AST) -> Iterator[tuple[int, str]]:
-    """Line and dotted name of everything imported at run time, inside functions too."""
-    for node in ast.iter_child_nodes(tree):
-        if isinstance(node, ast.If) and "TYPE_CHECKING" in ast.unparse(node.test):
-            continue
-        if isinstance(node, ast.Import):
-            yield from ((node.lineno, alias.name) for alias in node.names)
-        elif isinstance(node, ast.ImportFrom):
-            assert node.level == 0, f"line {node.lineno}: write absolute imports"
-            names = (f"{node.module}.{alias.name}" for alias in node.names)
-            yield from ((node.lineno, name) for name in names)
-        else:
-            yield from imports(node)
-
-
-@cache
-def imports_of(module: Path) -> tuple[tuple[int, str], ...]:
-    return tuple(imports(ast.parse((ROOT / module).read_text(encoding="utf-8"))))
-
-
 def upward(imported: Iterable[tuple[int, str]], package: str) -> list[str]:
     """What a module of ``package`` imports from a higher stage."""
     found = []
@@ -108,7 +84,7 @@ def upward(imported: Iterable[tuple[int, str]], package: str) -> list[str]:
 
 
 def test_every_package_has_a_stage() -> None:
-    assert {package_of(module) for module in MODULES} <= set(STAGE)
+    assert {package_of(module) for module in MODULES} == set(STAGE)
 
 
 def test_an_upward_import_is_found() -> None:
@@ -123,7 +99,7 @@ def test_an_upward_import_is_found() -> None:
 @pytest.mark.parametrize("package", sorted(STAGE))
 def test_imports_go_down(package: str) -> None:
     bad = []
-    for module in (each for each in MODULES if package_of(each) == package):
+    for module in every(each for each in MODULES if package_of(each) == package):
         allowed = LEADS_ON.get(module.as_posix(), set())
         found = upward(imports_of(module), package)
         bad += [f"{module}, {each}" for each in found if not any(f": {name}" in each for name in allowed)]
@@ -140,7 +116,7 @@ def test_dataclasses_are_those_that_start_at_once() -> None:
     """``core/dataclass.py`` says why; with the standard decorator every class costs half a millisecond at start."""
     users = (module for module in MODULES if module.as_posix() != "core/dataclass.py")
     found = {
-        str(module) for module in users if "dataclasses.dataclass" in {each for _, each in imports_of(module)}
+        str(module) for module in every(users) if "dataclasses.dataclass" in {each for _, each in imports_of(module)}
     }
     assert found == set()
 
@@ -148,7 +124,7 @@ def test_dataclasses_are_those_that_start_at_once() -> None:
 @pytest.mark.parametrize("package", sorted({package_of(module) for module in ANALYSIS}))
 def test_analysis_imports_no_front_end(package: str) -> None:
     bad = []
-    for module in (each for each in ANALYSIS if package_of(each) == package):
+    for module in every(each for each in ANALYSIS if package_of(each) == package):
         used = {name.split(".")[0] for _, name in imports_of(module)}
         bad += [f"{module}: {name}" for name in used & FRONT_END_PACKAGES]
     assert bad == []

@@ -1,6 +1,7 @@
 """The public names: each is there, documented, and seen by type checkers as well."""
 
 import ast
+import importlib
 import subprocess
 import sys
 from pathlib import Path
@@ -27,7 +28,7 @@ def test_type_checkers_see_the_same_names() -> None:
 
 
 def test_a_name_that_is_not_there() -> None:
-    with pytest.raises(AttributeError, match="no attribute 'solve_everything'"):
+    with pytest.raises(AttributeError, match="solve_everything"):
         linkwright.solve_everything  # noqa: B018
 
 
@@ -46,8 +47,8 @@ FIRST = ("", "import linkwright.{0}", "from linkwright.{0} import *", "linkwrigh
 CALLED = """
 import inspect, os, sys, traceback, numpy
 import linkwright
-name, *ways = sys.argv[1:]
-for first in ways:
+names, ways = (each.split("|") for each in sys.argv[1:])
+for name, first in [(name, way.format(name)) for name in names for way in ways]:
     if (process := os.fork()) == 0:
         try:
             exec(first)
@@ -57,35 +58,31 @@ for first in ways:
             try:
                 found(no_such_option=1)
             except TypeError as error:
-                print(*inspect.signature(found).parameters, error, sep="|", flush=True)
+                print(name, *inspect.signature(found).parameters, error, sep="|", flush=True)
             os._exit(0)
         except BaseException:
             traceback.print_exc()
             sys.stderr.flush()
             os._exit(1)
-    assert os.waitpid(process, 0)[1] == 0, first
+    assert os.waitpid(process, 0)[1] == 0, (name, first)
 """
 
 
-@pytest.mark.parametrize("name", PACKAGES)
-def test_a_package_is_called_as_its_function_whatever_is_imported_first(name: str) -> None:
+def test_a_package_is_called_as_its_function_whatever_is_imported_first() -> None:
     """The package's modules, the function's parameters and a call through the package."""
-    ways = [first.format(name) for first in FIRST]
-    command = [sys.executable, "-c", CALLED, name, *ways]
+    command = [sys.executable, "-c", CALLED, "|".join(PACKAGES), "|".join(FIRST)]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
-    said = done.stdout.splitlines()
-    assert len(said) == len(ways)
-    for line in said:
-        parameter, *_, refusal = line.split("|")
-        assert parameter in {"mechanism", "result", "source", "text", "results", "motion", "machines"}
-        assert "unexpected keyword argument" in refusal or "missing" in refusal
+    told = [line.split("|") for line in done.stdout.splitlines()]
+    assert [name for name, *_ in told] == [name for name in PACKAGES for _ in FIRST]
+    for name, parameter, *_, refusal in told:
+        assert parameter in {"mechanism", "result", "source", "text", "results", "motion", "machines"}, name
+        assert parameter in refusal or "no_such_option" in refusal, name
 
 
 def test_packages_and_functions_work_side_by_side() -> None:
-    import linkwright.metrics
-    import linkwright.structure
-
+    for name in ("metrics", "structure"):
+        importlib.import_module(f"linkwright.{name}")
     mechanism = linkwright.load("gallery:crank_rocker")
     assert isinstance(linkwright.structure(mechanism), linkwright.structure.Structure)
     assert "transmission_angle" in linkwright.metrics.METRICS
@@ -97,5 +94,5 @@ def test_subpackages_are_there_without_an_import_of_their_own() -> None:
     code = "import linkwright as lw; print(lw.parts.load('gallery:simple_beam').kind, lw.tolerance.Clearance)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.startswith("beam <class") and "Clearance" in done.stdout
-    with pytest.raises(AttributeError, match="no attribute 'nothing_like_it'"):
+    with pytest.raises(AttributeError, match="nothing_like_it"):
         _ = linkwright.nothing_like_it

@@ -32,7 +32,7 @@ def public() -> frozenset[tuple[str, str]]:
         offered |= {(module.__name__, name) for name in getattr(module, "__all__", ())}
     for page in (TESTS.parent / "README.md", *sorted(DOCS.rglob("*.md"))):
         for block in re.findall(
-            r"^```(?:python|pycon)[^\n]*\n(.*?)^```", page.read_text("utf-8"), re.M | re.S
+            r"^```(?:python|pycon|py)\b[^\n]*\n(.*?)^```", page.read_text("utf-8"), re.M | re.S
         ):
             offered |= set(imported_by_lines(block))
     return frozenset(offered)
@@ -40,8 +40,9 @@ def public() -> frozenset[tuple[str, str]]:
 
 def imported_by_lines(text: str) -> Iterator[tuple[str, str]]:
     """The names that lines ``from linkwright.… import …`` take."""
-    for module, names in re.findall(r"^(?:>>> )?from (linkwright[\w.]*) import \(?([\w, \n]+)", text, re.M):
-        yield from ((module, name.strip().split(" ")[0]) for name in names.split(",") if name.strip())
+    taking = r"^(?:>>> )?from (linkwright[\w.]*) import (\([\w, \n]+\)|[\w, ]+)"
+    for module, names in re.findall(taking, text, re.M):
+        yield from ((module, name.split()[0]) for name in names.strip("()").split(",") if name.strip())
 
 
 def taken(path: Path) -> Iterator[tuple[str, str, int]]:

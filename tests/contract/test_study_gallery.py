@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from tests import store
 
 import linkwright as lw
 from linkwright.study import sensitivity, sweep
@@ -12,7 +13,7 @@ STEPS = 24
 
 
 AT_REST = {"truss", "two_bars_equilibrium"}
-NAMES = sorted(set(lw.gallery_names()) - AT_REST)
+NAMES = sorted({*store.names()} - AT_REST)
 
 
 def size_of(mechanism: lw.Mechanism) -> str:
@@ -34,13 +35,14 @@ def last_point(mechanism: lw.Mechanism) -> str:
 
 
 def test_those_left_out_cannot_move() -> None:
-    assert all(not lw.load(f"gallery:{name}").drivers for name in AT_REST)
+    assert all(not store.machine(name).drivers for name in AT_REST)
     assert len(NAMES) > 20
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("name", NAMES)
 def test_a_sweep_is_every_design_for_itself(name: str) -> None:
-    mechanism = lw.load(f"gallery:{name}")
+    mechanism = store.machine(name)
     address, point = size_of(mechanism), last_point(mechanism)
     value = mechanism.dimension(address)
     values = value + (value or 1.0) * np.array([0.0, 1e-4, -1e-4])
@@ -61,9 +63,10 @@ def test_a_sweep_is_every_design_for_itself(name: str) -> None:
         assert abs(found[f"{point}.y", "rms"][index] - np.sqrt((y * y).mean())) <= 1e-9 * scale
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("name", NAMES)
 def test_a_derivative_is_the_limit_of_differences(name: str) -> None:
-    mechanism = lw.load(f"gallery:{name}")
+    mechanism = store.machine(name)
     address, point = size_of(mechanism), last_point(mechanism)
     value = mechanism.dimension(address)
     step = 2e-5 * (value or 1.0)

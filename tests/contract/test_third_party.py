@@ -11,14 +11,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.contract.elements_for_a_while import taken_away
 from tests.contract.settling import LAW
+from tests.refusals import refused
 
 import linkwright as lw
 from linkwright.cli import main
-from linkwright.drivers.base import LAWS
 from linkwright.files.write import dump
-from linkwright.loads.base import LOADS
-from linkwright.metrics import METRICS
 
 PACKAGE = '''
 """What somebody else's package holds: public base classes and registries, nothing else."""
@@ -105,11 +104,13 @@ def installed(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
     folder = tmp_path_factory.mktemp("site")
     (folder / "windpackage.py").write_text(PACKAGE, "utf-8")
     sys.path.insert(0, str(folder))
-    importlib.import_module("windpackage")
+    package = importlib.import_module("windpackage")
     yield
     sys.path.remove(str(folder))
-    del sys.modules["windpackage"], LOADS._elements["wind"], LOADS._elements["tether"]
-    del LAWS._elements["settling"], METRICS._elements["mean_crank_torque"]
+    del sys.modules["windpackage"]
+    taken_away(package.LOADS, "wind", "tether")
+    taken_away(package.LAWS, "settling")
+    taken_away(package.METRICS, "mean_crank_torque")
 
 
 @pytest.fixture
@@ -175,10 +176,13 @@ def test_the_command_line_solves_and_draws_them(
     )
 
 
-def test_a_finding_about_them_says_where(file: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_finding_about_them_says_where(file: Path) -> None:
     file.write_text(file.read_text("utf-8").replace("size: 50 N", "size: 50 kg"), "utf-8")
-    with pytest.raises(lw.LinkwrightError, match=r"loads\.gust\.size"):
+    with refused("wrong-dimension", lw.ModelError) as caught:
         lw.load(file)
+    (finding,) = caught.value.findings
+    line = 1 + [*MODEL.splitlines()].index(next(each for each in MODEL.splitlines() if "gust" in each))
+    assert (finding.key, finding.where.split(":")[-2]) == ("loads.gust.size", str(line))
 
 
 def test_sweeps_and_derivatives_go_through_the_load(file: Path) -> None:
@@ -207,17 +211,12 @@ def test_a_load_of_its_own_way_follows_an_output_at_a_point() -> None:
     slope = -0.2 * np.sin(turn) * (1 + 0.2 * np.cos(turn) / np.sqrt(0.49 - 0.04 * np.sin(turn) ** 2))
     assert forces.load("gust").force[:, 0] == pytest.approx(100 * place)
     assert forces.input_torque == pytest.approx(-100 * place * slope, abs=1e-9)
-    for wrong, said in (("end: Q", 'no point "Q"'), ("follows: guid", 'did you mean "guide"?')):
-        key = wrong.split(":")[0]
-        before = "end: B" if key == "end" else "follows: guide"
-        with pytest.raises(lw.LinkwrightError) as refused:
-            lw.loads(
-                text.replace("{kind: wind, on: piston, at: B, size: 50 N}", tether.replace(before, wrong))
-            )
-        assert said in str(refused.value)
+    for key, right, wrong, value in (("end", "B", "Q", "name"), ("follows", "guide", "guid", "text")):
+        other = tether.replace(f"{key}: {right}", f"{key}: {wrong}")
+        with refused("unknown-name", lw.ModelError, **{value: wrong}) as caught:
+            lw.loads(text.replace("{kind: wind, on: piston, at: B, size: 50 N}", other))
+        assert [each.key for each in caught.value.findings] == [f"loads.gust.{key}"]
     found = lw.sweep(machine, {"loads.gust.rate": [100.0, 200.0]}, outputs=["driver.effort max"], steps=36)
     assert found["driver.effort max"] == pytest.approx(np.array([1, 2]) * forces.input_torque.max())
-    with pytest.raises(
-        lw.LinkwrightError, match=r"loads\.gust: a load of the kind 'tether' is found from the whole cycle"
-    ):
+    with refused("study.cycle_load_slope", name="gust", kind="tether"):
         lw.sensitivity(machine, of=["driver.effort max"], by=["crank.length"], steps=36)

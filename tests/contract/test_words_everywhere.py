@@ -5,12 +5,13 @@ import re
 from pathlib import Path
 
 import pytest
+from tests import store
+from tests.every import every
+from tests.unit.words.catalogued import sentences
 
-import linkwright
 import linkwright as lw
-from linkwright.words import LANGUAGES, catalogue
 
-ROOT = Path(linkwright.__file__).parent
+ROOT = Path(lw.__file__).parent
 #: Errors of the program itself, which no user can do anything about.
 OF_THE_PROGRAM = {
     "ValueError", "TypeError", "RuntimeError", "NotImplementedError", "AssertionError", "KeyError", "AttributeError",
@@ -69,7 +70,7 @@ def test_the_walk_finds_sentences() -> None:
 
 def test_no_english_sentence_stands_where_an_error_is_raised() -> None:
     places = []
-    for path in sorted(ROOT.rglob("*.py")):
+    for path in every(sorted(ROOT.rglob("*.py")), least=800):
         places += [f"{path.relative_to(ROOT)}:{line}" for line in in_place(path.read_text(encoding="utf-8"))]
     assert places == []
 
@@ -83,11 +84,12 @@ def test_every_finding_has_its_remedy_in_every_language() -> None:
         if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr == "finding"
         and len(node.args) > 3 and isinstance(node.args[2], ast.Constant)
     }  # fmt: skip
-    keys = {said for key, given in calls for said in ((key, f"{key}_do") if given == 4 else (key,))}
+    keys = {
+        f"model.{said}" for key, given in calls for said in ((key, f"{key}_do") if given == 4 else (key,))
+    }
     assert len(keys) > 80
-    for language in LANGUAGES:
-        words = catalogue("model", language)
-        assert keys <= set(words), language
+    for language in ("en", "zh"):
+        assert keys <= set(sentences(language)), language
 
 
 #: One term for one thing: that of Chinese textbooks of the theory of machines, and what is not written instead.
@@ -96,7 +98,7 @@ CHINESE = [*(ROOT / "words/zh").glob("*.py"), *(ROOT.parents[1] / "docs/zh").rgl
 
 
 def test_one_chinese_term_for_one_thing() -> None:
-    for path in CHINESE:
+    for path in every(CHINESE, least=80):
         text = path.read_text("utf-8")
         assert not [word for words in ONE_TERM.values() for word in words if word in text], path
 
@@ -104,8 +106,7 @@ def test_one_chinese_term_for_one_thing() -> None:
 @pytest.mark.parametrize("model", ["planetary_two_inputs", "chain_drive"])
 def test_the_frame_has_its_chinese_word(model: str) -> None:
     """Wherever the program itself lists links: structure, worked solution, legends of pictures, report."""
-    machine = lw.load(f"gallery:{model}")
-    forces = lw.solve_forces(machine, steps=12)
+    machine, forces = store.machine(model), store.forces(model, 12)
     shown = re.sub(
         "<style>.*?</style>|<[^>]*>", " ", lw.draw(forces.motion, forces=forces, language="zh").svg
     )

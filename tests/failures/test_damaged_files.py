@@ -1,159 +1,84 @@
-"""Damaged model files: whatever was cut, doubled or mistyped, the answer is findings at places, or a model, at once.
+"""Damaged model files: whatever was cut, doubled or mistyped, the answer is findings at places or a model."""
 
-``LINKWRIGHT_DAMAGED=5000 python -m pytest tests/failures/test_damaged_files.py`` tries more of them.
-"""
-
-import os
 import random
-import re
 from contextlib import suppress
 
 import pytest
+from tests import store
+from tests.failures.damaged_texts import EVERY_VALUE, VALUES, damaged, is_placed
+from tests.refusals import findings, said
 from tests.work import AT_ONCE, counted
 
 import linkwright as lw
-from linkwright.errors import Finding
-from linkwright.files.model_file import gallery_names, read_text
-from linkwright.files.source import read_source
-
-COUNT = int(os.environ.get("LINKWRIGHT_DAMAGED", "200"))
-BATCHES = 8
-TEXTS = {name: read_source(f"gallery:{name}")[0] for name in gallery_names()}
-SIGNS = [
-    *":{}[],-#&*!|>'\"%@`\t\n ~?=<\\/^·²°",
-    "\x07",
-    "\x85",
-    "\u2028",
-    "\ufeff",
-    "é",
-    "长",
-    "😀",
-    "\r\n",
-    "---\n",
-]
-WORDS = [
-    "1e999",
-    "-1",
-    "0",
-    "nan",
-    "null",
-    "~",
-    "''",
-    "[]",
-    "{}",
-    "1 m",
-    "1 mm*t",
-    "9" * 400,
-    "a" * 300,
-    "&a ",
-    "*a",
-    "<<: ",
-    "!!str ",
-]
 
 
-def damaged(text: str, rng: random.Random) -> str:
-    """The text after one to five accidents."""
-    for _ in range(rng.choice([1, 1, 1, 2, 5])):
-        at = rng.randrange(len(text)) if text else 0
-        kind = rng.randrange(7)
-        if kind == 0:
-            text = text[:at] + text[at + rng.choice([1, 1, 3, 20, 400]) :]
-        elif kind == 1:
-            text = text[:at] + rng.choice(SIGNS) + text[at:]
-        elif kind == 2:
-            text = text[:at] + rng.choice(SIGNS) + text[at + 1 :]
-        elif kind == 3:
-            other = rng.randrange(len(text)) if text else 0
-            text = text[:at] + text[other : other + rng.choice([1, 10, 100])] + text[at:]
-        elif kind == 4:
-            text = _instead(text, r"-?\d[\d.]*( ?[a-zA-Z°·/²]+)?", rng)
-        elif kind == 5:
-            text = _instead(text, r"[A-Za-z_]\w*", rng)
-        else:
-            lines = text.split("\n")
-            first, second = rng.randrange(len(lines)), rng.randrange(len(lines))
-            lines[first], lines[second] = lines[second], lines[first]
-            text = "\n".join(lines)
-    return text
-
-
-def _instead(text: str, pattern: str, rng: random.Random) -> str:
-    """One number or word replaced by a wrong one, or by another of the text."""
-    places = list(re.finditer(pattern, text))
-    if not places:
-        return text
-    place, other = rng.choice(places), rng.choice(places)
-    return text[: place.start()] + rng.choice([rng.choice(WORDS), other[0]]) + text[place.end() :]
-
-
-def is_placed(finding: Finding, text: str) -> bool:
-    """Whether a finding says a place that the text has."""
-    place = re.fullmatch(r"m\.yaml(?::(\d+):(\d+))?", finding.where)
-    if place is None or not finding.message:
-        return False
-    return place[1] is None or int(place[1]) <= text.count("\n") + text.count("\r") + 1
-
-
-@pytest.mark.parametrize("batch", range(BATCHES))
-def test_damage_is_answered_at_once(batch: int) -> None:
+def answered(batch: int, count: int = 25) -> None:
+    """Some damage is harmless and reads as the model that it writes again; most is found, at places, at once."""
     rng = random.Random(batch)
     read = 0
-    for number in range(COUNT // BATCHES):
-        name = rng.choice(list(TEXTS))
-        text = damaged(TEXTS[name], rng)
+    for number in range(count):
+        name = rng.choice(store.names())
+        text = damaged(store.text(name), rng)
         try:
-            (mechanism, findings), calls = counted(lambda text=text: read_text(text, "m.yaml"))
+            found, calls = counted(lambda text=text: findings(text, "m.yaml"))
         except Exception as error:
             raise AssertionError(f"{name}, batch {batch}, number {number}: {text!r}") from error
         assert calls < AT_ONCE, text
-        assert all(is_placed(each, text) for each in findings), (findings, text)
-        errors = [each for each in findings if each.severity == "error"]
-        assert (mechanism is None) == bool(errors), text
-        if mechanism is not None:
-            read += 1
-            assert lw.loads(lw.dump(mechanism), "m.yaml").dimensions() == mechanism.dimensions(), text
-    assert 0 < read < COUNT // BATCHES, "some damage is harmless, most is not"
+        assert all(is_placed(each, text) for each in found), (found, text)
+        if any(each.severity == "error" for each in found):
+            with pytest.raises(lw.ModelError):
+                lw.loads(text, "m.yaml")
+            continue
+        read += 1
+        mechanism = lw.loads(text, "m.yaml")
+        assert lw.loads(lw.dump(mechanism), "m.yaml").dimensions() == mechanism.dimensions(), text
+    assert 0 < read < count
 
 
-@pytest.mark.parametrize("number", range(max(8, COUNT // 25)))
-def test_damage_that_reads_solves_or_is_refused(number: int) -> None:
-    """What still reads as a model is solved, or refused with a sentence."""
+def test_damage_is_answered_at_once() -> None:
+    answered(0)
+
+
+@pytest.mark.rotating
+@pytest.mark.parametrize("batch", range(1, 15))
+def test_more_damage_is_answered_at_once(batch: int) -> None:
+    answered(batch)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("batch", range(100, 130))
+def test_much_damage_is_answered_at_once(batch: int) -> None:
+    answered(batch, 125)
+
+
+def readable(number: int) -> lw.Mechanism:
+    """The first damaged text of many that still reads as a model."""
     rng = random.Random(1000 + number)
-    for _ in range(40):
-        mechanism, _ = read_text(damaged(TEXTS[rng.choice(list(TEXTS))], rng), "m.yaml")
-        if mechanism is not None:
-            break
-    else:
-        pytest.skip("nothing of forty reads")
+    for _ in range(400):
+        with suppress(lw.ModelError):
+            return lw.loads(damaged(store.text(rng.choice(store.names())), rng))
+    raise AssertionError("nothing of four hundred reads")
+
+
+def solved_or_refused(number: int) -> bool:
+    """Whether what still reads as a model is solved; else it is refused with a code."""
+    mechanism = readable(number)
     with suppress(lw.LinkwrightError):
         lw.solve_forces(lw.solve_motion(mechanism, steps=12))
+        return True
+    with pytest.raises(lw.LinkwrightError) as caught:
+        lw.solve_forces(lw.solve_motion(mechanism, steps=12))
+    assert caught.value.code
+    return False
 
 
-EVERY_VALUE = """
-format: 1
-name: all places of values
-parameters: {wrong: 3 qq, half: 0.5}
-frame: {points: {O: [0 m, 0 m], Q: [300 mm, 20 mm], G: [0.1 m, 0.4 m]}}
-links:
-  crank: {points: [O, A], length: 100 mm, mass: 2 kg, inertia: 0.01 kg·m², mass_centre: [20 mm, 0 mm]}
-  coupler: {points: [A, B, C], lengths: [280 mm, 120 mm], angle: 40 deg, also: {E: [10 mm, 20 mm]}}
-  rocker: {points: {Q: [0 mm, 0 mm], B: [0 mm, 250 mm]}, mass: 3 kg}
-  rod: {points: [C, D], length: 400 mm}
-  ram: {points: [D], mass: 5 kg}
-joints:
-  guide: {kind: prismatic, guide: frame, through: G, direction: 90 deg, block: ram, at: D, offset: 2 mm,
-    friction: 0.1}
-  A: {kind: revolute, friction: 0.1, pin_radius: 10 mm}
-assembly: {B: left, D: forward}
-gravity: [0, -9.81 m/s²]
-loads:
-  push: {kind: force, on: ram, at: D, direction: 90 deg, magnitude: 200 N, phase: {of: guide, from: min, to: max}}
-  tension: {kind: torque, on: rocker, table: {over: input, x: [0 deg, 360 deg], y: [1 N·m, 2 N·m]}}
-driver: {turn: crank, about: O, speed: 60 rpm, start: 10 deg}
-cycle: {turns: 1}
-"""
-VALUES = list(re.finditer(r"(?<=[ \[])-?[0-9][0-9.]*(?: [a-zN·²/]+)?(?=[],}])", EVERY_VALUE))[2:]
+def test_damage_that_reads_solves_or_is_refused() -> None:
+    assert True in {solved_or_refused(number) for number in range(8)}
+
+
+@pytest.mark.long
+def test_much_damage_that_reads_solves_or_is_refused() -> None:
+    assert {solved_or_refused(number) for number in range(8, 200)} == {True, False}
 
 
 def test_a_wrong_parameter_is_told_once_wherever_it_stands() -> None:
@@ -161,9 +86,13 @@ def test_a_wrong_parameter_is_told_once_wherever_it_stands() -> None:
     assert len(VALUES) > 35
     for each in VALUES:
         text = f"{EVERY_VALUE[: each.start()]}wrong{EVERY_VALUE[each.end() :]}"
-        _, findings = read_text(text, "m.yaml")
-        told = [str(finding) for finding in findings if finding.severity == "error"]
-        assert len(told) == 1 and "parameters.wrong" in told[0], (
-            text[each.start() - 20 : each.start() + 6],
-            told,
-        )
+        told = [found.key for found in findings(text) if found.severity == "error"]
+        assert told == ["parameters.wrong"], (text[each.start() - 20 : each.start() + 6], told)
+
+
+@pytest.mark.xfail(
+    strict=True, raises=RecursionError, reason="such a unit is offered in place of itself, without end"
+)
+def test_a_unit_with_two_exponents_is_unknown() -> None:
+    text = EVERY_VALUE.replace("0.01 kg·m²", "0.01 kg·m7²")
+    said(findings(text), "unknown-unit", "links.crank.inertia", text="kg·m7²")

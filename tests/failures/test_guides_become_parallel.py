@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from tests.refusals import noted
 
 import linkwright as lw
 
@@ -48,7 +49,7 @@ def test_positions_beyond_infinity_are_not_reached(body: str, steps: int) -> Non
     motion = lw.solve_motion(model(body, TURN, "from: -40 deg, to: 41 deg"), steps=steps, failures="mark")
     assert motion.ok.tolist() == (motion.input < 0).tolist()
     (note,) = motion.notes
-    assert "become parallel at driver = 0°" in note
+    noted([note], "cycle.pole", where="driver = 0°")
     x = motion.point("A").position[motion.ok, 0]
     np.testing.assert_allclose(x, -0.2 / np.tan(motion.input[motion.ok]), rtol=1e-13)
 

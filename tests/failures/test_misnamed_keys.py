@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import pytest
+from tests import store
+from tests.refusals import said
 
 import linkwright as lw
-from linkwright import gallery
-from linkwright.files.model_file import read_document
-from linkwright.parts.file import loads
+from linkwright import gallery, parts
 
 MODEL = """
 format: 1
@@ -56,8 +56,7 @@ def test_a_key_that_is_nearly_known_is_one_finding(key: str, wrong: str) -> None
     with pytest.raises(lw.ModelError) as refused:
         lw.loads(MODEL.replace(f"{key}:", f"{wrong}:", 1))
     (finding,) = refused.value.findings
-    assert finding.code == "unknown-key"
-    assert f'"{wrong}"' in finding.message and f'did you mean "{key}"?' in finding.remedy
+    said([finding], "unknown-key", key_=wrong, offer=key)
 
 
 SLIDE = """
@@ -91,7 +90,7 @@ def test_a_kind_by_habit_is_pointed_to_the_right_word_and_the_rest_is_checked(ki
     with pytest.raises(lw.ModelError) as refused:
         lw.loads(text)
     first, *others = sorted(refused.value.findings, key=lambda each: each.code, reverse=True)
-    assert first.code == "unknown-word" and f'did you mean "{kind}"?' in first.remedy
+    said([first], "unknown-word", text=habit, offer=kind)
     assert [each.key for each in others] == ["joints.way.offset", "loads.gust.area"]
 
 
@@ -108,7 +107,7 @@ def test_symbols_of_books_are_pointed_to_the_key(load: str, key: str, habit: str
     with pytest.raises(lw.ModelError) as refused:
         lw.loads(f"{MODEL.partition('loads:')[0]}loads: {{push: {load}}}")
     (finding,) = refused.value.findings
-    assert finding.key == f"loads.push.{habit}" and f'did you mean "{key}"?' in finding.remedy
+    said([finding], "unknown-key", f"loads.push.{habit}", offer=key)
 
 
 @pytest.mark.parametrize(("key", "habit"), [("links", "wheels"), ("teeth", "z"), ("teeth", "齿数")])
@@ -117,24 +116,25 @@ def test_symbols_of_wheels_are_pointed_to_the_key(key: str, habit: str) -> None:
     with pytest.raises(lw.ModelError) as refused:
         lw.loads(MODEL + wheel.replace(key, habit, 1))
     (finding,) = refused.value.findings
-    assert f'did you mean "{key}"?' in finding.remedy
+    said([finding], "unknown-key", f"joints.mesh.{habit}", offer=key)
 
 
 @pytest.mark.parametrize(("habit", "kind"), [("hinge", "revolute"), ("铰", "revolute"), ("rigid", "weld")])
 def test_other_habits_of_joints_are_pointed_to_the_right_word(habit: str, kind: str) -> None:
     with pytest.raises(lw.ModelError) as refused:
         lw.loads(f"{MODEL}joints: {{C: {{kind: {habit}}}}}")
-    assert f'did you mean "{kind}"?' in refused.value.findings[0].remedy
+    said(refused.value.findings, "unknown-word", "joints.C.kind", offer=kind)
 
 
 @pytest.mark.parametrize(
-    ("kind", "word"), [("gravity", "gravity: ["), ("weight", "gravity: ["), ("friction", "joints")]
+    ("kind", "section"), [("gravity", "gravity:"), ("weight", "gravity:"), ("friction", "joints")]
 )
-def test_what_is_no_kind_of_load_is_told_where_it_stands(kind: str, word: str) -> None:
+def test_what_is_no_kind_of_load_is_told_where_it_stands(kind: str, section: str) -> None:
     with pytest.raises(lw.ModelError) as refused:
         lw.loads(MODEL.replace("kind: force", f"kind: {kind}"))
     (finding,) = refused.value.findings
-    assert finding.key == "loads.push.kind" and word in finding.remedy
+    said([finding], "unknown-word", "loads.push.kind", text=kind)
+    assert section in finding.remedy
 
 
 @pytest.mark.parametrize("section", ["sliders", "hinges", "gears", "运动副"])
@@ -142,14 +142,14 @@ def test_a_section_by_habit_is_pointed_to_the_right_one(section: str) -> None:
     with pytest.raises(lw.ModelError) as refused:
         lw.loads(SLIDE.replace("joints:", f"{section}:"))
     (finding,) = refused.value.findings
-    assert 'did you mean "joints"?' in finding.remedy
+    said([finding], "unknown-key", section, offer="joints")
 
 
 def test_a_key_that_only_looks_a_little_alike_is_offered_and_not_read() -> None:
     with pytest.raises(lw.ModelError) as refused:
         lw.loads(MODEL.replace("length: 0.3 m", "length: 0.3 m, image: steel"))
     (finding,) = refused.value.findings
-    assert 'did you mean "angle"?' in finding.remedy
+    said([finding], "unknown-key", "links.crank.image", offer="angle")
 
 
 @pytest.mark.parametrize(
@@ -157,7 +157,7 @@ def test_a_key_that_only_looks_a_little_alike_is_offered_and_not_read() -> None:
     [("head: {points", "head: {poits"), ("floor: {kind", "floor: {kin"), ("{slide:", "{slides:")],
 )
 def test_names_that_others_refer_to_are_known_under_misnamed_keys(right: str, wrong: str) -> None:
-    text = read_document("gallery:double_slider").text
+    text = store.text("double_slider")
     assert right in text
     with pytest.raises(lw.ModelError) as refused:
         lw.loads(text.replace(right, wrong, 1))
@@ -178,7 +178,7 @@ def test_calculations_too(name: str, right: str, wrong: str) -> None:
     text = gallery.file(name).read_text(encoding="utf-8")
     assert right in text
     with pytest.raises(lw.ModelError) as refused:
-        loads(text.replace(right, wrong, 1))
+        parts.loads(text.replace(right, wrong, 1))
     assert len(refused.value.findings) == 1
 
 

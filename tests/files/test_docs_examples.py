@@ -1,75 +1,74 @@
-"""Every example of the documentation is run: Python blocks of a page in their order, shell lines one by one."""
+"""Examples of the documentation are run: Python blocks of a page in their order, shell lines one by one.
+
+Of two languages the English one; a Chinese page where it has code that its English page lacks.
+"""
 
 from __future__ import annotations
 
 import ast
+import os
 import re
-import shlex
+import subprocess
+import sys
 from importlib.resources import files
-from itertools import takewhile
 from pathlib import Path
 
 import pytest
+from tests.every import every
+from tests.files.documentation import (
+    PAGES,
+    ROOT,
+    alike,
+    blocks,
+    commands,
+    has_code_of_its_own,
+    in_english,
+    name,
+    parsed,
+    run_python,
+    without_language,
+    words_of,
+)
 
 import linkwright
 from linkwright.cli import main
-from linkwright.metrics import METRICS
 
-ROOT = Path(__file__).parents[2]
-PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 #: Files that the examples take as the reader's own, and the gallery models that stand for them.
 OWN = {
     "crusher.yaml": "jaw_crusher_sixbar",
     "press.yaml": "slider_crank_inline",
     "model.yaml": "crank_rocker",
 }
-FENCE = re.compile(r"^```(\w*)[^\n]*\n(.*?)^```", re.MULTILINE | re.DOTALL)
-
-
-def blocks(page: Path, language: str) -> list[str]:
-    return [body for kind, body in FENCE.findall(page.read_text("utf-8")) if kind == language]
-
-
-def commands(page: Path) -> list[str]:
-    """Lines of blocks without a Python or YAML mark that call the command line, continued lines joined."""
-    found = []
-    for kind, body in FENCE.findall(page.read_text("utf-8")):
-        if kind in ("", "sh", "shell", "bash", "console", "text"):
-            lines = body.replace("\\\n", " ").splitlines()
-            found += [
-                line.removeprefix("$ ") for line in lines if line.removeprefix("$ ").startswith("linkwright ")
-            ]
-    return found
-
-
-def name(page: Path) -> str:
-    return page.relative_to(ROOT).as_posix()
-
-
-def words_of(line: str) -> tuple[str, ...]:
-    """The command's words up to a redirection or a second command."""
-    found = shlex.split(line, comments=True)[1:]
-    return tuple(takewhile(lambda word: word not in ("&&", ">"), found))
-
-
-def code(page: Path) -> str:
-    """What the Python of a page says, without comments."""
-    return "".join(ast.dump(ast.parse(body)) for body in blocks(page, "python"))
-
-
 #: A file that an example writes, but where it says that one of the name may be replaced.
 WRITTEN = re.compile(
     r'--(?:output|plot|draw|profile|to) "?([\w/]+\.\w+)|'
     r'(?:\.save\w*\(\s*|export\([^\n]*?)"([\w/]+\.\w+)"(?![^)\n]*force)'
 )
-
-
-#: One page of those that have the same code in two languages, and a line of those on several pages.
-WITH_PYTHON = list({code(page): page for page in reversed(PAGES) if blocks(page, "python")}.values())[::-1]
-LINES = {words_of(line): (name(page), line) for page in reversed(PAGES) for line in commands(page)}
-COMMANDS = [pytest.param(words, line, id=f"{page}: {line[:60]}") for words, (page, line) in LINES.items()]
 #: What a line needs and the examples do not give: a reader's own data, an answer that never ends.
 NOT_RUN = ("linkwright studio", "linkwright COMMAND", "linkwright check FILE", "| ", " FILE")
+
+
+def daily(page: Path) -> bool:
+    """Pages that a reader meets first; the others take turns."""
+    return page.name in ("README.md", "index.md") or page.parent.name == "start"
+
+
+def marks(page: Path) -> list[pytest.MarkDecorator]:
+    return [] if daily(page) else [pytest.mark.rotating]
+
+
+RUN = [page for page in PAGES if blocks(page, "python") and has_code_of_its_own(page)]
+WITH_PYTHON = [pytest.param(page, id=name(page), marks=marks(page)) for page in RUN]
+#: A line of those that are on several pages, English ones first, the language aside.
+LINES = {
+    without_language(words_of(line)): (page, line)
+    for page in sorted(PAGES, key=lambda page: in_english(page) is None)
+    for line in commands(page)
+    if not any(mark in line for mark in NOT_RUN)
+}
+COMMANDS = [
+    pytest.param(line, id=f"{name(page)}: {line[:60]}", marks=marks(page)) for page, line in LINES.values()
+]
 
 
 def of_the_tutorial() -> str:
@@ -93,21 +92,35 @@ def desk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     (tmp_path / "feeder.yaml").write_text(task, encoding="utf-8")
     (tmp_path / "tutorial.yaml").write_text(of_the_tutorial(), encoding="utf-8")
     monkeypatch.chdir(tmp_path)
-    assert len(METRICS)  # all are found before the copy is made
-    monkeypatch.setattr(
-        METRICS, "_elements", dict(METRICS._elements)
-    )  # examples register numbers of their own
     return tmp_path
 
 
 def test_there_are_examples() -> None:
-    assert len(WITH_PYTHON) >= 10 and len(COMMANDS) >= 20
+    assert len(WITH_PYTHON) >= 20 and len(COMMANDS) >= 60
+    assert sum(map(daily, RUN)) >= 2 and sum(daily(page) for page, _ in LINES.values()) >= 10
+
+
+def test_blocks_of_two_languages_are_alike_where_only_the_language_differs() -> None:
+    english = parsed('lw.draw(motion, title="Press").save("a.svg")\nprint(error)  # told')
+    for text, same in (
+        ('lw.draw(motion, title="压力机", language="zh").save("a.svg")\nprint(error.say("zh"))', True),
+        ('lw.draw(motion, title="压力机").save("b.svg")\nprint(error)', False),
+        ('lw.draw(motion, title="压力机", at=1).save("a.svg")\nprint(error)', False),
+        ('lw.draw(motion, title="压力机").save("a.svg")', False),
+    ):
+        assert alike(english, parsed(text)) == same, text
+    assert without_language(("solve", "m", "--lang", "zh", "--at", "0 deg")) == (
+        "solve",
+        "m",
+        "--at",
+        "0 deg",
+    )
 
 
 def test_every_public_name_is_in_an_example() -> None:
     """A function is called, a class made, caught, or said to be what an example finds: text alone does not count."""
     shown = set()
-    for page in sorted((ROOT / "docs" / "en").rglob("*.md")):
+    for page in every(sorted((ROOT / "docs" / "en").rglob("*.md"))):
         for node in ast.walk(ast.parse("".join(blocks(page, "python")))):
             if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name) and node.value.id == "lw":
                 shown.add(node.attr)
@@ -125,21 +138,21 @@ def test_a_page_writes_every_file_once(page: Path) -> None:
     assert sorted(found) == sorted(set(found))
 
 
-@pytest.mark.parametrize("page", WITH_PYTHON, ids=name)
+@pytest.mark.parametrize("page", WITH_PYTHON)
 def test_python_of_the_page_runs(page: Path, desk: Path) -> None:
-    known: dict[str, object] = {"__name__": "__main__"}
-    for number, body in enumerate(blocks(page, "python"), 1):
-        exec(compile(body, f"{name(page)}, block {number}", "exec"), known)
-        for said in ast.parse(body).body:
-            if isinstance(said, ast.AnnAssign) and isinstance(said.target, ast.Name):
-                kind = eval(ast.unparse(said.annotation), known)
-                assert isinstance(known[said.target.id], kind), f"{said.target.id} is no {kind.__name__}"
+    """In a process of its own where it adds an element to the package."""
+    if not any(".register(" in body for body in blocks(page, "python")):
+        run_python(page)
+        return
+    program = "from pathlib import Path\nimport sys\nfrom tests.files.documentation import run_python\n"
+    program += "run_python(Path(sys.argv[1]))"
+    done = subprocess.run(
+        [sys.executable, "-c", program, str(page)],
+        env={**os.environ, "PYTHONPATH": str(ROOT)}, capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
 
 
-@pytest.mark.parametrize(("words", "line"), COMMANDS)
-def test_command_of_a_page_runs(
-    words: tuple[str, ...], line: str, desk: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    if any(mark in line for mark in NOT_RUN):
-        pytest.skip("it stands for a command")
-    assert main(list(words)) == 0, capsys.readouterr().err
+@pytest.mark.parametrize("line", COMMANDS)
+def test_command_of_a_page_runs(line: str, desk: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(list(words_of(line))) == 0, capsys.readouterr().err

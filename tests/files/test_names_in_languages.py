@@ -6,10 +6,10 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from tests.refusals import findings
 
 import linkwright as lw
 from linkwright.cli import main
-from linkwright.errors import ModelError
 
 TEXT = """\
 format: 1
@@ -88,11 +88,16 @@ def test_drawings_in_python_have_the_name_of_their_language() -> None:
 
 
 @pytest.mark.parametrize(
-    ("given", "told"),
-    [("{en: Press, fr: Presse}", 'unknown key "fr"'), ("{}", "name"), ("[Press]", "name: a list")],
+    ("given", "key", "code"),
+    [
+        ("{en: Press, fr: Presse}", "name.fr", "unknown-key"),
+        ("{}", "name", "type"),
+        ("[Press]", "name", "type"),
+    ],
 )
-def test_what_is_no_name_is_refused_with_its_place(given: str, told: str) -> None:
-    text = TEXT.replace("{en: Sheet press, zh: 薄板压力机}", given)
-    with pytest.raises(ModelError, match="name") as refused:
-        lw.loads(text)
-    assert told in str(refused.value)
+def test_what_is_no_name_is_refused_with_its_place(given: str, key: str, code: str) -> None:
+    name = "{en: Sheet press, zh: 薄板压力机}"
+    assert name in TEXT
+    (found,) = findings(TEXT.replace(name, given))
+    assert (found.key, found.code) == (key, code)
+    assert found.where.startswith("<text>:2:")

@@ -7,11 +7,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from tests import store
 from tests.press_report import PHI
 
 import linkwright as lw
-from linkwright.joints.cam import CamJoint
-from linkwright.kinematics.motion import Motion
 from linkwright.laws.traced import LiftCurve
 
 #: Slider displacements of the report (m), its driver angles (deg) there.
@@ -23,7 +22,7 @@ RADIUS, FIRST = 0.180, math.radians(30.79111)
 OUTER = math.sqrt((0.198 + 0.7025) ** 2 - 0.0605**2)
 
 
-def parts(motion: Motion) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+def parts(motion: lw.Motion) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Driver angle φ (rad), slider's and bed's travel from the outer dead point, cylinder's surface from γ₁₀ (m)."""
     phi = np.unwrap(motion.link("shaft_1").angle) + math.pi / 2
     turned = -np.unwrap(motion.link("cylinder").angle)
@@ -34,7 +33,7 @@ def parts(motion: Motion) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarra
     return phi, slider, bed, RADIUS * (turned - FIRST)
 
 
-def at(motion: Motion, values: np.ndarray, phi: np.ndarray) -> np.ndarray:
+def at(motion: lw.Motion, values: np.ndarray, phi: np.ndarray) -> np.ndarray:
     from scipy.interpolate import CubicSpline
 
     return np.asarray(CubicSpline(phi, values)(np.radians(DRIVER)))
@@ -42,11 +41,11 @@ def at(motion: Motion, values: np.ndarray, phi: np.ndarray) -> np.ndarray:
 
 @pytest.fixture(scope="module")
 def press() -> lw.Mechanism:
-    return lw.load("gallery:printing_press")
+    return store.machine("printing_press")
 
 
 @pytest.fixture(scope="module")
-def still(press: lw.Mechanism) -> Motion:
+def still(press: lw.Mechanism) -> lw.Motion:
     """The motion with the lower rack at rest, from a model whose cam only dwells."""
     cam = press.joints["compensating_cam"]
     rest = LiftCurve(np.array([0.0, 2 * math.pi]), np.array([[0.0]]))
@@ -60,7 +59,7 @@ def test_the_whole_press_has_one_freedom_and_is_solved_group_by_group(press: lw.
     assert lw.solve_motion(press, steps=120).ok.all()
 
 
-def test_without_the_cam_bed_and_cylinder_differ_as_reproduced(still: Motion) -> None:
+def test_without_the_cam_bed_and_cylinder_differ_as_reproduced(still: lw.Motion) -> None:
     phi, slider, _, surface = parts(still)
     assert 1e3 * at(still, surface, phi) == pytest.approx(2e3 * SLIDER, abs=2e-3)
     assert 1e3 * at(still, 2 * slider - surface, phi) == pytest.approx(GAP, abs=2e-3)
@@ -80,7 +79,9 @@ def test_with_the_cam_bed_and_cylinder_agree_in_the_zone_to_a_millionth_of_a_mil
     assert np.abs(rate).max() < 1e-6 * np.abs(motion.point("U").velocity[:, 0]).max()
 
 
-def test_the_lift_in_the_file_is_the_one_computed_from_the_motion(press: lw.Mechanism, still: Motion) -> None:
+def test_the_lift_in_the_file_is_the_one_computed_from_the_motion(
+    press: lw.Mechanism, still: lw.Motion
+) -> None:
     phi, slider, _, surface = parts(still)
     turned = np.unwrap(still.link("bell_crank").angle)
     zone = tuple(np.interp(np.radians(DRIVER[[0, -1]]), phi, turned).tolist())
@@ -114,9 +115,9 @@ def test_forces_are_in_balance_and_the_flywheel_is_known(press: lw.Mechanism) ->
 def test_the_rack_rests_where_the_table_rests() -> None:
     """The compensating lift has four reversals; its dwell of 40 equal lifts is one rest, with neither motion nor
     reversals, however few digits the table has."""
-    press = lw.load("gallery:printing_press")
+    press = store.machine("printing_press")
     cam = press.joints["compensating_cam"]
-    assert isinstance(cam, CamJoint)
+    assert cam.kind == "cam"
     angles, lifts = (np.array(each) for each in (cam.angles, cam.lifts))
     resting = angles[lifts == np.median(lifts[lifts > 0.0432])]
     assert len(resting) > 30

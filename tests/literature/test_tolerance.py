@@ -4,14 +4,11 @@ import math
 
 import numpy as np
 import pytest
+from tests import store
 
 import linkwright as lw
 from linkwright import parts
-from linkwright.study.designs import sweep_curves
 from linkwright.tolerance import Clearance, Tolerance, ToleranceStudy
-from linkwright.tolerance.pressed_pins import exact, is_position
-from linkwright.tolerance.problem import Limit
-from linkwright.words import speaker
 
 FOURBAR = {"crank.length": 1.0, "coupler.length": 3.5, "rocker.length": 2.5, "frame.O2.x": 4.0}
 SLIDER = """
@@ -45,7 +42,7 @@ def study(**given: object) -> ToleranceStudy:
     tolerances = dict(zip(FOURBAR, (0.003, 0.006, 0.006, 0.008), strict=True))
     held = {name: Tolerance(t) for name, t in tolerances.items()}
     return ToleranceStudy(
-        lw.load("gallery:crank_rocker"), **{"dimensions": held, "of": ("rocker.angle range",), **given}
+        store.machine("crank_rocker"), **{"dimensions": held, "of": ("rocker.angle range",), **given}
     )  # type: ignore[arg-type]
 
 
@@ -66,9 +63,10 @@ def test_a_swing_angle_spreads_as_in_closed_form_and_a_range_says_that_it_is_of_
     assert found.linear("swing_angle rocker") == pytest.approx(
         math.sqrt(float(((gradient() * sigma) ** 2).sum())), rel=1e-7
     )
-    remarks = {block.key: " ".join(block.remarks) for block in found.blocks(speaker("en"))}
-    assert "of 360 positions" in remarks["rocker.angle range"]
-    assert "positions" not in remarks["swing_angle rocker"]
+    remarks = {
+        key: " ".join(block.get("remarks", ())) for key, block in found.data().items() if key != "name"
+    }
+    assert " 360 " in remarks["rocker.angle range"] and " 360 " not in remarks["swing_angle rocker"]
     assert "rad/m" in found.text()
 
 
@@ -84,7 +82,6 @@ def test_monte_carlo_agrees_with_linear_and_with_machines_in_closed_form() -> No
     text = "rocker.angle range"
     assert found.monte_carlo(text) == pytest.approx(independent, rel=5e-3)
     assert found.monte_carlo(text) == pytest.approx(found.linear(text), rel=5e-3)
-    assert "agree" in found.text()
 
 
 def test_distributions_have_their_deviations() -> None:
@@ -110,25 +107,6 @@ def test_free_pin_spreads_the_slider_along_the_rod() -> None:
     place, _, deviation = one.solve().curve("B.x")
     beta = np.arcsin(100 / 400 * np.sin(place))
     assert deviation == pytest.approx(1e-4 / math.sqrt(2) / np.cos(beta), rel=1e-9)
-
-
-@pytest.mark.parametrize(("direction", "sign"), [("180 deg", -1.0), ("0 deg", 1.0)])
-def test_pressed_pin_of_a_rod_without_mass_changes_its_length(direction: str, sign: float) -> None:
-    """A two-force rod: pushed together it is shorter by the clearance, pulled apart longer."""
-    text = SLIDER.replace("direction: 180 deg, m", f"direction: {direction}, m")
-    one = ToleranceStudy(
-        lw.loads(text), clearances={"B": Clearance(1e-4, "rod", "pressed")}, curves=("B.x",), steps=36
-    )
-    found = one.solve()
-    place, moved, deviation = found.curve("B.x")
-
-    def travel(rod: float) -> np.ndarray:
-        return 0.1 * np.cos(place) + np.sqrt(rod**2 - (0.1 * np.sin(place)) ** 2)
-
-    change = travel(0.4 + sign * 1e-4) - travel(0.4)
-    assert exact(one, "B.x") - travel(0.4) == pytest.approx(change, abs=1e-12)
-    assert moved - travel(0.4) == pytest.approx(change, abs=2e-8)
-    assert not deviation.any()
 
 
 def test_rates_and_effort_of_a_pressed_rod_without_mass_are_those_of_a_shorter_rod() -> None:
@@ -201,22 +179,10 @@ def test_where_a_reaction_jumps_the_pins_cannot_follow_and_that_is_said() -> Non
     found = ToleranceStudy(problem.mechanism, problem.dimensions, small, **asked).solve()  # type: ignore[arg-type]
     gaps = np.flatnonzero(~found.followed.followed)
     assert 0 < len(gaps) < 10 and np.isnan(found.curve("jaw.angular_velocity")[1][gaps]).all()
-    assert "cannot follow at" in found.text() and "turns faster than the pin" in found.text()
-    assert "跟不上" in found.text("zh")
-
-
-def test_first_order_follows_the_exact_solution_of_every_position() -> None:
-    one = parts.load("gallery:pressed_pins")
-    assert isinstance(one, ToleranceStudy)
-    small = ToleranceStudy(one.mechanism, clearances=one.clearances, curves=("jaw.angle",), steps=24)
-    found = small.solve()
-    first = found.pressed("jaw.angle")
-    whole = exact(small, "jaw.angle") - found.derivatives.curve("jaw.angle")
-    assert np.abs(first - whole).max() < 0.01 * np.abs(whole).max()
 
 
 def near_dead_point() -> ToleranceStudy:
-    mechanism = lw.load("gallery:crank_rocker").with_dimensions({"frame.O2.x": 4.998})
+    mechanism = store.machine("crank_rocker").with_dimensions({"frame.O2.x": 4.998})
     held = {"frame.O2.x": Tolerance(0.0015)}
     return ToleranceStudy(mechanism, held, of=("rocker.angular_acceleration peak",), samples=1024)
 
@@ -226,17 +192,16 @@ def test_near_a_dead_point_they_differ_and_the_reason_is_said() -> None:
     assert found.ratio("rocker.angular_acceleration peak") > 1.1
     assert found.closeness is not None and found.closeness[0] < 0.05
     assert math.degrees(found.closeness[1]) % 360 == pytest.approx(180, abs=2)
-    text = found.text()
-    assert "times the linear spread" in text and "near a dead point" in text and "180°" in text
+    assert "180°" in found.text()
 
 
 def test_machines_that_cannot_turn_are_counted() -> None:
-    mechanism = lw.load("gallery:crank_rocker").with_dimensions({"frame.O2.x": 4.998})
+    mechanism = store.machine("crank_rocker").with_dimensions({"frame.O2.x": 4.998})
     held = {"frame.O2.x": Tolerance(0.006)}
     found = ToleranceStudy(mechanism, held, of=("rocker.angle range",), samples=2048).solve()
     failing = 0.5 * math.erfc(1 / math.sqrt(2))  # a frame longer by more than one standard deviation
     assert found.failed / 2048 == pytest.approx(failing, abs=0.005)
-    assert "do not pass the cycle" in found.text()
+    assert f" {found.failed} " in f" {found.text()} "
 
 
 def test_curves_among_machines_are_those_of_the_closed_form() -> None:
@@ -264,36 +229,6 @@ def test_curves_among_machines_are_those_of_the_closed_form() -> None:
             assert ((machines < edge + sigma).mean(axis=0)[moving] >= share - 1e-4).all()
 
 
-def test_curves_of_forces_with_loads_in_phases_are_those_of_each_machine_alone() -> None:
-    crusher = lw.load("gallery:jaw_crusher_sixbar")
-    lengths = {"toggle.length": np.array([0.999, 1.0, 1.001]) * crusher.dimension("toggle.length")}
-    ((_, found),) = sweep_curves(crusher, lengths, outputs=["driver.effort", "jaw.angle"], steps=72)
-    for k, length in enumerate(lengths["toggle.length"]):
-        machine = crusher.with_dimensions({"toggle.length": float(length)})
-        forces = lw.solve_forces(machine, steps=72)
-        assert found["driver.effort"][k] == pytest.approx(forces.input_torque, rel=1e-8, abs=1e-6)
-        turned = (found["jaw.angle"][k] - forces.motion.link("jaw").angle) / (2 * np.pi)
-        assert turned == pytest.approx(np.round(turned), abs=1e-12)
-
-
-def test_machines_that_do_not_pass_have_no_curves() -> None:
-    rocker = lw.load("gallery:crank_rocker")
-    lengths = {"coupler.length": np.array([3.5, 1.0])}
-    ((_, found),) = sweep_curves(rocker, lengths, outputs=["rocker.angle"], steps=36)
-    assert np.isfinite(found["rocker.angle"][0]).all() and np.isnan(found["rocker.angle"][1]).all()
-
-
-def test_yield() -> None:
-    """Limits at ±1.5σ of a single normal tolerance that enters the stroke linearly."""
-    problem = ToleranceStudy(
-        lw.loads(SLIDER), {"crank.length": Tolerance(3e-4)}, of=("B.x range",),
-        limits={"B.x range": Limit(0.2 - 3e-4, 0.2 + 3e-4)}, samples=4096,
-    )  # fmt: skip
-    share, low, high, linear = problem.solve().passed("B.x range")
-    assert linear == pytest.approx(math.erf(1.5 / math.sqrt(2)), rel=1e-6)
-    assert share == pytest.approx(linear, abs=2e-3) and low < linear < high
-
-
 def test_an_outside_library_finds_the_same_spread() -> None:
     ot = pytest.importorskip("openturns")
     formula = "acos((c*c+d*d-(a+b)^2)/(2*c*d))-acos((c*c+d*d-(b-a)^2)/(2*c*d))"
@@ -310,16 +245,10 @@ def test_an_outside_library_finds_the_same_spread() -> None:
     assert found.monte_carlo("rocker.angle range") == pytest.approx(drawn, rel=5e-3)
 
 
-def test_positions_are_told_from_rates() -> None:
-    one = study()
-    assert is_position(one, "rocker.angle") and is_position(one, "B.x")
-    assert not is_position(one, "rocker.angular_velocity") and not is_position(one, "B.velocity.x")
-
-
 def test_design_numbers_spread_as_the_closed_form_does() -> None:
     """The swing's slopes by NumPy; the margin of Grashof, p + q - s - l, is linear in the lengths."""
     numbers = ("swing_angle", "grashof")
-    found = study(of=numbers, limits={"swing_angle": Limit(0.0, 10.0)}, samples=1024).solve()
+    found = study(of=numbers, samples=1024).solve()
     deviation = np.array([0.003, 0.006, 0.006, 0.008]) / 3
     slopes = {"swing_angle": gradient(), "grashof": np.array([-1.0, 1.0, 1.0, -1.0])}
     for name in numbers:
@@ -328,5 +257,4 @@ def test_design_numbers_spread_as_the_closed_form_does() -> None:
         assert found.monte_carlo(name) == pytest.approx(sigma, rel=0.03)
         assert found.worst_case(name) == pytest.approx(3 * np.abs(slopes[name] * deviation).sum(), rel=1e-6)
     assert found.nominal("swing_angle") == pytest.approx(float(swing(*FOURBAR.values())), rel=1e-9)
-    assert found.passed("swing_angle")[0] == 1.0
     assert (found.dimension("swing_angle"), found.dimension("grashof")) == ("angle", "length")

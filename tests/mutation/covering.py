@@ -1,9 +1,4 @@
-"""Which tests run which lines of the analysis packages, and how long each test takes.
-
-Recorded once by coverage.py with one context per test; times are the processor's, so that a busy machine does not
-change them. What the package and the tests keep from one test for the next (traced programs, cached results) is
-forgotten before each test, so that every test shows all that it uses.
-"""
+"""Which tests reach the places of some mutants, and how long each takes: recorded once by `probes.py`."""
 
 from __future__ import annotations
 
@@ -14,35 +9,40 @@ import os
 import subprocess
 import sys
 import tempfile
-from collections import OrderedDict
-from concurrent.futures import ThreadPoolExecutor
+from collections import defaultdict
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
-from typing import Any
 
-import pytest
+from tests.mutation.mutate import Mutant
+from tests.mutation.probes import NOTES, PLAN, SOURCE
 
 ROOT = Path(__file__).resolve().parents[2]
-SOURCE = ROOT / "src" / "linkwright"
-#: Tests of the tests, of speed, and of other processes: they say nothing about a changed line, or too slowly.
-LEFT_OUT = ("tests/contract/test_benchmarks_run.py", "tests/cli/test_process.py", "tests/cli/test_start.py")
+#: Tests of the tests, of speed, of other processes and of browsers: they say nothing about a changed line, or too
+#: slowly.
+LEFT_OUT = (
+    "tests/contract/test_benchmarks_run.py",
+    "tests/cli/test_process.py",
+    "tests/cli/test_start.py",
+    "tests/ui",
+)
 
 
 @dataclass
 class Covering:
-    """`tests` by place ``path:line`` (path below the package), seconds by test, files by place."""
+    """`reached`: tests by place ``path:first-last`` (path below the package), and by path of all that run any of its
+    functions; `seconds` by test."""
 
-    tests: dict[str, list[str]] = field(default_factory=dict)
+    reached: dict[str, set[str]] = field(default_factory=lambda: defaultdict(set))
     seconds: dict[str, float] = field(default_factory=dict)
 
-    def of(self, path: str, lines: range) -> list[str]:
-        """Tests that run one of the lines, or, for what importing runs, any line of the module."""
-        places = {compiled_at(path).get(line, line) for line in lines}
-        found = {test for line in places for test in self.tests.get(f"{path}:{line}", ())}
-        if found == {""} or not within_functions(path).intersection(lines):
-            found = {t for place, tests in self.tests.items() if place.startswith(f"{path}:") for t in tests}
-        return sorted(found - {""})
+    def of(self, mutant: Mutant) -> list[str]:
+        """Tests that reach the mutant's statement, or, for what importing runs, any function of the module."""
+        lines = range(mutant.lines[0], mutant.lines[1] + 1)
+        if not within_functions(mutant.path).intersection(lines):
+            return sorted(self.reached.get(mutant.path, ()))
+        return sorted(self.reached.get(place(mutant), ()))
 
     def by_promise(self, tests: list[str], seconds: float, module: str = "") -> list[str]:
         """The tests, from each file its quickest in turn, as many as fit into the time.
@@ -70,6 +70,19 @@ class Covering:
         return kept
 
 
+def place(mutant: Mutant) -> str:
+    """What is noted where a mutant's statement is reached; of a compiled function, where it is compiled."""
+    first, last = probed(mutant)
+    return f"{mutant.path}:{first}-{last}"
+
+
+def probed(mutant: Mutant) -> tuple[int, int]:
+    """The lines that show that a mutant runs."""
+    first, last = mutant.lines
+    line = compiled_at(mutant.path).get(first)
+    return (first, last) if line is None else (line, line)
+
+
 @cache
 def within_functions(path: str) -> set[int]:
     """Lines of a module that run when a function is called, not when the module is imported."""
@@ -95,62 +108,6 @@ def compiled_at(path: str) -> dict[int, int]:
     }
 
 
-class Recorder:
-    """A pytest plugin: one context of coverage per test."""
-
-    def __init__(self, coverage: Any) -> None:
-        self.coverage = coverage
-        self.seconds: dict[str, float] = {}
-        self.failed: set[str] = set()
-
-    @pytest.hookimpl(wrapper=True)
-    def pytest_runtest_protocol(self, item: pytest.Item) -> Any:
-        forget()
-        began = sum(os.times()[:4])
-        self.coverage.switch_context(item.nodeid)
-        try:
-            return (yield)
-        finally:
-            self.coverage.switch_context("")
-            if item.nodeid not in self.failed:
-                self.seconds[item.nodeid] = sum(os.times()[:4]) - began
-
-    def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
-        if report.failed:
-            self.failed.add(report.nodeid)
-
-
-def forget() -> None:
-    """Empty what modules of the package and of the tests keep."""
-    for name, module in list(sys.modules.items()):
-        if not name.startswith(("linkwright", "tests.")):
-            continue
-        for key, value in list(vars(module).items()):
-            if hasattr(value, "cache_clear") and getattr(value, "__module__", name) == name:
-                value.cache_clear()
-            kept = getattr(value, "_kept", value if key == "_kept" else None)
-            if isinstance(kept, OrderedDict):
-                kept.clear()
-
-
-def record(target: Path, file: str) -> None:
-    """Run one test file under coverage and write the result; called in a process of its own."""
-    import coverage
-
-    tool = coverage.Coverage(data_file=None, source=[str(SOURCE)], messages=False)
-    recorder = Recorder(tool)
-    tool.start()
-    pytest.main(["-q", "-p", "no:cacheprovider", file], plugins=[recorder])
-    tool.stop()
-    data = tool.get_data()
-    tests: dict[str, list[str]] = {}
-    for path in data.measured_files():
-        below = Path(path).relative_to(SOURCE).as_posix()
-        for line, contexts in data.contexts_by_lineno(path).items():
-            tests[f"{below}:{line}"] = sorted(contexts)
-    target.write_text(json.dumps({"tests": tests, "seconds": recorder.seconds}), "utf-8")
-
-
 def fingerprint(*folders: str) -> str:
     """Of the package's sources, and of tests where asked for."""
     digest = hashlib.sha256()
@@ -160,45 +117,34 @@ def fingerprint(*folders: str) -> str:
     return digest.hexdigest()[:16]
 
 
-def covering(folder: Path, workers: int, *, keep: bool = False) -> Covering:
-    """Records of all test files, kept in `folder`; made anew where sources or the file have changed.
-
-    keep: take what is there as it is.
-    """
-    files = [str(p.relative_to(ROOT)) for p in sorted((ROOT / "tests").rglob("test_*.py"))]
-    parts = {
-        file: folder / file.replace("/", "-").replace(".py", ".json")
-        for file in files
-        if file not in LEFT_OUT
-    }
-    folder.mkdir(parents=True, exist_ok=True)
-    if not keep:
-        with ThreadPoolExecutor(workers) as pool, tempfile.TemporaryDirectory() as cache:
-            for k, _ in enumerate(pool.map(lambda item: _recorded(*item, cache), parts.items()), 1):
-                print(
-                    f"\rwhich tests run which lines: {k}/{len(parts)} ", end="", file=sys.stderr, flush=True
-                )
+def covering(folder: Path, mutants: Iterable[Mutant], workers: int) -> Covering:
+    """What a run of all tests shows of these mutants, kept in `folder` for the same sources and mutants."""
+    plan: dict[str, list[tuple[int, int]]] = defaultdict(list)
+    for mutant in mutants:
+        plan[mutant.path].append(probed(mutant))
+    said = json.dumps(plan, sort_keys=True)
+    notes = folder / f"{fingerprint('tests')}-{hashlib.sha256(said.encode()).hexdigest()[:16]}"
+    if not any(notes.glob("*.json")):
+        notes.mkdir(parents=True, exist_ok=True)
+        _record(notes, said, workers)
     found = Covering()
-    for part in parts.values():
-        if part.exists():
-            values = json.loads(part.read_text("utf-8"))
-            for place, names in values["tests"].items():
-                found.tests.setdefault(place, []).extend(names)
-            found.seconds |= values["seconds"]
+    for part in notes.glob("*.json"):
+        values = json.loads(part.read_text("utf-8"))
+        for what, tests in values["reached"].items():
+            found.reached[what] |= set(tests)
+        found.seconds |= values["seconds"]
     return found
 
 
-def _recorded(file: str, part: Path, cache: str) -> None:
-    mark, known = fingerprint(file), part.with_suffix(".mark")
-    if part.exists() and known.exists() and known.read_text() == mark:
-        return
-    part.unlink(missing_ok=True)
-    path = os.pathsep.join([str(SOURCE.parent), *os.environ.get("PYTHONPATH", "").split(os.pathsep)])
-    surroundings = {**os.environ, "LINKWRIGHT_CACHE": cache, "PYTHONPATH": path}
-    command = [sys.executable, "-m", "tests.mutation.covering", str(part), file]
-    subprocess.run(command, cwd=ROOT, env=surroundings, stdout=subprocess.DEVNULL, check=False)
-    known.write_text(mark)
-
-
-if __name__ == "__main__":
-    record(Path(sys.argv[1]), sys.argv[2])
+def _record(notes: Path, plan: str, workers: int) -> None:
+    print("which tests reach which mutants: all tests run once", file=sys.stderr, flush=True)
+    with tempfile.TemporaryDirectory() as made:
+        given = Path(made, "plan")
+        given.write_text(plan, "utf-8")
+        surroundings = {**os.environ, "LINKWRIGHT_CACHE": made, PLAN: str(given), NOTES: str(notes)}
+        surroundings["PYTHONPATH"] = os.pathsep.join([str(ROOT), str(SOURCE.parent)])
+        words = ["-q", "-p", "no:cacheprovider", "-p", "tests.mutation.probes", "--share", "all"]
+        words += ["-n", str(workers), "--dist", "loadfile", *(f"--ignore={each}" for each in LEFT_OUT)]
+        command = [sys.executable, "-m", "pytest", *words]
+        with (notes / "log.txt").open("w") as log:
+            subprocess.run(command, cwd=ROOT, env=surroundings, stdout=log, check=False)

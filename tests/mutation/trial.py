@@ -17,7 +17,8 @@ from importlib.machinery import ModuleSpec
 from pathlib import Path
 from types import ModuleType
 
-from tests.mutation.covering import ROOT, SOURCE
+from tests.mutation.covering import ROOT
+from tests.mutation.probes import SOURCE
 
 #: Imported once, before the processes are forked; nothing of the package is among them.
 HEAVY = (
@@ -31,6 +32,8 @@ QUIETLY = (
     "no:cacheprovider",
     "-p",
     "no:xdist",
+    "--share",
+    "all",
     "-W",
     "ignore::pytest.PytestAssertRewriteWarning",
 )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -14,15 +15,56 @@ CHROMIUM = next(
     (found for name in ("chromium", "chromium-browser", "google-chrome") if (found := shutil.which(name))),
     None,
 )
-sync_api: Any = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
-needs_chromium = pytest.mark.skipif(CHROMIUM is None, reason="no Chromium on this machine")
+try:
+    from playwright import sync_api
+except ImportError:
+    sync_api = None
+needs_chromium = pytest.mark.skipif(
+    sync_api is None or CHROMIUM is None,
+    reason="playwright is not installed" if sync_api is None else "no Chromium on this machine",
+)
 
 
-class Opened:
-    """A page of the browser with one living page in it; every error on it fails the test."""
+class Worded:
+    """A tab whose page is known by the keys of its words, whatever these are in its language."""
 
     def __init__(self, tab: Any) -> None:
         self.tab = tab
+
+    def say(self, key: str, **values: str) -> str:
+        """What the page says for a key of the catalogues (``page.undo``, ``studio.save``)."""
+        script = """([key, values]) => {
+          linkwright.words.language = linkwright.language.value;
+          return linkwright.words.say(key, values);
+        }"""
+        said: str = self.tab.evaluate(script, [key, values])
+        return said
+
+    def pattern(self, key: str, **values: str) -> re.Pattern[str]:
+        """A sentence of the page with these values, and any others."""
+        words: str = self.tab.evaluate("key => linkwright.data.words[linkwright.language.value][key]", key)
+        names = re.findall(r"\{(\w+)\}", words)
+        said = self.say(key, **{name: values.get(name, "\0") for name in names})
+        return re.compile(re.escape(said).replace("\0", ".*"), re.DOTALL)
+
+    def button(self, key: str, **values: str) -> Any:
+        """The first button with the words of a key."""
+        return self.tab.get_by_role("button", name=self.say(key, **values), exact=True).first
+
+    def labelled(self, key: str, **values: str) -> Any:
+        """The element with the label of a key."""
+        return self.tab.get_by_label(self.say(key, **values), exact=True)
+
+    def turn_over(self) -> None:
+        """Chooses the other language."""
+        self.tab.locator(".language").click()
+
+
+class Opened(Worded):
+    """A page of the browser with one living page in it; every error on it fails the test."""
+
+    def __init__(self, tab: Any) -> None:
+        super().__init__(tab)
         self.errors: list[str] = []
         self.requests: list[str] = []
         tab.on(
@@ -30,6 +72,11 @@ class Opened:
         )
         tab.on("pageerror", lambda error: self.errors.append(str(error)))
         tab.on("request", lambda request: self.requests.append(request.url))
+
+    def forget(self) -> None:
+        """Errors and requests so far are those of another test."""
+        self.errors.clear()
+        self.requests.clear()
 
     def open(self, path: Path, hash: str = "") -> None:
         """Opens a file and waits until the machine is drawn."""
@@ -75,6 +122,19 @@ class Opened:
         """What the page says below the machine."""
         text: str = self.tab.locator(".status").first.inner_text()
         return text
+
+    @property
+    def notes(self) -> list[str]:
+        """The notes beside the machine."""
+        found: list[str] = self.tab.locator(".note").all_inner_texts()
+        return found
+
+    def wall(self) -> dict[str, Any] | None:
+        """What stopped the last change, which stands below the machine as the page's sentence for it."""
+        wall: dict[str, Any] | None = self.run("s => s.model.wall")
+        if wall is not None:
+            assert self.status == self.run("s => linkwright.wall(s, s.model.wall)") != ""
+        return wall
 
 
 @contextmanager

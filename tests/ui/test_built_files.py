@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import hashlib
-import re
 from importlib.resources import files
 from pathlib import Path
 
 import pytest
 
 import linkwright as lw
-from linkwright.words import catalogue
 
 UI = Path(__file__).resolve().parents[2] / "ui"
 MOST = 65_000  # bytes of a page with a small model
@@ -31,25 +29,3 @@ def test_built_files_fit_their_sources() -> None:
 
 def test_pages_stay_small() -> None:
     assert len(lw.living_page(lw.read_document("gallery:crank_rocker")).html.encode()) < MOST
-
-
-@pytest.mark.skipif(not UI.is_dir(), reason="the front end's sources are not here")
-def test_every_sentence_that_the_studio_says_is_in_the_catalogues() -> None:
-    """By the keys in its sources, those of its tools among them, in both languages."""
-    sources = [
-        (UI / "src" / name).read_text() for name in ("desk.ts", "optimise.tsx", "paper.ts", "studio.tsx")
-    ]
-    said = {
-        key
-        for text in sources
-        for key in re.findall(r'(?:desk\.say|this\.say|tell\?\.|\bsay)\("(\w+)"', text)
-    }
-    (tools,) = (
-        found[1] for text in sources if (found := re.search(r"const TOOLS: Tool\[\] = \[(.*)\]", text))
-    )
-    names = re.findall(r'"(\w+)"', tools)
-    said |= {*names, *(f"help_{name}" for name in names)}
-    assert len(said) > 60
-    for language in ("en", "zh"):
-        known = {**catalogue("studio", language), **catalogue("page", language)}
-        assert said - set(known) == set()

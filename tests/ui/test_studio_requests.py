@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import base64
+import http.client
 import json
 import random
 import socket
@@ -9,12 +11,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from tests.ui.studio import asked, serving
+from tests.ui.studio import REQUESTS, Studio, asked, saving, serving
 
-from linkwright.server.web import Studio
-from linkwright.server.work import new_text
-
-TEXT = new_text() + (
+TEXT = (
+    "format: 1\nname: New mechanism\n"
     "frame:\n  points: {O1: [0 mm, 0 mm], O2: [100 mm, 0 mm]}\ndrawing: {A: [20 mm, 30 mm], B: [90 mm, 60 mm]}\n"
     "links:\n  crank: {points: [O1, A]}\n  coupler: {points: [A, B]}\n  rocker: {points: [O2, B]}\n"
     "driver: {turn: crank, about: O1, speed: 60 rpm}\n"
@@ -82,7 +82,7 @@ def test_malformed_requests_are_refused_with_a_sentence(
             assert 400 <= status < 500, body
             assert b" " in body and b"Traceback" not in body and b"<" not in body, body
         assert post(studio, good)[0] == 200
-    assert capfd.readouterr().err == ""
+        assert capfd.readouterr().err == ""
 
 
 BODIES = (
@@ -95,12 +95,12 @@ def test_bodies_that_are_no_requests_are_refused_with_a_sentence(
     tmp_path: Path, capfd: pytest.CaptureFixture[str]
 ) -> None:
     with serving(tmp_path) as studio:
-        for name in studio.work.answers:
+        for name in REQUESTS:
             for body in BODIES if name in ("keep", "edit") else BODIES[:4]:
                 status, found = asked(studio, name, body)
                 assert status == 400, (name, body[:20])
                 assert "JSON" in found["error"]
-    assert capfd.readouterr().err == ""
+        assert capfd.readouterr().err == ""
 
 
 ACTIONS: tuple[dict[str, Any], ...] = (
@@ -162,38 +162,123 @@ def test_actions_with_wrong_values_are_refused_or_leave_a_text_that_can_be_drawn
             "draft": "",
         }
         keys = (*good, "values", "points", "ending", "gallery", "action")
-        every = [(name, key, value) for name in studio.work.answers for key in keys for value in WRONG]
-        for name, key, value in rng.sample(every, 400):
+        asks = [(name, key, value) for name in REQUESTS for key in keys for value in WRONG]
+        for name, key, value in rng.sample(asks, 400):
             status, found = asked(studio, name, {**good, key: value})
             assert status in (200, 400, 422), (name, key, value, found)
-    assert capfd.readouterr().err == ""
+        assert capfd.readouterr().err == ""
 
 
-@pytest.mark.parametrize(
-    ("action", "words"),
-    [
-        ({"do": "load", "link": "rocker", "at": "B", "force": "250 N, 180 deg", "angle": 0}, "N, 180 deg"),
-        ({"do": "load", "link": "rocker", "at": "B", "force": "10 kg", "angle": 0}, "force"),
-        ({"do": "load", "link": "coupler", "at": "O2", "force": "10 N", "angle": 0}, "has no point"),
-        ({"do": "mass", "link": "rocker", "mass": "2"}, "unit"),
-        ({"do": "mass", "link": "rocker", "mass": "-2 kg"}, "negative"),
-        ({"do": "gear", "links": ["crank", "rocker"], "teeth": "²:3"}, "teeth"),
-        ({"do": "remove", "what": "load", "name": "x"}, "no load"),
-    ],
-)
-def test_values_are_checked_before_they_are_written(
-    tmp_path: Path, action: dict[str, Any], words: str
-) -> None:
+def test_refusals_are_in_the_language_of_the_request(tmp_path: Path) -> None:
     with serving(tmp_path) as studio:
-        status, found = asked(studio, "edit", {"text": TEXT, "action": action})
-        assert status == 422
-        assert words in found["error"]
+        action = {"do": "mass", "link": 3}
+        said = [
+            asked(studio, "edit", {"text": TEXT, "action": action, "language": each}) for each in ("en", "zh")
+        ]
+        assert [status for status, _ in said] == [400, 400]
+        english, chinese = (found["error"] for _, found in said)
+        assert english.isascii() and not chinese.isascii()
+        assert "link" in english and "link" in chinese
+        assert json.loads(post(studio, b"Content-Length: \xb2")[1])["error"]
 
 
-def test_every_sentence_of_a_refusal_can_be_read(tmp_path: Path) -> None:
+def test_only_this_page_may_ask(tmp_path: Path) -> None:
+    """No secret, a foreign name for this server (DNS rebinding), a foreign origin, a form: all refused."""
     with serving(tmp_path) as studio:
-        found = asked(studio, "edit", {"text": TEXT, "action": {"do": "mass", "link": 3}, "language": "zh"})
-        assert found == (400, {"error": "缺少 link 或其形式不对；应为单行名称"})
-        assert json.loads(post(studio, b"Content-Length: \xb2")[1])["error"].startswith(
-            "a request needs a plain"
-        )
+        assert asked(studio, "files", {})[0] == 200
+        assert asked(studio, "files", {}, X_Linkwright_Token="")[0] == 403
+        assert asked(studio, "files", {}, X_Linkwright_Token="guess")[0] == 403
+        assert asked(studio, "files", {}, Host="evil.example")[0] == 403
+        assert asked(studio, "files", {}, Host=f"evil.example:{studio.server_port}")[0] == 403
+        assert asked(studio, "files", {}, Origin="https://evil.example")[0] == 403
+        assert asked(studio, "files", {}, Origin="null")[0] == 403
+        assert asked(studio, "files", {}, Content_Type="text/plain")[0] == 404
+        connection = http.client.HTTPConnection("127.0.0.1", studio.server_port)
+        for path, status in (
+            ("/", 403),
+            ("/?token=guess", 403),
+            ("/../pyproject.toml", 404),
+            ("/engine.mjs", 404),
+        ):
+            connection.request("GET", path)
+            answer = connection.getresponse()
+            answer.read()
+            assert answer.status == status, path
+        connection.request("GET", "/?token=" + studio.token)
+        answer = connection.getresponse()
+        answer.read()
+        policy = answer.headers["Content-Security-Policy"]
+        assert answer.status == 200
+        assert "default-src 'none'" in policy
+        assert "unsafe-inline" not in policy
+        assert "Access-Control-Allow-Origin" not in answer.headers
+        connection.close()
+    assert studio.url.startswith("http://127.0.0.1:")
+
+
+def test_no_socket_is_opened_for_other_pages(tmp_path: Path) -> None:
+    """A hijack of web sockets: the server takes none, whoever asks and wherever."""
+    with serving(tmp_path) as studio:
+        for path in ("/", f"/?token={studio.token}", "/api/files", "/ws"):
+            connection = http.client.HTTPConnection("127.0.0.1", studio.server_port, timeout=20)
+            headers = {
+                "Upgrade": "websocket", "Connection": "Upgrade", "Origin": "https://evil.example",
+                "Sec-WebSocket-Version": "13", "Sec-WebSocket-Key": base64.b64encode(b"0" * 16).decode(),
+            }  # fmt: skip
+            connection.request("GET", path, headers=headers)
+            answer = connection.getresponse()
+            answer.read()
+            assert answer.status in (403, 404), path
+            connection.close()
+
+
+def test_files_below_the_folder_only(tmp_path: Path) -> None:
+    inside, outside = tmp_path / "inside", tmp_path / "outside.yaml"
+    inside.mkdir()
+    outside.write_text("secret")
+    (inside / "away.yaml").symlink_to(outside)
+    (inside / ".hidden.yaml").write_text("x")
+    with serving(inside) as studio:
+        for name in (
+            "../outside.yaml",
+            str(outside),
+            "away.yaml",
+            ".hidden.yaml",
+            "a.py",
+            "a\0.yaml",
+            "../../etc/passwd",
+        ):
+            status, found = asked(studio, "open", {"name": name})
+            assert status == 422, name
+            assert "secret" not in json.dumps(found)
+            assert asked(studio, "save", saving(name, "x"))[0] == 422, name
+        assert asked(studio, "keep", b"", Content_Length="3000000")[0] == 413
+        assert asked(studio, "keep", b"[]")[0] == 400
+        assert asked(studio, "solve", {"text": 3})[0] == 400
+        assert asked(studio, "open", {"name": 3})[0] == 400
+    assert outside.read_text() == "secret"
+
+
+def test_what_cannot_be_read_or_written_is_said(tmp_path: Path) -> None:
+    """Folders, circles of links, names too long, texts too large: a sentence each, and the server goes on."""
+    (tmp_path / "folder.yaml").mkdir()
+    (tmp_path / "circle.yaml").symlink_to("circle.yaml")
+    (tmp_path / "large.yaml").write_text("# x\n" * 250_001)
+    (tmp_path / "there.yaml").write_text("")
+    with serving(tmp_path) as studio:
+        said = set()
+        for name, named in (
+            ("folder.yaml", "folder.yaml"),
+            ("circle.yaml", "circle.yaml"),
+            ("large.yaml", "1000000"),
+            ("long" * 80 + ".yaml", ""),
+        ):
+            for request in ("open", "disk", "state", "save"):
+                status, found = asked(studio, request, {"window": "w", **saving(name, "x")})
+                assert status == 422, (name, request)
+                assert named in found["error"], (name, request)
+            said.add(found["error"].replace(name, ""))
+        assert len(said) == 4
+        assert asked(studio, "save", saving("there.yaml/x.yaml", "x"))[0] == 422
+        assert not asked(studio, "save", saving("there.yaml", "x"))[1]["saved"]
+        assert (tmp_path / "there.yaml").read_text() == ""

@@ -140,7 +140,7 @@ export function walk(loops: Loops, z: number[], { from, to, unit }: Straight, pa
   const drive = to.map((x, k) => x - from[k]), pace = Math.max(1e-12, ...drive.map((x, k) => Math.abs(x) / unit[k]));
   const end = (x: number, guess: number[], sign: number | null): End | null => {
     const y = loops.newton([...guess.slice(0, loops.n), ...from.map((q, k) => q + x * drive[k])]), found = y && loops.rates(y, drive);
-    return found && (sign === null || found.sign === sign) && found.second.every(Number.isFinite) ? { x, y: y!, ...found } : null;
+    return found && (sign === null || found.sign === sign) && found.second.every(Number.isFinite) ? { x, y, ...found } : null;
   };
   let here = end(0, z, null), step = LONGEST / pace;
   for (let tries = 0; here && here.x < 1; tries++) {

@@ -432,7 +432,7 @@ const plain = (text: string) => text.replaceAll("\r\n", "\n");
 
 /** Points that lengths have placed stay where they were while a text is written that no machine comes of. */
 function hold(picture: Picture, { placed = [], points }: Picture): void {
-  const used = Object.values(picture.links).flat(), held = placed.filter((point) => used.includes(point) && !(point in picture.points));
+  const used = new Set(Object.values(picture.links).flat()), held = placed.filter((point) => used.has(point) && !(point in picture.points));
   for (const point of held) picture.points[point] = points[point];
   picture.placed = [...(picture.placed ?? []), ...held];
 }

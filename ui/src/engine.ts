@@ -62,6 +62,7 @@ export function look(table: Float64Array, x: number, order: number): number {
   }
   if (order === 1) return c1 + u * (2 * c2 + u * (3 * c3));
   if (order === 2) return 2 * c2 + u * (6 * c3);
+  // oxlint-disable-next-line oxc/erasing-op -- a place that is no number gives none
   return 6 * c3 + 0 * u;
 }
 

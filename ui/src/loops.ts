@@ -99,11 +99,11 @@ export class Loops {
     });
     const sizes = new Array<number>(K).fill(0);
     for (let c = 0; c < C; c++) for (let k = 0; k < K; k++) sizes[k] += Math.hypot(re[c][k], im[c][k]);
-    const turn = (re: Matrix, im: Matrix, of: (row: number) => number): Complexes => ({
-      re: mapped(re, (x, i, k) => x * cos[of(i)] - im[i][k] * sin[of(i)]),
-      im: mapped(re, (x, i, k) => x * sin[of(i)] + im[i][k] * cos[of(i)]),
+    const turn = (a: Complexes, of: (row: number) => number): Complexes => ({
+      re: mapped(a.re, (x, i, k) => x * cos[of(i)] - a.im[i][k] * sin[of(i)]),
+      im: mapped(a.re, (x, i, k) => x * sin[of(i)] + a.im[i][k] * cos[of(i)]),
     });
-    return { arms: turn(re, im, (c) => c), slides: turn(this.b.re, this.b.im, (j) => owner[j]), sizes };
+    return { arms: turn({ re, im }, (c) => c), slides: turn(this.b, (j) => owner[j]), sizes };
   }
 
   /** F (2K): real parts, then imaginary parts. */

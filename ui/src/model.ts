@@ -38,7 +38,7 @@ export class Model {
     const { inputs } = this.solver, { time } = data.positions, way = Math.sign(inputs[1] - inputs[0]);
     const forward = inputs.every((q, i) => i === 0 || Math.sign(q - inputs[i - 1]) === way);
     this.axis = forward || time === null
-      ? { x: inputs, kind: data.positions.inputs[0]?.turns === false ? "length" : "angle" }
+      ? { x: inputs, kind: data.positions.inputs[0]?.turns ?? true ? "angle" : "length" }
       : { x: floats(time), kind: "time" };
     const { x } = this.axis;
     if (data.positions.closed) this.axis.x = Float64Array.of(...x, 2 * x[this.n - 1] - x[this.n - 2]);

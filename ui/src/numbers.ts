@@ -44,8 +44,8 @@ export function extreme(model: Model, id: string, row: Float64Array, sign: 1 | -
   const turns = model.signals[id].form === "angle" && model.data.positions.closed && Math.abs(row[n - 1] - row[0]) > Math.PI;
   if (!(size > rounding(model, id)) || n < 3 || turns || searched(model, id) !== null) return { at, value: row[at] };
   const better = (place: number, value: number) => {
-    const at = place < 0 ? place + n : place, near = SAME * size;
-    if (value < found.value - near || (value <= found.value + near && at < found.at)) found = { at, value: Math.min(value, found.value) };
+    const here = place < 0 ? place + n : place, near = SAME * size;
+    if (value < found.value - near || (value <= found.value + near && here < found.at)) found = { at: here, value: Math.min(value, found.value) };
   };
   for (const i of brackets(f, model.data.positions.closed, f[at])) {
     const value = (place: number) => sign * between(model, id, place, row[i]);
@@ -85,8 +85,8 @@ export function roundingOf({ main }: Model): number {
 }
 
 /** The same of a force or a torque; 0 of what is none. */
-function rounding({ rounding, size, signals }: Model, id: string): number {
-  return isForce(id) ? rounding * (signals[id].kind === "torque" ? size : 1) : 0;
+function rounding(model: Model, id: string): number {
+  return isForce(id) ? model.rounding * (model.signals[id].kind === "torque" ? model.size : 1) : 0;
 }
 
 /** A signal at any place among the positions; angles give or take turns near another one. */

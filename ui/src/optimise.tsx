@@ -26,9 +26,9 @@ function read(text: string): unknown {
   }
 }
 
-function wished(section: Record<string, unknown>): Wish {
-  const pairs = (key: string): Pair[] => Object.entries((section[key] ?? {}) as Record<string, unknown>).map(([name, value]) => [name, shown(value)]);
-  const goals = (sense: Sense) => [section[sense] ?? []].flat().map((name): [Sense, string] => [sense, String(name)]);
+function wished(asked: Record<string, unknown>): Wish {
+  const pairs = (key: string): Pair[] => Object.entries((asked[key] ?? {}) as Record<string, unknown>).map(([name, value]) => [name, shown(value)]);
+  const goals = (sense: Sense) => [asked[sense] ?? []].flat().map((name): [Sense, string] => [sense, shown(name)]);
   return { vary: pairs("vary"), goals: [...goals("minimize"), ...goals("maximize")], keep: pairs("keep") };
 }
 
@@ -36,12 +36,12 @@ function wished(section: Record<string, unknown>): Wish {
 function section(wish: Wish, before: Record<string, unknown>): Record<string, unknown> {
   const table = (pairs: Pair[]) => Object.fromEntries(pairs.filter(([name]) => name.trim()).map(([name, value]) => [name.trim(), read(value)]));
   const goals = (sense: Sense) => {
-    const names = wish.goals.filter(([each, name]) => each === sense && name.trim()).map(([, name]) => name.trim());
+    const names = wish.goals.filter(([each, name]) => each === sense && name.trim()).map(([, name]) => read(name));
     return names.length > 1 ? names : names[0];
   };
   const { vary: _, minimize: __, maximize: ___, keep: ____, ...rest } = before;
   const own = { vary: table(wish.vary), minimize: goals("minimize"), maximize: goals("maximize"), keep: table(wish.keep) };
-  const said = Object.entries(own).filter(([, value]) => value !== undefined && (typeof value !== "object" || Object.keys(value).length));
+  const said = Object.entries(own).filter(([, value]) => value !== undefined && (typeof value !== "object" || Object.keys(value ?? {}).length));
   return { ...Object.fromEntries(said), ...rest };
 }
 

@@ -19,7 +19,7 @@ export function colours(): Record<Colour, string> {
 }
 
 /** A canvas whose picture is kept as sharp as the display and in the colours of the page; `paint` after each change. */
-export function painted(host: Element, paint: () => void): { canvas: HTMLCanvasElement; pen: CanvasRenderingContext2D; end(): void } {
+export function painted(host: Element, paint: () => void): { canvas: HTMLCanvasElement; pen: CanvasRenderingContext2D; end: () => void } {
   const canvas = host.appendChild(document.createElement("canvas"));
   const observer = new ResizeObserver(([{ contentRect: box }]) => {
     const dense = devicePixelRatio || 1;

@@ -155,7 +155,7 @@ export class Paper {
   private link(at: Vec, point: string | null = null): string | null {
     let best = point ? Infinity : SNAP, found: string | null = null;
     for (const name of point ? this.linksOf(point) : Object.keys(this.picture.links)) {
-      const corners = this.picture.links[name].filter((point) => point in this.picture.points).map((point) => this.screen(this.picture.points[point]));
+      const corners = this.picture.links[name].filter((each) => each in this.picture.points).map((each) => this.screen(this.picture.points[each]));
       for (let k = 0; k < corners.length; k++) {
         const d = distance(at, corners[k], corners[(k + 1) % corners.length]);
         if (d < best) [best, found] = [d, name];

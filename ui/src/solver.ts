@@ -44,10 +44,10 @@ export class Solver {
   private drawn: Values = {};
   private determinants: Values = {};
 
-  constructor(readonly data: ModelData, code: Code) {
+  constructor(readonly data: ModelData, compiled: Code) {
     const { positions } = data;
     this.n = positions.count;
-    const kernels = new Kernels(data.programs, code, data.tables, size(data));
+    const kernels = new Kernels(data.programs, compiled, data.tables, size(data));
     this.main = kernels.call(data.main, this.n);
     this.one = kernels.call(data.main, 1);
     this.cycle = data.stages.length ? new Cycle(kernels, data.stages, this.n) : null;
@@ -159,12 +159,12 @@ export class Solver {
   }
 
   private failure(i: number): Wall {
-    const code = this.main.row("outcome")[i];
-    if (code === 0) return this.lost(i);
-    const group = this.data.groups[Math.abs(code) - 1];
+    const outcome = this.main.row("outcome")[i];
+    if (outcome === 0) return this.lost(i);
+    const group = this.data.groups[Math.abs(outcome) - 1];
     const facts: Values = {};
     for (const fact of group.facts) facts[fact] = this.main.row(`fact:${group.name}|${fact}`)[i];
-    return { kind: code < 0 ? "singular" : "apart", name: group.name, group, input: this.inputs[i], facts };
+    return { kind: outcome < 0 ? "singular" : "apart", name: group.name, group, input: this.inputs[i], facts };
   }
 
   private lost(i: number): Wall {

@@ -10,7 +10,7 @@ export function element(tag: string, attributes: Record<string, string | number>
   const made = document.createElementNS(NS, tag);
   for (const name in attributes) made.setAttribute(name, String(attributes[name]));
   parent?.append(made);
-  return made as SVGElement;
+  return made;
 }
 
 export const tenth = (x: number) => Math.round(10 * x) / 10;

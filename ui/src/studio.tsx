@@ -201,9 +201,9 @@ function Bar({ desk }: { desk: Desk }) {
         <select
           aria-label={desk.say("beside")} value=""
           onChange={(event) => {
-            const [kind, name] = event.currentTarget.value.split(/:(.*)/s);
+            const [kind, other] = event.currentTarget.value.split(/:(.*)/s);
             event.currentTarget.value = "";
-            void desk.compare(name ? { [kind]: name } : null);
+            void desk.compare(other ? { [kind]: other } : null);
           }}
         >
           <option value="">{desk.say("beside")}</option>
@@ -290,7 +290,7 @@ function remember(values: Record<string, string>): void {
 }
 
 async function open(): Promise<void> {
-  const data = JSON.parse(document.getElementById("data")!.textContent!) as PageData & { file: string | null };
+  const data = JSON.parse(document.getElementById("data")!.textContent) as PageData & { file: string | null };
   const known = new URLSearchParams(location.search), file = known.get("file") ?? data.file, language = known.get("lang");
   if (language === "en" || language === "zh") data.language = language;
   const page = new Page(data, []), desk = new Desk(page);

@@ -22,7 +22,7 @@ function bytes(text: string): Uint8Array<ArrayBuffer> {
 }
 
 async function unpack(): Promise<void> {
-  const text = document.getElementById("packed")!.textContent!;
+  const text = document.getElementById("packed")!.textContent;
   const stream = new Blob([bytes(text)]).stream();
   const whole = await new Response(stream.pipeThrough(new DecompressionStream("deflate"))).arrayBuffer();
   const length = new DataView(whole).getUint32(0, true);
@@ -35,9 +35,9 @@ async function unpack(): Promise<void> {
     place += size;
   }
   Object.assign(globalThis, { packed: found.data });
-  const add = (tag: string, text: string) => {
+  const add = (tag: string, content: string) => {
     const made = document.createElement(tag);
-    made.textContent = text;
+    made.textContent = content;
     document.head.append(made);
   };
   add("style", found.style);

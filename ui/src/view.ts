@@ -113,7 +113,7 @@ export class View {
     return this.model.data.glyphs.reduce((most, glyph) => {
       if (glyph.at !== key) return most;
       if (glyph.kind === "wheel") return Math.max(most, this.shapes.radius(glyph));
-      return glyph.kind === "cam" ? this.shapes.cam(glyph).profile.reduce((far, [x, y]) => Math.max(far, Math.hypot(x, y)), most) : most;
+      return glyph.kind === "cam" ? this.shapes.cam(glyph).profile.reduce((reach, [x, y]) => Math.max(reach, Math.hypot(x, y)), most) : most;
     }, 0);
   }
 

@@ -41,7 +41,7 @@ export function digits(value: number, count = 4): string {
   if (Math.abs(value) < 1e-12) return "0";
   if (Math.abs(value) >= 1e7) {
     const [head, power] = value.toExponential(2).split("e+");
-    return `${head.replace("-", "−")}·10${[...power].map((digit) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(digit)]).join("")}`;
+    return `${head.replace("-", "−")}·10${Array.from(power).map((digit) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(digit)]).join("")}`;
   }
   const text = value.toPrecision(count);
   return (text.includes("e") ? String(Number(text)) : text.replace(/(\.\d*?)0+$/, "$1").replace(/\.$/, "")).replace("-", "−");

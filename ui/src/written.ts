@@ -16,7 +16,7 @@ export function written(model: Model): { text: string; missing: string[] } {
   }
   if (changed.some(({ moves }) => moves)) edits.push(...drawing(model));
   // Offsets count characters beyond the basic plane as one, as Python does.
-  const all = [...data.text];
+  const all = Array.from(data.text);
   edits.sort(([a], [b]) => b[0] - a[0] || b[1] - a[1]);
   for (const [[start, end, before, after], number] of edits) all.splice(start, end - start, before + number + after);
   return { text: all.join(""), missing };

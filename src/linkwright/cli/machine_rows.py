@@ -112,7 +112,7 @@ def of_curves(driver: TorqueCurve, load: TorqueCurve | None, wanted: Wanted, say
     (_, lowest), (_, highest) = driver.extremes()
     if abs(mean) <= NOTHING * max(abs(lowest), abs(highest)) or mean < 0:
         shown_mean = shown(mean, "torque") if mean < -NOTHING * abs(lowest) else "0 N·m"
-        raise LinkwrightError(say("machine.no_mean_torque", mean=shown_mean))
+        raise LinkwrightError("machine.no_mean_torque", mean=shown_mean)
     resisting = TorqueCurve.constant(mean, period=driver.period) if load is None else load
     energy = energy_fluctuation(driver, resisting).without_rounding(mean * driver.period)
     first = [Row("mean_torque", mean, "torque")]

@@ -24,9 +24,11 @@ def run(argv: Sequence[str]) -> int:
     """Runs one command and returns its exit code."""
     arguments = list(argv)
     _widen_streams()
-    session = Session(speaker("en"))
+    usual = os.environ.get("LINKWRIGHT_LANG", "")
+    usual = usual if usual in LANGUAGES else LANGUAGES[0]
+    session = Session(speaker(usual), usual)
     try:
-        language = _language(arguments)
+        language = _language(arguments, usual)
         session = Session(
             speaker(language), language, json="--json" in arguments, debug="--debug" in arguments
         )
@@ -109,22 +111,20 @@ def _split(arguments: Sequence[str]) -> tuple[list[str], str | None, list[str]]:
     return head, None, []
 
 
-def _language(arguments: Sequence[str]) -> str:
-    """The language of ``--lang``, else of the environment, else English."""
-    chosen = os.environ.get("LINKWRIGHT_LANG") or "en"
-    if chosen not in LANGUAGES:
-        chosen = "en"
+def _language(arguments: Sequence[str], usual: str) -> str:
+    """The language of ``--lang``, else the usual one."""
+    chosen = usual
     for index, word in enumerate(arguments):
         if word == "--lang":
             if index + 1 == len(arguments):
-                raise UsageError(speaker(chosen)("cli.needs_value", name="--lang"))
+                raise UsageError("cli.needs_value", name="--lang")
             asked = arguments[index + 1]
         elif word.startswith("--lang="):
             asked = word.removeprefix("--lang=")
         else:
             continue
         if asked not in LANGUAGES:
-            raise UsageError(speaker(chosen)("cli.bad_language", name=asked))
+            raise UsageError("cli.bad_language", name=asked)
         chosen = asked
     return chosen
 
@@ -143,7 +143,7 @@ def _refused(error: LinkwrightError, session: Session) -> int:
         from linkwright.cli.data import finding_data
 
         findings = [finding_data(found) for found in getattr(error, "findings", ())]
-        session.show_data({"ok": False, "error": str(error), "findings": findings})
+        session.show_data({"ok": False, "error": str(error), "code": error.code, "findings": findings})
     return MISUSED if missing or isinstance(error, RequestError) else FAULTY
 
 

@@ -100,11 +100,11 @@ class _Reading:
     def _wrong(self, key: str, sentence: str, **values: object) -> None:
         """Notes what is wrong with a setting: the sentence ``course.SENTENCE``."""
         told = Sentence(f"course.{sentence}", **values)
-        self.findings.append(Finding("error", "", f"course.{key}", told, code="course"))
+        self.findings.append(Finding("error", "", f"course.{key}", told, code=sentence.replace("_", "-")))
 
     def _note(self, key: str, error: LinkwrightError) -> None:
         """Notes an error that a setting makes."""
-        self.findings.append(Finding("error", "", f"course.{key}", error.sentence, code="course"))
+        self.findings.append(Finding("error", "", f"course.{key}", error.sentence, code=error.code))
 
     def _quantity(self, key: str, given: Any, dimension: str) -> float | None:
         try:

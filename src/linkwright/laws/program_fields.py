@@ -89,7 +89,7 @@ class LawField(Field):
         try:
             return altered(kind(**values), changes[0], changes[1], changes[2])
         except LinkwrightError as error:
-            reader.error(node, place, error.sentence, "", "law")
+            reader.error(node, place, error.sentence, "", error.code)
             return None
 
     def written(self, value: Any) -> Any:
@@ -179,7 +179,7 @@ class ProgramField(Field):
                     at, place.child(number[0]) if number else place, each.message, each.remedy, each.code
                 )
         except LinkwrightError as error:
-            reader.error(node, place, error.sentence, "", "law")
+            reader.error(node, place, error.sentence, "", error.code)
         return None
 
     def _segment(

@@ -34,7 +34,7 @@ def path_error(given: Any) -> PathError | None:
         return None
     rows = given["target"]
     if not isinstance(rows, Sequence) or not rows or any(not _is_pair(row) for row in rows):
-        raise QuantityError(Sentence("optimize.target", given=flow(rows)[:40]))
+        raise QuantityError(Sentence("optimize.target", given=flow(rows)[:40]), code="target")
     places = [
         [each if isinstance(each, float) else amount(str(each), "length") for each in row] for row in rows
     ]

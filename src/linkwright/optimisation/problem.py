@@ -130,7 +130,9 @@ class _Reading:
     def problem(self) -> Problem:
         for key in self.given:
             if key not in SETTINGS:
-                self._wrong(key, Sentence("optimize.unknown", key_=key, hint=offered(key, SETTINGS)))
+                self._wrong(
+                    key, Sentence("optimize.unknown", key_=key, hint=offered(key, SETTINGS)), "unknown-key"
+                )
         variables = self._variables()
         define, paths = self._defined()
         goals = [
@@ -139,17 +141,17 @@ class _Reading:
             for text in self._texts(key, paths)
         ]
         if not goals:
-            self._wrong("minimize", Sentence("optimize.no_goal"))
+            self._wrong("minimize", Sentence("optimize.no_goal"), "no-goal")
         sought = [goal.text.strip() for goal in goals]
         for text in sorted({each for each in sought if sought.count(each) > 1}):
-            self._wrong("maximize", Sentence("optimize.goal_twice", text=text))
+            self._wrong("maximize", Sentence("optimize.goal_twice", text=text), "goal-twice")
         demands = self._demands()
         tolerances = self._tolerances()
         robust = str(self.given.get("robust") or "")
         if robust not in ("", "worst", "yield"):
-            self._wrong("robust", Sentence("optimize.robust", given=robust))
+            self._wrong("robust", Sentence("optimize.robust", given=robust), "unknown-word")
         if robust and not tolerances:
-            self._wrong("tolerance", Sentence("optimize.no_tolerance"))
+            self._wrong("tolerance", Sentence("optimize.no_tolerance"), "no-tolerance")
         numbers = {key: self._number(key, usual) for key, usual in _USUAL.items()}
         if self.findings:
             raise ModelError(self.findings)
@@ -160,13 +162,13 @@ class _Reading:
             int(numbers["population"]), int(numbers["seed"]),
         )  # fmt: skip
 
-    def _wrong(self, key: str, sentence: Sentence | str) -> None:
-        self.findings.append(Finding("error", self.source, f"optimize.{key}", sentence, "", "optimize"))
+    def _wrong(self, key: str, told: str, code: str) -> None:
+        self.findings.append(Finding("error", self.source, f"optimize.{key}", told, code=code))
 
     def _mapping(self, key: str) -> dict[str, Any]:
         value = self.given.get(key) or {}
         if not isinstance(value, Mapping):
-            self._wrong(key, Sentence("optimize.mapping", key_=key))
+            self._wrong(key, Sentence("optimize.mapping", key_=key), "type")
             return {}
         return {str(name): each for name, each in value.items()}
 
@@ -177,7 +179,7 @@ class _Reading:
             try:
                 path = path_error(value)
             except LinkwrightError as error:
-                self._wrong(f"define.{name}", error.sentence)
+                self._wrong(f"define.{name}", error.sentence, error.code)
                 continue
             if path is None:
                 texts[name] = value if isinstance(value, str) else flow(value)
@@ -198,7 +200,7 @@ class _Reading:
             elif isinstance(each, str):
                 found.append(each)
             else:
-                self._wrong(key, Sentence("optimize.texts", key_=key))
+                self._wrong(key, Sentence("optimize.texts", key_=key), "type")
                 return []
         return found
 
@@ -211,7 +213,9 @@ class _Reading:
         low = 0.0 if key in ("seed", "population") else 1.0 if key in ("steps", "evaluations") else 1e-12
         high = 1.0 if key in ("yield", "fluctuation") else 1e6 if key in ("steps", "population") else 1e9
         if not low <= found <= high:
-            self._wrong(key, Sentence("optimize.number", key_=key, given=flow(value), low=low, high=high))
+            self._wrong(
+                key, Sentence("optimize.number", key_=key, given=flow(value), low=low, high=high), "range"
+            )
         return found
 
     def _variables(self) -> list[Variable]:
@@ -221,9 +225,9 @@ class _Reading:
                 checked_addresses(self.mechanism, [address])
                 found.append(self._variable(address, value))
             except LinkwrightError as error:
-                self._wrong(f"vary.{address}", error.sentence)
+                self._wrong(f"vary.{address}", error.sentence, error.code)
         if not found and not self.findings:
-            self._wrong("vary", Sentence("study.nothing_varies"))
+            self._wrong("vary", Sentence("study.nothing_varies"), "nothing-varies")
         return found
 
     def _variable(self, address: str, value: Any) -> Variable:
@@ -268,7 +272,7 @@ class _Reading:
         for text, value in self._mapping("keep").items():
             demand = _demand(text, value)
             if demand is None:
-                self._wrong(f"keep.{text}", Sentence("optimize.demand", given=flow(value)))
+                self._wrong(f"keep.{text}", Sentence("optimize.demand", given=flow(value)), "demand")
             else:
                 found.append(demand)
         return found
@@ -281,7 +285,7 @@ class _Reading:
                 text = value if isinstance(value, str) else flow(value)
                 found[address] = abs(parse_range(self.mechanism, address, text.lstrip("±+- ")).high)
             except LinkwrightError as error:
-                self._wrong(f"tolerance.{address}", error.sentence)
+                self._wrong(f"tolerance.{address}", error.sentence, error.code)
         return found
 
 

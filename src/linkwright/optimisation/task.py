@@ -297,9 +297,8 @@ class Task:
                 found.append(self._bound(demand))
             except QuantityError as error:
                 place = self.problem.mechanism.name
-                findings.append(
-                    Finding("error", place, f"optimize.keep.{demand.text}", error.sentence, "", "optimize")
-                )
+                key = f"optimize.keep.{demand.text}"
+                findings.append(Finding("error", place, key, error.sentence, code=error.code))
         if findings:
             raise ModelError(findings)
         return tuple(found)
@@ -309,7 +308,7 @@ class Task:
         if demand.same is not None:
             share = _SHARE.match(demand.same)
             if not np.isfinite(start):
-                raise QuantityError(Sentence("optimize.no_start", text=demand.text))
+                raise QuantityError(Sentence("optimize.no_start", text=demand.text), code="no-start")
             within = (
                 float(share[1]) / 100 * abs(start) if share else self._value(demand.same, kind, demand.text)
             )
@@ -318,7 +317,8 @@ class Task:
         low = self._value(demand.low, kind, demand.text) if demand.low else -np.inf
         high = self._value(demand.high, kind, demand.text) if demand.high else np.inf
         if low > high:
-            raise QuantityError(Sentence("optimize.falling_demand", low=demand.low, high=demand.high))
+            told = Sentence("optimize.falling_demand", low=demand.low, high=demand.high)
+            raise QuantityError(told, code="falling-demand")
         sizes = [abs(each) for each in (low, high) if np.isfinite(each) and each] or [abs(start)]
         return Bounds(
             demand.text, low, high, max(sizes) if np.isfinite(max(sizes)) and max(sizes) > 0 else 1.0
@@ -335,12 +335,13 @@ class Task:
                 "given": text,
                 "right": f"{number:.12g} {symbol}",
             }
-            raise QuantityError(Sentence("optimize.unit" if symbol else "optimize.no_unit", **said))
+            key, code = ("unit", "wrong-dimension") if symbol else ("no_unit", "missing-unit")
+            raise QuantityError(Sentence(f"optimize.{key}", **said), code=code)
         return number * factor
 
 
 def _split(text: str) -> tuple[float, str]:
     match = re.match(r"^([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*)$", text.strip())
     if match is None:
-        raise QuantityError(Sentence("optimize.no_value", text=text))
+        raise QuantityError(Sentence("optimize.no_value", text=text), code="quantity")
     return float(match[1]), match[2].strip()

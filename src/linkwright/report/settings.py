@@ -123,9 +123,10 @@ class _Reading:
             ),
         )
 
-    def wrong(self, place: str, key: str, **values: object) -> None:
-        """Notes what is wrong at a place: the sentence ``report.KEY``."""
-        self.findings[Finding("error", "", place, Sentence(f"report.{key}", **values), code="report")] = None
+    def wrong(self, place: str, key: str, code: str = "", **values: object) -> None:
+        """Notes what is wrong at a place: the sentence ``report.KEY``, by the same word as its code unless given."""
+        told = Sentence(f"report.{key}", **values)
+        self.findings[Finding("error", "", place, told, code=code or key.replace("_", "-"))] = None
 
     def known(self, given: Mapping[str, Any], keys: tuple[str, ...], place: str) -> None:
         for key in given:
@@ -180,9 +181,8 @@ class _Reading:
             try:
                 output_of(self.mechanism, name)
             except RequestError as error:
-                self.findings[Finding("error", "", "report.numbered_from", error.sentence, code="report")] = (
-                    None
-                )
+                place = "report.numbered_from"
+                self.findings[Finding("error", "", place, error.sentence, code=error.code)] = None
 
     def count(self, value: Any) -> int | None:
         text = str(value).strip()
@@ -207,5 +207,5 @@ class _Reading:
         self.known(each, ERRATUM, place)
         for key in ERRATUM[:3]:
             if key not in each:
-                self.wrong(place, "lacks", name=key)
+                self.wrong(place, "lacks", "missing-key", name=key)
         return Erratum(**{key: self.text(each.get(key, ""), f"{place}.{key}") for key in ERRATUM})

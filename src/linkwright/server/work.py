@@ -189,6 +189,7 @@ def _finding(found: Finding, language: str) -> Plain:
         "severity": found.severity,
         "line": int(place[1]) if len(place) > 1 and place[1].isdigit() else 0,
         "key": found.key,
+        "code": found.code,
         "sentence": in_language(with_remedy(found.message, found.remedy), language),
     }
 

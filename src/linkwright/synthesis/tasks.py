@@ -177,7 +177,9 @@ def check_section(section: Node | None, name: str) -> tuple[list[Finding], str]:
     for key in tasks()[task].needed:
         if key not in demands:
             form = _form(tasks()[task].demands[key])
-            own.add(section, "synthesis", note("task.missing", task=task, demand=key, form=form))
+            own.add(
+                section, "synthesis", note("task.missing", task=task, demand=key, form=form), "missing-demand"
+            )
     return own.findings, task
 
 
@@ -190,7 +192,7 @@ def read_section(section: MappingNode, name: str) -> tuple[str, dict[str, Any]]:
     if task not in known:
         near = nearest(task, list(known))
         sentence = note("task", task=task, known=near or tuple(known))
-        reader.add(given or section, "synthesis.task", sentence)
+        reader.add(given or section, "synthesis.task", sentence, "unknown-task")
         raise ModelError(reader.findings)
     for key, kind in (("unit", "length"), ("angle_unit", "angle")):
         reader.default(section.get(key), key, kind)
@@ -201,12 +203,12 @@ def read_section(section: MappingNode, name: str) -> tuple[str, dict[str, Any]]:
             continue
         if key not in known[task].demands:
             sentence = note("task.unknown", demand=key, task=task, hint=listed(key, known[task].demands))
-            reader.add(entry.key, f"synthesis.{key}", sentence)
+            reader.add(entry.key, f"synthesis.{key}", sentence, "unknown-demand")
             continue
         demands[key] = reader.value(entry.value, key, known[task].demands[key])
     angles = section.get("outputs")
     if angles is not None and demands.get("linkage") == "slider_crank":
-        reader.add(angles, "synthesis.outputs", note("function.places"))
+        reader.add(angles, "synthesis.outputs", note("function.places"), "angles-for-places")
     if reader.findings:
         raise ModelError(reader.findings)
     return task, demands
@@ -221,10 +223,10 @@ class _Reader:
         self.units: dict[str, str] = {}
         self.bare: set[tuple[str, str]] = set()
 
-    def add(self, node: Node, key: str, sentence: str) -> None:
+    def add(self, node: Node, key: str, sentence: str, code: str) -> None:
         """A finding at a node."""
         place = f"{self.name}:{node.line + 1}:{node.column + 1}"
-        self.findings.append(Finding("error", place, key, sentence, "", "synthesis"))
+        self.findings.append(Finding("error", place, key, sentence, code=code))
 
     def default(self, node: Node | None, key: str, kind: str) -> None:
         """The unit of bare numbers: ``unit: mm``, ``angle_unit: deg``."""
@@ -234,7 +236,7 @@ class _Reader:
         try:
             units.parse(f"1 {unit}", kind)
         except QuantityError as error:
-            self.add(node, f"synthesis.{key}", error.sentence)
+            self.add(node, f"synthesis.{key}", error.sentence, error.code)
         else:
             self.units[kind] = unit
 
@@ -282,7 +284,7 @@ class _Reader:
             if error.code == "missing-unit" and SHAPES[form][1] and dimension in UNIT_KEYS:
                 self._bare(node, key, dimension, error.message)
             else:
-                self.add(node, f"synthesis.{key}", error.sentence)
+                self.add(node, f"synthesis.{key}", error.sentence, error.code)
             return None
 
     def _bare(self, node: Node, key: str, dimension: str, message: str) -> None:
@@ -290,7 +292,7 @@ class _Reader:
         if (key, dimension) not in self.bare:
             self.bare.add((key, dimension))
             told = note("task.unit_of_all", line=UNIT_KEYS[dimension])
-            self.add(node, f"synthesis.{key}", with_remedy(message, told))
+            self.add(node, f"synthesis.{key}", with_remedy(message, told), "missing-unit")
 
     def _word(self, node: Node, key: str, form: str) -> Any:
         if not isinstance(node, Scalar) or (form == "flag" and node.text not in ("true", "false")):
@@ -300,7 +302,8 @@ class _Reader:
     def _wrong(self, node: Node, key: str, form: str) -> None:
         kind = "model.a_list" if isinstance(node, Sequence) else "model.a_mapping"
         given = node.text if isinstance(node, Scalar) else Sentence(kind)
-        self.add(node, f"synthesis.{key}", note("task.value", demand=key, form=_form(form), given=given))
+        told = note("task.value", demand=key, form=_form(form), given=given)
+        self.add(node, f"synthesis.{key}", told, "type")
 
 
 def _bare(text: str) -> bool:

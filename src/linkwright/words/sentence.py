@@ -16,7 +16,13 @@ _OWN_NAMES = re.compile(
 )
 
 #: Sentences that only say what another one is about, with the value that this is.
-_AROUND = {"cli.about": "cause", "loads.of_load": "cause", "finding.with_remedy": "message"}
+_AROUND = {
+    "cli.about": "cause",
+    "loads.of_load": "cause",
+    "finding.with_remedy": "message",
+    "finding.below": "first",
+    "rank.besides": "cause",
+}
 
 
 @runtime_checkable
@@ -112,11 +118,14 @@ def links_said(numbers: Mapping[str, int], language: str) -> list[str]:
     return [f"{number} {link_said(name, language)}" for name, number in numbers.items()]
 
 
-def code_of(text: str) -> str:
-    """The key of a sentence, or of the one within it where it only says what that is about (``--at: …``)."""
-    key: str = getattr(text, "key", "")
-    cause = getattr(text, "values", {})[_AROUND[key]] if key in _AROUND else ""
-    return code_of(getattr(cause, "sentence", cause)) or key if cause else key
+def code_of(text: object) -> str:
+    """The key of a sentence, or the code of what is within it where it only says what that is about (``--at: …``)."""
+    if isinstance(text, tuple | list):
+        return next(filter(None, map(code_of, text)), "")
+    if not isinstance(text, Sentence):
+        return getattr(text, "code", "") or getattr(getattr(text, "sentence", None), "key", "")
+    inner = code_of(text.values[_AROUND[text.key]]) if text.key in _AROUND else ""
+    return inner or text.key
 
 
 def values_of(text: str) -> dict[str, object]:

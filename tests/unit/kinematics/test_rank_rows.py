@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from tests.invariants.welded_slider import MODEL as WELDED
+from tests.reference.cam_models import GUIDED, SWINGING, model
 from tests.reference.geared_mechanisms import geared_case
-from tests.reference.test_cam_joints import GUIDED, SWINGING, model
 
 import linkwright as lw
 from linkwright.kinematics.constraint_system import ConstraintSystem, coordinates

@@ -13,7 +13,7 @@ from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
 from linkwright.core.expressions import Expression
 from linkwright.errors import NO_FILE, Finding, LinkwrightError, ModelError
-from linkwright.words.sentence import Sentence
+from linkwright.words.sentence import Sentence, code_of
 
 if TYPE_CHECKING:
     from linkwright.fields.signals import MovingPhase, SwingPhase
@@ -86,7 +86,8 @@ def findings_of(name: str) -> tuple[list[Finding], dict[str, object]]:
         turned, notes = _turned(name, mechanism) if plain is None else ([], [])
     except LinkwrightError as error:
         parts = (isinstance(error, AssemblyError) and error.parts) or (("", error.sentence),)
-        told = [located(Finding("error", name, key, said, code="motion"), root, place) for key, said in parts]
+        faults = [Finding("error", name, key, said, code=code_of(said)) for key, said in parts]
+        told = [located(each, root, place) for each in faults]
         return [*found, *(replace(each, key="") for each in told)], {}
     sure = plain or [False] * len(swings)
     unsure = [
@@ -176,10 +177,11 @@ def _turned(name: str, mechanism: Mechanism) -> tuple[list[Finding], list[Findin
     motion = try_motion(mechanism, TRIED)
     if motion.whole and motion.notes:
         motion = try_motion(mechanism, ASKED)
-    notes = [Finding("note", name, "", note, code="motion") for note in motion.notes if motion.ok.any()]
+    notes = [Finding("note", name, "", note, code=code_of(note)) for note in motion.notes if motion.ok.any()]
     if motion.whole:
         return [], [*_hardly_determined(name, motion), *notes]
-    return [Finding("error", name, "", refusal(motion).sentence, code="position")], notes
+    barred = refusal(motion)
+    return [Finding("error", name, "", barred.sentence, code=barred.code)], notes
 
 
 def _hardly_determined(name: str, motion: Motion) -> Iterator[Finding]:
@@ -233,7 +235,7 @@ def _of_loads(name: str, mechanism: Mechanism, loads: Sequence[str], varying: Se
         try:
             magnitudes(mechanism.loads[load], signals)
         except LinkwrightError as error:
-            found.append(Finding("error", name, f"loads.{load}", error.sentence, code="load"))
+            found.append(Finding("error", name, f"loads.{load}", error.sentence, code=error.code))
     return found
 
 
@@ -264,7 +266,7 @@ def _of_settings(name: str, mechanism: Mechanism, *, moves: bool) -> list[Findin
         except ModelError as error:
             found += [replace(each, where=name) for each in error.findings]
         except LinkwrightError as error:
-            found.append(Finding("error", name, key, error.sentence, code=key))
+            found.append(Finding("error", name, key, error.sentence, code=error.code))
     return found
 
 

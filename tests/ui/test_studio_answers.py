@@ -1,0 +1,181 @@
+"""What the studio answers: machines solved and drawn on, searches, files handed out, drafts that outlive it."""
+
+from __future__ import annotations
+
+import base64
+import http.client
+import json
+import math
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+from urllib.parse import parse_qs, urlsplit
+
+import numpy as np
+import pytest
+from tests import store
+from tests.ui.studio import address_in, asked, edited, followed, saving, serving
+from tests.ui.texts import FOURBAR
+
+import linkwright as lw
+
+NEW = "format: 1\nname: New mechanism\n"
+
+
+def test_a_machine_given_by_lengths_is_drawn_where_it_stands_and_drawn_on(tmp_path: Path) -> None:
+    """Points that no drawing gives are those of the solved machine; a link drawn from one takes its place along."""
+    text = store.text("crank_rocker")
+    mechanism = store.machine("crank_rocker")
+    with serving(tmp_path) as studio:
+        shown = asked(studio, "solve", {"text": text})[1]["picture"]
+        assert sorted(shown["placed"]) == ["A", "B", "P"]
+        a, b = (np.array(shown["points"][name]) for name in "AB")
+        assert math.dist(a, b) == pytest.approx(mechanism.dimension("coupler.length"), rel=1e-12)
+        more = (
+            {"do": "point", "name": "C", "at": [b[0] + 1.0, b[1]]},
+            {"do": "link", "name": "bar1", "points": ["B", "C"], "places": {"B": b.tolist()}},
+            {"do": "link", "name": "slider1", "points": ["C"]},
+            {"do": "guide", "link": "slider1", "at": "C", "angle": 0},
+        )
+        for action in more:
+            text = asked(studio, "edit", {"text": text, "action": action})[1]["text"]
+        grown = lw.loads(text)
+        assert lw.structure(grown).mobility == 1
+        assert grown.dimension("bar1.C.x") == pytest.approx(1.0, abs=2e-4)
+        assert grown.dimension("coupler.length") == mechanism.dimension("coupler.length")
+
+
+WISH = {
+    "vary": {"coupler.length": "3.2..4.2 m", "rocker.length": "2.5..3.5 m"},
+    "maximize": "transmission_angle",
+    "keep": {"swing_angle": "same within 5 %"},
+    "evaluations": 400,
+}
+
+
+@pytest.mark.rotating
+def test_an_optimisation_shows_its_best_designs_while_it_goes_on_and_can_be_ended(tmp_path: Path) -> None:
+    text = store.text("crank_rocker")
+    with serving(tmp_path) as studio:
+        assert asked(studio, "optimize", {"text": text})[0] == 422
+        unknown = {"vary": {"no.length": "1..2 m"}, "minimize": "x"}
+        wrong = edited(studio, text, {"do": "optimize", "section": unknown})
+        status, found = asked(studio, "optimize", {"text": wrong})
+        assert status == 422
+        assert "no.length" in found["error"]
+        names = [each["name"] for each in asked(studio, "goals", {"text": text})[1]["goals"]]
+        assert "transmission_angle" in names
+        wished = edited(studio, text, {"do": "optimize", "section": WISH})
+        begun = asked(studio, "optimize", {"text": wished})[1]["number"]
+        seen = list(followed(studio, begun))
+        (best,) = seen[-1]["candidates"]
+        assert best["missed"] == []
+        assert set(best["values"]) == set(WISH["vary"])
+        taken = asked(studio, "set", {"text": wished, "values": best["values"]})[1]["text"]
+        assert len([1 for a, b in zip(wished.splitlines(), taken.splitlines(), strict=True) if a != b]) == 2
+        before, after = (lw.metrics(lw.solve_motion(lw.loads(each))) for each in (wished, taken))
+        assert after.value("transmission_angle") > before.value("transmission_angle") * 1.01
+        assert after.value("swing_angle") == pytest.approx(before.value("swing_angle"), rel=0.0501)
+        longer = edited(studio, text, {"do": "optimize", "section": {**WISH, "evaluations": 10**7}})
+        begun = asked(studio, "optimize", {"text": longer})[1]["number"]
+        next(each for each in followed(studio, begun) if each["candidates"])
+        asked(studio, "enough", {})
+        ended = asked(studio, "candidates", {})[1]
+        assert not ended["running"]
+        assert ended["candidates"]
+
+
+def test_reports_and_exports_are_handed_out(tmp_path: Path) -> None:
+    """Known endings only, by name; the bytes are those of the format."""
+    with serving(tmp_path) as studio:
+        for ending, head in ((".svg", b"<svg"), (".csv", b"time [s],"), (".html", b"<!doctype html>")):
+            status, found = asked(studio, "take", {"text": FOURBAR, "ending": ending})
+            assert status == 200
+            assert base64.b64decode(found["content"]).startswith(head)
+        for ending in ("/../../x", ".py", ""):
+            assert asked(studio, "take", {"text": FOURBAR, "ending": ending})[0] == 422
+        for points in ([[0, 0]], [[0, 0]] * 9, "no", [[0, float("nan")]] * 9, [[0, 1]] * 99999):
+            assert asked(studio, "curve", {"points": points, "closed": True})[0] in (400, 422)
+
+
+def test_a_killed_server_loses_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """kill -9 after a change that was not saved: the next start has it, under the same address."""
+    cache = tmp_path / "cache"
+    monkeypatch.setenv("LINKWRIGHT_CACHE", str(cache))
+    (tmp_path / "a.yaml").write_text("format: 1\n")
+    command = [sys.executable, "-m", "linkwright", "studio", "a.yaml", "--no-browser"]
+    process = subprocess.Popen(
+        command, cwd=tmp_path, stdout=subprocess.PIPE, text=True, env={**os.environ, "PYTHONUNBUFFERED": "1"}
+    )
+    assert process.stdout is not None
+    address = address_in(process.stdout.readline())
+    parts = urlsplit(address)
+    connection = http.client.HTTPConnection(parts.netloc)
+    headers = {"Content-Type": "application/json", "X-Linkwright-Token": parse_qs(parts.query)["token"][0]}
+    change = {"name": "a.yaml", "text": "format: 1\nname: kept\n", "window": "w", "serial": 0}
+    connection.request("POST", "/api/keep", json.dumps(change), headers)
+    assert connection.getresponse().status == 200
+    connection.close()
+    process.send_signal(signal.SIGKILL)
+    process.wait()
+    process.stdout.close()
+    found = next((cache / "studio").glob("*.json"))
+    assert found.stat().st_mode & 0o077 == 0
+    with serving(tmp_path) as studio:
+        assert studio.url == address
+        status, found = asked(studio, "open", {"name": "a.yaml"})
+        assert (status, found["recovered"], found["text"]) == (200, True, "format: 1\nname: kept\n")
+        assert (tmp_path / "a.yaml").read_text() == "format: 1\n"
+        saved = asked(studio, "save", saving("a.yaml", found["text"], found["version"]))[1]
+        assert saved["saved"]
+        new = {"name": asked(studio, "open", {})[1]["name"], "text": "x: 1", "window": "w", "serial": 0}
+        asked(studio, "keep", new)
+        again = asked(studio, "open", {})[1]
+        assert (again["name"], again["text"], again["recovered"]) == ("machine.yaml", "x: 1", True)
+        assert asked(studio, "open", {"fresh": True})[1]["name"] == "machine2.yaml"
+        (tmp_path / "a.yaml").write_text("format: 1\nname: from outside\n")
+        again = asked(studio, "save", saving("a.yaml", "x: 1", saved["version"]))[1]
+        assert not again["saved"]
+        assert "from outside" in (tmp_path / "a.yaml").read_text()
+
+
+def test_a_file_that_is_not_there_yet_begins_as_a_new_mechanism(tmp_path: Path) -> None:
+    with serving(tmp_path) as studio:
+        status, found = asked(studio, "open", {"name": "wiper.yaml"})
+        assert (status, found["text"], found["version"]) == (200, NEW, "")
+        asked(studio, "keep", {"name": "wiper.yaml", "text": "", "window": "w", "serial": 0})
+        assert asked(studio, "open", {"name": "wiper.yaml"})[1]["text"] == NEW
+        (tmp_path / "empty.yaml").write_text("")
+        assert asked(studio, "open", {"name": "empty.yaml"})[1]["text"] == ""
+
+
+def test_a_new_file_and_the_notes_are_in_the_language_of_the_page(tmp_path: Path) -> None:
+    with serving(tmp_path) as studio:
+        new = [asked(studio, "open", {"language": each, "fresh": True})[1]["text"] for each in ("en", "zh")]
+        assert new[0] == NEW and new[1].startswith("format: 1\nname: ") and not new[1].isascii()
+        action = {"do": "remove", "what": "joint", "name": "O1"}
+        notes = [
+            asked(studio, "edit", {"text": FOURBAR, "action": action, "language": each})[1]["note"]
+            for each in ("en", "zh")
+        ]
+        assert all("O1" in note and "P1" in note for note in notes)
+        assert notes[0].isascii() and not notes[1].isascii()
+
+
+def test_drawings_that_were_never_saved_can_be_opened(tmp_path: Path) -> None:
+    with serving(tmp_path) as studio:
+        kept = {"name": "machine.yaml", "text": "# drawn\n", "window": "w", "serial": 0}
+        assert asked(studio, "keep", kept)[0] == 200
+    with serving(tmp_path) as studio:
+        assert asked(studio, "files", {})[1]["drafts"] == ["machine.yaml"]
+        assert asked(studio, "open", {"name": "machine.yaml"})[1]["text"] == "# drawn\n"
+
+
+@pytest.mark.rotating
+def test_a_report_is_handed_out(tmp_path: Path) -> None:
+    with serving(tmp_path) as studio:
+        status, found = asked(studio, "take", {"text": FOURBAR, "ending": ".report.html"})
+        assert status == 200
+        assert base64.b64decode(found["content"]).lower().startswith(b"<!doctype html>")

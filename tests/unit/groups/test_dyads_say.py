@@ -1,0 +1,38 @@
+"""What each dyad says of its limits, from the numbers at hand."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import pytest
+from tests.refusals import agrees
+
+from linkwright.groups.base import DYADS
+
+
+@pytest.mark.parametrize(
+    ("signature", "facts", "end", "reason", "values"),
+    [
+        ("RRR", {"distance²": 25.0, "first²": 4.0, "second²": 6.25}, "range.stretched", "outcome.rrr_far",
+         {"distance": "5 m", "first": "2 m", "second": "2.5 m", "reach": "4.5 m", "missing": "0.5 m"}),
+        ("RRR", {"distance²": 0.04, "first²": 4.0, "second²": 6.25}, "range.folded", "outcome.rrr_near",
+         {"distance": "0.2 m", "first": "2 m", "second": "2.5 m", "reach": "0.5 m", "missing": "0.3 m"}),
+        ("RRR", {"distance²": 6.25, "first²": 4.0, "second²": 6.25}, "range.folded", None, {}),
+        ("RRR", {"distance²": 6.5, "first²": 4.0, "second²": 6.25}, "range.stretched", None, {}),
+        ("RRP", {"height": -3.0, "length²": 6.25}, "range.perpendicular", "outcome.rrp_far",
+         {"height": "3 m", "length": "2.5 m", "missing": "0.5 m"}),
+        ("RPR", {"distance²": 4.0, "offset": -2.25}, "range.closest", "outcome.rpr_near",
+         {"distance": "2 m", "offset": "2.25 m", "missing": "0.25 m"}),
+        ("PRP", {"sine": -1.25e-13}, "range.parallel", "outcome.prp_parallel", {"sine": "-1.2e-13"}),
+        ("RPP", {"sine": 0.0}, "range.parallel", "outcome.rpp_parallel", {"sine": "0.0e+00"}),
+    ],
+)  # fmt: skip
+def test_a_dyad_names_its_end_and_what_is_missing(
+    signature: str, facts: Mapping[str, float], end: str, reason: str | None, values: Mapping[str, str]
+) -> None:
+    dyad = DYADS[signature]()
+    assert dyad.at_end(facts).key == end
+    if reason is not None:
+        said = dyad.explain(facts)
+        assert said.key == reason
+        agrees(said.values, values)

@@ -1,0 +1,164 @@
+"""Polygons: printed velocities, directions of the parts, closed forces, and a true scale on the paper."""
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from tests import store
+from tests.every import every
+
+import linkwright as lw
+from linkwright.plot import plot
+from linkwright.plot.diagrams.force_polygon import link_forces
+from linkwright.plot.diagrams.motion_polygons import image_names
+from linkwright.plot.diagrams.motion_vectors import MotionPolygon, acceleration_polygon, velocity_polygon
+from linkwright.plot.diagrams.position import place_of
+from linkwright.plot.diagrams.scaled_page import BAR, Cell, page, scale_of_picture, side_by_side
+
+INCH = 25.4
+
+
+def at(name: str, degrees: float) -> lw.Motion:
+    return lw.solve_motion(store.machine(name), at=[np.radians(degrees)])
+
+
+def cross(a: np.ndarray, b: np.ndarray) -> float:
+    return float(a[0] * b[1] - a[1] * b[0])
+
+
+def test_images_are_the_printed_velocity_and_acceleration_of_the_conveyor() -> None:
+    motion = at("swing_conveyor", 120.0)
+    assert velocity_polygon(motion, 0).images["F"] == pytest.approx([-11.027246, 0.0], abs=5e-6)
+    assert acceleration_polygon(motion, 0).images["F"] == pytest.approx([143.06898, 0.0], abs=5e-5)
+
+
+def test_relative_velocities_stand_across_their_links() -> None:
+    motion = at("jaw_crusher_sixbar", -40.0)
+    steps = {step.name: step for step in velocity_polygon(motion, 0).steps if step.role == "relative"}
+    assert set(steps) == {"BA", "CB"}
+    for name, link in (("BA", "pitman"), ("CB", "toggle")):
+        arm = place_of(motion, link, name[0], 0) - place_of(motion, link, name[1], 0)
+        along = steps[name].end - steps[name].start
+        assert abs(along @ arm) < 1e-12 * np.hypot(*along) * np.hypot(*arm)
+
+
+def test_normal_parts_point_to_the_first_joint_and_tangential_ones_lead_to_the_image() -> None:
+    motion = at("jaw_crusher_sixbar", -40.0)
+    polygon = acceleration_polygon(motion, 0)
+    parts = {(step.name, step.role): step for step in polygon.steps}
+    for name, link in (("BA", "pitman"), ("CB", "toggle")):
+        arm = place_of(motion, link, name[0], 0) - place_of(motion, link, name[1], 0)
+        normal, tangential = parts[name, "normal"], parts[name, "tangential"]
+        inward = normal.end - normal.start
+        assert abs(cross(inward, arm)) < 1e-12 * np.hypot(*inward) * np.hypot(*arm)
+        assert inward @ arm < 0
+        assert tangential.start == pytest.approx(normal.end, abs=1e-12)
+        assert tangential.end == pytest.approx(polygon.images[name[0]], abs=1e-11)
+
+
+def test_at_a_moving_guide_coriolis_stands_across_it_and_the_rest_along_it() -> None:
+    motion = at("shaper_quick_return", 70.0)
+    steps = {step.role: step for step in acceleration_polygon(motion, 0).steps}
+    along = place_of(motion, "lever", "E", 0) - place_of(motion, "lever", "O3", 0)
+    coriolis, sliding = steps["coriolis"], steps["sliding"]
+    across = coriolis.end - coriolis.start
+    assert abs(across @ along) < 1e-12 * np.hypot(*across) * np.hypot(*along)
+    slip = sliding.end - sliding.start
+    assert abs(cross(slip, along)) < 1e-9 * np.hypot(*slip) * np.hypot(*along)
+    assert coriolis.end == pytest.approx(sliding.start, abs=1e-12)
+
+
+@pytest.mark.parametrize(("name", "degrees"), [("jaw_crusher_sixbar", -200.0), ("swing_conveyor", 300.0)])
+def test_forces_on_every_link_close(name: str, degrees: float) -> None:
+    forces = lw.solve_forces(at(name, degrees))
+    for link in every(forces.mechanism.links):
+        found = link_forces(forces, link, 0)
+        largest = max(each.size for each in found)
+        assert np.abs(sum(each.force for each in found)).max() < 1e-8 * largest
+
+
+def test_a_millimetre_of_the_picture_is_one_of_the_paper() -> None:
+    cells = [
+        Cell(np.array([[0.0, 0.0], [60.0, 40.0]]), "a"),
+        Cell(np.array([[-30.0, 5.0], [12.0, 95.0]]), "b"),
+    ]
+    figure, axes = page(cells, 2, foot=10.0)
+    wide, tall = figure.get_size_inches() * INCH
+    for one in every(axes, least=2):
+        box = one.get_position()
+        assert np.ptp(one.get_xlim()) == pytest.approx(box.width * wide)
+        assert np.ptp(one.get_ylim()) == pytest.approx(box.height * tall)
+        assert box.x1 <= 1 + 1e-12 and box.y0 >= 0
+
+
+@pytest.mark.parametrize(
+    ("points", "pole", "names"),
+    [
+        (["A", "B1"], "p", ["a", "b₁"]),
+        (["A", "P"], "π", ["a", "p"]),
+        (["P", "Π"], "o", ["p", "π"]),
+        (["A", "a"], "p", ["A", "a"]),
+        (["jaw.D", "ram.D", "C"], "p", ["jaw.d", "ram.d", "c"]),
+        (["p", "Π", "O"], "p*", ["p", "π", "o"]),
+    ],
+)
+def test_pole_and_points_never_share_a_letter(points: list[str], pole: str, names: list[str]) -> None:
+    assert image_names(points) == (pole, dict(zip(points, names, strict=True)))
+    pole, images = image_names(points, "′")
+    assert len({pole, *images.values()}) == len(points) + 1 and all(n.endswith("′") for n in images.values())
+
+
+@pytest.mark.rotating
+def test_every_mechanism_of_the_gallery_has_distinct_letters() -> None:
+    for name in every(store.names(), least=40):
+        motion = lw.solve_motion(store.machine(name), steps=7, failures="mark")
+        if motion.mechanism.drivers:
+            index = int(motion.ok.argmax())
+            pole, images = image_names(velocity_polygon(motion, index).images)
+            assert len({pole, *images.values()}) == len(images) + 1, name
+
+
+@pytest.mark.parametrize("make", [velocity_polygon, acceleration_polygon])
+def test_every_image_is_reached_by_vectors_that_close(make: Callable[..., MotionPolygon]) -> None:
+    motion = at("shaper_quick_return", 70.0)
+    polygon = make(motion, 0)
+    ends = [np.zeros(2), *polygon.images.values()]
+    largest = max(np.hypot(*end) for end in ends)
+    for step in every(polygon.steps, least=3):
+        for place in (step.start, step.end):
+            if step.role not in ("normal", "tangential", "coriolis", "sliding"):
+                assert min(np.hypot(*(place - end)) for end in ends) < 1e-9 * largest
+    groups = [f"{g.signature}: {', '.join(g.links)}" for g in motion.structure.groups]
+    assert list(dict.fromkeys(step.group for step in polygon.steps)) == groups
+
+
+def test_a_flat_polygon_is_drawn_longer_and_one_without_height_in_lines_side_by_side() -> None:
+    thin = np.array([[0.0, 0.0], [100.0, 4.0]])
+    assert np.ptp(thin / scale_of_picture(thin, 60.0), axis=0)[0] == pytest.approx(100.0 / 1.0, rel=0.6)
+    assert np.ptp(thin / scale_of_picture(thin, 60.0), axis=0)[0] > 60.0
+    line = np.array([[0.0, 0.0], [100.0, 0.0]])
+    assert np.ptp(line / scale_of_picture(line, 60.0), axis=0)[0] <= 60.0
+    pairs = [(np.array([0.0, 0.0]), np.array([40.0, 0.0])), (np.array([40.0, 0.0]), np.array([0.0, 0.0]))]
+    (a, b), (c, d) = side_by_side(pairs)
+    assert (b - a).tolist() == [40.0, 0.0] and (d - c).tolist() == [-40.0, 0.0]
+    assert abs(a[1] - c[1]) == pytest.approx(3.0) and a[1] == b[1] and c[1] == d[1]
+    wide = [(np.zeros(2), np.array([40.0, 0.0])), (np.array([40.0, 0.0]), np.array([0.0, 30.0]))]
+    assert side_by_side(wide) is wide
+
+
+def test_the_drawn_scale_is_that_of_the_arrows() -> None:
+    forces = lw.solve_forces(at("jaw_crusher_sixbar", -40.0))
+    figure = plot(forces, "force_polygon", at=float(np.radians(-40.0)), of="jaw").figure
+    _, axes = figure.axes
+    (text,) = [t for t in axes.texts if t.get_text().endswith("N") and t.get_text()[0].isdigit()]
+    number, unit = text.get_text().split()
+    per_mm = float(number) * {"kN": 1e3, "N": 1.0}[unit] / BAR
+    bar = max((np.ptp(line.get_xdata()) for line in axes.lines), default=0.0)
+    assert bar == pytest.approx(BAR)
+    ends = [(np.array(t.xy), np.array(t.get_position())) for t in axes.texts if not t.get_text()]
+    drawn = sorted(float(np.hypot(*(end - foot))) * per_mm for end, foot in ends)
+    known = link_forces(forces, "jaw", 0)
+    assert drawn == pytest.approx(sorted(each.size for each in known), rel=1e-9)
+    names = {each.name: each for each in known if each.role == "reaction"}
+    assert names["F05"].force == pytest.approx(forces.reaction("O5", on="jaw")[0])
+    assert names["F45"].force == pytest.approx(forces.reaction("C", on="jaw")[0])

@@ -1,0 +1,127 @@
+"""Where the source names a kind of element outside the kinds' own files: joints, loads, driver laws, groups, metrics.
+
+Other files ask the element (its coordinate, its hooks) or the mechanism (its pins, guides and welds).
+"""
+
+from __future__ import annotations
+
+import ast
+import functools
+from collections import Counter
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+
+import pytest
+from tests.every import every
+
+import linkwright
+from linkwright.drivers.base import LAWS
+from linkwright.groups.base import DYADS
+from linkwright.joints.base import JOINTS
+from linkwright.loads.base import LOADS
+from linkwright.metrics import METRICS
+from linkwright.registry import Registry
+
+ROOT = Path(linkwright.__file__).parent
+#: The rooms of the kinds' own files, with their registries.
+ROOMS: Mapping[str, Registry] = {
+    "joints": JOINTS, "loads": LOADS, "drivers": LAWS, "groups": DYADS, "metrics": METRICS,
+}  # fmt: skip
+#: Rooms that solve: nothing there asks which kind an element is.
+SOLVING = ("structure", "kinematics", "engine", "groups")
+#: What is left, by file: how often a kind is asked for or imported, and why.
+LEFT: Mapping[str, tuple[int, str]] = {
+    "cams/joint.py": (2, "designs the cam of a cam joint"),
+    "report/sections/cams.py": (2, "the section of reports on the design of cams"),
+    "worked/cams.py": (1, "the formulas of a cam joint, which asks for them"),
+    "worked/lifts.py": (1, "the same, of its lift"),
+    "worked/wheels.py": (1, "the same, from the joint's hook to them"),
+    "server/drawn_contacts.py": (2, "tools of the studio that write a cam, a rack into a file"),
+    "server/edits.py": (3, "tools of the studio that write a guide, a slot, a gear, a force into a file"),
+    "tolerance/pin_turning_law.py": (1, "a law of its own, by a table, for pins that follow their reactions"),
+    "cli/commands/check.py": (1, "judges closeness to singular positions by the metric's rule"),
+    "cli/solve_remarks.py": (1, "says how near a solution is to a singular position"),
+    "plot/drawing/draw.py": (2, "the kind of arrows on paper: velocities, accelerations, forces"),
+    "plot/animation.py": (1, "the kind of arrows on paper"),
+    "parts/beams/beam.py": (1, "the kind of a beam's support; spring is one"),
+    "parts/vibration/follower.py": (1, "a law of cams of its own, not a driver's"),
+}
+
+
+def classes(registry: Registry) -> set[str]:
+    """Names of the kinds' classes and of the classes between them and the base."""
+    kinds = [each if isinstance(each, type) else type(each) for each in map(registry.__getitem__, registry)]
+    own = {base for kind in kinds for base in kind.__mro__ if base.__module__.startswith("linkwright.")}
+    return {each.__name__ for each in own if not each.__module__.endswith((".base", ".lower"))}
+
+
+def told(text: str) -> list[ast.AST]:
+    """What in a source may name a kind."""
+    kinds = (ast.Call, ast.MatchClass, ast.Compare, ast.ImportFrom)
+    return [node for node in ast.walk(ast.parse(text)) if isinstance(node, kinds)]
+
+
+def asked(nodes: list[ast.AST], names: set[str], kinds: set[str]) -> Iterator[int]:
+    """Lines that ask for a class of ``names`` or compare a ``kind`` with a word of ``kinds``."""
+    for node in nodes:
+        if isinstance(node, ast.Call) and ast.unparse(node.func) in ("isinstance", "issubclass"):
+            mentioned = {each.id for each in ast.walk(node.args[1]) if isinstance(each, ast.Name)}
+        elif isinstance(node, ast.MatchClass):
+            mentioned = {ast.unparse(node.cls)}
+        elif isinstance(node, ast.Compare) and ast.unparse(node.left).endswith(("kind", "type(driver.law)")):
+            parts = list(ast.walk(node))
+            words = {each.value for each in parts if isinstance(each, ast.Constant)} & kinds
+            mentioned = {each.id for each in parts if isinstance(each, ast.Name)} | (words and names)
+        else:
+            continue
+        if mentioned & names:
+            yield node.lineno if hasattr(node, "lineno") else 0
+
+
+def imported(nodes: list[ast.AST], room: str, names: set[str]) -> Iterator[str]:
+    """Classes of ``names`` that a file imports from the room."""
+    for node in nodes:
+        if isinstance(node, ast.ImportFrom) and (node.module or "").startswith(f"linkwright.{room}."):
+            yield from (each.name for each in node.names if each.name in names)
+
+
+@functools.cache
+def named() -> Counter[str]:
+    """How often each file outside a room names the room's kinds."""
+    found: Counter[str] = Counter()
+    known = {room: (classes(registry), set(registry)) for room, registry in ROOMS.items()}
+    for path in sorted(ROOT.rglob("*.py")):
+        file = path.relative_to(ROOT)
+        text = path.read_text("utf-8")
+        if any(
+            word in text
+            for word in ("isinstance", "kind", "case ", *(f"linkwright.{room}." for room in ROOMS))
+        ):
+            nodes = told(text)
+            for room, (names, kinds) in known.items():
+                if file.parts[0] != room:
+                    found[file.as_posix()] += len(
+                        [*asked(nodes, names, kinds), *imported(nodes, room, names)]
+                    )
+    return +found
+
+
+@pytest.mark.rotating
+def test_kinds_are_named_where_a_reason_is_given_and_nowhere_else() -> None:
+    """As often as the list says: a reason whose file names no kind any more goes."""
+    assert dict(named()) == {file: count for file, (count, _) in LEFT.items()}
+
+
+@pytest.mark.rotating
+def test_solvers_ask_the_element() -> None:
+    assert [file for file in every(named()) if file.startswith(SOLVING)] == []
+
+
+@pytest.mark.parametrize(
+    "line", ["isinstance(a, Spring | Damper)", "joint.kind == 'weld'", "isinstance(x, (int, GearPair))"]
+)
+def test_a_named_kind_is_found(line: str) -> None:
+    found = [
+        each for registry in ROOMS.values() for each in asked(told(line), classes(registry), set(registry))
+    ]
+    assert found

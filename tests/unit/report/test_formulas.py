@@ -1,0 +1,105 @@
+"""Formulas of reports: Typst compiles them, Word's form says the same, lines are broken where they may be."""
+
+import io
+
+import pytest
+from tests import store
+from tests.every import every
+from tests.refusals import refused
+
+import linkwright as lw
+from linkwright.report.document import Document, Formula
+from linkwright.report.formula import Atom, Row, formula, lines, set_lines, width
+from linkwright.report.typst_pages import typst
+from linkwright.report.word_pages import SPACE, equation, word
+from linkwright.words import speaker
+
+SIGN = Atom("sign", "=")
+
+FORMULAS = {
+    r"\frac{a}{b}": "frac(a, b)",
+    r"\sqrt{4\,l_{AB}^2\,d^2 - t^2}": "sqrt(4 thin l_(A B)^(2) thin d^(2) − t^(2))",
+    r"\ddot{s}_{\mathrm{guide\_1}}": 'accent(s, dot.double)_("guide_1")',
+    r"\operatorname{atan2}\left(y, x\right)": '"atan2" lr((y \\, x))',
+    r"-12.5\cdot 10^{-3}\,\mathrm{kg·m²}": '− 12.5 ⋅ 10^(− 3) thin "kg·m²"',
+    r"F_{B,3\to 4y}": "F_(B \\, 3 → 4 y)",
+    r"\mathrm{曲柄}": '"曲柄"',
+}
+
+
+@pytest.mark.parametrize(("latex", "wanted"), FORMULAS.items())
+def test_typst_of_a_formula(latex: str, wanted: str) -> None:
+    assert typst(formula(latex)) == wanted
+
+
+def test_typst_itself_takes_them() -> None:
+    program = pytest.importorskip("typst")
+    text = "\n".join(f"$ {typst(formula(latex))} $" for latex in FORMULAS)
+    found = program.compile(text.encode(), format="svg")
+    assert found
+
+
+def said(element: object) -> str:
+    return "".join(t.text or "" for t in element.iter(f"{{{SPACE}}}t"))  # type: ignore[attr-defined]
+
+
+def test_word_has_every_sign_and_the_nesting_of_the_formula() -> None:
+    pytest.importorskip("docx")
+    found = equation(formula(r"\rho = \sqrt{\frac{x_{A}^2}{\dot{s}_B}} + \left(y\right)"))
+    assert said(found) == "ρ=xA2sB+y"
+    names = [element.tag.removeprefix(f"{{{SPACE}}}") for element in found.iter()]
+    assert [name for name in names if name in ("rad", "f", "sSubSup", "acc", "sSub", "d")] == [
+        "rad", "f", "sSubSup", "sSub", "acc", "d",
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize("name", ["printing_press", "swing_conveyor", "geared_fivebar"])
+def test_every_line_of_a_worked_solution_can_be_printed(name: str) -> None:
+    page = lw.worked(store.forces(name, 7), 1)
+    for line in every(page.equations, least=50):
+        for latex in (line.latex_symbol, line.latex_formula, line.latex_numbers):
+            formula(latex)
+
+
+@pytest.mark.parametrize("latex", [r"\hat{x}", r"\frac{a", "}", r"\left(x"])
+def test_what_is_no_formula_of_ours_is_refused(latex: str) -> None:
+    with refused("report.no_formula", text=latex):
+        formula(latex)
+
+
+def test_long_formulas_come_in_lines_that_fit_and_lose_nothing() -> None:
+    row = formula(
+        r"-\left(" + " + ".join(rf"\left(x_{{{i}}} - y\right)\,F_{{{i}}}" for i in range(20)) + r"\right)"
+    )
+    found = list(lines(row, 30.0))
+    assert len(found) > 2 and all(width(line) <= 30.0 for line in found)
+    joined = typst(Row(tuple(item for line in found for item in line.items)))
+    assert joined.replace("\\(", "").replace("\\)", "").split().count("+") == 19
+
+
+def test_equations_too_wide_for_a_line_are_set_below_each_other_and_lose_nothing() -> None:
+    sides = [
+        formula("x"),
+        formula(" + ".join("a_{B}" for _ in range(9))),
+        formula(" + ".join("12345" for _ in range(6))),
+    ]
+    found = list(set_lines(sides, 20.0, 9.0))
+    assert [line.place for line in found] == ["left", "right", "further", "sign", "further"]
+    assert all(width(line.row) <= 20.0 for line in every(found))
+    items = [item for line in found for item in line.row.items]
+    assert items == [*sides[0].items, SIGN, *sides[1].items, SIGN, *sides[2].items]
+    assert [line.place for line in set_lines([sides[2], sides[0]], 15.0, 9.0)] == ["left", "below"]
+    assert [line.place for line in set_lines(sides, 99.0, 9.0)] == ["left"]
+
+
+def test_lines_of_word_hold_the_whole_equation_behind_breaks() -> None:
+    docx = pytest.importorskip("docx")
+    sides = ("x", " + ".join("a_{B}" for _ in range(30)), "5")
+    document = Document("t", speaker("en"), blocks=[Formula(sides)])
+    file = docx.Document(io.BytesIO(word(document)))
+    (line,) = (each for each in file.paragraphs if each._p.findall(f"{{{SPACE}}}oMath"))
+    equations = line._p.findall(f"{{{SPACE}}}oMath")
+    assert len(equations) == line._p.xml.count("<w:br/>") + 1 >= 3
+    assert (
+        "".join(said(each) for each in equations).replace("\u2003", "") == "x=" + "+".join(["aB"] * 30) + "=5"
+    )

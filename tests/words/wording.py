@@ -1,0 +1,73 @@
+"""All that users read, in an order that does not change: refusals, help, what commands print, a report, the rest."""
+
+from __future__ import annotations
+
+import html
+import re
+from collections.abc import Callable, Iterable, Iterator
+from functools import partial
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from tests.unit.words.catalogued import recorded, sentences
+from tests.words.masked import lines_once
+from tests.words.printing import commands, printed
+from tests.words.provoking import CORPUS, by_heading, refusals, remarks
+
+import linkwright as lw
+
+HERE = Path(__file__).parent
+LANGUAGES = ("en", "zh")
+#: Sections of the report whose words are not those of pictures and tables of results.
+SECTIONS = ("task", "structure", "method", "worked", "limits", "flywheel", "references")
+REPORTED = "gallery:jaw_crusher_fourbar"
+Source = tuple[str, Callable[[str], Iterable[str]]]
+
+
+def sources(folder: Path) -> Iterator[Source]:
+    """Headings, each with what stands below it in a language."""
+    yield "findings", remarks
+    for heading, calls in by_heading(CORPUS / "calls.txt"):
+        yield f"calls: {heading}", partial(refusals, calls)
+    for heading, lines in by_heading(CORPUS / "commands.txt"):
+        yield f"command: {heading}", partial(_printed, lines, folder)
+    yield "help", partial(_printed, ["--help", *(f"{name} --help" for name in commands())], folder)
+    yield "report", _report
+
+
+def snapshot(language: str) -> tuple[str, dict[str, tuple[int, int]]]:
+    """The snapshot of a language, and how many sentences of every area of its catalogue were said, of how many."""
+    seen: set[str] = set()
+    parts: list[str] = []
+    every = sentences(language)
+    with TemporaryDirectory() as folder, recorded() as said:
+        for heading, texts in sources(Path(folder)):
+            parts += [f"\n## {heading}", *lines_once(texts(language), seen)]
+        rest = {key: text for key, text in every.items() if key not in said}
+    for area in dict.fromkeys(key.partition(".")[0] for key in every):
+        texts = [text for key, text in rest.items() if key.startswith(f"{area}.")]
+        if lines := list(lines_once(texts, seen)):
+            parts += [f"\n## the rest: {area}", *lines]
+    return "\n".join(parts).lstrip() + "\n", _shares(every, said)
+
+
+def _shares(every: dict[str, str], said: set[str]) -> dict[str, tuple[int, int]]:
+    shares: dict[str, tuple[int, int]] = {}
+    for key in every:
+        area = key.partition(".")[0]
+        found, count = shares.get(area, (0, 0))
+        shares[area] = found + (key in said), count + 1
+    return shares
+
+
+def _printed(lines: list[str], folder: Path, language: str) -> Iterator[str]:
+    for line in lines:
+        yield printed(line, language, folder)
+
+
+def _report(language: str) -> Iterator[str]:
+    page = lw.report(REPORTED, sections=SECTIONS, language=language, positions=4).content(".html").decode()
+    page = re.sub(r"<(style|script|svg|math|head)\b.*?</\1>", " ", page, flags=re.S)
+    yield html.unescape(
+        re.sub(r"<[^>]+>", " ", re.sub(r"</?(?:p|div|h\d|li|t[rdh]|table|section)\b[^>]*>", "\n", page))
+    )

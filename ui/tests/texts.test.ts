@@ -1,0 +1,130 @@
+import assert from "node:assert/strict";
+import test from "node:test";
+import { Cycle, Kernels, look, reduce } from "../src/engine";
+import { Model } from "../src/model";
+import { digits, quantity, unitFor, Words } from "../src/words";
+import { written } from "../src/written";
+import { dimension, sliderCrank } from "./machine";
+import { near } from "./near";
+
+/** A model of a text in which {name} stands for a number of 1, with the units of the names. */
+function holding(text: string, units: Record<string, number>) {
+  const { data, code } = sliderCrank(8), found: [string, number, number][] = [];
+  const plain = text.split(/(\{\w+\})/).reduce((done, part) => {
+    const name = /^\{(\w+)\}$/.exec(part)?.[1];
+    if (!name) return done + part;
+    const start = Array.from(done).length;
+    found.push([name, start, start + 1]);
+    return done + "1";
+  }, "");
+  data.text = plain;
+  for (const [name, start, end] of found) {
+    data.values[name] = units[name];
+    data.dimensions.push(dimension(name, units[name], { factor: units[name], written: [start, end, "", ""] }));
+  }
+  return new Model(data, code);
+}
+
+test("changed numbers stand in their places, behind characters of every plane", () => {
+  const model = holding("# 𝔸 🂡 曲柄\na: {one} mm # one\nb: {two} deg\n", { one: 1e-3, two: Math.PI / 180 });
+  model.values = { ...model.values, one: 0.0125, two: Math.PI / 4 };
+  assert.deepEqual(written(model), { text: "# 𝔸 🂡 曲柄\na: 12.5 mm # one\nb: 45 deg\n", missing: [] });
+});
+
+test("numbers that are written are read as the same, in few digits where they have few", () => {
+  for (const [value, factor] of [[0.1 + 0.2, 1], [Math.PI, 1e-3], [1 / 3, Math.PI / 180], [0.0157, 1e-3], [-7e-9, 1]]) {
+    const model = holding("{x}\n", { x: factor });
+    model.values = { ...model.values, x: value };
+    const { text } = written(model);
+    near(Number(text) * factor, value, 3e-16);
+    if (value === 0.0157) assert.equal(text, "15.7\n");
+  }
+});
+
+test("what the text does not hold is said, what a drawing holds is not", () => {
+  const model = holding("{x}\n", { x: 1 });
+  model.data.dimensions.push(dimension("hidden", 1), dimension("drawn", 1, { drawn: true }));
+  model.values = { ...model.values, hidden: 2, drawn: 2 };
+  assert.deepEqual(written(model), { text: "1\n", missing: ["hidden"] });
+});
+
+test("the coordinates of a drawing are those of the machine where its drawing has it", () => {
+  const { data, code } = sliderCrank(8);
+  data.text = "B: [0, 0]\n";
+  data.dimensions[1] = { ...data.dimensions[1], moves: true, written: null, drawn: true };
+  // Drawn at 0.5 rad, which is no position.
+  data.drawing = { input: 0.5, at: 0, places: [["p:B.x", [4, 5, "", " mm"], 1e-3], ["p:B.y", [7, 8, "", " mm"], 1e-3]] };
+  const model = new Model(data, code);
+  model.change({ ...model.values, "rod.length": 0.25 });
+  const found = /^B: \[(\S+) mm, (\S+) mm\]\n$/.exec(written(model).text)!;
+  near(Number(found[1]), 1e3 * (0.05 * Math.cos(0.5) + Math.sqrt(0.25 ** 2 - (0.05 * Math.sin(0.5) - 0.01) ** 2)), 1e-13);
+  near(Number(found[2]), 10, 1e-13);
+});
+
+test("digits as they are read", () => {
+  const said: [number, string][] = [
+    [1234.5678, "1235"], [0.1, "0.1"], [-2.5, "−2.5"], [100, "100"], [0, "0"], [1e-13, "0"], [NaN, "–"], [Infinity, "–"],
+    [123456789, "1.23·10⁸"], [-5e12, "−5.00·10¹²"], [0.00001234, "0.00001234"], [120, "120"],
+  ];
+  for (const [value, text] of said) assert.equal(digits(value), text);
+  assert.equal(digits(2 / 3, 2), "0.67");
+});
+
+test("quantities in units that read well for their size, rounding as nought", () => {
+  assert.deepEqual(["m", "mm"], [unitFor("length", 1).symbol, unitFor("length", 0.999).symbol]);
+  assert.equal(quantity(0.0125, "length"), "12.5 mm");
+  assert.equal(quantity(Math.PI / 6, "angle"), "30°");
+  assert.equal(quantity(25_000, "force"), "25 kN");
+  assert.equal(quantity(500, "force", 25_000), "0.5 kN");
+  assert.equal(quantity(1e-12, "length", 1), "0 m");
+  assert.equal(quantity(1.5, "ratio"), "1.5");
+});
+
+test("sentences of the language that is chosen, with their values", () => {
+  const words = new Words({ language: "en", words: { en: { a: "{x} of {y}" }, zh: { a: "{y} 的 {x}" } }, models: [] }, "en");
+  assert.equal(words.say("a", { x: "1", y: "2" }), "1 of 2");
+  words.language = "zh";
+  assert.equal(words.say("a", { x: "1", y: "2" }), "2 的 1");
+});
+
+test("a table's values and slopes are those of its cubics, and go on by its drift", () => {
+  // x³ on [0, 1], then 1 + 3u − u² on [1, 3]; periodic by 3, rising by 6 each time.
+  const table = Float64Array.of(2, 0, 3, 1, 6, 0, 1, 3, 0, 0, 0, 1, 1, 3, -1, 0);
+  const pieces = [(x: number) => (x < 1 ? x ** 3 : 1 + 3 * (x - 1) - (x - 1) ** 2), (x: number) => (x < 1 ? 3 * x * x : 3 - 2 * (x - 1)), (x: number) => (x < 1 ? 6 * x : -2)];
+  for (const x of [0, 0.4, 1, 1.9, 2.99]) {
+    pieces.forEach((of, order) => near(look(table, x, order), of(x)));
+    near(look(table, x + 6, 0), pieces[0](x) + 12, 1e-12);
+    near(look(table, x - 3, 1), pieces[1](x), 1e-12);
+  }
+  assert.ok(Number.isNaN(look(table, NaN, 3)));
+});
+
+const rows = { outputs: ["y", "z", "good"], parameters: ["a"], positions: ["x"], fields: [], states: [], tables: [] };
+const squares = { functions: [([a]: Float64Array, [x]: Float64Array[], _f: unknown, _t: unknown, _s: unknown, out: Float64Array, n: number) => {
+  for (let i = 0; i < n; i++) [out[i], out[n + i], out[2 * n + i]] = [a * x[i], x[i] ** 2, Number(x[i] > 0)];
+}] };
+
+test("summaries of the valid positions", () => {
+  const call = new Kernels([rows], squares).call(0, 5);
+  call.set({ a: -2 });
+  call.give({ x: [-1, 3, 0, 4, 2] });
+  call.run();
+  const all = reduce({ valid: "good" }, call), of = (kind: string, output = "y", other = "") => all(output, kind, other);
+  assert.deepEqual(["min", "max", "argmin", "argmax", "first", "last", "sum", "mean", "valid", "count"].map((kind) => of(kind)), [-8, -4, 3, 4, -6, -4, -18, -6, 3, 3]);
+  near(of("rms"), Math.sqrt((36 + 64 + 16) / 3));
+  assert.deepEqual([of("at_min", "z", "y"), of("at_max", "z", "y")], [16, 4]);
+  assert.ok(Number.isNaN(reduce({ valid: "good" }, Object.assign(call, { row: () => new Float64Array(5), has: () => true }))("y", "min", "")));
+});
+
+test("a stage hands its numbers to the next one and to what follows it", () => {
+  const kernels = new Kernels(
+    [rows, { outputs: ["twice"], parameters: ["largest"], positions: [], fields: [], states: [], tables: [] }],
+    { functions: [squares.functions[0], ([largest], _p, _f, _t, _s, out, n) => out.fill(2 * largest, 0, n)] },
+  );
+  const stage = { kernel: 0, valid: null, count: "", complete: false, steps: null, starts: {}, after: null, keep: null };
+  const cycle = new Cycle(kernels, [
+    { ...stage, reductions: [{ name: "largest", output: "z", kind: "max", of: "" }] },
+    { ...stage, kernel: 1, steps: 1, reductions: [{ name: "found", output: "twice", kind: "first", of: "" }] },
+  ], 4);
+  assert.deepEqual(cycle.run({ a: 1 }, { x: [1, -5, 2, 0] }), { largest: 25, found: 50 });
+});
