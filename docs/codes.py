@@ -163,10 +163,14 @@ AREAS: Mapping[str, tuple[str, str]] = {
 
 
 @cache
-def trees() -> Mapping[str, ast.Module]:
-    """The modules of the package by their paths."""
-    paths = sorted(SOURCE.rglob("*.py"))
-    return {path.relative_to(SOURCE).as_posix(): ast.parse(path.read_text("utf-8")) for path in paths}
+def nodes() -> tuple[tuple[str, ast.AST], ...]:
+    """What calls, assigns or declares in the modules of the package, each with the path of its module."""
+    return tuple(
+        (path.relative_to(SOURCE).as_posix(), node)
+        for path in sorted(SOURCE.rglob("*.py"))
+        for node in ast.walk(ast.parse(path.read_text("utf-8")))
+        if isinstance(node, ast.Call | ast.Assign | ast.ClassDef | ast.arguments)
+    )
 
 
 @cache
@@ -193,10 +197,10 @@ def texts(node: ast.AST | None) -> Iterator[str]:
 
 
 # findings ---------------------------------------------------------------------------------------
-def of_findings() -> set[str]:
+@cache
+def of_findings() -> frozenset[str]:
     """The codes of findings about files."""
-    found = {code for path, tree in trees().items() for node in ast.walk(tree) for code in _noted(node, path)}
-    return {code for code in found if SHORT.fullmatch(code)}
+    return frozenset(code for path, node in nodes() for code in _noted(node, path) if SHORT.fullmatch(code))
 
 
 def _noted(node: ast.AST, path: str) -> Iterator[str]:
@@ -232,11 +236,10 @@ def of_calculations() -> dict[str, str]:
 def of_errors() -> dict[str, list[str]]:
     """Codes of errors that are raised as they stand here, by their areas."""
     found: dict[str, set[str]] = {area: set() for area in AREAS}
-    for tree in trees().values():
-        for node in ast.walk(tree):
-            for key in texts(node.args[0]) if _raises(node) and node.args else ():
-                if key in catalogued() and key.partition(".")[0] in AREAS and key not in AROUND:
-                    found[key.partition(".")[0]].add(key)
+    for _, node in nodes():
+        for key in texts(node.args[0]) if _raises(node) and node.args else ():
+            if key in catalogued() and key.partition(".")[0] in AREAS and key not in AROUND:
+                found[key.partition(".")[0]].add(key)
     return {area: sorted(each) for area, each in sorted(found.items())}
 
 
@@ -249,8 +252,7 @@ def classes() -> frozenset[str]:
     """The names of the classes of errors that a user can do something about, and whose code is their sentence's."""
     bases = {
         node.name: [_name(each) for each in node.bases]
-        for tree in trees().values()
-        for node in ast.walk(tree)
+        for _, node in nodes()
         if isinstance(node, ast.ClassDef)
     }
     found = {"LinkwrightError"}

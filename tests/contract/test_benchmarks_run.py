@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.every import every
 
 pytestmark = pytest.mark.long
 ROOT = Path(__file__).parents[2]
@@ -88,7 +89,7 @@ def test_results_are_those_of_50_digits(name: str) -> None:
     pytest.importorskip("mpmath")
     from benchmarks import accuracy, cases
 
-    for errors in accuracy.cycle(name, getattr(cases, name)(8)).values():
+    for errors in every(accuracy.cycle(name, getattr(cases, name)(8)).values()):
         assert max(errors.values()) < ROUNDING
 
 
@@ -96,7 +97,7 @@ def test_loss_near_a_dead_point_is_that_of_the_condition_number() -> None:
     pytest.importorskip("mpmath")
     from benchmarks import accuracy
 
-    for near in accuracy.near_singular(_work("fourbar"), [1e-2, 1e-4, 1e-6]):
+    for near in every(accuracy.near_singular(_work("fourbar"), [1e-2, 1e-4, 1e-6]), least=3):
         assert max(near.multiples) < 16.0
 
 

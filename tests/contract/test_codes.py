@@ -3,7 +3,6 @@
 import ast
 import importlib.util
 import re
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -29,17 +28,14 @@ def named(node: ast.AST) -> str:
     return getattr(node, "id", getattr(node, "attr", ""))
 
 
-def uncoded(tree: ast.AST) -> Iterator[int]:
-    """Lines on which a finding is made without a code, or an error of a text that has none."""
-    for node in ast.walk(tree):
-        if not isinstance(node, ast.Call):
-            continue
-        if named(node.func) == "Finding":
-            given = [*node.args[5:6], *(each.value for each in node.keywords if each.arg == "code")]
-            if not given or any(isinstance(each, ast.Constant) and each.value in SECTIONS for each in given):
-                yield node.lineno
-        elif named(node.func) in codes.classes() and node.args and textual(node.args[0]):
-            yield node.lineno
+def uncoded(node: ast.AST) -> bool:
+    """Whether a call makes a finding without a code, or an error of a text that has none."""
+    if not isinstance(node, ast.Call):
+        return False
+    if named(node.func) == "Finding":
+        given = [*node.args[5:6], *(each.value for each in node.keywords if each.arg == "code")]
+        return not given or any(isinstance(each, ast.Constant) and each.value in SECTIONS for each in given)
+    return named(node.func) in codes.classes() and bool(node.args) and textual(node.args[0])
 
 
 def textual(node: ast.AST) -> bool:
@@ -73,19 +69,18 @@ def textual(node: ast.AST) -> bool:
     ],
 )
 def test_the_walk_finds_what_has_no_code(text: str, lacks: bool) -> None:
-    assert bool(list(uncoded(ast.parse(text)))) == lacks
+    assert any(map(uncoded, ast.walk(ast.parse(text)))) == lacks
 
 
 def test_no_finding_and_no_error_is_without_a_code() -> None:
-    assert [f"{path}:{line}" for path, tree in codes.trees().items() for line in uncoded(tree)] == []
+    assert [f"{path}:{node.lineno}" for path, node in codes.nodes() if uncoded(node)] == []
 
 
 def test_what_is_noted_by_a_reader_has_a_code() -> None:
     """``reader.error(node, place, message, remedy, code)`` and ``reader.finding(node, place, key, code)``."""
     calls = [
         (path, node, 5 if node.func.attr == "error" else 4)
-        for path, tree in codes.trees().items()
-        for node in ast.walk(tree)
+        for path, node in codes.nodes()
         if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and len(node.args) > 1
         and node.func.attr in ("error", "finding") and re.search("reader|^self$", ast.unparse(node.func.value))
     ]  # fmt: skip

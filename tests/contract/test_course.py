@@ -34,7 +34,7 @@ def keys(found: lw.Variants) -> dict[str, dict]:
 @pytest.mark.parametrize("name", sorted(TASKS))
 def test_right_answers_are_those_of_an_arithmetic_of_its_own(name: str, keys: dict[str, dict]) -> None:
     key = keys[name]
-    for variant in key["variants"]:
+    for variant in every(key["variants"]):
         own = sheet(name, variant, Pen())
         assert variant["answers"] == pytest.approx([own[q["name"]] for q in key["questions"]], rel=1e-9)
 
@@ -57,7 +57,7 @@ def test_variants_are_sound_and_as_hard_as_the_model(found: lw.Variants) -> None
         assert motion.ok.all()
         table = lw.metrics(motion, ["transmission_angle"])
         assert min(row.value for row in table) >= min(least, math.radians(40)) - math.radians(5)
-        for name, (low, high) in found.task.ranges.items():
+        for name, (low, high) in every(found.task.ranges.items()):
             assert low * 0.995 <= each.dimensions[name] <= high * 1.005
     assert len({tuple(each.dimensions.values()) for each in found.variants}) == 4
 
@@ -86,7 +86,7 @@ def test_questions_of_the_platforms(found: lw.Variants) -> None:
     space["VARIANTS"] = _Beside(json.loads(files[f"{folder}variants.json"]))
     exec(program, space)
     space["generate"](given)  # type: ignore[operator]
-    assert all(f'answers-name="{name}"' in page for name in given["correct_answers"])
+    assert all(f'answers-name="{name}"' in page for name in every(given["correct_answers"]))
     bank = ElementTree.fromstring(files["moodle.xml"])
     assert [q.get("type") for q in bank] == ["category", *["cloze"] * 4]
     package = zipfile.ZipFile(io.BytesIO(files["qti.zip"]))
@@ -222,7 +222,7 @@ def test_variants_are_equally_hard_by_a_measure_that_is_said() -> None:
     made = lw.variants("gallery:jaw_crusher_fourbar", 3, seed=7)
     hard = made.difficulty
     assert hard.transmission_angle is not None
-    for each in made.variants:
+    for each in every(made.variants):
         own = [row.value for row in lw.metrics(lw.solve_motion(each.mechanism, steps=90))
                if row.metric == "transmission_angle"]  # fmt: skip
         assert hard.transmission_angle[0] - 1e-9 <= min(own) <= hard.transmission_angle[1] + 1e-9

@@ -116,7 +116,9 @@ def test_dataclasses_are_those_that_start_at_once() -> None:
     """``core/dataclass.py`` says why; with the standard decorator every class costs half a millisecond at start."""
     users = (module for module in MODULES if module.as_posix() != "core/dataclass.py")
     found = {
-        str(module) for module in every(users) if "dataclasses.dataclass" in {each for _, each in imports_of(module)}
+        str(module)
+        for module in every(users)
+        if "dataclasses.dataclass" in {each for _, each in imports_of(module)}
     }
     assert found == set()
 

@@ -6,6 +6,7 @@ from itertools import pairwise
 import pytest
 from tests import store
 from tests.contract.calculations import solved
+from tests.every import every
 
 import linkwright as lw
 from linkwright.cli import main
@@ -72,7 +73,7 @@ def test_alternatives_of_one_name_keep_their_columns() -> None:
     assert len(set(found.labels)) == 2
     data = found.data()
     assert len(data["metrics"]) == len(found.rows)
-    assert all(len(each["values"]) == 2 and isinstance(each["unit"], str) for each in data["metrics"])
+    assert all(len(each["values"]) == 2 and isinstance(each["unit"], str) for each in every(data["metrics"]))
 
 
 def test_designs_have_their_units() -> None:
@@ -81,4 +82,4 @@ def test_designs_have_their_units() -> None:
     found = lw.study(machine, vary, metrics=["swing_angle"], sampling="sobol", samples=4, steps=60)
     data = found.data()
     assert data["units"] == {"crank.length": "m"}
-    assert all(each["unit"] == "rad" for each in data["metrics"].values())
+    assert all(each["unit"] == "rad" for each in every(data["metrics"].values()))

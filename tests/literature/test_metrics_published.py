@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from scipy.special import ellipe
 from tests import store
+from tests.every import every
 
 import linkwright as lw
 from linkwright.files.build import Model
@@ -40,7 +41,7 @@ def test_a_parallelogram_that_passes_its_change_points(steps: int) -> None:
     motion = lw.solve_motion(linkage, steps=steps, failures="mark")
     assert motion.modes and motion.ok.all() == (steps == 25)
     table = metrics(lw.solve_forces(motion))
-    for row in table["peak_reaction"]:
+    for row in every(table["peak_reaction"], least=4):
         assert row.value == pytest.approx(2.0 * 1.0 * 5.0**2 / 2, rel=1e-4), row.subject
     assert table.value("peak_input_torque") < 1e-4
     assert table["peak_acceleration", "rocker"].value < 1e-4

@@ -65,6 +65,7 @@ def test_beam_section() -> None:
     assert found.prices["bending"] == pytest.approx(-(2 / 3) * 2 * b * b / 120e6, rel=1e-5)
 
 
+@pytest.mark.rotating
 def test_spring_is_best_where_one_freedom_is_left() -> None:
     """With stress and rate as equations the coil index is free: a search along it finds nothing lighter."""
     found = solved("lightest_spring")

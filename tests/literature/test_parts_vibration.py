@@ -220,6 +220,7 @@ def test_response_in_time_leaves_the_residual_amplitude() -> None:
     assert after == pytest.approx(found.residual()[0], rel=2e-4)
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize(
     ("law", "n", "zeta"),
     [("cycloidal", 0.3, 0.0), ("cycloidal", 40.3, 0.05), ("constant_acceleration", 3.3, 0.1),

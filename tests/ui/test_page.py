@@ -532,6 +532,7 @@ def test_axe_finds_nothing(chromium: Any, scheme: str) -> None:
     context.close()
 
 
+@pytest.mark.rotating
 def test_wheels_with_phases_from_the_drawing_are_in_the_file_of_a_page(
     opened: Opened, tmp_path: Path
 ) -> None:

@@ -11,9 +11,9 @@ from tests.ui.browser import Opened, needs_chromium
 from tests.ui.pages import page
 
 pytestmark = needs_chromium
-#: Pins, slides, slots, gears, racks, chains, several drivers, a followed group, none; cams have tests of their own.
+#: Pins, slides, slots, racks, chains, two drivers, none, a followed group; gears and cams have tests of their own.
 CORE = (
-    "jaw_crusher_sixbar", "triad", "geneva_wheel", "chain_drive", "planetary_two_inputs", "rack_and_rocker", "truss",
+    "jaw_crusher_sixbar", "triad", "geneva_wheel", "chain_drive", "dyad_rrr", "rack_and_rocker", "truss",
 )  # fmt: skip
 
 

@@ -90,6 +90,7 @@ def test_title_and_purpose_follow_the_language(opened: Opened, tmp_path: Path) -
     assert all(each.inner_text() != before for each, before in zip(shown, chinese, strict=True))
 
 
+@pytest.mark.rotating
 def test_paper_has_no_controls(window: Opened) -> None:
     """What is printed has dimensions, curves and numbers, and nothing that can only be clicked."""
     window.open(page("crank_rocker"))

@@ -19,6 +19,7 @@ pytestmark = needs_chromium
 NASTY = "<img src=x onerror=window.bad=1><script>window.bad=2</script>"
 
 
+@pytest.mark.rotating
 def test_a_stray_click_leaves_nothing_and_run_says_what_is_missing(chromium: Any, tmp_path: Path) -> None:
     with hand(chromium, tmp_path) as drawn:
         drawn.press("studio.run")

@@ -23,12 +23,23 @@ links:
 assembly: {{B: left}}
 driver: {{turn: crank, about: O1, speed: 1 rad/s, start: 20.5 deg}}
 """
+#: Its last line.
+DRIVER = FOURBAR.strip().splitlines()[-1].replace("{{", "{").replace("}}", "}")
 machine, motion, forces = store.machine, store.motion, store.forces
 
 
 def four_bar(crank: float, coupler: float = 2.0, rocker: float = 2.5) -> lw.Mechanism:
     """A four-bar on a frame of 4 m."""
     return lw.loads(FOURBAR.format(crank=crank, coupler=coupler, rocker=rocker))
+
+
+def linkage(*changes: tuple[str, str]) -> lw.Mechanism:
+    """The four-bar with changes of its text: each first one of a pair is replaced by the second."""
+    text = FOURBAR.format(crank=1, coupler=3.5, rocker=2.5)
+    for old, new in changes:
+        assert old in text, f"no {old!r} in {text}"
+        text = text.replace(old, new)
+    return lw.loads(text)
 
 
 def crusher(**lengths: float) -> lw.Mechanism:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 import re
 from collections.abc import Iterator
 from functools import cache
@@ -57,3 +58,21 @@ def refusals(calls: list[str], language: str) -> Iterator[str]:
     for call in calls:
         error = raised(call)
         yield f"[{error.code}] {error.say(language)}"
+
+
+def results(calls: list[str], language: str) -> Iterator[str]:
+    """What the results of calls say in a language: sentences, and the texts in pictures."""
+    for call in calls:
+        yield from _said(eval(call, {**vars(calling), "language": language}), language)
+
+
+def _said(value: object, language: str) -> Iterator[str]:
+    if isinstance(value, tuple | list):
+        for each in value:
+            yield from _said(each, language)
+    elif hasattr(value, "say"):
+        yield value.say(language)
+    elif hasattr(value, "text"):
+        yield value.text(language)
+    else:
+        yield html.unescape(re.sub(r"<style>.*?</style>|<[^>]*>", "\n", str(value), flags=re.S))

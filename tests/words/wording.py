@@ -12,14 +12,14 @@ from tempfile import TemporaryDirectory
 from tests.unit.words.catalogued import recorded, sentences
 from tests.words.masked import lines_once
 from tests.words.printing import commands, printed
-from tests.words.provoking import CORPUS, by_heading, refusals, remarks
+from tests.words.provoking import CORPUS, by_heading, refusals, remarks, results
 
 import linkwright as lw
 
 HERE = Path(__file__).parent
 LANGUAGES = ("en", "zh")
 #: Sections of the report whose words are not those of pictures and tables of results.
-SECTIONS = ("task", "structure", "method", "worked", "limits", "flywheel", "references")
+SECTIONS = ("task", "structure", "method", "limits", "errata", "references")
 REPORTED = "gallery:jaw_crusher_fourbar"
 Source = tuple[str, Callable[[str], Iterable[str]]]
 
@@ -29,6 +29,8 @@ def sources(folder: Path) -> Iterator[Source]:
     yield "findings", remarks
     for heading, calls in by_heading(CORPUS / "calls.txt"):
         yield f"calls: {heading}", partial(refusals, calls)
+    for heading, calls in by_heading(CORPUS / "results.txt"):
+        yield f"results: {heading}", partial(results, calls)
     for heading, lines in by_heading(CORPUS / "commands.txt"):
         yield f"command: {heading}", partial(_printed, lines, folder)
     yield "help", partial(_printed, ["--help", *(f"{name} --help" for name in commands())], folder)

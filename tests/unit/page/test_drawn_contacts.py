@@ -68,6 +68,7 @@ def now_face(mechanism: lw.Mechanism) -> tuple[Any, Any]:
     return face.at, face.to
 
 
+@pytest.mark.rotating
 def test_teeth_mesh_and_racks_reach_as_far_as_they_are_used(opened: Opened, tmp_path: Path) -> None:
     """Places of teeth against those of the drawings (by the gears' phases), after a change of the centres as well."""
     text = store.text("internal_gear_pair").replace(", module: 2 mm", "")

@@ -12,7 +12,7 @@ from tests.ui.pages import page_of
 
 from linkwright.page import content
 
-pytestmark = needs_chromium
+pytestmark = [needs_chromium, pytest.mark.rotating]
 
 
 def test_without_webassembly_the_same_numbers(

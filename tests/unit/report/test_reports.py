@@ -97,6 +97,7 @@ def test_an_error_of_the_program_does_not_end_the_report(monkeypatch: pytest.Mon
     assert say("report.title_structure", "en") in heads
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("name", ["cam_roller", "simple_beam"])
 def test_calculations_and_cams_have_reports_beside_machines(name: str) -> None:
     found = report(["gallery:crank_rocker", f"gallery:{name}"], sections=["structure"], language="zh")
@@ -188,6 +189,7 @@ def test_results_that_are_nothing_beside_the_largest_of_their_unit_are_zero() ->
     assert found[Output("power_residual")][0] == 1e-13
 
 
+@pytest.mark.rotating
 def test_what_a_train_does_not_carry_or_does_not_change_is_said_in_one_place() -> None:
     """Two of the three planets are idle and all forces keep their size: no table of one number."""
     found = report("gallery:planetary_two_inputs", sections=["tables", "reactions", "limits"], language="zh")
@@ -324,6 +326,7 @@ def test_chinese_reports_of_the_gallery_hold_no_english_sentence() -> None:
         assert english == []
 
 
+@pytest.mark.rotating
 def test_forces_of_many_joints_stand_in_figures_that_have_room_for_them() -> None:
     model = lw.loads(_chain(9))
     found = report(model, sections=["reactions"]).document.blocks
@@ -373,6 +376,7 @@ driver: {turn: shaft, about: O, speed: 90 rpm}
 """
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_a_machine_of_two_outputs_shows_the_motion_of_both(language: str) -> None:
     found = report(lw.loads(PRESS_AND_FEED), sections=["curves"], language=language).document.blocks
@@ -445,6 +449,7 @@ gravity: [0, -9.81 m/s²]
 """
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_what_solve_notes_stands_in_the_report_too(language: str) -> None:
     forces = lw.solve_forces(lw.solve_motion(lw.loads(LIFTED_OFF), steps=24))

@@ -150,6 +150,7 @@ def test_a_block_goes_with_its_guide_and_the_guide_s_point() -> None:
     assert after(slid, do="remove", what="joint", name="B").rstrip() == text.rstrip()
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("name", REMOVED)
 def test_whatever_is_removed_leaves_no_name_behind(name: str) -> None:
     """Of every link, point and load of models of the gallery: the text names nothing that is gone."""
