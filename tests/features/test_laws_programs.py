@@ -237,7 +237,7 @@ def test_a_driver_follows_a_program() -> None:
         ("[]", "program_empty", "", {}),
         (
             "[{rise: 9 deg, over: 1 s, law: {kind: modified_sine, portion: [0.5, 0.2]}}]",
-            "law",
+            "laws.portion",
             ".0.law",
             {"start": 0.5, "end": 0.2},
         ),
