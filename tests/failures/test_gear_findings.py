@@ -423,7 +423,7 @@ driver: {turn: cam, about: O, speed: 60 rpm}
 
 
 def test_a_link_too_many_behind_a_cam_is_named() -> None:
-    with refused("rank.besides", mobility=0, reason="rank.link"):
+    with refused("mobility.excess", mobility=0, reason="rank.link"):
         lw.solve_motion(lw.loads(PARALLELOGRAM_MOVED_BY_A_CAM))
 
 

@@ -454,21 +454,26 @@ def test_check_finds_more_of_a_stroke_than_there_is(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("load", "data"),
+    ("load", "code", "data"),
     [
         (
             "{kind: torque, on: rocker, table: {over: rocker, x: [90 deg, 100 deg], y: [0 N·m, 5 N·m]}}",
+            "loads.table_too_short",
             ("100°", "141.371°"),
         ),
-        ('{kind: torque, on: rocker, magnitude: "5 N·m * sqrt(rocker - 2 rad)"}', ("input = 0°",)),
+        (
+            '{kind: torque, on: rocker, magnitude: "5 N·m * sqrt(rocker - 2 rad)"}',
+            "loads.formula_fails",
+            ("input = 0°",),
+        ),
     ],
 )
 def test_check_tries_tables_and_expressions_over_the_cycle(
-    load: str, data: tuple[str, ...], tmp_path: Path
+    load: str, code: str, data: tuple[str, ...], tmp_path: Path
 ) -> None:
     path = tmp_path / "m.yaml"
     path.write_text(CRANK_ROCKER.replace("LOAD", load), "utf-8")
-    code, found = checked(path)
-    told = said(found, "load", "loads.push")
-    assert code == 1 and told.where == "m.yaml:12:9"
+    exit_code, found = checked(path)
+    told = said(found, code, "loads.push")
+    assert exit_code == 1 and told.where == "m.yaml:12:9"
     assert all(each in told.message for each in data)

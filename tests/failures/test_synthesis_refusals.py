@@ -167,43 +167,51 @@ def test_five_poses_without_two_real_dyads_give_the_nearest_linkage() -> None:
 
 
 @pytest.mark.parametrize(
-    ("section", "key", "values"),
+    ("section", "key", "code", "values"),
     [
         (
             "task: slider_crnk\n  stroke: 40 mm",
             "synthesis.task",
-            {"message": "synthesize.task", "task": "slider_crnk", "known": "slider_crank"},
+            "unknown-task",
+            {"task": "slider_crnk", "known": "slider_crank"},
         ),
         (
             "task: slider_crank\n  stroke: 40",
             "synthesis.stroke",
-            {"message": "units.no_unit", "text": "40", "right": "40 mm"},
+            "missing-unit",
+            {"text": "40", "right": "40 mm"},
         ),
         (
             "task: slider_crank\n  strok: 40 mm",
             "synthesis.strok",
-            {"message": "synthesize.task.unknown", "demand": "strok", "offer": "stroke"},
+            "unknown-demand",
+            {"demand": "strok", "offer": "stroke"},
         ),
         (
             "task: path\n  points: 3 mm",
             "synthesis.points",
-            {"message": "synthesize.task.value", "demand": "points", "given": "3 mm"},
+            "type",
+            {"demand": "points", "given": "3 mm"},
         ),
         (
             "task: function\n  linkage: slider_crank\n  inputs: [0 deg, 20 deg, 40 deg]\n"
             "  outputs: [0 deg, 9 deg, 20 deg]",
             "synthesis.outputs",
-            {"message": "synthesize.function.places"},
+            "angles-for-places",
+            {},
         ),
         (
             "task: path\n  points: [[1 mm, 2 mm, 3 mm]]",
             "synthesis.points",
-            {"message": "synthesize.task.value", "demand": "points"},
+            "type",
+            {"demand": "points"},
         ),
     ],
 )
-def test_findings_of_a_section(section: str, key: str, values: dict[str, object], tmp_path: Path) -> None:
-    found = said(findings(f"synthesis:\n  {section}\n", tmp_path), "synthesis", key, **values)
+def test_findings_of_a_section(
+    section: str, key: str, code: str, values: dict[str, object], tmp_path: Path
+) -> None:
+    found = said(findings(f"synthesis:\n  {section}\n", tmp_path), code, key, **values)
     assert found.where.startswith("demand.yaml:")
 
 
@@ -409,5 +417,5 @@ def test_a_curve_that_no_four_bar_draws_closely_enough() -> None:
 
 def test_bare_numbers_of_a_list_are_one_finding_with_the_line_that_gives_their_unit(tmp_path: Path) -> None:
     text = "format: 1\nsynthesis:\n  task: path\n  points: [[1, 2], [3, 4], [5, 6]]\n"
-    found = said(findings(text, tmp_path), "synthesis", "synthesis.points", text="1", line="unit: mm")
+    found = said(findings(text, tmp_path), "missing-unit", "synthesis.points", text="1", line="unit: mm")
     assert found.where == "demand.yaml:4:13"
