@@ -32,7 +32,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 def pytest_configure(config: pytest.Config) -> None:
     """Workers are told the share that the whole run has: they see neither the command nor the same day."""
-    config.option.share = share.asked_for(config)
+    config.option.share = share.running = share.asked_for(config)
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:

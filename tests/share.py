@@ -10,6 +10,7 @@ from __future__ import annotations
 import zlib
 from collections.abc import Sequence
 from datetime import date
+from typing import TypeVar
 
 import pytest
 
@@ -17,6 +18,9 @@ SHARES = 7
 OPTION = "--share"
 #: All shares; these and the long tests.
 WEEK, EVERYTHING = "week", "all"
+#: The share of this run.
+running = WEEK
+Kind = TypeVar("Kind")
 
 
 def today() -> str:
@@ -53,3 +57,12 @@ def divided(items: Sequence[pytest.Item], share: str) -> tuple[list[pytest.Item]
     chosen = [item for item in items if runs(item, share)]
     kept = set(chosen)
     return chosen, [item for item in items if item not in kept]
+
+
+def in_turn(kinds: Sequence[Kind], place: int, count: int) -> list[Kind]:
+    """Those ``count`` of the kinds (of pictures, of formats) that the file at ``place`` of its gallery meets in this
+    share; with everything, all: every file in every picture is a product without end."""
+    if running == EVERYTHING or count >= len(kinds):
+        return list(kinds)
+    first = place * count + (int(running) if running.isdigit() else 0)
+    return [kinds[(first + k) % len(kinds)] for k in range(count)]

@@ -6,8 +6,8 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 from tests import store
-from tests.gallery_turns import in_turn
 from tests.refusals import refused
+from tests.share import in_turn
 
 import linkwright as lw
 

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from tests import store
 from tests.every import every
-from tests.gallery_turns import WHOLE
 
 import linkwright as lw
 
@@ -35,7 +34,7 @@ def test_drawing_is_valid_and_shows_all_joints_and_names(name: str) -> None:
 
 
 @pytest.mark.rotating
-@pytest.mark.parametrize("name", store.names()[:: 1 if WHOLE else 2])
+@pytest.mark.parametrize("name", store.names())
 def test_animation_is_valid(name: str) -> None:
     motion = store.motion(name, 48)
     drawn = ET.fromstring(lw.animate(motion, frames=8).svg)

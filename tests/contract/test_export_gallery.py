@@ -18,8 +18,8 @@ import numpy as np
 import pytest
 from tests import store
 from tests.every import every
-from tests.gallery_turns import in_turn
 from tests.refusals import refused
+from tests.share import in_turn
 
 import linkwright as lw
 from linkwright import gallery

@@ -15,8 +15,8 @@ import pytest
 import yaml
 from tests.contract.calculations import problem, solved
 from tests.every import every
-from tests.gallery_turns import in_turn
 from tests.refusals import said
+from tests.share import in_turn
 
 import linkwright as lw
 from linkwright import gallery, parts

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from tests import store
 from tests.every import every
-from tests.gallery_turns import in_turn
+from tests.share import in_turn
 
 from linkwright.plot.drawing.labels import Obstacles, link_labels, place, point_labels
 from linkwright.plot.drawing.scene import laid_out
