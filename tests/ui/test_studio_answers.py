@@ -15,13 +15,12 @@ from urllib.parse import parse_qs, urlsplit
 
 import numpy as np
 import pytest
+import yaml
 from tests import store
 from tests.ui.studio import address_in, asked, edited, followed, saving, serving
 from tests.ui.texts import FOURBAR
 
 import linkwright as lw
-
-NEW = "format: 1\nname: New mechanism\n"
 
 
 def test_a_machine_given_by_lengths_is_drawn_where_it_stands_and_drawn_on(tmp_path: Path) -> None:
@@ -143,10 +142,11 @@ def test_a_killed_server_loses_nothing(tmp_path: Path, monkeypatch: pytest.Monke
 
 def test_a_file_that_is_not_there_yet_begins_as_a_new_mechanism(tmp_path: Path) -> None:
     with serving(tmp_path) as studio:
+        new = asked(studio, "open", {"fresh": True})[1]["text"]
         status, found = asked(studio, "open", {"name": "wiper.yaml"})
-        assert (status, found["text"], found["version"]) == (200, NEW, "")
+        assert (status, found["text"], found["version"]) == (200, new, "")
         asked(studio, "keep", {"name": "wiper.yaml", "text": "", "window": "w", "serial": 0})
-        assert asked(studio, "open", {"name": "wiper.yaml"})[1]["text"] == NEW
+        assert asked(studio, "open", {"name": "wiper.yaml"})[1]["text"] == new
         (tmp_path / "empty.yaml").write_text("")
         assert asked(studio, "open", {"name": "empty.yaml"})[1]["text"] == ""
 
@@ -154,14 +154,15 @@ def test_a_file_that_is_not_there_yet_begins_as_a_new_mechanism(tmp_path: Path) 
 def test_a_new_file_and_the_notes_are_in_the_language_of_the_page(tmp_path: Path) -> None:
     with serving(tmp_path) as studio:
         new = [asked(studio, "open", {"language": each, "fresh": True})[1]["text"] for each in ("en", "zh")]
-        assert new[0] == NEW and new[1].startswith("format: 1\nname: ") and not new[1].isascii()
+        assert [list(yaml.safe_load(each)) for each in new] == [["format", "name"]] * 2
+        assert new[0] != new[1] and not new[1].isascii()
         action = {"do": "remove", "what": "joint", "name": "O1"}
         notes = [
             asked(studio, "edit", {"text": FOURBAR, "action": action, "language": each})[1]["note"]
             for each in ("en", "zh")
         ]
         assert all("O1" in note and "P1" in note for note in notes)
-        assert notes[0].isascii() and not notes[1].isascii()
+        assert notes[0] != notes[1] and not notes[1].isascii()
 
 
 def test_drawings_that_were_never_saved_can_be_opened(tmp_path: Path) -> None:
