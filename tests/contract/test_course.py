@@ -167,21 +167,22 @@ def test_sheets_that_cannot_be_graded(found: lw.Variants) -> None:
 
 
 @pytest.mark.parametrize(
-    ("course", "key", "values"),
+    ("course", "key", "code", "values"),
     [
-        ({"varry": {}}, "varry", {"name": "varry", "offer": "vary"}),
+        ({"varry": {}}, "varry", "unknown-key", {"name": "varry", "offer": "vary"}),
         (
             {"vary": {"crank.lenght": "8 %"}},
             "vary.crank.lenght",
+            "model.no_dimension",
             {"address": "crank.lenght", "offer": "crank.length"},
         ),
-        ({"vary": {"crank.length": "much"}}, "vary.crank.length", {"text": "much"}),
-        ({"ask": ["rocker.angel"]}, "ask.0", {"name": "rocker.angel", "offer": "rocker.angle"}),
-        ({"tolerance": "3"}, "tolerance", {"text": "3"}),
+        ({"vary": {"crank.length": "much"}}, "vary.crank.length", "bad-range", {"text": "much"}),
+        ({"ask": ["rocker.angel"]}, "ask.0", "no-number", {"name": "rocker.angel", "offer": "rocker.angle"}),
+        ({"tolerance": "3"}, "tolerance", "bad-tolerance", {"text": "3"}),
     ],
 )
-def test_tasks_that_make_no_sense(course: dict, key: str, values: dict[str, object]) -> None:
-    with refused("course", lw.ModelError, **values) as caught:
+def test_tasks_that_make_no_sense(course: dict, key: str, code: str, values: dict[str, object]) -> None:
+    with refused(code, lw.ModelError, **values) as caught:
         lw.variants(replace(lw.loads(FOUR_BAR), course=course), 1)
     assert [each.key for each in caught.value.findings] == [f"course.{key}"]
 

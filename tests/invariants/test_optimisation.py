@@ -161,7 +161,7 @@ def test_numbers_of_teeth_are_not_varied_in_fractions(address: str) -> None:
     gears = lw.loads(GEARS)
     if address not in gears.dimensions():
         (address,) = [each for each in gears.dimensions() if ".teeth." in each][:1]
-    with refused("optimize", lw.ModelError, address=address, low=17, high=20):
+    with refused("optimize.whole_teeth", lw.ModelError, address=address, low=17, high=20):
         lw.optimize(gears, vary={address: "16.5..20"}, minimize="peak_input_torque")
 
 
@@ -171,7 +171,7 @@ def test_designs_of_which_none_moves_and_numbers_that_none_has(press: Path) -> N
     for goals in (["flywheel"], ["r", "flywheel"]):  # the ram only swings to and fro: no work in a cycle
         with refused("optimize.no_values", numbers=("flywheel",)):
             lw.optimize(press, minimize=goals, keep={}, evaluations=200)
-    with refused("optimize", text="flywheel", given="1 kg", right="1 kg·m²"):
+    with refused("wrong-dimension", text="flywheel", given="1 kg", right="1 kg·m²"):
         lw.optimize(press, keep={"flywheel": "at most 1 kg"}, evaluations=200)
 
 
@@ -347,7 +347,7 @@ def test_a_path_that_a_known_linkage_draws_is_followed() -> None:
     both = lw.optimize(start, vary=vary, minimize=["shape", "c"], define=define, evaluations=1200)
     assert min(each.numbers["shape"] for each in both) < 1e-7
     assert min(each.numbers["c"] for each in both) == pytest.approx(0.9 * 1.04, rel=1e-3)
-    with refused("optimize", lw.ModelError):
+    with refused("target", lw.ModelError):
         lw.optimize(
             start, vary=vary, minimize="shape", define={"shape": {"point": "coupler.P", "target": [3]}}
         )
