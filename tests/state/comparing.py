@@ -24,8 +24,17 @@ from typing import Any, NamedTuple
 from tests.state.rows import Row
 
 TOLERANCE = 1e-10
-#: The scale at least, by unit: angles and shares of one are not judged by how small they happen to be.
-LEAST: Mapping[str, float] = {"rad": 1.0, "": 1e-3, "m": 1e-3, "N": 0.1, "N·m": 0.1, "W": 1.0, "J": 1.0}
+#: The scale at least, by unit: what is smaller is not judged by how small it happens to be.
+LEAST: Mapping[str, float] = {
+    "rad": 1.0,
+    "": 1e-3,
+    "m": 1e-3,
+    "N": 0.1,
+    "N·m": 0.1,
+    "W": 1.0,
+    "J": 1.0,
+    "of": 1e-3,  # all that begin with it: an output with its derivatives
+}
 #: Units that are products of others.
 PRODUCTS: Mapping[str, tuple[str, ...]] = {
     "rad/s²": ("rad/s", "rad/s"),
@@ -164,7 +173,8 @@ def scale_of(row: Row, own: float, scales: Mapping[tuple[str, str], float]) -> f
     if not row.unit:
         return max(own, LEAST[""])
     product = math.prod(scales.get((row.subject, unit), 0.0) for unit in PRODUCTS.get(row.unit, ("",)))
-    return max(scales[row.subject, row.unit], product, LEAST.get(row.unit, 0.0))
+    least = LEAST.get(row.unit, LEAST["of"] if row.unit.startswith("of ") else 0.0)
+    return max(scales[row.subject, row.unit], product, least)
 
 
 def largest(value: Any) -> float:
