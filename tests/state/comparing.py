@@ -44,7 +44,8 @@ PRODUCTS: Mapping[str, tuple[str, ...]] = {
     "W": ("N·m", "rad/s"),
 }
 #: Rows that are known to fewer digits: pattern of ``part/subject/name``, how many times the tolerance (infinite: the
-#: row is not compared), and why. Found by moving every dimension of the gallery and of random machines by one unit in its last place.
+#: row is not compared), and why. Found by moving every dimension of the gallery and of random machines by one unit in
+#: its last place.
 LOOSER: tuple[tuple[str, float, str], ...] = (
     (
         r"^metrics/(scotch_yoke|shaper_quick_return)/(crank_angle|quick_return|transmission_angle_of).*/at$"
