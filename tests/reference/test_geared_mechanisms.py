@@ -116,6 +116,7 @@ WHEELS = ("external_gear_pair", "internal_gear_pair", "gear_differential", "gear
           "geared_fivebar_double", "chain_drive", "planetary_two_inputs")  # fmt: skip
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("name", WHEELS)
 def test_gallery_with_wheels(name: str) -> None:
     """Rows from the file's numbers alone; the reference assembles and follows all bodies by itself."""

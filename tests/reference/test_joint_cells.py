@@ -15,6 +15,7 @@ def test_every_kind_of_joint_has_its_row() -> None:
     assert own == set(joint_cells.JOINTS)
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("kind", joint_cells.JOINTS)
 @pytest.mark.parametrize("group", joint_cells.GROUPS)
 def test_motion_and_forces_agree_with_the_reference(group: str, kind: str) -> None:
