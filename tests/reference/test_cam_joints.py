@@ -226,21 +226,27 @@ def test_contact_that_would_have_to_pull_is_said_with_its_place() -> None:
 @pytest.mark.parametrize(
     ("old", "new", "said"),
     [
-        ("follower: slide\n    at: P", "follower: cam\n    at: X", "own follower"),
-        ("touch: knife", "touch: roller", "roller and its radius"),
-        ("base_radius: 50 mm", "base_radius: 3 mm", "does not reach"),
-        ("    program:", "    angles: [0 deg, 90 deg]\n    lifts: [0 mm, 2 mm]\n    program:", "given twice"),
-        ("touch: knife", "touch: knife\n    side: left", "angle is needed|no pin"),
+        ("follower: slide\n    at: P", "follower: cam\n    at: X", ("reference", "follower")),
+        ("touch: knife", "touch: roller", ("missing-key", "roller_radius")),
+        ("base_radius: 50 mm", "base_radius: 3 mm", ("range", "base_radius")),
+        (
+            "    program:",
+            "    angles: [0 deg, 90 deg]\n    lifts: [0 mm, 2 mm]\n    program:",
+            ("missing-key", "program"),
+        ),
+        ("touch: knife", "touch: knife\n    side: left", ("wrong-dimension", "program.0.rise")),
         ("direction: 90 deg, block: slide", "direction: 90 deg, block: slide", None),
     ],
 )
-def test_a_cam_that_cannot_be_is_refused(old: str, new: str, said: str | None) -> None:
+def test_a_cam_that_cannot_be_is_refused(old: str, new: str, said: tuple[str, str] | None) -> None:
     text = model(GUIDED, "counterclockwise", "knife", "18 mm", OFFSET="6 mm").replace(old, new)
     if said is None:
         assert lw.loads(text)
         return
-    with pytest.raises(ModelError, match=said):
+    with pytest.raises(ModelError) as refused:
         lw.loads(text)
+    first = refused.value.findings[0]
+    assert (first.code, first.key) == (said[0], f"joints.lobe.{said[1]}")
 
 
 @pytest.mark.parametrize(
@@ -261,7 +267,7 @@ def test_an_arm_reaches_base_circles_of_some_radii(
         assert lw.loads(text)
         return
     least, most = {"flat": (0, 160), "knife": (30, 290), "roller": (20, 280)}[touch]
-    with pytest.raises(ModelError, match=f"does not reach .* above {least} mm and below {most} mm"):
+    with pytest.raises(ModelError, match=rf"lobe\.base_radius.* {least} mm .* {most} mm"):
         lw.loads(text)
 
 
@@ -276,8 +282,10 @@ def test_an_arm_reaches_base_circles_of_some_radii(
 def test_an_arm_or_a_distance_of_no_length_does_not_reach(old: str, new: str, touch: str) -> None:
     text = model(SWINGING, "counterclockwise", touch, "1 deg", SIDE="left", MOMENT="3 N·m")
     assert old in text
-    with pytest.raises(ModelError, match="does not reach"):
+    with pytest.raises(ModelError) as refused:
         lw.loads(text.replace(old, new))
+    last = refused.value.findings[-1]
+    assert (last.code, last.key) == ("range", "joints.lobe.base_radius")
 
 
 def test_a_pair_of_another_kind_that_would_have_to_pull_is_not_called_a_cam(
