@@ -8,8 +8,6 @@ import numpy as np
 from tests.reference.adapter import link_points
 from tests.reference.multibody import FRAME, Array, Motion
 
-from linkwright.core.outputs import POINT, SLIDE, row_name, row_names
-
 Pairs = dict[str, list[tuple[str, Array, Array]]]
 
 
@@ -38,21 +36,10 @@ class Comparison:
         return lines
 
 
-def evaluate_together(mechanism: Any, motion: Any) -> None:
-    """Asks for all that is compared in one program, not in one for each number."""
-    names = [each for link in mechanism.links for each in row_names("direction", link)]
-    for name, link in mechanism.links.items():
-        for point in [*(f"{name}.{p}" for p in link.points), f"{name}.centre"]:
-            key = motion.point(point).name
-            names += [each for kind in POINT for each in row_names(kind, key)]
-    slides = [joint.name for joint in mechanism.joints.values() if joint.kind == "prismatic"]
-    motion.evaluate_together([*names, *(row_name(kind, name) for name in slides for kind in SLIDE)])
-
-
 def motion_comparison(mechanism: Any, motion: Any, reference: Motion, *, derived: bool = True) -> Comparison:
     """Points and links against the reference's; derived: mass centres and joint coordinates too."""
     found = Comparison()
-    evaluate_together(mechanism, motion)
+    motion.columns()  # evaluates most of what is compared in one program
     for name, link in mechanism.links.items():
         direction, rate, second = reference.direction(name), *reference.angle(name)[1:]
         ours = motion.link(name)

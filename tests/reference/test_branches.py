@@ -140,6 +140,7 @@ def random_texts(count: int) -> list[str]:
     return texts
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("text", random_texts(10))
 @pytest.mark.parametrize("steps", [5, 24])
 def test_the_determinant_keeps_its_sign_from_position_to_position(text: str, steps: int) -> None:

@@ -25,6 +25,7 @@ import linkwright as lw
 COUNT, BATCH = 125, 25
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("batch", range(COUNT // BATCH))
 def test_no_wrong_number_no_jump_no_unjustified_refusal(batch: int) -> None:
     results = [judge_seed(seed) for seed in range(batch * BATCH, (batch + 1) * BATCH)]
@@ -63,6 +64,7 @@ def test_a_first_position_more_than_half_a_turn_away_is_reached_the_long_way() -
     assert verdict.kind == AGREES and verdict.notes["ok"] == 1, verdict.lines
 
 
+@pytest.mark.long
 def test_everything_comes_up() -> None:
     texts = [general_case(seed).text for seed in range(300)]
     models = [lw.loads(text) for text in texts]
@@ -94,6 +96,7 @@ def test_the_same_seed_gives_the_same_text() -> None:
     assert general_case(5).text == again(5).text != again(6).text
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("seed", range(12))
 def test_the_branch_keeps_its_sign_and_its_smoothness(seed: int) -> None:
     """Positions fulfil the constraints; a branch followed with a fifth of the step ends in the same positions."""
@@ -139,6 +142,7 @@ BEYOND_A_GAP = (  # drawn with the crank at 180°, moved about 0°; between them
 )
 
 
+@pytest.mark.long
 def test_a_dyad_is_judged_beyond_a_gap(monkeypatch: pytest.MonkeyPatch) -> None:
     """Its mode is that of the drawing, although no way leads there; the other mode is told."""
     assert judged(BEYOND_A_GAP, 12).kind == AGREES
@@ -148,6 +152,7 @@ def test_a_dyad_is_judged_beyond_a_gap(monkeypatch: pytest.MonkeyPatch) -> None:
     assert judged(BEYOND_A_GAP, 12).kind == "beyond a limit"
 
 
+@pytest.mark.long
 def test_the_judge_knows_right_from_wrong(monkeypatch: pytest.MonkeyPatch) -> None:
     """A right result agrees; the other assembly, a refused position, an invented one, a wrong rate do not."""
     assert judged(SLIDER_CRANK, 12).kind == AGREES

@@ -23,6 +23,7 @@ def test_the_same_seed_gives_the_same_mechanism() -> None:
     assert random_mechanism(11) != random_mechanism(12)
 
 
+@pytest.mark.long
 def test_every_kind_of_group_and_driver_comes_up() -> None:
     cases = [random_case(seed) for seed in range(120)]
     kinds = Counter(kind for case in cases for kind in case.signatures)
@@ -64,6 +65,7 @@ def test_drivers_give_the_power_that_the_bodies_and_the_weights_take(seed: int) 
     assert given == pytest.approx(taken, rel=1e-9, abs=1e-9 * max(np.abs(taken).max(), 1.0))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", [1, 4, 9])
 def test_fifty_digits_agree_with_the_arrays(seed: int) -> None:
     case = random_case(seed)
@@ -79,6 +81,7 @@ def test_fifty_digits_agree_with_the_arrays(seed: int) -> None:
     assert forces.lam[1] == pytest.approx(lam, rel=1e-10, abs=1e-10 * np.abs(lam).max())
 
 
+@pytest.mark.long
 def test_precise_rates_are_the_differences_of_precise_positions() -> None:
     """Velocities and accelerations in 50 digits against central differences (step 2**-50 s)."""
     case = random_case(17)

@@ -15,6 +15,7 @@ import linkwright as lw
 TOLERANCE = 1e-9
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("name", GALLERY)
 def test_gallery(name: str) -> None:
     mechanism = lw.load(f"gallery:{name}")
@@ -32,6 +33,7 @@ def test_gallery(name: str) -> None:
     assert not forces_comparison(mechanism, forces, reference).failures(TOLERANCE, force_floors(reference))
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("batch", range(100 // BATCH))
 def test_random_mechanisms(batch: int) -> None:
     wrong = []

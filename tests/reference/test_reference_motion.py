@@ -29,6 +29,7 @@ def gallery_inputs(name: str) -> Array | None:
     return np.radians(np.arange(0, 175, 5)) if name == "change_point_fourbar" else None
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("name", GALLERY)
 def test_gallery(name: str) -> None:
     mechanism = lw.load(f"gallery:{name}")
@@ -38,6 +39,7 @@ def test_gallery(name: str) -> None:
     assert not comparison.failures(TOLERANCE, floors(mechanism, reference))
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("batch", range(100 // BATCH))
 def test_random_mechanisms(batch: int) -> None:
     wrong = []
@@ -66,6 +68,7 @@ def random_failures(seed: int) -> list[str]:
     return comparison.failures(TOLERANCE, floors(mechanism, reference))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", range(30))
 def test_the_adapter_reads_the_system_that_the_generator_made(seed: int) -> None:
     """Reference from the Mechanism's data against the reference from the generator's numbers."""

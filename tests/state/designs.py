@@ -88,12 +88,8 @@ def gradient(machine: Machine, output: str, by: list[str]) -> Entries:
     found = lw.objective(machine.mechanism, output, vary=by, steps=STEPS)
     for name, factor in (("start", 1.0), ("beside", 1.0007)):
         value, slopes = found(np.asarray(found.start) * factor)
-        yield f"{name}/value", "", value
-        yield (
-            f"{name}/gradient",
-            "",
-            [float(each * own) for each, own in zip(slopes, found.start, strict=True)],
-        )
+        yield f"{name}/value", of(output), value
+        yield f"{name}/gradient", of(output), np.multiply(slopes, found.start)
 
 
 def sensitivity(machine: Machine) -> Entries:
@@ -104,13 +100,19 @@ def sensitivity(machine: Machine) -> Entries:
 def sensitivities(machine: Machine, asked: list[str], by: list[str]) -> Entries:
     curves = list(dict.fromkeys(each.rsplit(" ", 1)[0] for each in asked if " " in each))
     found = lw.sensitivity(machine.mechanism, of=[*asked, *curves], by=by, steps=STEPS)
+    start = np.array([machine.mechanism.dimension(name) for name in by])
     for output in asked:
-        yield f"{output}/value", "", found.value(output)
-        yield f"{output}/gradient", "", [float(each) for each in found.relative(output)]
+        yield f"{output}/value", of(output), found.value(output)
+        yield f"{output}/gradient", of(output), np.multiply(found.gradient(output), start)
     for output in curves:
-        yield f"{output}/curve", "", curve(found.curve(output))
-        for one in by:
-            yield f"{output}/{one}", "", curve(found.slope(output, one))
+        yield f"{output}/curve", of(output), curve(found.curve(output))
+        for one, value in zip(by, start, strict=True):
+            yield f"{output}/{one}", of(output), curve(found.slope(output, one) * value)
+
+
+def of(output: str) -> str:
+    """The unit of an output and of its derivatives, each times its dimension: they are judged by the largest."""
+    return f"of {output}"
 
 
 def study(machine: Machine) -> Entries:

@@ -23,7 +23,7 @@ KINDS: Mapping[str, tuple[int, Callable[[int], str]]] = {
     "looped": (30, lambda seed: looped_case(4000 + seed).text),
 }
 #: Of the random mechanisms with wheels every so manyth gives its metrics, which take long.
-METRICS_OF = {"geared": 4, "looped": 2}
+METRICS_OF = {"geared": 5, "looped": 3}
 
 
 def drawn(subject: str) -> Entries:

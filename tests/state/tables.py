@@ -6,6 +6,7 @@ import json
 import math
 import re
 import tempfile
+from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
@@ -37,10 +38,18 @@ def exported(machine: Machine, form: str) -> Entries:
             for column, each in table.items():
                 if "_residual" not in column:
                     yield f"{name}/{named(column)[0]}", each["unit"], sums(numeric(each["values"]))
+    elif form == "dxf":
+        yield "entities", "", entities(text)
     else:
         numbers = [float(each) for each in NUMBER.findall(text)]
         yield "numbers", f"of {form}", curve(numbers)
         yield "count", "", len(numbers)
+
+
+def entities(text: str) -> list[str]:
+    """How many of each kind a DXF file has; their places are a picture's, and rounding may tip a label over."""
+    kinds = re.findall(r"^ *0\n([A-Z]+)$", text.partition("\nENTITIES\n")[2], re.M)
+    return [f"{number} {kind}" for kind, number in sorted(Counter(kinds).items())]
 
 
 def numeric(values: Sequence[float | None]) -> list[float]:
