@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import argparse
 import json
-import math
 import os
 import random
 import shutil
@@ -21,11 +20,8 @@ import time
 from pathlib import Path
 
 import distributed
-import numpy as np
 
 import linkwright as lw
-from linkwright.synthesis.free_curve.search import Search
-from linkwright.synthesis.free_curve.target import Target
 
 VARY = {"pitman.length": "1.15..1.35 m", "toggle.length": "1.05..1.25 m", "crank.length": "0.08..0.12 m"}
 NUMBERS = ["driver.effort rms", "jaw.angle range", "reaction O5 on jaw max"]
@@ -94,33 +90,6 @@ def speed(base: Path, samples: int) -> None:
             seconds.append(swept(base / f"{workers} workers", samples, client, part))
     one, two = seconds
     print(f"{samples} designs: one worker {one:.2f} s, two {two:.2f} s, ratio {one / two:.2f}", flush=True)
-
-
-def search_speed(seconds: float) -> None:
-    """Attempts of two workers against those of one, in the time that a clock gives a search, and for each processor
-    second that the workers had of it: what else runs on the machine changes the first number only."""
-    target = Target(np.array([9, 9 + 17j, 6j, 13 + 6j]), False, math.radians(20.0), 6.0)
-    attempts, processor, load = list[int](), list[float](), os.getloadavg()[0]
-    for workers in (1, 2):
-        with (
-            distributed.LocalCluster(n_workers=workers, **OPTIONS) as cluster,
-            distributed.Client(cluster) as client,
-            lw.on_cluster(client),
-        ):
-            Search(target, 12, 0.2 * seconds, 0).run()
-            before = sum(client.run(time.process_time).values())
-            search = Search(target, 12, seconds, 0)
-            search.run()
-            attempts.append(search.attempts)
-            processor.append(sum(client.run(time.process_time).values()) - before)
-    (one, two), (first, second) = attempts, processor
-    print(
-        f"free curve, {seconds:g} s: one worker {one} attempts in {first:.1f} processor s, "
-        f"two {two} in {second:.1f}; ratio {two / one:.2f}, "
-        f"for each processor second {two * first / one / second:.2f}; "
-        f"load before {load:.1f} on {os.cpu_count()} cores",
-        flush=True,
-    )
 
 
 def worker_dies(base: Path, samples: int, wanted: dict[str, bytes], rounds: int) -> None:
@@ -262,7 +231,6 @@ def main() -> int:
     try:
         if options.speed:
             speed(base, options.samples)
-            search_speed(20.0)
             return 0
         if not options.searches:
             work_dies(base, options.rounds)

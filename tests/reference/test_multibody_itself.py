@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from math import atan2, cos, hypot, pi, radians, sin, sqrt
+from math import atan2, cos, pi, radians, sin, sqrt
 
 import numpy as np
 import pytest
 from tests.reference.formulas import force_in_space, gravity
+from tests.reference.meetings import circle_meeting, placed
 from tests.reference.multibody import (
     FRAME,
     Array,
@@ -14,7 +15,6 @@ from tests.reference.multibody import (
     Motion,
     Multibody,
     Unreachable,
-    Vec,
     prismatic,
     revolute,
     slide,
@@ -26,19 +26,6 @@ from tests.reference.multibody import (
 def rates(start: float, speed: float, angles: Array) -> tuple[Array, Array, Array]:
     u = angles[:, None]
     return u, np.full_like(u, speed), np.zeros_like(u)
-
-
-def circle_meeting(p: Vec, r: float, q: Vec, s: float, left: bool) -> Vec:
-    """Intersection of two circles, left or right of the ray from p to q."""
-    d = hypot(q[0] - p[0], q[1] - p[1])
-    a = (d * d + r * r - s * s) / (2 * d)
-    h = sqrt(r * r - a * a) * (1 if left else -1)
-    ux, uy = (q[0] - p[0]) / d, (q[1] - p[1]) / d
-    return p[0] + a * ux - h * uy, p[1] + a * uy + h * ux
-
-
-def placed(p: Vec, q: Vec) -> tuple[float, float, float]:
-    return p[0], p[1], atan2(q[1] - p[1], q[0] - p[0])
 
 
 def four_bar(

@@ -11,8 +11,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from tests.reference.formulas import force_in_space, gravity
+from tests.reference.meetings import circle_meeting, placed
 from tests.reference.multibody import FRAME, Array, Body, Load, Motion, Multibody, Vec, Wrench, revolute, turn
-from tests.reference.test_multibody_itself import circle_meeting, placed
 
 PUBLISHED = Path(__file__).parents[2] / "src" / "linkwright" / "validation" / "data"
 SPEED = -170 * 2 * pi / 60

@@ -7,8 +7,8 @@ import pytest
 from tests.reference.adapted_loads import reference_loads
 from tests.reference.adapter import reference_motion
 from tests.reference.agreement import force_floors, forces_comparison
+from tests.reference.plain_machines import BATCH, BATCHES, GALLERY, gallery_inputs
 from tests.reference.random_mechanisms import random_case
-from tests.reference.test_reference_motion import BATCH, GALLERY, gallery_inputs
 
 import linkwright as lw
 
@@ -33,8 +33,7 @@ def test_gallery(name: str) -> None:
     assert not forces_comparison(mechanism, forces, reference).failures(TOLERANCE, force_floors(reference))
 
 
-@pytest.mark.rotating
-@pytest.mark.parametrize("batch", range(100 // BATCH))
+@pytest.mark.parametrize("batch", BATCHES)
 def test_random_mechanisms(batch: int) -> None:
     wrong = []
     for seed in range(1000 + batch * BATCH, 1000 + (batch + 1) * BATCH):

@@ -2,31 +2,16 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 from tests.reference.adapter import driver_values, reference_motion, reference_system
 from tests.reference.agreement import floors, motion_comparison
-from tests.reference.multibody import Array
+from tests.reference.plain_machines import BATCH, BATCHES, GALLERY, gallery_inputs
 from tests.reference.random_mechanisms import random_case
 
 import linkwright as lw
 
-KNOWN = {"revolute", "prismatic", "weld"}
-#: Models of pins, guides and welds; those with wheels are in test_geared_mechanisms, cams in test_cam_joints.
-GALLERY = sorted(
-    path.stem
-    for path in (Path(lw.__file__).parent / "gallery").glob("*.yaml")
-    if {joint.kind for joint in lw.load(path).joints.values()} <= KNOWN
-)
 TOLERANCE = 1e-9
-BATCH = 25
-
-
-def gallery_inputs(name: str) -> Array | None:
-    """Driver coordinates where not the whole cycle is meant: a change point itself has no answer."""
-    return np.radians(np.arange(0, 175, 5)) if name == "change_point_fourbar" else None
 
 
 @pytest.mark.rotating
@@ -39,8 +24,7 @@ def test_gallery(name: str) -> None:
     assert not comparison.failures(TOLERANCE, floors(mechanism, reference))
 
 
-@pytest.mark.rotating
-@pytest.mark.parametrize("batch", range(100 // BATCH))
+@pytest.mark.parametrize("batch", BATCHES)
 def test_random_mechanisms(batch: int) -> None:
     wrong = []
     for seed in range(batch * BATCH, (batch + 1) * BATCH):

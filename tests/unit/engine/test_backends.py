@@ -8,8 +8,7 @@ import math
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from tests.objectives import Term, gradient_of, table_of
-from tests.sweeps import sweep
+from tests.unit.engine.objectives import Term, gradient_of, table_of
 from tests.unit.engine.random_programs import (
     PARAMETERS,
     POSITIONS,
@@ -19,6 +18,7 @@ from tests.unit.engine.random_programs import (
     outputs_of,
     random_program,
 )
+from tests.unit.engine.sweeps import sweep
 
 from linkwright.engine import ir_kernel, machine_code
 from linkwright.engine.llvm_backend import available, compile_program

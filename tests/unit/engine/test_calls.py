@@ -9,7 +9,7 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import pytest
 from tests.every import every
-from tests.sweeps import sweep
+from tests.unit.engine.sweeps import sweep
 
 from linkwright.engine.lines import Lines
 from linkwright.engine.llvm_backend import CompiledProgram, available, compile_program

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from mpmath import mpf
 from tests.every import every
-from tests.objectives import Term, gradient_of, table_of
+from tests.unit.engine.objectives import Term, gradient_of, table_of
 
 from linkwright.engine.derivative import forward, reverse
 from linkwright.engine.llvm_backend import available

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline, PchipInterpolator
-from tests.objectives import Term, gradient_of, table_of
-from tests.sweeps import sweep
+from tests.unit.engine.objectives import Term, gradient_of, table_of
+from tests.unit.engine.sweeps import sweep
 
 from linkwright.engine import trace as tr
 from linkwright.engine.cycle import CycleProgram

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from tests.objectives import Term, gradient_of, table_of
+from tests.unit.engine.objectives import Term, gradient_of, table_of
 
 import linkwright as lw
 from linkwright.engine.llvm_backend import available, compile_program

@@ -8,7 +8,7 @@ import mpmath
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from tests.sweeps import sweep
+from tests.unit.engine.sweeps import sweep
 
 from linkwright.engine.llvm_backend import available, compile_program
 from linkwright.engine.program import Program

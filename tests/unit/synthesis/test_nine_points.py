@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from tests.trace_starts import curve
+from tests.unit.synthesis.trace_starts import curve
 
 from linkwright.synthesis.nine_points import tracker
 from linkwright.synthesis.nine_points.classes import CLASSES, class_keys, is_real, new_classes, relatives

@@ -1,7 +1,7 @@
 """Every registered number of some designs side by side and alone, over the gallery and the machines of the tests.
 
-``python -m tests.designs_alone [NAME] [--friction]``: the largest relative difference of each machine whose name has
-NAME in it, which numbers are found one by one, and milliseconds a design.
+``python -m tests.unit.cycle_programs.designs_alone [NAME] [--friction]``: the largest relative difference of each
+machine whose name has NAME in it, which numbers are found one by one, and milliseconds a design.
 """
 
 import importlib

@@ -1,6 +1,6 @@
 """Random machines whose drawings are off: the assembly that is taken must be the one that was drawn.
 
-    python -m tests.random_drawings --count 200 --off 2
+    python -m tests.unit.kinematics.random_drawings --count 200 --off 2
 
 Every point is moved by a normal deviate of so many millimetres (machines of about a metre). From the assembly that
 the drawing shows the drivers are led to the inputs of the exact drawing, where the exact assembly must be met. A
@@ -60,7 +60,7 @@ def verdict(seed: int, off: float) -> str:
 def main() -> int:
     """Reads the options, and judges so many drawings."""
     parser = argparse.ArgumentParser(
-        prog="python -m tests.random_drawings", description=__doc__.split("\n")[0]
+        prog="python -m tests.unit.kinematics.random_drawings", description=__doc__.split("\n")[0]
     )
     parser.add_argument("--count", type=int, default=50, help="how many drawings (default 50)")
     parser.add_argument("--first", type=int, default=0, help="the first seed (default 0)")

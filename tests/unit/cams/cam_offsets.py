@@ -2,7 +2,7 @@
 
 Nothing of the package makes the polygons: lifts, trace points and lines are written down here once more. A command:
 
-    python -m tests.reference.cam_offsets 1000
+    python -m tests.unit.cams.cam_offsets 1000
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""``python -m tests.trace_starts``: are the start sets of counted synthesis all there is? (trace test)
+"""``python -m tests.unit.synthesis.trace_starts``: are the start sets of counted synthesis all there is? (trace test)
 
 A coupler curve is the zero set of F = Σ c_kl d^k e^l, k, l ≤ 3, in the isotropic coordinates of the plane (Roberts
 1875). The curves of the four-bars that take M poses are a variety K in the projective space of the coefficients,
@@ -71,7 +71,7 @@ class Family:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Prints for each start set the residual of all of it, and the least and middle one with one left out."""
-    parser = argparse.ArgumentParser(prog="python -m tests.trace_starts", description=__doc__)
+    parser = argparse.ArgumentParser(prog="python -m tests.unit.synthesis.trace_starts", description=__doc__)
     parser.add_argument("--seed", type=int, default=1)
     rng = np.random.default_rng(parser.parse_args(arguments).seed)
     return max(shown(name, *start, rng) for name, start in starts(rng))
