@@ -6,8 +6,9 @@ from pathlib import Path
 
 import pytest
 from tests import store
+from tests.damage import EVERY_VALUE, NO_NUMBERS, UNFIT, VALUES, WHERE_ANYTHING
 from tests.every import every
-from tests.failures.damaged_texts import EVERY_VALUE, VALUES, is_placed
+from tests.failures.placed import is_placed
 from tests.refusals import checked, findings
 
 import linkwright as lw
@@ -79,25 +80,6 @@ def test_a_file_that_ends_within_brackets_is_told_at_a_place_that_it_has(text: s
     found = findings(text + end, "m.yaml")
     assert found and all(is_placed(each, text + end) for each in found), found
     assert found[0].code == "syntax"
-
-
-#: What is no number, and what holds characters that no text should hold.
-NO_NUMBERS = (
-    ".nan",
-    "-.inf",
-    "nan m",
-    "inf",
-    "1e400 m",
-    "²",
-    "²:3",
-    "1:²",
-    "--1",
-    "½",
-    "[.nan, .nan]",
-    "[.inf mm, 2 mm]",
-)
-UNFIT = ('"\\0"', '"a\\0b"', '"1 m\\x01"', '"\\x7f"')
-WHERE_ANYTHING = list(re.finditer(r"(?<=[ \[{])[\w.-]+(?: [a-zN·²/]+)?(?=[],}:])", EVERY_VALUE))[1:]
 
 
 def found_in(place: re.Match[str], value: str) -> None:

@@ -5,7 +5,8 @@ from contextlib import suppress
 
 import pytest
 from tests import store
-from tests.failures.damaged_texts import EVERY_VALUE, VALUES, damaged, is_placed
+from tests.damage import EVERY_VALUE, VALUES, damaged
+from tests.failures.placed import is_placed
 from tests.refusals import findings, said
 from tests.work import AT_ONCE, counted
 
