@@ -276,6 +276,8 @@ def suggestion(text: str) -> str | None:
     if any(offer is None for offer in offers):
         return nearest(whole, list(UNITS)) if len(parts) == 1 else None
     joined = "".join("·" if offer in (".", "-", "*") else str(offer) for offer in offers)
+    if joined == text:
+        return None
     try:
         unit(joined)
     except QuantityError:
