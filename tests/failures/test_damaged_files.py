@@ -93,4 +93,4 @@ def test_a_wrong_parameter_is_told_once_wherever_it_stands() -> None:
 
 def test_a_unit_with_two_exponents_is_unknown() -> None:
     text = EVERY_VALUE.replace("0.01 kg·m²", "0.01 kg·m7²")
-    said(findings(text), "unknown-unit", "links.crank.inertia", text="kg·m7²")
+    said(findings(text), "unknown-name", "links.crank.inertia", name="m7")
