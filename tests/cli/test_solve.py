@@ -173,7 +173,8 @@ def test_columns_are_picked_by_name_beginning_and_pattern() -> None:
     is_refused(["solve", "gallery:crank_rocker", "--columns", "rocekr"], "solve.no_column", offer="rocker")
 
 
-def test_points_are_added_to_the_table() -> None:
+def test_points_are_added_to_the_table(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("COLUMNS", "120")
     head = shown("solve", "gallery:crank_rocker", "--at", "0 deg", "--points", "P").split("\n\n")[1]
     assert "coupler.P" in head and "rocker" in head
     is_refused(["solve", "gallery:crank_rocker", "--points", "Q"], "names.no_such", noun="point")

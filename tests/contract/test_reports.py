@@ -19,12 +19,12 @@ CRANK = "gallery:crank_rocker"
 @pytest.mark.parametrize(
     ("given", "code", "key", "values"),
     [
-        ({"positoins": 3}, "report", "positoins", {"name": "positoins", "offer": "positions"}),
-        ({"positions": 1}, "report", "positions", {"text": "1", "most": 10_000}),
-        ({"fluctuation": "many"}, "report", "fluctuation", {"text": "many"}),
-        ({"sections": "task"}, "report", "sections", {}),
-        ({"errata": [{"where": "here"}]}, "report", "errata.0", {"name": "printed"}),
-        ({"zh": {"titel": "x"}}, "report", "zh.titel", {"name": "titel", "offer": "title"}),
+        ({"positoins": 3}, "unknown-key", "positoins", {"name": "positoins", "offer": "positions"}),
+        ({"positions": 1}, "bad-positions", "positions", {"text": "1", "most": 10_000}),
+        ({"fluctuation": "many"}, "bad-fluctuation", "fluctuation", {"text": "many"}),
+        ({"sections": "task"}, "not-a-list", "sections", {}),
+        ({"errata": [{"where": "here"}]}, "missing-key", "errata.0", {"name": "printed"}),
+        ({"zh": {"titel": "x"}}, "unknown-key", "zh.titel", {"name": "titel", "offer": "title"}),
     ],
 )
 def test_settings_that_make_no_sense_are_refused(
@@ -42,9 +42,9 @@ def test_check_finds_settings_that_make_no_sense(tmp_path: Path, capsys: pytest.
     assert main(["check", str(path), "--json"]) == 1
     (checked,) = json.loads(capsys.readouterr().out)["files"]
     told = {(each["code"], each["key"]): each["message"] for each in checked["findings"]}
-    assert set(told) == {("report", "report.positoins"), ("course", "course.ask.0")}
-    assert '"positions"' in told["report", "report.positoins"]
-    assert '"rocker.angle"' in told["course", "course.ask.0"]
+    assert set(told) == {("unknown-key", "report.positoins"), ("no-number", "course.ask.0")}
+    assert '"positions"' in told["unknown-key", "report.positoins"]
+    assert '"rocker.angle"' in told["no-number", "course.ask.0"]
 
 
 def test_own_text_and_hostile_names_come_out_as_written() -> None:

@@ -441,30 +441,30 @@ def test_the_least_cam_whose_follower_presses_no_harder_on_its_guide() -> None:
     ("settings", "code", "key", "values"),
     [
         (
-            {"vary": {"crank.lenght": "20..80 mm"}}, "optimize", "optimize.vary.crank.lenght",
+            {"vary": {"crank.lenght": "20..80 mm"}}, "study.no_dimension", "optimize.vary.crank.lenght",
             {"address": "crank.lenght", "offer": "crank.length"},
         ),
         (
-            {"vary": {"crank.length": "20..20 mm"}}, "optimize", "optimize.vary.crank.length",
+            {"vary": {"crank.length": "20..20 mm"}}, "optimize.bounds", "optimize.vary.crank.length",
             {"address": "crank.length"},
         ),
         (
-            {"keep": {"stroke guide": "more than 2"}}, "optimize", "optimize.keep.stroke guide",
+            {"keep": {"stroke guide": "more than 2"}}, "demand", "optimize.keep.stroke guide",
             {"given": "more than 2"},
         ),
         (
-            {"keep": {"stroke guide": "at least 2 kg"}}, "optimize", "optimize.keep.stroke guide",
+            {"keep": {"stroke guide": "at least 2 kg"}}, "wrong-dimension", "optimize.keep.stroke guide",
             {"given": "2 kg", "right": "2 mm"},
         ),
         (
-            {"keep": {"stroke guide": "90..50 mm"}}, "optimize", "optimize.keep.stroke guide",
+            {"keep": {"stroke guide": "90..50 mm"}}, "falling-demand", "optimize.keep.stroke guide",
             {"low": "90 mm", "high": "50 mm"},
         ),
         ({"minimize": "nothing at all"}, "study.no_metric", None, {"name": "nothing at all"}),
         ({"minimize": "peak_reacton"}, "study.no_metric", None, {"name": "peak_reacton", "offer": "peak_reaction"}),
-        ({"minimise": "r"}, "optimize", "optimize.minimise", {"offer": "minimize"}),
-        ({"robust": "worst"}, "optimize", "optimize.tolerance", {}),
-        ({"evaluations": 0}, "optimize", "optimize.evaluations", {"given": "0"}),
+        ({"minimise": "r"}, "unknown-key", "optimize.minimise", {"offer": "minimize"}),
+        ({"robust": "worst"}, "no-tolerance", "optimize.tolerance", {}),
+        ({"evaluations": 0}, "range", "optimize.evaluations", {"given": "0"}),
     ],
 )  # fmt: skip
 def test_settings_that_cannot_be_read(

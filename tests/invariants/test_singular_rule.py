@@ -69,7 +69,7 @@ def test_a_motion_that_is_singular_all_the_time_is_not_called_determined(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     code, data = said("check", BRACKET.format(length=0.05), tmp_path, capsys)
-    assert (code, codes(data)) == (1, ["position"])
+    assert (code, codes(data)) == (1, ["motion.refused"])
     _, data = said("structure", BRACKET.format(length=0.05), tmp_path, capsys)
     assert "(bar_1, bar_2)" in data["rank"]
 
