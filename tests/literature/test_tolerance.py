@@ -229,22 +229,6 @@ def test_curves_among_machines_are_those_of_the_closed_form() -> None:
             assert ((machines < edge + sigma).mean(axis=0)[moving] >= share - 1e-4).all()
 
 
-def test_an_outside_library_finds_the_same_spread() -> None:
-    ot = pytest.importorskip("openturns")
-    formula = "acos((c*c+d*d-(a+b)^2)/(2*c*d))-acos((c*c+d*d-(b-a)^2)/(2*c*d))"
-    inputs = [
-        ot.Normal(v, s) for v, s in zip(FOURBAR.values(), (0.001, 0.002, 0.002, 0.008 / 3), strict=True)
-    ]
-    together = getattr(ot, "JointDistribution", None) or ot.ComposedDistribution
-    vector = ot.RandomVector(together(inputs))
-    output = ot.CompositeRandomVector(ot.SymbolicFunction(["a", "b", "c", "d"], [formula]), vector)
-    taylor = ot.TaylorExpansionMoments(output).getCovariance()[0, 0] ** 0.5
-    drawn = output.getSample(200_000).computeStandardDeviation()[0]
-    found = study().solve()
-    assert found.linear("rocker.angle range") == pytest.approx(taylor, rel=5e-3)
-    assert found.monte_carlo("rocker.angle range") == pytest.approx(drawn, rel=5e-3)
-
-
 def test_design_numbers_spread_as_the_closed_form_does() -> None:
     """The swing's slopes by NumPy; the margin of Grashof, p + q - s - l, is linear in the lengths."""
     numbers = ("swing_angle", "grashof")

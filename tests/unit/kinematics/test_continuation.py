@@ -95,10 +95,10 @@ def test_without_a_sure_reading_the_way_is_walked(
     """Nothing counts as sure; of what the walk finds, corrections that are too long are walked once more."""
     way = followed(triad)
     q, there = at(triad, PLACES)
-    way.between(PLACES, q)  # what the follower finds out only once is no walk of these
     read = Followed._read
     polished = way.follower.loops.polished
     monkeypatch.setattr(Followed, "_read", lambda *a: (read(*a)[0] * np.nan, np.zeros(len(a[1]), dtype=bool)))
+    way.between(PLACES, q)  # what the follower finds out only once is no walk of these
 
     def moved(y: Floats, iterations: int = 3) -> tuple[Floats, Floats]:
         exact, last = polished(y, iterations)
