@@ -235,6 +235,14 @@ def unit(text: str) -> tuple[float, Dimension]:
 
     Raises QuantityError for a unit that is not known, with the nearest known spelling.
     """
+    found = _read(text)
+    if isinstance(found, int):
+        raise unknown_unit(text, found)
+    return found
+
+
+def _read(text: str) -> tuple[float, Dimension] | int:
+    """Factor and dimension of a unit, or the column at which it is unknown."""
     factor, dimension, sign, at = 1.0, NONE, 1, 0
     if text.startswith("1/"):
         sign, at = -1, 2
@@ -244,14 +252,14 @@ def unit(text: str) -> tuple[float, Dimension]:
     while True:
         found = _FACTOR.match(text, at)
         if found is None or found.group(1) not in UNITS:
-            raise unknown_unit(text, at)
+            return at
         size, kind = UNITS[found.group(1)]
         power = sign * exponent(found.group(2) or "")
         factor, dimension, at = factor * size**power, times(dimension, kind, power), found.end()
         if at == len(text):
             return factor, dimension
         if not _JOINT.match(text, at):
-            raise unknown_unit(text, at)
+            return at
         sign, at = (-1 if text[at] == "/" else 1), at + 1
 
 
@@ -276,13 +284,10 @@ def suggestion(text: str) -> str | None:
     if any(offer is None for offer in offers):
         return nearest(whole, list(UNITS)) if len(parts) == 1 else None
     joined = "".join("·" if offer in (".", "-", "*") else str(offer) for offer in offers)
-    if joined == text:
-        return None
     try:
-        unit(joined)
+        return None if isinstance(_read(joined), int) else joined
     except QuantityError:
         return None
-    return joined
 
 
 def _factor_suggestion(part: str) -> str | None:

@@ -327,7 +327,7 @@ driver: {{turn: crank, about: O, table: {{time: [{", ".join(f"{t} s" for t in ti
 
 
 @pytest.mark.rotating
-@pytest.mark.parametrize("seed", [3, 8, 16, 20])
+@pytest.mark.parametrize("seed", [3, 20])
 def test_limits_lie_in_what_is_reached(seed: int) -> None:
     """Machines with tables as laws that reach a part of their cycle: nothing beyond its ends is a limit."""
     motion = lw.solve_motion(lw.loads(general_case(seed).text), steps=60, failures="mark")

@@ -120,7 +120,7 @@ class Notes:
 
     def pytest_sessionfinish(self) -> None:
         part = Path(os.environ[NOTES], f"{os.environ.get('PYTEST_XDIST_WORKER', 'main')}.json")
-        reached = {what: sorted(tests - {""}) for what, tests in self.reached.items()}
+        reached = {what: sorted(tests & set(self.seconds)) for what, tests in self.reached.items()}
         part.write_text(json.dumps({"reached": reached, "seconds": self.seconds}), "utf-8")
 
 

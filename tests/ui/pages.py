@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import atexit
+import shutil
 from functools import cache
 from pathlib import Path
-from tempfile import TemporaryDirectory
+from tempfile import mkdtemp
 
 from tests import store
 
@@ -12,17 +14,14 @@ import linkwright as lw
 
 #: Positions of the pages.
 STEPS = 72
-
-
-@cache
-def _folder() -> TemporaryDirectory[str]:
-    return TemporaryDirectory(prefix="linkwright-pages-", ignore_cleanup_errors=True)
+FOLDER = Path(mkdtemp(prefix="linkwright-pages-"))
+atexit.register(shutil.rmtree, FOLDER, ignore_errors=True)
 
 
 @cache
 def page(name: str) -> Path:
     """The page of a gallery file; it hands out the file's text."""
-    path = Path(_folder().name) / f"{name}.html"
+    path = FOLDER / f"{name}.html"
     return lw.export(store.motion(name, STEPS), path, text=store.text(name), force=True)
 
 

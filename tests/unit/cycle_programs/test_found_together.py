@@ -230,10 +230,8 @@ def test_numbers_of_a_followed_group_are_formulas() -> None:
     machine = stored("triad")
     first, *_ = side_by_side(machine, ["crank.A.x"], NAMES)
     assert len(first.terms) >= 18
-    assert first.evaluate({"crank.A.x": [machine.dimension("crank.A.x"), 0.09]}).certain.tolist() == [
-        True,
-        False,
-    ]
+    lengths = np.array([machine.dimension("crank.A.x"), 0.09])
+    assert first.evaluate({"crank.A.x": lengths}).certain.tolist() == [True, False]
 
 
 @pytest.mark.rotating
