@@ -5,6 +5,7 @@ import os
 import sys
 import tempfile
 from collections import Counter
+from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
@@ -14,6 +15,8 @@ if ROOT not in sys.path:
     sys.path.insert(0, ROOT)
 
 from tests import share  # noqa: E402
+
+pytest_plugins = ["tests.ui.tabs"] if find_spec("playwright") else []
 
 os.environ.setdefault("LINKWRIGHT_CACHE", str(Path(tempfile.gettempdir()) / "linkwright-tests-cache"))
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # workers share the cores; threads that wait spin

@@ -1,4 +1,4 @@
-"""One Chromium and one tab for all tests of a folder that a worker runs: fixtures."""
+"""One Chromium and one tab for all tests that a worker runs: fixtures, which `tests/conftest.py` names."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from tests.ui.browser import Opened, browser
 DESKTOP = {"width": 1280, "height": 900}
 
 
-@pytest.fixture(scope="package")
+@pytest.fixture(scope="session")
 def chromium() -> Iterator[Any]:
     """The browser."""
     with browser() as started:
         yield started
 
 
-@pytest.fixture(scope="package")
+@pytest.fixture(scope="session")
 def kept_open(chromium: Any) -> Iterator[Opened]:
     context = chromium.new_context(viewport=DESKTOP, offline=True)
     yield Opened(context.new_page())
