@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pytest
 from tests.every import every
+from tests.geared_train import TRAIN
 
 import linkwright as lw
 
@@ -94,20 +95,6 @@ def test_a_wheel_geared_to_a_guided_link(across: int, block: int, along: int, yo
     for key, value in {"ACROSS": across, "BLOCK": block, "ALONG": along, "YOKE": yoke}.items():
         text = text.replace(f"{key} deg", f"{value} deg")
     first(text, "A", "R", "V")
-
-
-TRAIN = """format: 1
-frame: {points: {O: [0 m, 0 m], Q: [0.3 m, 0 m], S: [0.6 m, 0 m]}}
-links:
-  crank: {points: {O: [0 m, 0 m], A: [0.1 m, 0 m]}}
-  middle: {points: {Q: [0 m, 0 m], M: [0.1 m, 0 m]}}
-  wheel: {points: {S: [0 m, 0 m], V: [0.1 m, 0 m]}}
-joints:
-  one: {kind: gear, links: [crank, middle], ratio: -1.5PHASE}
-  two: {kind: gear, links: [middle, wheel], ratio: -0.4}
-drawing: {DRAWN}
-driver: {turn: crank, about: O, speed: 10 rpm, start: START}
-"""
 
 
 @pytest.mark.parametrize("start", [0, 40, 400, -500])

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from tests import store
 from tests.every import every
+from tests.features.scaled import SCALED
 from tests.refusals import refused
 
 import linkwright as lw
@@ -126,20 +127,7 @@ def test_csv_and_data_hold_every_design() -> None:
 
 
 def test_a_named_parameter_can_be_varied() -> None:
-    text = """
-format: 1
-name: slider-crank
-parameters: {r: 50 mm, ratio: 4}
-frame: {points: {O: [0 m, 0 m]}}
-links:
-  crank: {points: [O, A], length: r}
-  rod: {points: [A, B], length: ratio*r}
-  piston: {points: [B]}
-joints:
-  cylinder: {kind: prismatic, guide: frame, through: O, direction: 0 deg, block: piston, at: B}
-driver: {turn: crank, about: O, speed: 10 rad/s}
-"""
-    found = study(lw.loads(text), {"r": "40..60 mm:3", "ratio": "3, 5"}, metrics=["stroke"])
+    found = study(lw.loads(SCALED), {"r": "40..60 mm:3", "ratio": "3, 5"}, metrics=["stroke"])
     assert found["stroke"] == pytest.approx(2 * found["r"], rel=1e-9)
 
 

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from tests import store
 from tests.every import every
+from tests.features.scaled import SCALED
 
 import linkwright as lw
 from linkwright.study import sweep
@@ -197,21 +198,8 @@ def test_both_back_ends_and_any_number_of_threads_agree() -> None:
 
 
 def test_named_parameters_drive_their_expressions() -> None:
-    text = """
-format: 1
-name: scaled slider-crank
-parameters: {r: 50 mm, ratio: 4}
-frame: {points: {O: [0 m, 0 m]}}
-links:
-  crank: {points: [O, A], length: r}
-  rod: {points: [A, B], length: ratio*r}
-  piston: {points: [B]}
-joints:
-  cylinder: {kind: prismatic, guide: frame, through: O, direction: 0 deg, block: piston, at: B}
-driver: {turn: crank, about: O, speed: 10 rad/s}
-"""
     found = sweep(
-        lw.loads(text), {"r": [0.04, 0.06], "ratio": [3.0, 5.0]}, outputs=["cylinder.displacement max"]
+        lw.loads(SCALED), {"r": [0.04, 0.06], "ratio": [3.0, 5.0]}, outputs=["cylinder.displacement max"]
     )
     assert found["cylinder.displacement max"] == pytest.approx([0.04 * 4, 0.06 * 6], rel=1e-13)
 

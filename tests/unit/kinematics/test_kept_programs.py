@@ -5,6 +5,7 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import pytest
 from tests.every import every
+from tests.invariants.edited_machines import RUBBING
 
 import linkwright as lw
 from linkwright.engine.recently_made import Recent
@@ -124,21 +125,8 @@ def test_the_programs_used_last_are_the_ones_that_stay(monkeypatch):
 
 
 def test_friction_follows_the_coefficient():
-    text = """
-format: 1
-name: slider-crank with friction
-frame: {points: {O: [0 m, 0 m]}}
-links:
-  crank: {points: [O, A], length: 0.1 m}
-  rod: {points: [A, B], length: 0.4 m, mass: 1 kg, inertia: 0.01 kg·m²}
-  slider: {points: [B], mass: 2 kg}
-joints:
-  guide: {kind: prismatic, guide: frame, through: O, direction: 0 rad, block: slider, at: B, friction: 0.1}
-driver: {turn: crank, about: O, speed: 10 rad/s}
-gravity: [0, -9.81 m/s²]
-"""
-    low = lw.loads(text)
-    high = lw.loads(text.replace("friction: 0.1", "friction: 0.2"))
+    low = lw.loads(RUBBING)
+    high = lw.loads(RUBBING.replace("friction: 0.1", "friction: 0.2"))
     first = torque(low)
     assert np.array_equal(alone(high), (alone(low), torque(high))[1])
     assert np.abs(torque(high) - first).max() > 1e-3
