@@ -96,10 +96,12 @@ def read(path: Path) -> dict[Key, Row]:
         with gzip.open(path, "rt", encoding="utf-8") as file:
             head, *rest = (json.loads(line) for line in file)
         if head != {"state": 1}:
-            raise NotAState(f"{path}: no state of this form")
+            raise NotAState(f"{path}: a state of another form; write it anew with dump")
         return dict(_rows(rest))
+    except FileNotFoundError as error:
+        raise NotAState(f"{path}: no such file; write it with dump") from error
     except (OSError, EOFError, ValueError) as error:
-        raise NotAState(f"{path}: {error}") from error
+        raise NotAState(f"{path}: no state ({error}); write one with dump") from error
 
 
 def _rows(entries: Sequence[list[Any]]) -> Iterator[tuple[Key, Row]]:

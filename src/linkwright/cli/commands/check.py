@@ -86,9 +86,8 @@ def findings_of(name: str) -> tuple[list[Finding], dict[str, object]]:
         turned, notes = _turned(name, mechanism) if plain is None else ([], [])
     except LinkwrightError as error:
         parts = (isinstance(error, AssemblyError) and error.parts) or (("", error.sentence),)
-        faults = [Finding("error", name, key, said, code=code_of(said)) for key, said in parts]
-        told = [located(each, root, place) for each in faults]
-        return [*found, *(replace(each, key="") for each in told)], {}
+        barred = (Finding("error", name, key, said, code=code_of(said)) for key, said in parts)
+        return [*found, *(replace(located(each, root, place), key="") for each in barred)], {}
     sure = plain or [False] * len(swings)
     unsure = [
         load
