@@ -11,7 +11,7 @@ import numpy as np
 from linkwright.core.arrays import Floats, Indices
 from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
-from linkwright.core.outputs import KINDS, SLIDE, Output, row_name
+from linkwright.core.outputs import KINDS, NAMED, SLIDE, Output, row_name
 from linkwright.core.plot_method import Plotted
 from linkwright.core.read_only import FrozenDict, locked
 from linkwright.errors import RequestError
@@ -331,7 +331,12 @@ class Motion(Plotted):
         return self.rows.row(row_name(kind, key), self.evaluate)
 
     def read(self, output: Output) -> Floats:
-        """An angle, a displacement, a component of a point's motion, or a rate of these, (n,)."""
+        """An angle, a displacement, a component of a point's motion, an output that the model names, or a rate of
+        these, (n,)."""
+        if output.kind in NAMED:
+            from linkwright.kinetostatics.output_formulas import named_course
+
+            return self.kept(("named", output.owner), lambda: named_course(self, output.owner))[output.kind]
         if output.kind == "angle":
             return self.link(output.owner).angle
         if KINDS[output.kind].of != "point":

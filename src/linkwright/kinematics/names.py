@@ -11,6 +11,7 @@ from linkwright.core.outputs import KINDS, SLIDE, Output, row_names
 from linkwright.errors import RequestError
 from linkwright.fields.signals import resolve_output
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.mechanism.named_output import named_outputs
 from linkwright.registry import no_such, offered
 from linkwright.words.sentence import Sentence
 
@@ -93,6 +94,8 @@ def output_of(mechanism: Mechanism, text: str) -> Output:
     found = resolve_output(text, links, guides)
     if found is not None:
         return found
+    if text in named_outputs(mechanism.outputs):
+        raise RequestError("motion.no_limits_of_formula", name=text)
     points = [f"{point}.{axis}" for link in links.values() for point in link for axis in "xy"]
     hint = offered(text, [*links, *guides, *points])
     raise RequestError("motion.no_output", text=text, hint=hint)
@@ -104,8 +107,10 @@ def output_meant(mechanism: Mechanism, text: str) -> Output:
 
     Raises RequestError with the nearest known names.
     """
-    words = text.split()
-    if words and words[0] in PHRASES:
+    words, named = text.split(), named_outputs(mechanism.outputs)
+    if text in named:
+        found: Output | None = named[text]
+    elif words and words[0] in PHRASES:
         found = _phrase(mechanism, text, words[0], words[1:])
     elif len(words) == 3 and words[1] == "on":
         found = _over_column(mechanism, text, *words[::2])
@@ -216,6 +221,7 @@ def _slides(mechanism: Mechanism, driver: str) -> bool:
 
 def output_names(mechanism: Mechanism) -> Iterator[str]:
     """Names of outputs that a study can ask for, most of them."""
+    yield from named_outputs(mechanism.outputs)
     for driver in mechanism.drivers:
         yield Output("effort", driver).name
     yield from ("input_torque", "power", "shaking_force", "shaking_moment", "closeness")

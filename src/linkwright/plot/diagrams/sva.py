@@ -10,7 +10,7 @@ from operator import methodcaller
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.core.outputs import PLACES, Output
+from linkwright.core.outputs import NAMED, PLACES, Output
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import result_meant
 from linkwright.kinetostatics.table import results_of
@@ -79,6 +79,8 @@ def _together(parts: list[tuple[str, list[Panel]]]) -> list[Panel]:
 
 
 def _of_output(source: Source, output: Output, say: Say) -> list[Panel]:
+    if output.kind in NAMED:
+        return _of_named(source, output)
     if output.kind not in PLACES:
         return [_of_result(source, output)]
     named = ANGULAR if output.kind == "angle" else STRAIGHT
@@ -89,6 +91,16 @@ def _of_output(source: Source, output: Output, say: Say) -> list[Panel]:
         exact = source.angle_extremes(read, shown) if word == "angle" else source.extremes(read)
         found.append(Panel(f"{say(word)} {symbol}", dimension, (Curve("", shown, extremes=exact),)))
     return found
+
+
+def _of_named(source: Source, output: Output) -> list[Panel]:
+    """An output that the model names, with those of its rates that are known."""
+    own = source.mechanism.outputs[output.owner].outputs
+    return [
+        Panel(each.name, each.dimension, (Curve("", source.ended(read), extremes=source.extremes(read)),))
+        for each in own[NAMED.index(output.kind) :]
+        for read in [methodcaller("read", each)]
+    ]
 
 
 def _size(motion: Motion, key: str, word: str) -> Floats:

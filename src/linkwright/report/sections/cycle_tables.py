@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.core.outputs import KINDS, RESIDUALS, SLIDE, Output
+from linkwright.core.outputs import KINDS, NAMED, RESIDUALS, SLIDE, Output
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.table import motion_results
 from linkwright.kinetostatics.table import force_results
@@ -47,13 +47,14 @@ def blocks(case: Case) -> Iterator[Block]:
 
 
 def _motion_tables(case: Case, columns: Mapping[Output, Floats]) -> Iterator[tuple[str, list[Output]]]:
-    """Titles and columns: of links that turn, of guides, of points."""
+    """Titles and columns: of links that turn, of guides, of outputs that the model names, of points."""
     links = [each for each in columns if KINDS[each.kind].of == "link" and varies(columns[each])]
     points = [each for each in columns if KINDS[each.kind].of == "point" and varies(columns[each])]
     places = _of(points, "position")
     for title, found in (
         ("links", links),
         ("guides", _of(columns, *SLIDE)),
+        ("outputs", _of(columns, *NAMED)),
         ("points", places),
         ("rates", [each for each in points if each not in places]),
     ):
