@@ -334,7 +334,7 @@ class Motion(Plotted):
         """An angle, a displacement, a component of a point's motion, an output that the model names, or a rate of
         these, (n,)."""
         if output.kind in NAMED:
-            from linkwright.kinetostatics.output_formulas import named_course
+            from linkwright.kinematics.output_formulas import named_course
 
             return self.kept(("named", output.owner), lambda: named_course(self, output.owner))[output.kind]
         if output.kind == "angle":

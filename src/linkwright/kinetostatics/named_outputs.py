@@ -18,10 +18,10 @@ from linkwright.engine.vector import Vec
 from linkwright.errors import RequestError
 from linkwright.joints.pose import Rotor
 from linkwright.kinematics.names import HARMONIC, canonical, find_point, no_output, output_meant
+from linkwright.kinematics.output_formulas import traced_course
 from linkwright.kinematics.programs import MotionPrograms
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinetostatics.closure import closable, conditioning, half_transmission, transmission
-from linkwright.kinetostatics.output_formulas import traced_course
 from linkwright.kinetostatics.outputs import ForceOutputs
 from linkwright.kinetostatics.trace import ForceTrace
 from linkwright.mechanism.mechanism import Mechanism

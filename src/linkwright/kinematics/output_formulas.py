@@ -20,10 +20,10 @@ from linkwright.engine.program import Program
 from linkwright.engine.recently_made import Recent
 from linkwright.engine.replay import inlined
 from linkwright.engine.trace import Scalar, Trace, absolute, minimum, slope
+from linkwright.kinematics.cycle_angles import CycleAngles
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import output_meant
 from linkwright.kinematics.trace import MotionTrace
-from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.loads.formulas import denominators
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.mechanism.named_output import NamedOutput
@@ -46,9 +46,9 @@ def named_course(motion: Motion, name: str) -> dict[str, Floats]:
     the beginning of the mechanism's cycle."""
     mechanism = motion.mechanism
     named = mechanism.outputs[name]
-    signals, arrays = MotionSignals(motion), dict[str, Floats]()
+    angles, arrays = CycleAngles(motion), dict[str, Floats]()
     for each, output in formula_names(mechanism, named).items():
-        for order, values in enumerate(_arrays(motion, signals, output, len(named.outputs))):
+        for order, values in enumerate(_arrays(motion, angles, output, len(named.outputs))):
             arrays[_place(each, order)] = values
     program = NumpyProgram(_formula(mechanism, named))
     numbers = [mechanism.parameters[each] for each in program.program.parameters]
@@ -57,7 +57,7 @@ def named_course(motion: Motion, name: str) -> dict[str, Floats]:
     return {kind: np.where(known, row, np.nan) for kind, row in zip(NAMED, rows, strict=False)}
 
 
-def _arrays(motion: Motion, signals: MotionSignals, output: Output | None, count: int) -> list[Floats]:
+def _arrays(motion: Motion, angles: CycleAngles, output: Output | None, count: int) -> list[Floats]:
     """A place or rate over the positions with as many rates behind it as its formula needs, ``count`` in all."""
     if output is None:
         return list(next(iter(motion.positions.coordinates.values())))[:count]
@@ -66,7 +66,7 @@ def _arrays(motion: Motion, signals: MotionSignals, output: Output | None, count
         return list(course.values())[NAMED.index(output.kind) :][:count]
     found, value = list[Floats](), output
     for order in range(count):
-        found.append(signals.output(value)[0] if value.kind == "angle" else motion.read(value))
+        found.append(angles.of(value.owner) if value.kind == "angle" else motion.read(value))
         if order + 1 < count:
             value = value.rate
     return found
