@@ -10,6 +10,7 @@ from xml.sax.saxutils import escape
 from linkwright.errors import LinkwrightError
 from linkwright.report.document import (
     Block,
+    Code,
     Document,
     Figure,
     Formula,
@@ -109,6 +110,8 @@ LETTER = 0.062
 GAP, SMALL = 0.22, 8
 #: Fonts by language: of Latin letters, of Chinese characters.
 FONTS = ("Cambria", "SimSun")
+#: The style of listings and its font.
+CODE, MONOSPACED = "Code", "Consolas"
 
 
 def word(document: Document) -> bytes:
@@ -206,6 +209,8 @@ class _Writer:
                 self._table(index, block)
             case Figure():
                 self._figure(index, block)
+            case Code():
+                self._code(index, block)
             case Source():
                 self.file.add_paragraph(block.text)
 
@@ -231,7 +236,7 @@ class _Writer:
 
         line = self.file.add_paragraph(style="Caption")
         line.alignment = WD_ALIGN_PARAGRAPH.CENTER
-        line.paragraph_format.keep_with_next = isinstance(self.document.blocks[index], Table)
+        line.paragraph_format.keep_with_next = isinstance(self.document.blocks[index], Table | Code)
         line.add_run(f"{self.numbers.name(index)}  ")
         self._inline(line, text)
         self._bookmark(line, index)
@@ -283,6 +288,33 @@ class _Writer:
             if picture.height > tallest:
                 picture.width, picture.height = int(picture.width * tallest / picture.height), tallest
         self._caption(index, block.caption)
+
+    def _code(self, index: int, block: Code) -> None:
+        """The lines of a listing, each a paragraph, so that a long one breaks over pages."""
+        if block.caption:
+            self._caption(index, block.caption)
+        for text in block.text.expandtabs(4).rstrip("\n").split("\n"):
+            self.file.add_paragraph(printable(text), style=self._code_style())
+
+    def _code_style(self) -> Any:
+        """The paragraph style of listings: letters of one width, lines without gaps."""
+        from docx.enum.style import WD_STYLE_TYPE
+        from docx.oxml import parse_xml
+        from docx.oxml.ns import nsdecls, qn
+        from docx.shared import Pt
+
+        styles = self.file.styles
+        if CODE in styles:
+            return styles[CODE]
+        style = styles.add_style(CODE, WD_STYLE_TYPE.PARAGRAPH)
+        style.base_style = styles["Normal"]
+        style.font.name, style.font.size = MONOSPACED, Pt(8.5)
+        style.element.get_or_add_rPr().get_or_add_rFonts().set(qn("w:eastAsia"), FONTS[1])
+        style.paragraph_format.space_before = style.paragraph_format.space_after = Pt(0)
+        style.paragraph_format.line_spacing = 1.0
+        shade = f'<w:shd {nsdecls("w")} w:val="clear" w:color="auto" w:fill="F4F4F4"/>'
+        style.element.get_or_add_pPr().insert_element_before(parse_xml(shade), "w:spacing", "w:ind", "w:jc")
+        return style
 
     def _inline(self, line: Any, text: str) -> None:
         for kind, part in spans(text):
