@@ -244,8 +244,8 @@ linkwright report crusher.yaml --sections task structure worked tables""",
     "way": "The way to them",
     "remark": "remark",
     "caption_curves": "Curves",
-    "no_formula": 'the formula "{text}" has "{sign}", which no form of the report can print; a new element must '
-    "write its formulas with letters, fractions, roots, indices and functions",
+    "no_formula": 'the formula "{text}" has "{sign}", which no form of the report can print; write it with letters, '
+    "fractions, roots, indices, brackets, functions, sums, integrals, matrices and cases, as in LaTeX",
     "needs_typst": 'reports need typst; install it with: pip install "linkwright[report]"',
     "needs_word": 'Word files need python-docx; install it with: pip install "linkwright[report]"',
     "typst_says": "the report cannot be set: {sentence}",

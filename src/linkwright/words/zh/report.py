@@ -232,8 +232,8 @@ linkwright report crusher.yaml --sections task structure worked tables""",
     "way": "求解过程",
     "remark": "说明",
     "caption_curves": "曲线",
-    "no_formula": "公式“{text}”中的“{sign}”无法在说明书中印出；新元件的公式只能用字母、分式、根号、"
-    "角标和函数",
+    "no_formula": "公式“{text}”中的“{sign}”无法在说明书中印出；请按 LaTeX 的写法，只用字母、分式、根号、上下标、"
+    "括号、函数、求和、积分、矩阵和分段式",
     "needs_typst": '编写说明书需要 typst；请安装：pip install "linkwright[report]"',
     "needs_word": '生成 Word 文件需要 python-docx；请安装：pip install "linkwright[report]"',
     "typst_says": "说明书无法排版：{sentence}",
