@@ -63,11 +63,12 @@ def _with_rest(entries: list[Entry]) -> list[Entry]:
     return found
 
 
-def parts(cases: Sequence[Case], entries: Sequence[Entry], own: Settings) -> Iterator[Part]:
+def parts(cases: Sequence[Case], entries: Sequence[Entry], own: Settings, *, asked: bool) -> Iterator[Part]:
     """What a report holds, in its order. Sections of machines that follow each other make a part for each machine.
 
     Own chapters of the first file that stand between two such sections belong to the first machine; its others are
-    of the whole report. The chapters of further files stand in the parts of their machines.
+    of the whole report. The chapters of further files stand in the parts of their machines, unless sections were
+    ``asked`` for by name.
     """
     groups = list(_groups(entries))
     last = max((i for i, group in enumerate(groups) if len(group) > 1 or _of_machine(group[0])), default=-1)
@@ -79,7 +80,8 @@ def parts(cases: Sequence[Case], entries: Sequence[Entry], own: Settings) -> Ite
                 name = case.mechanism.name if len(cases) > 1 else ""
                 if name:
                     yield Part(case.settings, name=name)
-                held = group if place == 0 else _of_other(case, group, number == first, number == last)
+                others = [] if asked else case.settings.sections
+                held = group if place == 0 else _of_other(others, group, number == first, number == last)
                 for each in held:
                     yield _part(case.settings, (case,), each, name)
         elif isinstance(head, Chapter) or head in (CALCULATIONS, SOURCES) or cases:
@@ -108,11 +110,11 @@ def _groups(entries: Sequence[Entry]) -> Iterator[list[Entry]]:
     yield from ([other] for other in behind)
 
 
-def _of_other(case: Case, group: Sequence[Entry], first: bool, last: bool) -> Iterator[Entry]:
-    """The sections of a group, with a further file's chapters where they stand in that file's order."""
+def _of_other(own: Sequence[Entry], group: Sequence[Entry], first: bool, last: bool) -> Iterator[Entry]:
+    """The sections of a group, with a further file's chapters where they stand in its ``own`` order."""
     follow: dict[str, list[Chapter]] = {"": []}
     name = ""
-    for each in _with_rest(list(case.settings.sections)):
+    for each in _with_rest(list(own)):
         if isinstance(each, Chapter):
             follow.setdefault(name, []).append(each)
         elif _of_machine(each):

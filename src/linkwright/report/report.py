@@ -130,7 +130,8 @@ def report(
     Args:
         machines: mechanisms, calculations of machine parts, paths or gallery names.
         sources: the files of mechanisms that are given themselves, for what is read from files (tasks of synthesis).
-        sections: names of sections and titles of own chapters in the order wanted; empty: what the first file says, else all that apply.
+        sections: names of sections and titles of own chapters in the order wanted; empty: what the first file says,
+            else all that apply.
         language: ``en`` or ``zh``.
         position: input of the worked position, such as ``"60 deg"``; else what the file says, else a sixth of the
             cycle.
@@ -159,7 +160,7 @@ def report(
         tuple(filter(None, (own.course, own.author, own.date))),
     )
     document.cover = cover(own, document)
-    ordered = list(parts(cases, entries, own))
+    ordered = list(parts(cases, entries, own, asked=bool(sections)))
     progress = progress or current_progress()
     for done, part in enumerate(ordered):
         if progress is not None:
@@ -337,7 +338,7 @@ def _placed(block: Block, shift: int, prefix: str) -> Iterator[Block]:
     def own(each: Block) -> Iterator[Block]:
         if isinstance(each, Heading):
             each = replace(each, level=min(each.level + shift, 4))
-        if prefix and isinstance(each, Heading | NUMBERED) and each.label:
+        if prefix and isinstance(each, (Heading, *NUMBERED)) and each.label:
             each = replace(each, label=f"{prefix}{each.label}")
         yield with_prefix(each, prefix) if prefix else each
 
