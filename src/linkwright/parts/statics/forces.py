@@ -15,10 +15,11 @@ from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding
 from linkwright.fields.base import Place, Quantities, Quantity, Reader, given
 from linkwright.fields.nodes import Node
-from linkwright.parts.base import Block, Problem, Result, Row, fault, number, put
+from linkwright.parts.base import Block, Problem, Result, Row, Value, fault, number, put, shown, signed
 from linkwright.parts.fields import Either, Named, Table
 from linkwright.words import Say
 from linkwright.worked.page import Step
+from linkwright.worked.written import measured
 
 #: A sum smaller than this share of its largest part is zero but for rounding.
 ZERO = 1e-12
@@ -211,20 +212,22 @@ class Resultant(Result):
         for name, each in self.system.forces.items():
             if each.size is not None:
                 unit = spatial(each.along) / np.linalg.norm(spatial(each.along))
-                sums.say(f"{name} = {number(each.size)} N · ({', '.join(number(u) for u in unit)})")
+                sums.law(f"{name} = {measured(shown(each.size, 'force'))}·({', '.join(number(u) for u in unit)})")
         for i, axis in enumerate("xyz"):
             parts = [each.vector[i] for each in self.system.forces.values()]
             names = " + ".join(f"{name}{axis}" for name in self.system.forces)
-            put(sums, f"R{axis}", names, self.force[i], "force", numbers=_signed(parts))
-        put(sums, "R", "√(Rx² + Ry² + Rz²)", self.size, "force")
+            put(sums, f"R{axis}", names, self.force[i], "force", numbers=signed(parts))
+        of: dict[str, Value] = {f"R{axis}": (float(c), "force") for axis, c in zip("xyz", self.force, strict=True)}
+        put(sums, "R", "√(Rx² + Ry² + Rz²)", self.size, "force", of=of)
+        of["R"] = (self.size, "force")
         for axis, angle, greek in zip("xyz", self.angles, "αβγ", strict=True):
             if self.size:
-                put(sums, greek, f"arccos(R{axis}/R)", float(angle), "angle")
+                put(sums, greek, f"arccos(R{axis}/R)", float(angle), "angle", of=of)
         self._moment_step(about, say)
         if self.size:
             put(wrench, "h", "R·M/R²", self.pitch, "length")
             for i, axis in enumerate("xyz"):
-                put(wrench, f"{axis}0", f"{axis} + (R × M){axis}/R²", float(self.axis_point[i]), "length")
+                put(wrench, f"{axis}0", f"{axis} + (R × M)_{axis}/R²", float(self.axis_point[i]), "length")
         else:
             wrench.say(say("statics.balanced" if self.balanced else "statics.pure_couple"))
         return [sums, about, wrench]
@@ -236,7 +239,7 @@ class Resultant(Result):
         parts += [spatial(each) for each in self.system.couples.values()]
         formulas = ("Σ (y·Fz − z·Fy)", "Σ (z·Fx − x·Fz)", "Σ (x·Fy − y·Fx)")
         for i, (axis, formula) in enumerate(zip("xyz", formulas, strict=True)):
-            put(step, f"M{axis}", formula, self.moment[i], "torque", numbers=_signed([p[i] for p in parts]))
+            put(step, f"M{axis}", formula, self.moment[i], "torque", numbers=signed([p[i] for p in parts]))
 
 
 def _tidy(total: Floats, parts: list[Floats]) -> Floats:
@@ -250,12 +253,3 @@ def _vector_rows(symbol: str, vector: Floats, size: float, angles: Floats) -> li
     if size:
         rows += [Row(g, float(a), "angle", g) for g, a in zip("αβγ", angles, strict=True)]
     return rows
-
-
-def _signed(parts: list[float]) -> str:
-    """Numbers as a sum: ``40 − 110``."""
-    text = ""
-    for part in parts:
-        mark = (" − " if part < 0 else " + ") if text else ("−" if part < 0 else "")
-        text += mark + number(abs(float(part)))
-    return text

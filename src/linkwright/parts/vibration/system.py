@@ -15,7 +15,7 @@ from linkwright.core.arrays import Complexes, Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, ModelError
 from linkwright.fields.base import GivenByFile, Quantity, Text, given
-from linkwright.parts.base import Block, Problem, Result, Row, fault, number, put
+from linkwright.parts.base import Block, Problem, Result, Row, Value, fault, number, put
 from linkwright.parts.fields import AnyQuantity, Listed, Named, Table
 from linkwright.parts.vibration.excitation import (
     EXCITATION,
@@ -29,6 +29,7 @@ from linkwright.parts.vibration.excitation import (
 from linkwright.parts.vibration.linear import Linear, largest_between, tuned
 from linkwright.units import DIMENSIONS, SMALLEST
 from linkwright.words import Say
+from linkwright.worked.matrix import Matrices
 from linkwright.worked.page import Step
 
 GROUND = "ground"
@@ -431,6 +432,15 @@ class Vibration(Result):
             rows.append(Row(f"{name}.largest", value, length, say("vibration.largest", name=name), note))
         return Block("response", say("vibration.response"), rows)
 
+    def _single(self) -> dict[str, Value]:
+        """Stiffness, mass and damping of a system of one mass."""
+        words = TURNING if self.system.turning else STRAIGHT
+        return {
+            "k": (float(self.linear.stiffness[0, 0]), words["stiffness"]),
+            "m": (float(self.linear.mass[0, 0]), words["mass"]),
+            "c": (float(self.linear.damping[0, 0]), words["damping"]),
+        }
+
     def steps(self, say: Say) -> list[Step]:
         matrices, modes = Step("1", say("vibration.step_matrices")), Step("2", say("vibration.step_modes"))
         matrices.say(say("vibration.order", names=", ".join(self.system.masses)))
@@ -439,25 +449,25 @@ class Vibration(Result):
             ("C", self.linear.damping),
             ("K", self.linear.stiffness),
         ):
-            for row in matrix:
-                matrices.say(f"  {symbol} = [ {'  '.join(number(float(c)) for c in row)} ]")
+            if symbol != "C" or matrix.any():
+                matrices.items.append(Matrices((symbol, matrix)).written())
+        one = len(self.frequencies) == 1
         modes.say(say("vibration.characteristic"))
+        modes.law("det(K − ω²·M) = 0")
+        of = self._single() if one else {}
         for i, own in enumerate(self.frequencies):
-            put(
-                modes,
-                f"ω{i + 1}",
-                "√(k/m)" if len(self.frequencies) == 1 else "",
-                float(own),
-                "angular_velocity",
-            )
-            put(modes, f"f{i + 1}", f"ω{i + 1}/(2π)", own / (2 * math.pi), "frequency")
+            put(modes, f"ω{i + 1}", "√(k/m)" if one else "", float(own), "angular_velocity", of=of)
+            put(modes, f"f{i + 1}", f"ω{i + 1}/(2·π)", own / (2 * math.pi), "frequency",
+                of={f"ω{i + 1}": (float(own), "angular_velocity")})  # fmt: skip
             if self.linear.damping.any():
-                one = len(self.frequencies) == 1
-                put(modes, f"ζ{i + 1}", "c/(2√(k·m))" if one else "−Re λ/|λ|", float(self.damping_ratios[i]))
+                put(modes, f"ζ{i + 1}", "c/(2·√(k·m))" if one else "", float(self.damping_ratios[i]), of=of)
+        if not one:
+            for i in range(len(self.frequencies)):
+                modes.items.append(Matrices((f"φ{i + 1}", self.shapes[:, i : i + 1])).written())
         found = [matrices, modes]
         if self.harmonic:
             forced = Step("3", say("vibration.step_forced"))
-            forced.say("  (K − ω²M + iωC)·X = F")
+            forced.law("(K − ω²·M + i·ω·C)·X = F")
             for row in self._forced(say).rows:
                 put(
                     forced,
@@ -469,7 +479,7 @@ class Vibration(Result):
             found.append(forced)
         if self.in_time:
             timed = Step(str(len(found) + 1), say("vibration.response"))
-            timed.say("  M·ẍ + C·ẋ + K·x = F(t)")
+            timed.law("M·ẍ + C·ẋ + K·x = F(t)")
             for row in self._timed(say).rows:
                 put(timed, row.label, "", float(row.value), row.dimension)
             found.append(timed)

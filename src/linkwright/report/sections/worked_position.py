@@ -12,8 +12,9 @@ from linkwright.report.document import Block, Figure, Formula, Heading, Paragrap
 from linkwright.report.machine_results import Case
 from linkwright.report.section import section
 from linkwright.report.sections.method import side_by_side
-from linkwright.worked.page import Equation, Note, Relation, Step
+from linkwright.worked.page import Equation, Note, Relation, Step, Written
 from linkwright.worked.solution import Worked
+from linkwright.worked.written import upright
 
 #: A point, the width of the text and the tallest polygon, mm.
 POINT, TEXT, TALLEST = 25.4 / 72.0, 170.0, 225.0
@@ -56,7 +57,7 @@ def with_numbers(step: Step) -> Iterator[Block]:
         given = []
         if isinstance(item, Note):
             yield Paragraph(symbols(item.text))
-        elif isinstance(item, Relation):
+        elif isinstance(item, Relation | Written):
             yield Formula(item.latex_sides, number=False)
         else:
             sides = [item.latex_symbol, item.latex_formula, item.latex_numbers, _result(item)]
@@ -70,7 +71,7 @@ def _result(item: Equation) -> str:
     number = rf"{base}\cdot 10^{{{power}}}" if e else base
     if item.unit == "°":
         return number + r"^\circ"
-    return rf"{number}\,\mathrm{{{item.unit}}}" if item.unit else number
+    return rf"{number}\,{upright(item.unit)}" if item.unit else number
 
 
 def _polygons(case: Case) -> Iterator[Block]:
