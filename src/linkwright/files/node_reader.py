@@ -249,6 +249,8 @@ class PlainReader:
     ) -> tuple[MappingNode, dict[str, Any]]:
         """The mapping with keys that are nearly known in the place of those, and its values."""
         keys = {each.key or name: name for name, each in fields.items()}
+        mapping = self._renamed(mapping, place, {each.old: key for key, name in keys.items()
+                                                 if (each := fields[name]).old})  # fmt: skip
         meant = self._in_place_of(mapping, place, {key: fields[name] for key, name in keys.items()})
         mapping, split = self.unknown_keys(mapping, place, list(keys), meant)
         found: dict[str, Any] = {}
@@ -262,6 +264,22 @@ class PlainReader:
                 reader = cast("Reader", self)
                 found[name] = None if key in split else each.read(reader, value, place.child(key), found)
         return mapping, found
+
+    def _renamed(self, mapping: MappingNode, place: Place, old: Mapping[str, str]) -> MappingNode:
+        """The mapping with new keys in the place of ``old`` ones, each of which is a warning."""
+        present = {entry.key.text for entry in mapping.entries}
+        if old.keys().isdisjoint(present):
+            return mapping
+        entries = list(mapping.entries)
+        for index, entry in enumerate(entries):
+            new = old.get(entry.key.text)
+            if new is not None and new not in present:
+                self.finding(
+                    entry.key, place.child(entry.key.text), "old_key", "old-key", severity="warning",
+                    key_=entry.key.text, new=new,
+                )  # fmt: skip
+                entries[index] = Entry(replace(entry.key, text=new), entry.value)
+        return replace(mapping, entries=entries)
 
     def _in_place_of(
         self, mapping: MappingNode, place: Place, fields: Mapping[str, Field]

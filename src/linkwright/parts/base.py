@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Container, Mapping, Sequence
-from dataclasses import fields, replace
+from dataclasses import field, fields, is_dataclass, replace
 from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -18,7 +18,7 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.plot_method import Plotted
 from linkwright.errors import Finding, ModelError
-from linkwright.fields.base import GivenByFile
+from linkwright.fields.base import Field, GivenByFile, given_by_file
 from linkwright.metrics.quantities import FURTHER, SHOWN
 from linkwright.units import SI_UNITS, Dimension, si_symbol
 from linkwright.words import Say, speaker
@@ -89,7 +89,17 @@ def fault(code: str, key: str, **values: object) -> Finding:
     return Finding("error", "", key, message, remedy, code.partition(".")[2])
 
 
-class Problem(ABC):
+@dataclass(frozen=True, kw_only=True)
+class Heading:
+    """What a file says about its calculation beside the problem: its ``purpose``, the settings of its ``report``, and
+    all that is ``told`` in it as plain data, for the given data of the report."""
+
+    purpose: str = field(default="", repr=False)
+    report: Mapping[str, Any] = field(default_factory=dict, repr=False)
+    told: Mapping[str, Any] = field(default_factory=dict, repr=False, compare=False)
+
+
+class Problem(Heading, ABC):
     """One calculation as the file or the code gave it; subclasses are frozen dataclasses in SI units.
 
     ``kind`` is its name in files, ``fields`` the keys of its file beside the heading: its own attributes.
@@ -113,11 +123,37 @@ class Problem(ABC):
     def solve(self) -> Result:
         """The result. Raises ModelError with all findings."""
 
+    def given(self) -> Mapping[str, Any]:
+        """What is given as plain data: as the file says it, else the attributes as a file would."""
+        if self.told:
+            return self.told
+        found = {key: _as_told(getattr(self, key, None), each) for key, each in self.fields.items()}
+        return {key: value for key, value in found.items() if value not in EMPTY}
+
     def require(self) -> None:
         """Raises ModelError where anything is wrong."""
         found = self.findings()
         if found:
             raise ModelError(found)
+
+
+#: What a file leaves out.
+EMPTY: tuple[Any, ...] = (None, {}, [], (), "", False)
+
+
+def _as_told(value: Any, kind: Field | None = None) -> Any:
+    """A value as plain data of a file."""
+    own = given_by_file(type(value)) if is_dataclass(value) else {}
+    if own:
+        found = {each.key or key: _as_told(getattr(value, key), each) for key, each in own.items()}
+        return {key: each for key, each in found.items() if each not in EMPTY}
+    if isinstance(value, Mapping):
+        return {key: _as_told(each) for key, each in value.items()}
+    if value is None or kind is None or is_dataclass(value):
+        named = getattr(value, "label", None) or getattr(value, "text", None) or getattr(value, "name", None)
+        bare = {each.name: getattr(value, each.name) for each in fields(value)} if is_dataclass(value) else value
+        return named or bare
+    return kind.written(value)
 
 
 @dataclass(frozen=True)

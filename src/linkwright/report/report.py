@@ -100,6 +100,8 @@ class Report:
 
 
 Machine = Mechanism | Problem | str | Path
+#: A model or its file, or a calculation.
+Given = Mechanism | str | Problem
 
 
 def report(
@@ -133,9 +135,11 @@ def report(
         LinkwrightError: an unknown section or language, a model that cannot be read, settings that make no sense.
     """
     require_language(language)
-    given, problems = _told_apart(machines)
-    cases = _cases(given, sources, language, position, positions)
-    own = cases[0].settings if cases else settings({})
+    given = _read(machines)
+    models = [each for each in given if not isinstance(each, Problem)]
+    cases = _cases(models, sources, language, position, positions)
+    problems = [each for each in given if isinstance(each, Problem)]
+    own = cases[0].settings if cases else settings(problems[0].report, language)
     chosen = _chosen(sections or own.sections)
     names = [case.mechanism.name for case in cases] or [problem.name for problem in problems]
     document = Document(
@@ -144,19 +148,26 @@ def report(
         language,
         tuple(filter(None, (own.course, own.author, own.date))),
     )
-    parts = list(_parts(cases, chosen, document)) if cases else []
+    parts = list(_parts(_in_order(given, cases), chosen, document))
     progress = progress or current_progress()
     for done, (case, part) in enumerate(parts):
         if progress is not None:
             progress(done, len(parts))
         with reporting(None):
-            _add(document, case, part, asked=bool(sections))
-    for problem in problems:
-        _add_calculation(document, problem)
+            if isinstance(part, Problem):
+                _add_calculation(document, part)
+            else:
+                _add(document, case, part, asked=bool(sections))
     return Report(document)
 
 
-def _told_apart(machines: Machine | Sequence[Machine]) -> tuple[list[Mechanism | str], list[Problem]]:
+def _in_order(given: Sequence[Given], cases: Sequence[Case]) -> list[Case | Problem]:
+    """Machines and calculations in the order in which they are given."""
+    machines = iter(cases)
+    return [each if isinstance(each, Problem) else next(machines) for each in given]
+
+
+def _read(machines: Machine | Sequence[Machine]) -> list[Given]:
     """Mechanisms (or their files) and calculations."""
     from linkwright.parts.file import kind_of
     from linkwright.parts.file import load as load_calculation
@@ -164,28 +175,25 @@ def _told_apart(machines: Machine | Sequence[Machine]) -> tuple[list[Mechanism |
     given = list(machines) if isinstance(machines, Iterable) and not isinstance(machines, str) else [machines]
     if not given:
         raise RequestError("report.no_machine")
-    found: list[Mechanism | str] = []
-    problems = []
+    found: list[Given] = []
     for each in given:
         require(each, Mechanism, Problem, str, PathLike)
-        if isinstance(each, Problem):
-            problems.append(each)
-        elif isinstance(each, Mechanism):
+        if isinstance(each, Problem | Mechanism):
             found.append(each)
-        elif kind_of(str(each)) is not None:
-            problems.append(load_calculation(str(each)))
         else:
-            found.append(str(each))
-    return found, problems
+            calculated = kind_of(str(each)) is not None
+            found.append(load_calculation(str(each)) if calculated else str(each))
+    return found
 
 
 def _add_calculation(document: Document, problem: Problem) -> None:
     """Adds a calculation; one without a result says why."""
-    from linkwright.report.calculation import calculation
+    from linkwright.report.calculation import OwnText, calculation
 
     try:
         for block in calculation(problem, document.say, document.language):
-            document.blocks += _parts_of(block, document)
+            found = _own(block.text, document) if isinstance(block, OwnText) else (block,)
+            document.blocks += (part for each in found for part in _parts_of(each, document))
     except LinkwrightError as error:
         sentence = error.say(document.language)
         document.blocks.append(Heading(literal(problem.name), 1))
@@ -196,7 +204,7 @@ def _add_calculation(document: Document, problem: Problem) -> None:
 
 
 def _cases(
-    given: list[Mechanism | str], sources: Sequence[str], language: str, position: str, positions: int | None
+    given: Sequence[Mechanism | str], sources: Sequence[str], language: str, position: str, positions: int | None
 ) -> list[Case]:
     found = []
     for index, each in enumerate(given):
@@ -235,24 +243,35 @@ def _chosen(names: Iterable[str]) -> list[str]:
     return asked or section_names()
 
 
-Part = Section | str
+Part = Section | str | Problem
 
 
-def _parts(cases: list[Case], chosen: list[str], document: Document) -> Iterator[tuple[list[Case], Part]]:
-    """Machines and section in the order of the report; a text is the heading of a machine's part."""
-    held: list[str] = []
-    for name in [*chosen, ""]:
+def _parts(
+    given: Sequence[Case | Problem], chosen: list[str], document: Document
+) -> Iterator[tuple[list[Case], Part]]:
+    """Machines and section in the order of the report; a text is the heading of a machine's part.
+
+    Calculations stand once, in their places between the parts of the machines.
+    """
+    cases, held = [each for each in given if isinstance(each, Case)], list[str]()
+    chapters = list(given)
+    for name in [*chosen, ""] if cases else ():
         if name and not SECTIONS[name].common:
             held.append(name)
             continue
-        for case in cases if held else ():
-            if len(cases) > 1:
+        for case in chapters if held else ():
+            if isinstance(case, Problem):
+                yield [], case
+                continue
+            if len(given) > 1:
                 yield [case], case.mechanism.name
             for own in held:
                 yield [case], SECTIONS[own]
+        chapters = cases if held else chapters
         held = []
         if name:
             yield cases, SECTIONS[name]
+    yield from (([], each) for each in chapters if isinstance(each, Problem))
 
 
 def _add(document: Document, cases: list[Case], part: Part, *, asked: bool) -> None:

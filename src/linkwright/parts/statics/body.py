@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from functools import cached_property
 from typing import ClassVar
 
@@ -15,7 +16,7 @@ from linkwright.fields.base import Word, given
 from linkwright.parts.base import Block, Problem, Result, Row, fault, number, put
 from linkwright.parts.fields import Listed, Named, Table
 from linkwright.parts.motions import plain_motions
-from linkwright.parts.statics.forces import COUPLES, FORCES, Components, Force, spatial
+from linkwright.parts.statics.forces import COUPLES, DIRECTION, FORCES, Components, Force, spatial
 from linkwright.words import Say
 from linkwright.words.sentence import Sentence
 from linkwright.worked.page import Step
@@ -37,7 +38,7 @@ class Support:
         Listed(Word(HELD), "[x, y]", doc="what it holds: x, y, z, turn_x, turn_y, turn_z"), ()
     )
     along: tuple[float, ...] = given(
-        Components("dimensionless", doc="direction of a rod, rope or roller"), ()
+        replace(DIRECTION, doc="direction of a rod, rope or roller"), ()
     )
 
     def columns(self, scale: float) -> list[tuple[str, Floats]]:
@@ -90,7 +91,7 @@ class RigidBody(Problem):
             if not support.holds and not support.along:
                 found.append(fault("statics.holds_nothing", f"supports.{name}"))
             if support.along and not any(support.along):
-                found.append(fault("statics.no_direction", f"supports.{name}.along"))
+                found.append(fault("statics.no_direction", f"supports.{name}.direction"))
         return found or self._freedoms()
 
     def _freedoms(self) -> list[Finding]:
