@@ -262,6 +262,8 @@ class PlainReader:
                 self.finding(mapping, place.child(key), "missing_key", "missing-key", remedy, key_=key)
             elif value is not None:
                 reader = cast("Reader", self)
+                if each.replaced:
+                    self.old_key(value, place.child(key), key, each.replaced)
                 found[name] = None if key in split else each.read(reader, value, place.child(key), found)
         return mapping, found
 
@@ -274,12 +276,13 @@ class PlainReader:
         for index, entry in enumerate(entries):
             new = old.get(entry.key.text)
             if new is not None and new not in present:
-                self.finding(
-                    entry.key, place.child(entry.key.text), "old_key", "old-key", severity="warning",
-                    key_=entry.key.text, new=new,
-                )  # fmt: skip
+                self.old_key(entry.key, place.child(entry.key.text), entry.key.text, new)
                 entries[index] = Entry(replace(entry.key, text=new), entry.value)
         return replace(mapping, entries=entries)
+
+    def old_key(self, node: Node, place: Place, key: str, new: str) -> None:
+        """A warning for a key that files of this format had before, with the one that took its place."""
+        self.finding(node, place, "old_key", "old-key", severity="warning", key_=key, new=new)
 
     def _in_place_of(
         self, mapping: MappingNode, place: Place, fields: Mapping[str, Field]

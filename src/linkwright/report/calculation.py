@@ -94,7 +94,7 @@ def _results(found: Result, say: Say) -> Iterator[Block]:
         cells = tuple((_label(row[0]), *map(literal, row[1 : 4 if remarked else 3])) for row in rows)
         if cells:
             width = 4 if remarked else 3
-            yield Table(literal(block.title or found.title), head[:width], cells, "<><<"[:width])
+            yield Table(literal(block.title or say("report.results")), head[:width], cells, "<><<"[:width])
         for remark in block.remarks:
             yield Paragraph(literal(str(remark)))
 
@@ -103,7 +103,7 @@ def _label(text: str) -> str:
     """A label of a table: a symbol as a formula, words as they are."""
     bare = text.strip()
     short = len(bare) <= 4 or "." in bare or "_" in bare
-    if short and " " not in bare and not bare.islower() and any(c.isalpha() for c in bare):
+    if short and bare.isprintable() and " " not in bare and not any(c > "\u2e7f" for c in bare) and not bare.islower() and any(c.isalpha() for c in bare):
         try:
             return f"${latex(bare)}$"
         except LinkwrightError:
@@ -129,7 +129,7 @@ def _pictures(found: Result, say: Say, language: str) -> Iterator[Block]:
     """Its own drawing, where it has one, and its diagrams."""
     draw = getattr(found, "draw", None)
     if draw is not None:
-        yield Figure(literal(found.title), ((draw(language=language).svg, 0.5),))
+        yield Figure(literal(title_said(found.title, language)), ((draw(language=language).svg, 0.5),))
     from linkwright.plot.diagrams.base import RESULT_DIAGRAMS
 
     for kind in sorted(RESULT_DIAGRAMS, key=lambda each: not RESULT_DIAGRAMS[each].usual):
@@ -141,6 +141,6 @@ def _pictures(found: Result, say: Say, language: str) -> Iterator[Block]:
             if RESULT_DIAGRAMS[kind].usual:
                 yield Paragraph(literal(error.say(language)), "missing")
             continue
-        yield Figure(f"{literal(found.title)}: {say(f'plot.kind.{kind}')}", ((svg, 0.75),))
+        yield Figure(f"{literal(title_said(found.title, language))}: {say(f'plot.kind.{kind}')}", ((svg, 0.75),))
 
 

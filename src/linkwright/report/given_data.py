@@ -32,15 +32,19 @@ SYMBOLS: Mapping[str, str] = {
     "cam.velocity": "", "vibration.force": "F",
 }  # fmt: skip
 _VALUE = re.compile(r"([-+−]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*)", re.DOTALL)
-#: Keys whose value is a list of measured numbers or of segments, laid out in rows of so many.
-ACROSS = 10
+#: Keys that hold things under names which the user chose.
+NAMED = (
+    "supports", "loads", "forces", "couples", "masses", "inertias", "planes", "springs", "dampers", "start", "mounts",
+    "samples", "tests", "regressions", "capability", "variables", "subject_to", "dimensions", "clearances",
+    "components", "angles", "parameters",
+)  # fmt: skip
 
 
 def given_data(problem: Problem, say: Say) -> Iterator[Block]:
     """A table of single values; of every mapping of names and every list of mappings a table of its own."""
     told, single, tables = problem.given(), [], []
     for key, value in told.items():
-        if isinstance(value, Mapping) and _named(value):
+        if key in NAMED and isinstance(value, Mapping) and value:
             tables.append(_by_name(problem.kind, key, value, say))
         elif isinstance(value, Sequence) and value and all(isinstance(each, Mapping) for each in value):
             numbered = {str(i): each for i, each in enumerate(value, 1)}
@@ -53,35 +57,21 @@ def given_data(problem: Problem, say: Say) -> Iterator[Block]:
     yield from tables
 
 
-#: Keys that hold things under names which the user chose.
-NAMED = (
-    "supports", "loads", "forces", "couples", "masses", "inertias", "planes", "springs", "dampers", "start", "mounts",
-    "samples", "tests", "regressions", "capability", "variables", "subject_to", "dimensions", "clearances",
-    "components", "angles", "parameters",
-)  # fmt: skip
-
-
-def _named(value: Mapping[str, Any]) -> bool:
-    """Whether its keys are names of things, not of their values."""
-    return all(isinstance(each, Mapping) for each in value.values()) and bool(value)
-
-
 def _rows(kind: str, path: tuple[str, ...], value: Any, say: Say) -> Iterator[tuple[str, ...]]:
     """Rows of a single value; of a mapping one for each of its values, named with what they belong to."""
     if isinstance(value, Mapping):
         for key, each in value.items():
             yield from _rows(kind, (*path, str(key)), each, say)
         return
-    own = path[0] in NAMED and len(path) > 1
-    name = path[-1] if own else " – ".join(dict.fromkeys(_word(kind, part, say) for part in path))
-    symbol = path[-1] if own and path[0] == "parameters" else "" if own else _symbol(kind, path)
+    name, symbol = " – ".join(dict.fromkeys(_word(kind, part, say) for part in path)), _symbol(kind, path)
     shown, unit = _split(value, say)
     yield literal(name), _math(symbol), shown, literal(unit)
 
 
 def _by_name(kind: str, key: str, things: Mapping[str, Any], say: Say) -> Table:
     """Things by name, a column for every key that one of them has."""
-    flat = {name: dict(_flat(each)) for name, each in things.items()}
+    bare = ("force",) if key in ("forces", "loads") else ("value",)
+    flat = {name: dict(_flat(each, bare=bare)) for name, each in things.items()}
     columns = list(dict.fromkeys(column for each in flat.values() for column in each))
     head = [say("report.name")]
     for column in columns:
@@ -96,13 +86,15 @@ def _by_name(kind: str, key: str, things: Mapping[str, Any], say: Say) -> Table:
     return Table(caption, tuple(head), tuple(rows), "<" + "^" * len(columns))
 
 
-def _flat(value: Any, path: tuple[str, ...] = ()) -> Iterator[tuple[tuple[str, ...], Any]]:
-    """Values of a thing by their keys, those of mappings within it too."""
+def _flat(
+    value: Any, path: tuple[str, ...] = (), *, bare: tuple[str, ...]
+) -> Iterator[tuple[tuple[str, ...], Any]]:
+    """Values of a thing by their keys, those of mappings within it too; a single value as that of ``bare``."""
     if isinstance(value, Mapping):
         for key, each in value.items():
-            yield from _flat(each, (*path, str(key)))
+            yield from _flat(each, (*path, str(key)), bare=bare)
     else:
-        yield path or ("value",), value
+        yield path or bare, value
 
 
 def _word(kind: str, key: str, say: Say) -> str:

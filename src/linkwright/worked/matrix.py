@@ -12,6 +12,8 @@ from linkwright.words.characters import cells
 from linkwright.worked.page import Written
 from linkwright.worked.written import latex_symbol, number
 
+#: Columns of a matrix up to which A·X = B is a formula of a report; a wider one is a table.
+WIDEST = 7
 #: An entry below this share of the largest is nothing but rounding.
 ROUNDING = 1e-12
 
@@ -32,7 +34,20 @@ class Matrices:
         if len(parts) == 1:
             return Written(_joined(columns, [f"{head[0]} ="], self.rows), (latex_symbol(head[0]), _latex(columns[0])))
         left = "".join(_latex(each) for each in columns[:-1])
+        if len(columns) == 3 and len(columns[0][0]) > WIDEST:
+            return Written(_joined(columns, ["", "", "="], self.rows), (left, _latex(columns[-1])), self._cells(columns))
         return Written(_joined(columns, ["", *[""] * (len(parts) - 2), "="], self.rows), (left, _latex(columns[-1])))
+
+
+    def _cells(self, columns: Sequence[list[list[str]]]) -> tuple[tuple[str, ...], ...]:
+        """A·X = B as rows of a table: names of the unknowns over the columns of A, then B; zeros left out."""
+        a, x, b = columns
+        head = ("", *(each[0] for each in x), self.rest[-1][0])
+        body = (
+            (name, *("" if each == "0" else each for each in row), *right)
+            for name, row, right in zip(self.rows, a, b, strict=True)
+        )
+        return (head, *body)
 
 
 def _texts(matrix: Floats | Sequence[str]) -> list[list[str]]:

@@ -98,10 +98,14 @@ class Equation:
 
 @dataclass(frozen=True)
 class Written:
-    """A formula without a result of its own: plain text, of a matrix in several lines, and LaTeX of its sides."""
+    """A formula without a result of its own: plain text, of a matrix in several lines, and LaTeX of its sides.
+
+    ``cells``: rows of a table, headings first, which reports print in place of a system that is too wide for a formula.
+    """
 
     text: str
     latex_sides: tuple[str, ...]
+    cells: tuple[tuple[str, ...], ...] = ()
 
     def data(self) -> dict[str, object]:
         """Plain data."""

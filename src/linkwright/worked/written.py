@@ -33,6 +33,10 @@ _TOKEN = re.compile(
 )
 
 
+#: Characters of words that are no symbols.
+_WIDE = re.compile(r"[\u2e80-\u9fff\uf900-\ufaff]")
+
+
 def filled(text: str, values: Mapping[str, str]) -> str:
     """The formula with the names that have a value replaced by it; empty where there is none to put in."""
     tokens = _tokens(text)
@@ -85,6 +89,8 @@ def latex(text: str) -> str:
 
 def latex_symbol(text: str) -> str:
     """LaTeX of what a result is called: a symbol, or words, which stand upright."""
+    if _WIDE.search(text) or re.search(r"[a-z]{4,} |[a-z] [a-z]", text):
+        return upright(text)
     try:
         return latex(text)
     except LinkwrightError:
@@ -267,7 +273,10 @@ def name(text: str) -> str:
     """A name as a symbol: its letter with accents, primes and index; several Greek letters as a product."""
     if "." in text:
         owner, _, what = text.rpartition(".")
-        return rf"{what[0]}_{{{upright(owner.replace('.', '') + what[1:])}}}"
+        mark = "," if len(owner) > 2 and what[1:] else ""
+        return rf"{what[0]}_{{{upright(owner + mark + what[1:])}}}"
+    if _WIDE.search(text):
+        return upright(text)
     stem = re.match(rf"(?:{_LETTER}|[\u0300-\u030f])+", text)
     assert stem is not None
     letters = re.sub(r"[\u0300-\u030f]", "", stem[0])

@@ -385,8 +385,10 @@ class Optimum(Result):
                     unit_of(_limit_kind(c)),
                     unit_of(self.program.model.objective.dimension),
                 )
-                gain = f"{price * size / factor:+.6g} {own}".rstrip()
-                lines.append(say("program.price", name=c.name, unit=unit or "1", price=gain))
+                gain = f"{abs(price) * size / factor:.6g} {own}".rstrip()
+                best = say("program.minimum" if self.program.minimize else "program.maximum")
+                key = "program.price_rises" if price > 0 else "program.price_falls"
+                lines.append(say(key, name=c.name, step=f"1 {unit}".rstrip(), best=best, price=gain))
         return tuple(lines)
 
     def _allowed(self, name: str, variable: Variable) -> str:

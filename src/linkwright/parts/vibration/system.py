@@ -14,7 +14,8 @@ import numpy as np
 from linkwright.core.arrays import Complexes, Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, ModelError
-from linkwright.fields.base import GivenByFile, Quantity, Text, given
+from linkwright.fields.base import GivenByFile, Place, Quantity, Reader, Text, given
+from linkwright.fields.nodes import Node
 from linkwright.parts.base import Block, Problem, Result, Row, Value, fault, number, put
 from linkwright.parts.fields import AnyQuantity, Listed, Named, Table
 from linkwright.parts.vibration.excitation import (
@@ -82,6 +83,17 @@ START = {
 
 
 @dataclass(frozen=True)
+class MassesField(Named):
+    """Masses by name; moments of inertia among them, as files had them before, are a warning."""
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
+        found = super().read(reader, node, place, given)
+        if any(each is not None and each[1] == DIMENSIONS["inertia"] for each in (found or {}).values()):
+            reader.old_key(node, place, "masses", "inertias")
+        return found
+
+
+@dataclass(frozen=True)
 class VibratingSystem(Problem):
     """Masses (kg; or discs with inertias, kg·m², ``turning``) by name, springs and dampers between them.
 
@@ -94,10 +106,10 @@ class VibratingSystem(Problem):
             "on": Text(required=True, doc="the mass that is to be quieted"),
             "mass": Quantity("mass", required=True, above=0.0, doc="mass of the absorber"),
         }, doc="adds the best damped absorber: {on: body, mass: 5 kg}"),
+        "inertias": Named(AnyQuantity(("inertia",)), "disc", doc="discs on shafts, in place of masses: moments of "
+                          "inertia (kg·m²) by name"),
     })  # fmt: skip
-    masses: Mapping[str, float] = given(
-        Named(AnyQuantity(either("mass")), "mass", doc="masses (kg) or inertias (kg·m²) by name")
-    )
+    masses: Mapping[str, float] = given(MassesField(AnyQuantity(either("mass")), "mass", doc="masses (kg) by name"), dict)
     springs: Mapping[str, Tie] = given(
         Named(SPRING, "spring", doc="springs by name: {between: [ground, body], stiffness: 20 kN/m}"), dict
     )
@@ -120,8 +132,10 @@ class VibratingSystem(Problem):
     @classmethod
     def of_file(cls, values: Mapping[str, Any], folder: Path) -> VibratingSystem:
         given = dict(values)
+        discs = given.pop("inertias", None) or {}
+        given["masses"] = {**(given.get("masses") or {}), **discs}
         turning = any(kind == DIMENSIONS["inertia"] for _, kind in given["masses"].values())
-        wrong = _mixed(given, turning)
+        wrong = _mixed(given, dict.fromkeys(discs, "inertias"), turning)
         if wrong:
             raise ModelError(wrong)
         given["masses"] = {name: value for name, (value, _) in given["masses"].items()}
@@ -234,10 +248,10 @@ class VibratingSystem(Problem):
         return Vibration(self)
 
 
-def _mixed(given: Mapping[str, Any], turning: bool) -> list[Finding]:
+def _mixed(given: Mapping[str, Any], where: Mapping[str, str], turning: bool) -> list[Finding]:
     """Findings where straight and turning motion, or wrong units, come together."""
     kinds = TURNING if turning else STRAIGHT
-    values = {f"masses.{n}": (kind, "mass") for n, (_, kind) in given["masses"].items()}
+    values = {f"{where.get(n, 'masses')}.{n}": (kind, "mass") for n, (_, kind) in given["masses"].items()}
     for what, key in (("springs", "stiffness"), ("dampers", "damping")):
         values |= {f"{what}.{n}.{key}": (t["rate"][1], key) for n, t in given.get(what, {}).items()}
     for name, start in given.get("start", {}).items():
