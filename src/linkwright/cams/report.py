@@ -216,7 +216,13 @@ def steps(design: CamDesign, say: Say) -> list[Step]:
         first.law("H(θ) = r_b + s" if not follower.oscillating else "H(θ) = c·sin(ψ₀ + s) − f")
         put(first, "r_b", "", base, "length")
     elif follower.oscillating:
-        put(first, "ψ₀", "arccos((c² + l² − (r_b + r_r)²)/(2·c·l))", follower.start_angle(base) or 0.0, "angle")
+        put(
+            first,
+            "ψ₀",
+            "arccos((c² + l² − (r_b + r_r)²)/(2·c·l))",
+            follower.start_angle(base) or 0.0,
+            "angle",
+        )
     else:
         numbers = f"√({number(prime, 'length')}² − {number(follower.offset, 'length')}²)"
         put(first, "d", "√((r_b + r_r)² − e²)", follower.start_height(base) or 0.0, "length", numbers=numbers)

@@ -151,7 +151,9 @@ def _as_told(value: Any, kind: Field | None = None) -> Any:
         return {key: _as_told(each) for key, each in value.items()}
     if value is None or kind is None or is_dataclass(value):
         named = getattr(value, "label", None) or getattr(value, "text", None) or getattr(value, "name", None)
-        bare = {each.name: getattr(value, each.name) for each in fields(value)} if is_dataclass(value) else value
+        bare = (
+            {each.name: getattr(value, each.name) for each in fields(value)} if is_dataclass(value) else value
+        )
         return named or bare
     return kind.written(value)
 
@@ -208,7 +210,9 @@ class Row:
         """The row with values below a limit as zero; a plain number, or a ``remainder``, stays."""
         if not self.dimension or self.remainder or self.text:
             return self
-        value, end = (0.0 if each is not None and abs(each) <= rounding else each for each in (self.value, self.end))
+        value, end = (
+            0.0 if each is not None and abs(each) <= rounding else each for each in (self.value, self.end)
+        )
         return replace(self, value=value, end=end)
 
     def data(self) -> dict[str, Any]:
@@ -276,7 +280,9 @@ class Result(Plotted, ABC):
         for step in steps:
             step.items[:] = [
                 replace(item, result="0")
-                if isinstance(item, Equation) and item.unit and abs(item.value) <= ROUNDING * largest[item.unit]
+                if isinstance(item, Equation)
+                and item.unit
+                and abs(item.value) <= ROUNDING * largest[item.unit]
                 else item
                 for item in step.items
             ]

@@ -52,14 +52,11 @@ def calculation(problem: Problem, say: Say, language: str) -> Iterator[Block | O
         yield from errata_blocks(own.errata, own.source or problem.source, say)
 
 
-def _chapters(
-    problem: Problem, found: Result, own: Settings, say: Say, language: str
-) -> Iterator[Block]:
+def _chapters(problem: Problem, found: Result, own: Settings, say: Say, language: str) -> Iterator[Block]:
     """Heading, purpose, given data, sketch, solution and results."""
     yield Heading(literal(title_said(found.title, language)), 1)
     purpose, source = (
-        in_language(each, language)
-        for each in (own.purpose or problem.purpose, own.source or problem.source)
+        in_language(each, language) for each in (own.purpose or problem.purpose, own.source or problem.source)
     )
     if purpose or source:
         yield Heading(say("report.purpose_of_calculation"), 2)
@@ -103,7 +100,14 @@ def _label(text: str) -> str:
     """A label of a table: a symbol as a formula, words as they are."""
     bare = text.strip()
     short = len(bare) <= 4 or "." in bare or "_" in bare
-    if short and bare.isprintable() and " " not in bare and not any(c > "\u2e7f" for c in bare) and not bare.islower() and any(c.isalpha() for c in bare):
+    if (
+        short
+        and bare.isprintable()
+        and " " not in bare
+        and not any(c > "\u2e7f" for c in bare)
+        and not bare.islower()
+        and any(c.isalpha() for c in bare)
+    ):
         try:
             return f"${latex(bare)}$"
         except LinkwrightError:
@@ -122,7 +126,11 @@ def _sketch(problem: Problem, say: Say, language: str) -> Iterator[Block]:
         return
     if drawn is not None:
         yield Heading(say("report.sketch"), 2)
-        yield Figure(say("report.sketch_of", name=literal(title_said(problem.name, language))), ((drawn.svg, WIDE),), tallest=TALLEST)
+        yield Figure(
+            say("report.sketch_of", name=literal(title_said(problem.name, language))),
+            ((drawn.svg, WIDE),),
+            tallest=TALLEST,
+        )
 
 
 def _pictures(found: Result, say: Say, language: str) -> Iterator[Block]:
@@ -141,6 +149,6 @@ def _pictures(found: Result, say: Say, language: str) -> Iterator[Block]:
             if RESULT_DIAGRAMS[kind].usual:
                 yield Paragraph(literal(error.say(language)), "missing")
             continue
-        yield Figure(f"{literal(title_said(found.title, language))}: {say(f'plot.kind.{kind}')}", ((svg, 0.75),))
-
-
+        yield Figure(
+            f"{literal(title_said(found.title, language))}: {say(f'plot.kind.{kind}')}", ((svg, 0.75),)
+        )

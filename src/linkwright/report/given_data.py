@@ -111,7 +111,12 @@ def _symbol(kind: str, path: tuple[str, ...]) -> str:
     """The symbol of a key, as a formula on a line; empty where it has none."""
     above = path[-2] if len(path) > 1 else kind
     return next(
-        (SYMBOLS[each] for each in (f"{above}.{path[-1]}", f"{kind}.{path[-1]}", path[-1]) if each in SYMBOLS), ""
+        (
+            SYMBOLS[each]
+            for each in (f"{above}.{path[-1]}", f"{kind}.{path[-1]}", path[-1])
+            if each in SYMBOLS
+        ),
+        "",
     )
 
 

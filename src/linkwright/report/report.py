@@ -141,7 +141,9 @@ def report(
     problems = [each for each in given if isinstance(each, Problem)]
     own = cases[0].settings if cases else settings(problems[0].report, language)
     chosen = _chosen(sections or own.sections)
-    names = [case.mechanism.name for case in cases] or [title_said(problem.name, language) for problem in problems]
+    names = [case.mechanism.name for case in cases] or [
+        title_said(problem.name, language) for problem in problems
+    ]
     document = Document(
         own.title or " / ".join(dict.fromkeys(names)),
         speaker(language),
@@ -204,7 +206,11 @@ def _add_calculation(document: Document, problem: Problem) -> None:
 
 
 def _cases(
-    given: Sequence[Mechanism | str], sources: Sequence[str], language: str, position: str, positions: int | None
+    given: Sequence[Mechanism | str],
+    sources: Sequence[str],
+    language: str,
+    position: str,
+    positions: int | None,
 ) -> list[Case]:
     found = []
     for index, each in enumerate(given):

@@ -32,12 +32,17 @@ class Matrices:
         columns = [_texts(matrix) for _, matrix in parts]
         head = [symbol for symbol, _ in parts]
         if len(parts) == 1:
-            return Written(_joined(columns, [f"{head[0]} ="], self.rows), (latex_symbol(head[0]), _latex(columns[0])))
+            return Written(
+                _joined(columns, [f"{head[0]} ="], self.rows), (latex_symbol(head[0]), _latex(columns[0]))
+            )
         left = "".join(_latex(each) for each in columns[:-1])
         if len(columns) == 3 and len(columns[0][0]) > WIDEST:
-            return Written(_joined(columns, ["", "", "="], self.rows), (left, _latex(columns[-1])), self._cells(columns))
-        return Written(_joined(columns, ["", *[""] * (len(parts) - 2), "="], self.rows), (left, _latex(columns[-1])))
-
+            return Written(
+                _joined(columns, ["", "", "="], self.rows), (left, _latex(columns[-1])), self._cells(columns)
+            )
+        return Written(
+            _joined(columns, ["", *[""] * (len(parts) - 2), "="], self.rows), (left, _latex(columns[-1]))
+        )
 
     def _cells(self, columns: Sequence[list[list[str]]]) -> tuple[tuple[str, ...], ...]:
         """A·X = B as rows of a table: names of the unknowns over the columns of A, then B; zeros left out."""
@@ -56,7 +61,8 @@ def _texts(matrix: Floats | Sequence[str]) -> list[list[str]]:
         return [[str(each)] for each in matrix]
     largest = float(np.abs(matrix).max()) if matrix.size else 0.0
     return [
-        ["0" if abs(c) <= ROUNDING * largest else f"{c:.6g}" for c in row] for row in np.atleast_2d(matrix).tolist()
+        ["0" if abs(c) <= ROUNDING * largest else f"{c:.6g}" for c in row]
+        for row in np.atleast_2d(matrix).tolist()
     ]
 
 

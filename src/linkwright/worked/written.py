@@ -18,7 +18,17 @@ FUNCTIONS = ("cos", "sin", "tan", "arctan", "arccos", "arcsin", "atan2", "ln", "
 _KNOWN = ("cos", "sin", "tan", "arctan", "ln", "exp", "min", "max")
 _ACCENTS = {"\u0304": "bar", "\u0305": "bar", "\u0307": "dot", "\u0308": "ddot"}
 _RAISED = dict(zip("⁰¹²³⁴⁵⁶⁷⁸⁹⁻ⁿᵀ", "0123456789-nT", strict=True))
-_RELATIONS = {"∧": r",\quad ", "=": "=", "≤": r"\le ", "≥": r"\ge ", "<": "<", ">": ">", "≈": r"\approx ", "→": r"\to ", "∈": "∈"}
+_RELATIONS = {
+    "∧": r",\quad ",
+    "=": "=",
+    "≤": r"\le ",
+    "≥": r"\ge ",
+    "<": "<",
+    ">": ">",
+    "≈": r"\approx ",
+    "→": r"\to ",
+    "∈": "∈",
+}
 _SIGNS = {"+": "+", "−": "-", "-": "-", "±": r"\pm ", "∓": "∓"}
 _PREFIX = {"Σ": r"\sum ", "∑": r"\sum ", "∫": r"\int ", "∇": "∇", "∂": r"\partial ", "∠": r"\angle "}
 _LOWERED = dict(zip("₀₁₂₃₄₅₆₇₈₉", "0123456789", strict=True))

@@ -16,7 +16,19 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.search import first_largest
 from linkwright.errors import Finding
 from linkwright.fields.base import Quantities, Quantity, Schema, Word, given, quantity_schema
-from linkwright.parts.base import ROUNDING, Block, Problem, Result, Row, Value, fault, number, put, shown, signed
+from linkwright.parts.base import (
+    ROUNDING,
+    Block,
+    Problem,
+    Result,
+    Row,
+    Value,
+    fault,
+    number,
+    put,
+    shown,
+    signed,
+)
 from linkwright.parts.beams.elastic import ElasticLine, Hold, Point, Spread, free_motions, solve_line
 from linkwright.parts.beams.materials import MATERIAL, Material
 from linkwright.parts.beams.sections import Section, section_field
@@ -408,7 +420,8 @@ class BeamLine(Result):
         turning += [_line_moment(s) - about * (s.first + s.last) / 2 * (s.end - s.start) for s in spreads]
         for name, unknown, given in (("ΣF", forces, known), ("ΣM", moments, turning)):
             left = " ".join(
-                f"{'+' if c > 0 else '−'} {'' if abs(c) == 1.0 else f'{abs(c):.6g}·'}{each}" for c, each in unknown
+                f"{'+' if c > 0 else '−'} {'' if abs(c) == 1.0 else f'{abs(c):.6g}·'}{each}"
+                for c, each in unknown
             ).removeprefix("+ ")
             rest = signed(given)
             rest = "" if rest == "0" else f" − {rest[1:]}" if rest[0] == "−" else f" + {rest}"
@@ -447,13 +460,20 @@ class BeamLine(Result):
         if self.stress is not None and self.stress[1]:
             x, stress = self.stress
             moment = max((float(self.moment(x, side)[0]) for side in ("left", "right")), key=abs)
-            of: dict[str, Value] = {"M": (abs(moment), "torque"), "W": (abs(moment) / stress, "section_modulus")}
+            of: dict[str, Value] = {
+                "M": (abs(moment), "torque"),
+                "W": (abs(moment) / stress, "section_modulus"),
+            }
             put(step, "σ", "M/W", stress, "pressure", of=of)
         if self.safety is not None and self.stress is not None:
             of = {"Re": (strength, "pressure"), "σ": (self.stress[1], "pressure")}
             put(step, "S", "Re/σ", self.safety, of=of)
         if self.needed_modulus is not None:
-            of = {"M_max": (abs(self.largest("moment")[1]), "torque"), "S": safety, "Re": (strength, "pressure")}
+            of = {
+                "M_max": (abs(self.largest("moment")[1]), "torque"),
+                "S": safety,
+                "Re": (strength, "pressure"),
+            }
             put(step, "W_min", "M_max·S/Re", self.needed_modulus, "section_modulus", of=of)
         return step
 

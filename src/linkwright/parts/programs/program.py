@@ -437,7 +437,9 @@ class Optimum(Result):
         for name, value in self.x.items():
             found.law(f"{name} = {measured(self.program.shown(name, value))}")
         values = {name: self.program.shown(name, value) for name, value in self.x.items()}
-        self._law(found, f"f = {objective.text}", values=values, result=in_unit(self.value, objective.dimension))
+        self._law(
+            found, f"f = {objective.text}", values=values, result=in_unit(self.value, objective.dimension)
+        )
         for c in self.program.subject_to:
             row = self._limit_row(c, say)
             test.say(f"{c.name}: {row.text}   {row.note}")

@@ -152,11 +152,18 @@ class BeltTensions(Result):
         above = ("(", " − Tc)") if flung else ("", "")
         tight, slack = (self.tight, "force"), (self.slack, "force")
         if belt.tight is not None:
-            put(step, "T2", f"{flung}{above[0]}T1{above[1]}/q", self.slack, "force", of={**known, "T1": tight})
+            put(
+                step, "T2", f"{flung}{above[0]}T1{above[1]}/q", self.slack, "force", of={**known, "T1": tight}
+            )
         elif belt.slack is not None:
-            put(step, "T1", f"{flung}{above[0]}T2{above[1]}·q", self.tight, "force", of={**known, "T2": slack})
+            put(
+                step, "T1", f"{flung}{above[0]}T2{above[1]}·q", self.tight, "force", of={**known, "T2": slack}
+            )
         else:
-            given: dict[str, Value] = {"M": (belt.torque or 0.0, "torque"), "r": (belt.radius or 0.0, "length")}
+            given: dict[str, Value] = {
+                "M": (belt.torque or 0.0, "torque"),
+                "r": (belt.radius or 0.0, "length"),
+            }
             put(step, "F", "M/r", self.pull, "force", of=given)
             known["F"] = (self.pull, "force")
             put(step, "T1", f"{flung}F·q/(q − 1)", self.tight, "force", of=known)

@@ -34,7 +34,9 @@ HELD = ("x", "y", "z", "turn_x", "turn_y", "turn_z")
 class Couple(Components):
     """Three components, or the one about z."""
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> tuple[float, ...] | None:
+    def read(
+        self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]
+    ) -> tuple[float, ...] | None:
         if isinstance(node, SequenceNode):
             return super().read(reader, node, place, given)
         value = reader.quantity(node, place, self.dimension)
@@ -55,9 +57,7 @@ class Support:
     holds: tuple[str, ...] = given(
         Listed(Word(HELD), "[x, y]", doc="what it holds: x, y, z, turn_x, turn_y, turn_z"), ()
     )
-    along: tuple[float, ...] = given(
-        replace(DIRECTION, doc="direction of a rod, rope or roller"), ()
-    )
+    along: tuple[float, ...] = given(replace(DIRECTION, doc="direction of a rod, rope or roller"), ())
 
     def columns(self, scale: float) -> list[tuple[str, Floats]]:
         """Names of its reactions, each with the force and moment (6,) of a unit; moments over ``scale``."""
@@ -79,7 +79,10 @@ class BodyLoad(Force):
     """A load on a body: a force, or a ``couple`` (N·m; in the plane one number, counter-clockwise)."""
 
     couple: tuple[float, ...] = given(
-        Couple("torque", doc="couple: M, counter-clockwise; [Mx, My, Mz] in space", form="[0 N·m, 0 N·m, 5 N·m]"), ()
+        Couple(
+            "torque", doc="couple: M, counter-clockwise; [Mx, My, Mz] in space", form="[0 N·m, 0 N·m, 5 N·m]"
+        ),
+        (),
     )
 
 
@@ -117,7 +120,9 @@ class RigidBody(Problem):
         wrong = [
             fault("statics.load_form", f"loads.{name}")
             for name, each in loads.items()
-            if isinstance(each, BodyLoad) and each.couple and (each.force or each.size is not None or each.directed)
+            if isinstance(each, BodyLoad)
+            and each.couple
+            and (each.force or each.size is not None or each.directed)
         ]
         if wrong:
             raise ModelError(wrong)
@@ -276,7 +281,8 @@ class Reactions(Result):
                 if abs(c) > 1e-12
             ]
             sides = " ".join(
-                f"{'+' if c > 0 else '−'} {'' if abs(c) == 1.0 else number(abs(c)) + '·'}{n}" for c, n in parts
+                f"{'+' if c > 0 else '−'} {'' if abs(c) == 1.0 else number(abs(c)) + '·'}{n}"
+                for c, n in parts
             )
             load = state.load[i] * arm
             rest = "" if not load else f" {'+' if load > 0 else '−'} {number(abs(load))}"

@@ -47,7 +47,9 @@ class Components(Quantities):
 class Direction(Components):
     """A vector of any length, or in the plane its angle from the x-axis."""
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> tuple[float, ...] | None:
+    def read(
+        self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]
+    ) -> tuple[float, ...] | None:
         if isinstance(node, SequenceNode):
             return super().read(reader, node, place, given)
         angle = reader.quantity(node, place, "angle")
@@ -113,7 +115,8 @@ class Force(Line):
 
     force: tuple[float, ...] = given(Components("force", doc="components"), ())
     size: float | None = given(
-        Quantity("force", key="magnitude", old="size", doc="magnitude, with direction; unknown unless given"), None
+        Quantity("force", key="magnitude", old="size", doc="magnitude, with direction; unknown unless given"),
+        None,
     )
     along: tuple[float, ...] = given(DIRECTION, ())
     at: tuple[float, ...] = given(
@@ -189,11 +192,11 @@ class Along(Line):
 
 
 LINES = Named(
-    Table.of(Along), "direction", doc="lines along which a force is resolved, by name: {of: F, direction: [2, 3, 6]}"
+    Table.of(Along),
+    "direction",
+    doc="lines along which a force is resolved, by name: {of: F, direction: [2, 3, 6]}",
 )
-PAIRS = Named(
-    Listed(Text(), "[F1, F2]"), "angle", doc="angles between two forces, by name: [F1, F2]"
-)
+PAIRS = Named(Listed(Text(), "[F1, F2]"), "angle", doc="angles between two forces, by name: [F1, F2]")
 
 
 def direction_angles(vector: Floats) -> Floats:
@@ -353,7 +356,9 @@ class Resultant(Result):
             parts = [each.vector[i] for each in self.system.forces.values()]
             names = " + ".join(f"{name}{axis}" for name in self.system.forces)
             put(sums, f"R{axis}", names, self.force[i], "force", numbers=signed(parts))
-        of: dict[str, Value] = {f"R{axis}": (float(c), "force") for axis, c in zip("xyz", self.force, strict=True)}
+        of: dict[str, Value] = {
+            f"R{axis}": (float(c), "force") for axis, c in zip("xyz", self.force, strict=True)
+        }
         put(sums, "R", "√(Rx² + Ry² + Rz²)", self.size, "force", of=of)
         of["R"] = (self.size, "force")
         for axis, angle, greek in zip("xyz", self.angles, "αβγ", strict=True):
@@ -414,7 +419,9 @@ def asked_blocks(
         along = float(vector @ line.way)
         rest = vector - along * line.way
         rows = [Row("along", along, "force"), Row("across", float(np.linalg.norm(rest)), "force")]
-        rows += [Row("part", c, "force", f"{name}.{axis}") for axis, c in zip("xyz", along * line.way, strict=True)]
+        rows += [
+            Row("part", c, "force", f"{name}.{axis}") for axis, c in zip("xyz", along * line.way, strict=True)
+        ]
         if np.any(vector):
             rows.append(Row("to_line", angle_between(vector, line.way), "angle"))
         found.append(Block(f"component {name}", say("statics.component", of=of, name=name), rows))
@@ -443,7 +450,10 @@ def asked_steps(
         numbers = dot_text(vector, line.way)
         along = float(vector @ line.way)
         put(step, "F_along", f"{of}·e", along, "force", numbers=numbers)
-        of_size: dict[str, Value] = {of: (float(np.linalg.norm(vector)), "force"), "F_along": (along, "force")}
+        of_size: dict[str, Value] = {
+            of: (float(np.linalg.norm(vector)), "force"),
+            "F_along": (along, "force"),
+        }
         put(step, "F_across", f"√({of}² − F_along²)", float(np.linalg.norm(vector - along * line.way)), "force",
             of=of_size)  # fmt: skip
         if np.any(vector):
@@ -453,7 +463,9 @@ def asked_steps(
         if not (np.any(vectors[a]) and np.any(vectors[b])):
             continue
         step = Step(str(count + len(found) + 1), say("statics.angle_of", name=name, first=a, second=b))
-        step.law(f"{a}·{b} = {dot_text(vectors[a], vectors[b])} = {number(float(vectors[a] @ vectors[b]))}", "N²")
+        step.law(
+            f"{a}·{b} = {dot_text(vectors[a], vectors[b])} = {number(float(vectors[a] @ vectors[b]))}", "N²"
+        )
         sizes = "·".join(number(float(np.linalg.norm(vectors[each]))) for each in (a, b))
         numbers = f"arccos({number(float(vectors[a] @ vectors[b]))}/({sizes}))"
         put(step, "φ", f"arccos({a}·{b}/(|{a}|·|{b}|))", angle_between(vectors[a], vectors[b]), "angle",
@@ -466,4 +478,6 @@ def dot_text(first: Floats, second: Floats) -> str:
     """A dot product with its numbers: ``3·0.6 + 4·0.8``."""
     parts = [(float(a), float(b)) for a, b in zip(first, second, strict=True) if a and b]
     texts = [f"{number(a)}·{number(b) if b > 0 else f'({number(b)})'}" for a, b in parts]
-    return " + ".join(f"({text})" if text.startswith("-") and k else text for k, text in enumerate(texts)) or "0"
+    return (
+        " + ".join(f"({text})" if text.startswith("-") and k else text for k, text in enumerate(texts)) or "0"
+    )

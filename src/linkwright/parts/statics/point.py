@@ -33,7 +33,14 @@ def point_findings(system: ForceSystem) -> list[Finding]:
     found = np.linalg.lstsq(a, b, rcond=None)[0]
     if np.abs(a @ found - b).max() > ZERO * max(float(np.abs(b).max()), float(np.abs(found).max())):
         left = b - a @ found
-        return [fault("statics.point_open", "forces", names=names, left=f"({', '.join(number(float(c)) for c in left)})")]
+        return [
+            fault(
+                "statics.point_open",
+                "forces",
+                names=names,
+                left=f"({', '.join(number(float(c)) for c in left)})",
+            )
+        ]
     return []
 
 

@@ -488,7 +488,7 @@ def _over(y: Scale, x: Scale, power: int, si: Scale) -> Scale:
     if not x.unit:
         return Scale(y.unit, y.factor / x.factor**power, si.si)
     raised = x.unit + ("" if power == 1 else "⁰¹²³⁴⁵⁶⁷⁸⁹"[power] if power < 10 else f"^{power}")
-    below = f"({x.unit}){raised[len(x.unit):]}" if set(x.unit) & set("·/") else raised
+    below = f"({x.unit}){raised[len(x.unit) :]}" if set(x.unit) & set("·/") else raised
     return Scale(f"{y.unit or '1'}/{below}", y.factor / x.factor**power, si.si)
 
 

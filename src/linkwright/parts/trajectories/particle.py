@@ -267,7 +267,14 @@ class Flight(Result):
         elif p.linear:
             step.law("m·v̇_x = −b·v_x; m·v̇_y = −m·g − b·v_y")
             step.law("x = v_x·τ·(1 − e^(−t/τ)); y = h + (v_y + g·τ)·τ·(1 − e^(−t/τ)) − g·τ·t")
-            put(step, "τ", "m/b", p.mass / p.linear, "time", of={"m": (p.mass, "mass"), "b": (p.linear, "damping")})
+            put(
+                step,
+                "τ",
+                "m/b",
+                p.mass / p.linear,
+                "time",
+                of={"m": (p.mass, "mass"), "b": (p.linear, "damping")},
+            )
         else:
             step.law("x = v_x·t; y = h + v_y·t − g·t²/2")
         of = {"v": (p.speed or 0.0, "velocity"), "α": (p.angle or 0.0, "angle")}

@@ -109,7 +109,9 @@ class VibratingSystem(Problem):
         "inertias": Named(AnyQuantity(("inertia",)), "disc", doc="discs on shafts, in place of masses: moments of "
                           "inertia (kg·m²) by name"),
     })  # fmt: skip
-    masses: Mapping[str, float] = given(MassesField(AnyQuantity(either("mass")), "mass", doc="masses (kg) by name"), dict)
+    masses: Mapping[str, float] = given(
+        MassesField(AnyQuantity(either("mass")), "mass", doc="masses (kg) by name"), dict
+    )
     springs: Mapping[str, Tie] = given(
         Named(SPRING, "spring", doc="springs by name: {between: [ground, body], stiffness: 20 kN/m}"), dict
     )

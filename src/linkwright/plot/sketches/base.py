@@ -72,7 +72,9 @@ class Paper:
         angle = np.linspace(0.0, 2 * math.pi, 25)
         self.ink.append(np.stack([at[0] + radius * np.cos(angle), at[1] + radius * np.sin(angle)], axis=1))
 
-    def arrow(self, start: Vec | Floats, end: Vec | Floats, style: str = "lw-force", *, dashed: bool = False) -> None:
+    def arrow(
+        self, start: Vec | Floats, end: Vec | Floats, style: str = "lw-force", *, dashed: bool = False
+    ) -> None:
         """An arrow; ``dashed``: of what is not known yet."""
         shape = SYMBOLS["arrow"](start=vec(np.asarray(start)), end=vec(np.asarray(end)), style=style)
         self.add(shape, "lw-dashed" if dashed else "")
@@ -92,7 +94,9 @@ class Paper:
             line = placed([(0.0, offset), (length, offset)], start, along)
             ends = (vec(line[0]), vec(line[1]))
             middle = vec(line.mean(axis=0))
-            self.labels.append(Label(text, (middle,), "lw-value", 0.9 * LETTERS, 4.0, leader=False, along=ends))
+            self.labels.append(
+                Label(text, (middle,), "lw-value", 0.9 * LETTERS, 4.0, leader=False, along=ends)
+            )
 
     def chain(self, places: Sequence[tuple[Vec, float]], say: Callable[[float], str], offset: float) -> None:
         """A chain of dimensions between places (on the paper, and as numbers) that follow each other."""

@@ -99,7 +99,9 @@ def _dimensions(paper: Paper, beam: Beam, scale: float) -> None:
     places = {0.0, beam.length, *beam.hinges, *(each.at for each in beam.supports.values())}
     places |= {each.start for each in beam.steps}
     for load in beam.loads.values():
-        places |= {load.start, beam.length if load.end is None else load.end} if load.line else {load.at or 0.0}
+        places |= (
+            {load.start, beam.length if load.end is None else load.end} if load.line else {load.at or 0.0}
+        )
     ordered = sorted(places)
     kept = [x for i, x in enumerate(ordered) if i == 0 or x - ordered[i - 1] > 1e-9 * beam.length]
     text = partial(_length)

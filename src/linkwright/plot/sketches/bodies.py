@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
 from linkwright.core.arrays import Floats
@@ -14,7 +12,7 @@ from linkwright.parts.statics.forces import spatial
 from linkwright.plot.drawing.picture import Drawing
 from linkwright.plot.sketches.base import Paper, roller_support, scale_of, sketched
 from linkwright.plot.sketches.forces import AXIS, ISOMETRIC, LONGEST, SHORTEST, axes
-from linkwright.plot.symbols.base import SYMBOLS, Vec, vec
+from linkwright.plot.symbols.base import Vec, vec
 
 #: Length of a rod or rope to the ground; room for the body.
 ROD, ROOM = 62.0, 340.0
@@ -76,7 +74,9 @@ def _support(
             paper.put("fixed_pivot", at=place, toward=(0.0, 1.0))
             paper.put("pin", at=place)
     elif planar and holds & {"x", "y"}:
-        roller_support(paper, place, (0.0, 1.0) if "y" in holds else (-1.0 if at[0] <= middle[0] else 1.0, 0.0))
+        roller_support(
+            paper, place, (0.0, 1.0) if "y" in holds else (-1.0 if at[0] <= middle[0] else 1.0, 0.0)
+        )
     else:
         for word in sorted(holds):
             _held(paper, word, at, view)
@@ -107,9 +107,7 @@ def _dimensions(paper: Paper, places: Floats, scale: float) -> None:
     left = float(min(np.concatenate([line[:, 0] for line in paper.ink]))) - 30.0
     for axis in (0, 1):
         ordered = np.unique(np.round(places[:, axis], 9))
-        spots = [
-            ((scale * x, low) if axis == 0 else (left, -scale * x), float(x)) for x in ordered.tolist()
-        ]
+        spots = [((scale * x, low) if axis == 0 else (left, -scale * x), float(x)) for x in ordered.tolist()]
         paper.chain(spots, lambda value: shown(value, "length", 5), 0.0)
 
 
@@ -119,5 +117,3 @@ def draw_its_mechanism(problem: OfMechanism, language: str) -> Drawing:
     from linkwright.plot.drawing.draw import draw
 
     return draw(problem.mechanism, language=language, size=560)
-
-

@@ -70,7 +70,9 @@ def _bundle(
         for i, (name, tie, what) in enumerate(bundle):
             spot = x + ROW * 1.4 * (i - (count - 1) / 2)
             paper.put(what, start=(spot, tall / 2), end=(spot, tall / 2 + 62.0))
-            paper.name(_rate(name, tie, what, kinds), (spot, tall / 2 + 31.0), style="lw-value", clearance=12.0)
+            paper.name(
+                _rate(name, tie, what, kinds), (spot, tall / 2 + 31.0), style="lw-value", clearance=12.0
+            )
         paper.put("wall", at=(x, tall / 2 + 62.0), toward=(0.0, 1.0), size=ROW * count)
         return
     start = left[names[first]] + WIDTH if first >= 0 else -GAP
@@ -132,7 +134,9 @@ def draw_follower(follower: FollowerSpring, language: str) -> Drawing:
     if follower.damping_ratio:
         paper.put("damper", start=(16.0, -96.0), end=(16.0, -24.0))
         paper.name(f"ζ = {follower.damping_ratio:.4g}", (24.0, -60.0), style="lw-value", clearance=10.0)
-    paper.name(f"k = {shown(follower.stiffness, 'stiffness')}", (-24.0, -60.0), style="lw-value", clearance=10.0)
+    paper.name(
+        f"k = {shown(follower.stiffness, 'stiffness')}", (-24.0, -60.0), style="lw-value", clearance=10.0
+    )
     paper.line([(-40, -24), (40, -24)], "lw-bar")
     paper.line([(0, -24), (0, 0)], "lw-bar")
     paper.put("roller", at=(0.0, 12.0), radius=12.0)

@@ -18,7 +18,9 @@ RADIUS, SHAFT, GAP = 100.0, 300.0, 110.0
 def draw_rotor(rotor: Rotor, language: str) -> Drawing:
     """Both views to one scale of radii; places along the shaft to their own."""
     paper = Paper()
-    largest = max([each.radius for each in rotor.masses.values()] + [each.radius for each in rotor.planes.values()])
+    largest = max(
+        [each.radius for each in rotor.masses.values()] + [each.radius for each in rotor.planes.values()]
+    )
     scale = RADIUS / largest
     _along_the_shaft(paper, rotor, scale)
     places = [each.at for each in (*rotor.masses.values(), *rotor.planes.values())]

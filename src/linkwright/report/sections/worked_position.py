@@ -71,7 +71,9 @@ def _system(item: Written) -> Table:
     """A system of equations that is too wide for a formula, as a table."""
     head, *rows = item.cells
     names = tuple(f"${latex_symbol(each)}$" if each else "" for each in head)
-    return Table(r"$A\,X=B$", names, tuple((literal(row[0]), *row[1:]) for row in rows), "<" + ">" * (len(head) - 1))
+    return Table(
+        r"$A\,X=B$", names, tuple((literal(row[0]), *row[1:]) for row in rows), "<" + ">" * (len(head) - 1)
+    )
 
 
 def _result(item: Equation) -> str:

@@ -106,7 +106,7 @@ WORDS = {
     "matrix": "写成矩阵形式 A·X = B：",
     "line_form": "该直线没有方向，或方向多于一个",
     "line_form_remedy": "请写 direction: [2, 3, 6]，或给两点 from: 与 to:",
-    "no_force": "没有名为 \"{name}\" 的力",
+    "no_force": '没有名为 "{name}" 的力',
     "no_force_remedy": "请写其中之一：{known}",
     "pair": "夹角由两个力确定，这里给了 {count} 个",
     "pair_remedy": "请写 [F1, F2]",
