@@ -112,4 +112,6 @@ WORDS = {
     "compensation_no_effect": 'the lift of "{joint}" does not change "{output}" in the zone',
     "compensation_zone": "the zone with what lies beyond it on both sides is not within the angles given, "
     "or nearly a whole turn; give a smaller zone",
+    "inertia_or_mass": "both a mass and a moment of inertia, or the moment of inertia of a translating follower",
+    "inertia_or_mass_remedy": "give mass: for a translating follower, inertia: for an oscillating one",
 }

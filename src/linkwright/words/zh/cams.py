@@ -97,4 +97,6 @@ WORDS = {
     "zone_or_span": "请给出区间（输入的两个值），或区间的长度，二者择一",
     "compensation_no_effect": "在该区间内“{joint}”的升程不影响“{output}”",
     "compensation_zone": "工作区及其两侧的延伸不在所给转角之内，或接近一整转；请给较小的工作区",
+    "inertia_or_mass": "同时给了质量与转动惯量，或对直动从动件给了转动惯量",
+    "inertia_or_mass_remedy": "直动从动件请给 mass:，摆动从动件请给 inertia:",
 }
