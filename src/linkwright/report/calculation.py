@@ -100,14 +100,8 @@ def _label(text: str) -> str:
     """A label of a table: a symbol as a formula, words as they are."""
     bare = text.strip()
     short = len(bare) <= 4 or "." in bare or "_" in bare
-    if (
-        short
-        and bare.isprintable()
-        and " " not in bare
-        and not any(c > "\u2e7f" for c in bare)
-        and not bare.islower()
-        and any(c.isalpha() for c in bare)
-    ):
+    words = " " in bare or bare.islower() or not any(c.isalpha() and c < "\u2e80" for c in bare)
+    if short and not words:
         try:
             return f"${latex(bare)}$"
         except LinkwrightError:

@@ -1,7 +1,7 @@
 """Formulas as they are written on a line, ``√(Rx² + Ry²)``, read and set as LaTeX, and filled with numbers.
 
-Names: a letter with its index behind it (``Rx``, ``ρw``, ``T1``, ``m_b``), words upright; ``·`` and ``×`` multiply, what
-stands before ``/`` since the last product sign of a quotient is its numerator, one factor behind it the denominator.
+Names: a letter with its index behind it (``Rx``, ``ρw``, ``T1``, ``m_b``), words upright; ``·`` and ``×`` multiply,
+what stands before ``/`` since the last quotient is its numerator, one factor behind it the denominator.
 """
 
 from __future__ import annotations
@@ -19,7 +19,6 @@ _KNOWN = ("cos", "sin", "tan", "arctan", "ln", "exp", "min", "max")
 _ACCENTS = {"\u0304": "bar", "\u0305": "bar", "\u0307": "dot", "\u0308": "ddot"}
 _RAISED = dict(zip("⁰¹²³⁴⁵⁶⁷⁸⁹⁻ⁿᵀ", "0123456789-nT", strict=True))
 _RELATIONS = {
-    "∧": r",\quad ",
     "=": "=",
     "≤": r"\le ",
     "≥": r"\ge ",
