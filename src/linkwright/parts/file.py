@@ -195,7 +195,12 @@ def _built(
     own = {key: value for key, value in values.items() if key not in HEADING}
     own |= {"name": values.get("name") or Path(reader.source).stem, "source": values.get("source") or ""}
     told = {key: value for key, value in reader.free(root).items() if key not in ASIDE}
-    heading = {"purpose": values.get("purpose") or "", "report": values.get("report") or {}, "told": told}
+    heading = {
+        "purpose": values.get("purpose") or "",
+        "report": values.get("report") or {},
+        "told": told,
+        "folder": folder,
+    }
     try:
         problem = replace(owner.of_file(own, folder), **heading)
         found: Sequence[Finding] = problem.findings()

@@ -28,25 +28,26 @@ WIDE, TALLEST = 0.8, 90.0
 
 @dataclass(frozen=True)
 class OwnText:
-    """The user's own text at its place in a chapter."""
+    """The user's own text at its place in a chapter, with the settings that hold."""
 
     text: str
+    own: Settings
 
 
 def calculation(problem: Problem, say: Say, language: str) -> Iterator[Block | OwnText]:
     """The blocks of one calculation, under a heading with its name; raises LinkwrightError where it has no result, or
     for a ``report`` of its file that makes no sense."""
-    found, own = problem.solve(), settings(problem.report, language)
+    found, own = problem.solve(), settings(problem.report, language, folder=problem.folder)
     texts = dict(own.text)
     places = {say(f"report.{key}"): name for key, name in PLACES.items()}
     for block in _chapters(problem, found, own, say, language):
         yield block
         name = places.get(block.text) if isinstance(block, Heading) else None
         if name is not None and name in texts:
-            yield OwnText(texts.pop(name))
+            yield OwnText(texts.pop(name), own)
     for name, text in texts.items():
         yield Heading(say(f"report.title_{name}"), 2)
-        yield OwnText(text)
+        yield OwnText(text, own)
     if own.errata:
         yield Heading(say("report.title_errata"), 2)
         yield from errata_blocks(own.errata, own.source or problem.source, say)
