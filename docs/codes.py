@@ -110,6 +110,10 @@ MEANINGS: Mapping[str, tuple[str, str]] = {
     "type": ("a list, mapping or text in the place of another", "列表、映射、文本用错"),
     "unit": ("values of different kinds, or a unit that does not fit", "值的种类不同，或单位不合"),
     "unknown-demand": ("a demand that a task of synthesis does not have", "综合任务没有这个要求"),
+    "old-key": (
+        "a key that has another name now; the file is read all the same",
+        "键已改名，文件照常读取",
+    ),
     "unknown-key": ("a key that is not known", "未知的键名"),
     "unknown-name": ("a name that is not in the model", "模型中没有的名称"),
     "unknown-task": ("no task of synthesis", "没有这个综合任务"),

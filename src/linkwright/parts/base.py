@@ -30,6 +30,8 @@ from linkwright.worked.written import filled, latex, latex_symbol, normal, plain
 if TYPE_CHECKING:
     from typing import Self
 
+    from linkwright.plot.drawing.picture import Drawing
+
 
 #: Dimensions that only these results have, with their SI units.
 OWN: Mapping[str, str] = {
@@ -130,6 +132,15 @@ class Problem(Heading, ABC):
             return self.told
         found = {key: _as_told(getattr(self, key, None), each) for key, each in self.fields.items()}
         return {key: value for key, value in found.items() if value not in EMPTY}
+
+    def sketch(self, language: str = "en") -> Drawing | None:
+        """The sketch of what is given, with supports, loads and dimensions; None where its kind has none.
+
+        Raises LinkwrightError where it cannot be drawn.
+        """
+        from linkwright.plot.sketches.base import sketch
+
+        return sketch(self, language)
 
     def require(self) -> None:
         """Raises ModelError where anything is wrong."""

@@ -112,10 +112,8 @@ def _label(text: str) -> str:
 
 def _sketch(problem: Problem, say: Say, language: str) -> Iterator[Block]:
     """The sketch of what is calculated, where its kind has one."""
-    from linkwright.plot.sketches.base import sketch
-
     try:
-        drawn = sketch(problem, language)
+        drawn = problem.sketch(language)
     except LinkwrightError as error:
         yield Paragraph(literal(error.say(language)), "missing")
         return
