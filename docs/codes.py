@@ -95,6 +95,10 @@ MEANINGS: Mapping[str, tuple[str, str]] = {
     "not-connected": ("a link that nothing connects", "构件没有与别的构件相连"),
     "not-finite": ("a number that is not finite", "不是有限的数"),
     "nothing-varies": ("an optimisation without variables", "优化没有变量"),
+    "old-key": (
+        "a key that has another name now; the file is read all the same",
+        "键已改名，文件照常读取",
+    ),
     "one-point": ("a link with a single joint", "只有一个运动副的构件"),
     "quantity": ("no quantity", "不是物理量"),
     "range": ("a number outside of what is allowed", "数超出允许的范围"),
@@ -110,10 +114,6 @@ MEANINGS: Mapping[str, tuple[str, str]] = {
     "type": ("a list, mapping or text in the place of another", "列表、映射、文本用错"),
     "unit": ("values of different kinds, or a unit that does not fit", "值的种类不同，或单位不合"),
     "unknown-demand": ("a demand that a task of synthesis does not have", "综合任务没有这个要求"),
-    "old-key": (
-        "a key that has another name now; the file is read all the same",
-        "键已改名，文件照常读取",
-    ),
     "unknown-key": ("a key that is not known", "未知的键名"),
     "unknown-name": ("a name that is not in the model", "模型中没有的名称"),
     "unknown-task": ("no task of synthesis", "没有这个综合任务"),

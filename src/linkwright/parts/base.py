@@ -222,9 +222,8 @@ class Row:
         """The row with values below a limit as zero; a plain number, or a ``remainder``, stays."""
         if not self.dimension or self.remainder or self.text:
             return self
-        value, end = (
-            0.0 if each is not None and abs(each) <= rounding else each for each in (self.value, self.end)
-        )
+        value = 0.0 if abs(self.value) <= rounding else self.value
+        end = 0.0 if self.end is not None and abs(self.end) <= rounding else self.end
         return replace(self, value=value, end=end)
 
     def data(self) -> dict[str, Any]:

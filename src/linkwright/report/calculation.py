@@ -23,7 +23,7 @@ PLACES: Mapping[str, str] = {
     "purpose_of_calculation": "task", "sketch": "drawing", "way": "worked",
 }  # fmt: skip
 #: Share of the page's width of a sketch, and its greatest height, mm.
-WIDE, TALLEST = 0.8, 90.0
+WIDE, TALLEST = 0.7, 75.0
 
 
 @dataclass(frozen=True)

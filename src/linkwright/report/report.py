@@ -156,8 +156,9 @@ def report(
     problems = [each for each in given if isinstance(each, Problem)]
     own = cases[0].settings if cases else settings(problems[0].report, language, folder=problems[0].folder)
     entries = chosen(sections, own, calculations=not cases)
-    names = [case.mechanism.name for case in cases] or [
-        title_said(problem.name, language) for problem in problems
+    names = [
+        title_said(each.name, language) if isinstance(each, Problem) else each.mechanism.name
+        for each in _in_order(given, cases)
     ]
     document = Document(
         own.title or " / ".join(dict.fromkeys(names)),

@@ -42,6 +42,13 @@ _TOKEN = re.compile(
 )
 
 
+#: Greek letters by their names, as expressions of files have them.
+_GREEK = dict(
+    zip(
+        ("alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "kappa", "lambda", "mu", "nu", "xi",
+         "rho", "sigma", "tau", "phi", "psi", "omega", "pi"), "αβγδεζηθκλμνξρστφψωπ", strict=True,
+    )
+)  # fmt: skip
 #: Characters of words that are no symbols.
 _WIDE = re.compile(r"[\u2e80-\u9fff\uf900-\ufaff]")
 
@@ -282,6 +289,8 @@ def name(text: str) -> str:
     """A name as a symbol: its letter with accents, primes and index; several Greek letters as a product."""
     if "." in text:
         owner, _, what = text.rpartition(".")
+        if len(what) > 3:
+            return upright(text)
         mark = "," if len(owner) > 2 and what[1:] else ""
         return rf"{what[0]}_{{{upright(owner + mark + what[1:])}}}"
     if _WIDE.search(text):
@@ -299,6 +308,7 @@ def name(text: str) -> str:
         if letters.isupper() and letters.isascii() and not rest:
             return letters
         letters, rest = letters[0], letters[1:] + rest
+    letters = _GREEK.get(letters, letters)
     found = letters if len(letters) == 1 else upright(letters)
     for mark in re.findall(r"[\u0300-\u030f]", stem[0]):
         found = rf"\{_ACCENTS.get(mark, 'bar')}{{{found}}}"
