@@ -10,7 +10,7 @@ from tests.every import every
 import linkwright as lw
 from linkwright import parts
 from linkwright.parts.base import Row
-from linkwright.plot.sketches.base import SKETCHES, sketch
+from linkwright.plot.sketches.base import SKETCHES
 from linkwright.report import report
 from linkwright.report.document import Figure, Formula, Heading, Paragraph, Table, plain
 from linkwright.report.formula import formula
@@ -105,7 +105,7 @@ SKETCHED = [
 
 @pytest.mark.parametrize("name", SKETCHED)
 def test_a_sketch_names_what_is_given(name: str) -> None:
-    drawn = sketch(problem(name), "zh")
+    drawn = problem(name).sketch("zh")
     assert drawn is not None and drawn.svg.count("<text") >= 2
 
 

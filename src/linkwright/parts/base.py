@@ -30,6 +30,8 @@ from linkwright.worked.written import filled, latex, latex_symbol, normal, plain
 if TYPE_CHECKING:
     from typing import Self
 
+    from linkwright.plot.drawing.picture import Drawing
+
 
 #: Dimensions that only these results have, with their SI units.
 OWN: Mapping[str, str] = {
@@ -91,12 +93,13 @@ def fault(code: str, key: str, **values: object) -> Finding:
 
 @dataclass(frozen=True, kw_only=True)
 class Heading:
-    """What a file says about its calculation beside the problem: its ``purpose``, the settings of its ``report``, and
-    all that is ``told`` in it as plain data, for the given data of the report."""
+    """What a file says about its calculation beside the problem: its ``purpose``, the settings of its ``report``, all
+    that is ``told`` in it as plain data, for the given data of the report; and the ``folder`` in which it lies."""
 
     purpose: str = field(default="", repr=False)
     report: Mapping[str, Any] = field(default_factory=dict, repr=False)
     told: Mapping[str, Any] = field(default_factory=dict, repr=False, compare=False)
+    folder: Path = field(default=Path(), repr=False, compare=False)
 
 
 class Problem(Heading, ABC):
@@ -129,6 +132,15 @@ class Problem(Heading, ABC):
             return self.told
         found = {key: _as_told(getattr(self, key, None), each) for key, each in self.fields.items()}
         return {key: value for key, value in found.items() if value not in EMPTY}
+
+    def sketch(self, language: str = "en") -> Drawing | None:
+        """The sketch of what is given, with supports, loads and dimensions; None where its kind has none.
+
+        Raises LinkwrightError where it cannot be drawn.
+        """
+        from linkwright.plot.sketches.base import sketch
+
+        return sketch(self, language)
 
     def require(self) -> None:
         """Raises ModelError where anything is wrong."""
@@ -210,9 +222,8 @@ class Row:
         """The row with values below a limit as zero; a plain number, or a ``remainder``, stays."""
         if not self.dimension or self.remainder or self.text:
             return self
-        value, end = (
-            0.0 if each is not None and abs(each) <= rounding else each for each in (self.value, self.end)
-        )
+        value = 0.0 if abs(self.value) <= rounding else self.value
+        end = 0.0 if self.end is not None and abs(self.end) <= rounding else self.end
         return replace(self, value=value, end=end)
 
     def data(self) -> dict[str, Any]:

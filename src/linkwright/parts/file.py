@@ -195,9 +195,11 @@ def _built(
     own = {key: value for key, value in values.items() if key not in HEADING}
     own |= {"name": values.get("name") or Path(reader.source).stem, "source": values.get("source") or ""}
     told = {key: value for key, value in reader.free(root).items() if key not in ASIDE}
-    heading = {"purpose": values.get("purpose") or "", "report": values.get("report") or {}, "told": told}
     try:
-        problem = replace(owner.of_file(own, folder), **heading)
+        problem = replace(
+            owner.of_file(own, folder), purpose=values.get("purpose") or "", report=values.get("report") or {},
+            told=told, folder=folder,
+        )  # fmt: skip
         found: Sequence[Finding] = problem.findings()
     except ModelError as error:
         problem, found = None, error.findings

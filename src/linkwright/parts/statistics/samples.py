@@ -376,7 +376,7 @@ class Statistics(Result):
         return "(x̄ − L)/(3·σ)" if own.upper is None else "min(U − x̄, x̄ − L)/(3·σ)"
 
     def _scales(self, fitting: Fitting) -> list[Scale]:
-        """Units of the coefficients of a regression, of those of its samples: that of y, then y's per each column's."""
+        """Units of the coefficients of a regression by those of its samples: of y, then of y over each column."""
         y, xs = self.scale(fitting.y), [self.scale(name) for name in fitting.on]
         powers = [(xs[0], p) for p in range(1, fitting.degree + 1)] if len(xs) == 1 else [(x, 1) for x in xs]
         kinds = self.problem.dimensions_of(fitting)[1:]
