@@ -21,7 +21,10 @@ SYMBOLS = {
     "cdot": "⋅", "times": "×", "to": "→", "circ": "°", "angle": "∠", "sum": "∑", "perp": "⊥", "pm": "±",
     "le": "≤", "ge": "≥", "approx": "≈", "infty": "∞", "partial": "∂", "int": "∫", "ldots": "…", "neq": "≠",
 }  # fmt: skip
-FUNCTIONS = ("cos", "sin", "tan", "arctan", "acos", "asin", "atan", "det", "min", "max", "exp", "log", "ln")
+FUNCTIONS = (
+    "cos", "sin", "tan", "arccos", "arcsin", "arctan", "acos", "asin", "atan", "det", "min", "max", "exp", "log",
+    "ln",
+)  # fmt: skip
 ACCENTS = {"dot": "\u0307", "ddot": "\u0308", "vec": "\u20d7", "overrightarrow": "\u20d7", "bar": "\u0305"}
 #: Binary signs and relations: a line may break before them.
 SIGNS = "+-−=≤≥≈≠"

@@ -60,7 +60,7 @@ def purpose(found: Synthesis, each: Candidate, language: str) -> str:
     return tell(
         "synthesize.purpose",
         task=name_said(found.task, tell).replace("_", " "),
-        error=_errors(each)[0],
+        error=error_texts(each)[0],
         transmission=f"{degrees(each.transmission_angle):.4g} deg",
         defects=defects,
     )
@@ -76,7 +76,7 @@ def _row(number: int, each: Candidate, extent: float, tell: Say) -> list[str]:
     return [
         str(number),
         tell(f"synthesize.type.{each.grashof_type}"),
-        *_errors(each),
+        *error_texts(each),
         defects_text(each, tell),
         tell("synthesize.turns" if each.turns else "synthesize.swings"),
         f"{degrees(each.transmission_angle):.2f}°",
@@ -91,7 +91,7 @@ def _longest(longest: float, extent: float) -> str:
     return f"{length} ({longest / extent:.3g}×)" if extent else length
 
 
-def _errors(each: Candidate) -> tuple[str, str]:
+def error_texts(each: Candidate) -> tuple[str, str]:
     """Error and worst deviation; zero where both are but rounding of the linkage's size."""
     least = ROUNDING * min(1.0, max(each.linkage.lengths().values()))
     exact = each.error <= least and each.worst <= least

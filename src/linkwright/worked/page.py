@@ -1,4 +1,4 @@
-"""What a worked solution is made of: steps with sentences, equations and relations."""
+"""What a worked solution is made of: steps with sentences, equations, relations, matrices and tables."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from dataclasses import field, replace
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.errors import SelfCheckError
+from linkwright.words.characters import aligned, padded
 from linkwright.worked.digits import digits_needed, error_of, last_place, printed, put_in
 from linkwright.worked.render import latex, plain
 from linkwright.worked.terms import Pair, Term, symbol
@@ -94,7 +95,95 @@ class Equation:
         }
 
 
-Item = Note | Relation | Equation
+@dataclass(frozen=True)
+class Matrix:
+    """Entries of a matrix in rows, each as plain text and as LaTeX."""
+
+    rows: tuple[tuple[tuple[str, str], ...], ...]
+
+    @property
+    def lines(self) -> list[str]:
+        """Its rows in plain text, in brackets that go over all of them."""
+        inside = aligned([[text for text, _ in row] for row in self.rows], ">" * len(self.rows[0]))
+        if len(inside) == 1:
+            return [f"[{inside[0]}]"]
+        marks = ["⎡⎤", *["⎢⎥"] * (len(inside) - 2), "⎣⎦"]
+        width = max(map(len, inside))
+        return [
+            f"{mark[0]} {padded(line, width)} {mark[1]}" for mark, line in zip(marks, inside, strict=True)
+        ]
+
+    @property
+    def latex(self) -> str:
+        """As LaTeX."""
+        rows = r" \\ ".join(" & ".join(tex for _, tex in row) for row in self.rows)
+        return rf"\begin{{bmatrix}} {rows} \end{{bmatrix}}"
+
+
+@dataclass(frozen=True)
+class Matrices:
+    """An equation of matrices: ``parts`` are matrices and the signs between them (``=``, or empty for a product)."""
+
+    parts: tuple[Matrix | str, ...]
+
+    @property
+    def lines(self) -> list[str]:
+        """The matrices side by side in plain text, the signs halfway up."""
+        blocks = [part.lines if isinstance(part, Matrix) else [part or "·"] for part in self.parts]
+        high = max(map(len, blocks))
+        columns = []
+        for block in blocks:
+            above = (high - len(block)) // 2
+            width = max(map(len, block))
+            filled = [""] * above + block + [""] * (high - len(block) - above)
+            columns.append([padded(line, width) for line in filled])
+        return [" ".join(row).rstrip() for row in zip(*columns, strict=True)]
+
+    @property
+    def text(self) -> str:
+        """In plain text."""
+        return "\n".join(self.lines)
+
+    @property
+    def latex_sides(self) -> tuple[str, ...]:
+        """The sides of its equal signs as LaTeX."""
+        sides = [""]
+        for part in self.parts:
+            if part == "=":
+                sides.append("")
+            else:
+                sides[-1] += part.latex if isinstance(part, Matrix) else part
+        return tuple(sides)
+
+    def data(self) -> dict[str, object]:
+        """Plain data."""
+        rows = [
+            [[text for text, _ in row] for row in part.rows] if isinstance(part, Matrix) else part
+            for part in self.parts
+        ]
+        return {"matrices": rows, "latex": " = ".join(self.latex_sides)}
+
+
+@dataclass(frozen=True)
+class Tabulated:
+    """A table: ``head`` and ``rows`` as plain text, ``align`` with ``<`` or ``>`` per column."""
+
+    title: str
+    head: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+    align: str
+
+    @property
+    def text(self) -> str:
+        """In plain text, its title above."""
+        return "\n".join([self.title, *aligned([self.head, *self.rows], self.align)])
+
+    def data(self) -> dict[str, object]:
+        """Plain data."""
+        return {"table": self.title, "head": list(self.head), "rows": [list(row) for row in self.rows]}
+
+
+Item = Note | Relation | Equation | Matrices | Tabulated
 
 
 @dataclass

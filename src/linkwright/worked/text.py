@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from unicodedata import east_asian_width
 
 from linkwright.words.characters import cells
-from linkwright.worked.page import Equation, Note, Relation, Step
+from linkwright.worked.page import Equation, Matrices, Note, Relation, Step, Tabulated
 
 WIDTH = 100
 
@@ -32,6 +32,10 @@ def _step(step: Step) -> Iterator[str]:
             yield from wrapped(item.text)
         elif isinstance(item, Relation):
             yield from _long("    ", item.text, "    ")
+        elif isinstance(item, Matrices | Tabulated):
+            yield ""
+            yield from (f"    {line}" for line in item.text.splitlines())
+            yield ""
         else:
             yield from _equation(item, margin)
         previous_note = isinstance(item, Note)

@@ -8,11 +8,11 @@ from linkwright.errors import LinkwrightError
 from linkwright.kinetostatics.forces import Forces
 from linkwright.plot.diagrams.force_polygon import link_forces
 from linkwright.plot.svg.render import natural_size
-from linkwright.report.document import Block, Figure, Formula, Heading, Paragraph, literal, symbols
+from linkwright.report.document import Block, Figure, Formula, Heading, Paragraph, Table, literal, symbols
 from linkwright.report.machine_results import Case
 from linkwright.report.section import section
 from linkwright.report.sections.method import side_by_side
-from linkwright.worked.page import Equation, Note, Relation, Step
+from linkwright.worked.page import Equation, Matrices, Note, Relation, Step, Tabulated
 from linkwright.worked.solution import Worked
 
 #: A point, the width of the text and the tallest polygon, mm.
@@ -56,8 +56,11 @@ def with_numbers(step: Step) -> Iterator[Block]:
         given = []
         if isinstance(item, Note):
             yield Paragraph(symbols(item.text))
-        elif isinstance(item, Relation):
+        elif isinstance(item, Relation | Matrices):
             yield Formula(item.latex_sides, number=False)
+        elif isinstance(item, Tabulated):
+            rows = tuple(tuple(map(symbols, row)) for row in item.rows)
+            yield Table(symbols(item.title), tuple(map(symbols, item.head)), rows, item.align)
         else:
             sides = [item.latex_symbol, item.latex_formula, item.latex_numbers, _result(item)]
             yield Formula(tuple(side for side in sides if side))
