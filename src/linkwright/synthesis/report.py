@@ -44,9 +44,14 @@ def report(found: Synthesis, language: str, width: int | None) -> list[str]:
             )
             lines.append(tell("synthesize.values", values=values))
     if found.counts:
-        counts = between.join(f"{name_said(name, tell)} {value}" for name, value in found.counts.items())
-        lines += ["", tell("synthesize.counts", counts=counts)]
+        lines += ["", counts_said(found, tell)]
     return lines + [in_language(sentence, language) for sentence in found.notes]
+
+
+def counts_said(found: Synthesis, tell: Say) -> str:
+    """How many solutions of which sort were found."""
+    counts = (f"{name_said(name, tell)} {value}" for name, value in found.counts.items())
+    return tell("synthesize.counts", counts=tell("finding.comma").join(counts))
 
 
 def purpose(found: Synthesis, each: Candidate, language: str) -> str:

@@ -90,6 +90,8 @@ def error_of(term: Term) -> float:
         case "arccos" | "arcsin":
             across = 1.0 - values[0] ** 2
             return math.degrees(errors[0] / math.sqrt(across)) if across > 0.0 else math.inf
+        case "arctan":
+            return math.degrees(errors[0] / (1.0 + values[0] ** 2))
     return math.radians(errors[0])
 
 

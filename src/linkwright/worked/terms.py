@@ -20,7 +20,7 @@ class Term:
     """A symbol, a number, or an operation on terms; angles are counted in degrees.
 
     ``op``: symbol, number, sum (with ``signs``), product, quotient, square, root, size, cos, sin, tan, atan2,
-    arccos, arcsin.
+    arccos, arcsin, arctan.
     """
 
     op: str
@@ -117,6 +117,7 @@ APPLY: dict[str, Function] = {
     "atan2": lambda _, v: math.degrees(math.atan2(v[0], v[1])),
     "arccos": lambda _, v: math.degrees(math.acos(v[0])),
     "arcsin": lambda _, v: math.degrees(math.asin(v[0])),
+    "arctan": lambda _, v: math.degrees(math.atan(v[0])),
 }
 
 
@@ -191,6 +192,11 @@ def arccosine(term: Term) -> Term:
 def arcsine(term: Term) -> Term:
     """Angle of a sine, degrees, -90 to 90."""
     return ZERO if term.is_zero else Term("arcsin", (term,))
+
+
+def arctangent(term: Term) -> Term:
+    """Angle of a tangent, degrees, -90 to 90."""
+    return ZERO if term.is_zero else Term("arctan", (term,))
 
 
 def total(terms: list[Term]) -> Term:

@@ -18,7 +18,7 @@ def page(heading: Iterable[str], steps: Iterable[Step]) -> str:
     for step in steps:
         title = f"{step.number}  {step.title}"
         lines += ["", title, ("=" if "." not in step.number else "-") * cells(title), *_step(step)]
-    return "\n".join(lines)
+    return "\n".join(line for i, line in enumerate(lines) if line or i == 0 or lines[i - 1])
 
 
 def _step(step: Step) -> Iterator[str]:

@@ -22,6 +22,7 @@ def arguments(option: Options) -> None:
     option("demands", "KEY=VALUE", nargs="*")
     option("--output", "FOLDER")
     option("--plot", "FILE")
+    option.flag("--worked")
     option("--mass", "KG/M")
     option("--speed", "SPEED", default="60 rpm")
     option("--cluster", "ADDRESS", words="sweep.cluster_help")
@@ -119,13 +120,14 @@ def _show(found: Synthesis, options: argparse.Namespace, mass: float | None, ses
     if options.plot is not None:
         write_diagram(options.plot, found, session, force=options.force)
         written.append(Path(options.plot))
+    worked = found.worked(session.language) if options.worked else None
     if session.json:
-        data = found.data()
+        data = found.data() | ({} if worked is None else {"worked": worked.data()})
         for each, effort in zip(data["candidates"], efforts, strict=False):
             each |= effort
         session.show_data({"ok": True, **data})
         return
-    session.show(found.text(session.language, session.room))
+    session.show(found.text(session.language, session.room) if worked is None else worked.text())
     if efforts:
         session.show("\n" + "\n".join(_effort_lines(efforts, session.say)))
     session.show_written(*written)

@@ -1,22 +1,66 @@
-"""Synthesis, where the file has a task for it."""
+"""Synthesis, where the file has a task for it: how the dimensions were found, and the candidates."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from linkwright.report.document import Block, Paragraph, literal
-from linkwright.report.machine_results import Case, Missing
+from linkwright.errors import LinkwrightError
+from linkwright.report.document import Block, Figure, Heading, Paragraph, literal, symbols
+from linkwright.report.machine_results import Case, Missing, picture
 from linkwright.report.section import section
+from linkwright.report.sections.worked_position import with_numbers
+from linkwright.synthesis.result import Synthesis, SynthesisError
+from linkwright.words import speaker
+from linkwright.words.sentence import in_language
 
 
 @section("synthesis", 12.0, optional=True)
 def blocks(case: Case) -> Iterator[Block]:
-    """The task and what was found for it."""
-    from linkwright.synthesis.tasks import synthesize
-
+    """The way to the first candidate, pictures and the choice."""
     if not case.mechanism.synthesis or not case.source:
         raise Missing("report.no_synthesis")
-    found = synthesize(case.source)
-    for line in found.text(case.language).splitlines():
-        if line.strip():
-            yield Paragraph(literal(line.strip()))
+    yield from of_task(case.source, case.language)
+
+
+def of_task(source: str, language: str) -> Iterator[Block]:
+    """The blocks of the task in a file; where its demands cannot be met, why not, and the nearest solution."""
+    from linkwright.synthesis.tasks import synthesize_file
+
+    try:
+        found = synthesize_file(source)
+    except SynthesisError as error:
+        if error.nearest is None or not len(error.nearest):
+            raise
+        yield Paragraph(literal(error.say(language)), "missing")
+        found = error.nearest
+    yield from _chapter(found, language)
+
+
+def _chapter(found: Synthesis, language: str) -> Iterator[Block]:
+    """All steps with their pictures, the best candidates drawn, and the notes."""
+    say, solution = speaker(language), found.worked(language)
+    for step in solution.steps:
+        yield Heading(symbols(step.title), 2)
+        yield from with_numbers(step)
+        for kind in solution.pictures.get(step.number, ()):
+            yield from _figure(found, kind, language)
+    yield from _figure(found, "synthesis", language)
+    if found.counts:
+        from linkwright.synthesis.report import counts_said
+
+        yield Paragraph(literal(counts_said(found, say)))
+    for sentence in found.notes:
+        yield Paragraph(literal(in_language(sentence, language)))
+
+
+def _figure(found: Synthesis, kind: str, language: str) -> Iterator[Block]:
+    """A diagram of the result; none where it has nothing to show."""
+    from linkwright.plot.diagrams.base import RESULT_DIAGRAMS
+
+    if not RESULT_DIAGRAMS[kind].suits(found):
+        return
+    caption = speaker(language)(f"synthesis_steps.caption.{kind}")
+    try:
+        yield Figure(caption, ((picture(found.plot(kind, language=language, title="")), 0.8),))
+    except LinkwrightError as error:
+        yield Paragraph(literal(error.say(language)), "missing")

@@ -47,17 +47,17 @@ class Freudenstein:
 
     @property
     def normal(self) -> Floats:
-        """Matrix of the normal equations (N, 3, 3): sums of products of the columns."""
-        return np.asarray(self.rows.swapaxes(1, 2) @ self.rows)
+        """Matrix of the normal equations (…, 3, 3): sums of products of the columns."""
+        return np.asarray(self.rows.swapaxes(-1, -2) @ self.rows)
 
     @property
     def moment(self) -> Floats:
-        """Right side of the normal equations (N, 3)."""
-        return np.asarray((self.rows.swapaxes(1, 2) @ self.right[..., None])[..., 0])
+        """Right side of the normal equations (…, 3)."""
+        return np.asarray((self.rows.swapaxes(-1, -2) @ self.right[..., None])[..., 0])
 
     @property
     def residual(self) -> Floats:
-        """What is left of every equation, (N, n)."""
+        """What is left of every equation, (…, n)."""
         return np.asarray((self.rows @ self.p[..., None])[..., 0] - self.right)
 
 

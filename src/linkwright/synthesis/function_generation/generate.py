@@ -55,8 +55,8 @@ class FunctionDerivation(Derivation):
     ``method``: ``freudenstein`` (three pairs), ``zero_angle`` (four, one zero angle from a determinant),
     ``burmester`` (five), ``equation`` (least squares in Freudenstein's equation), ``search`` (least structural
     error); ``zeros``: zero angles of input and output, rad, the free ones as found; ``free``: which were free;
-    ``frame``, m; ``equation``: that of the first candidate; ``harmonics`` (5,) of the determinant; ``kind``: the linkage;
-    ``unknowns``, ``starts``, ``optima``: of a search.
+    ``frame``, m; ``equation``: that of the first candidate; ``harmonics`` (5,) of the determinant; ``kind``: the
+    linkage; ``unknowns``, ``starts``, ``optima``: of a search.
     """
 
     method: str
@@ -362,7 +362,7 @@ def _searched(
     """How a linkage of least structural error was found."""
     free = (demand.input_zero is None, demand.output_zero is None)
     unknowns = generator.sample(np.random.default_rng(0), 1).shape[1] - (not free[0])
-    zeros = best.values["input_zero [rad]"], best.values["output_constant"]
+    zeros = best.values["input_zero [rad]"], demand.output_zero or 0.0
     return FunctionDerivation(
         "search", demand.inputs, demand.outputs, zeros, free, frame, generator.name,
         unknowns=unknowns, starts=TRIED, optima=optima,

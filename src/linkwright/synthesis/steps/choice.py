@@ -72,6 +72,8 @@ def _reason(w: Writer) -> str:
         return w.words("reason.determined")
     if found.task not in RANKED:
         return w.words(f"reason.{found.task}", angle=angle, ratio=f"{best.link_ratio:.3g}")
+    if getattr(found.derivation, "method", "") == "equation":
+        return w.words("reason.equation", angle=angle)
     if len(found) == 1:
         return w.words("reason.only", angle=angle)
     second = found[1]

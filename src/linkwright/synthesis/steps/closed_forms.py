@@ -19,8 +19,8 @@ from linkwright.worked.terms import (
     Term,
     arccosine,
     arcsine,
+    arctangent,
     cosine,
-    direction,
     number,
     root,
     sine,
@@ -48,6 +48,7 @@ def slider_crank(w: Writer, d: SliderCrankDerivation) -> None:
     {"ratios": _from_ratios, "quick_return": _from_quick_return, "transmission": _from_transmission}[d.way](
         w, d, step, (stroke, r, rod, e)
     )
+    w.picture("construction")
     _slider_check(w, (r, rod, e))
 
 
@@ -83,7 +84,6 @@ def _from_quick_return(w: Writer, d: SliderCrankDerivation, given: Step, terms: 
     step.relate(rod.squared + r.squared, total)
     step.find(r, root((total - difference) / TWO), w.unit)
     step.find(rod, root((total + difference) / TWO), w.unit)
-    w.picture("construction")
 
 
 def _from_transmission(w: Writer, d: SliderCrankDerivation, given: Step, terms: tuple[Term, ...]) -> None:
@@ -165,10 +165,10 @@ def _ram(w: Writer, d: QuickReturnDerivation, step: Step, theta: Term, stroke: T
     arm = step.find(w.length("L", d.arm), stroke / (TWO * sine(theta / TWO)), w.unit)
     step.say(w.words("lever.guide"))
     step.find(w.length("y", d.height), arm * (ONE + cosine(theta / TWO)) / TWO, w.unit)
-    rod = step.give(w.length("l", d.rod), w.unit)
     sagitta = arm * (ONE - cosine(theta / TWO))
     height = step.find(w.length("s", sagitta.value / w.scale), sagitta, w.unit)
     step.say(w.words("lever.pressure"))
+    rod = step.give(w.length("l", d.rod), w.unit)
     angle = arcsine(height / (TWO * rod))
     step.find(w.angle("α", math.radians(angle.value), "max"), angle, "°")
 
@@ -181,7 +181,7 @@ def toggle(w: Writer, d: ToggleDerivation) -> None:
     stroke = step.give(w.length("H", d.stroke), w.unit)
     step = w.step("lengths")
     step.say(w.words("toggle.work"))
-    alpha = step.find(w.angle("α", d.alpha), direction(ONE, TWO * ratio), "°")
+    alpha = step.find(w.angle("α", d.alpha), arctangent(ONE / (TWO * ratio)), "°")
     step.say(w.words("toggle.distance"))
     link = step.find(w.length("l", d.link), distance / (FOUR * sine(alpha / TWO).squared), w.unit)
     step.say(w.words("toggle.stroke"))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 
 import numpy as np
 
@@ -10,7 +11,7 @@ from linkwright.core.arrays import Complexes, Floats
 from linkwright.synthesis.result import Candidate
 from linkwright.synthesis.steps.writing import Writer, decimals, degrees, numbers
 from linkwright.worked.page import Step
-from linkwright.worked.terms import TWO, Term, arccosine, symbol
+from linkwright.worked.terms import TWO, Term, arccosine
 
 
 def four_bar_lengths(w: Writer, each: Candidate) -> tuple[Term, Term, Term, Term]:
@@ -42,10 +43,9 @@ def grashof(w: Writer, step: Step, sides: tuple[Term, ...], each: Candidate) -> 
     """Sum of the shortest and the longest link against that of the others."""
     low, *middle, high = sorted(sides, key=lambda term: term.amount)
     step.say(w.words("grashof"))
-    for first, second in ((low, high), tuple(middle)):
+    for index, (first, second) in enumerate(((low, high), tuple(middle)), 1):
         total = first + second
-        name = f"{first.plain} + {second.plain}"
-        step.find(symbol(name, name, total.value), total, w.unit)
+        step.find(w.length("S", total.value / w.scale, str(index)), total, w.unit)
     gap = low.amount + high.amount - middle[0].amount - middle[1].amount
     sign = "equal" if abs(gap) <= 1e-12 * high.amount else "less" if gap < 0 else "more"
     kind = w.say(f"synthesize.type.{each.grashof_type}")
@@ -70,13 +70,22 @@ def signed_transmission(each: Candidate) -> Floats:
     return np.asarray(np.angle((o2 - b) / (a - b)))
 
 
+def _one_way(angle: Floats) -> Floats:
+    """Angles without jumps, in the direction in which they come within one turn where there is one, rad."""
+    for sign in (1.0, -1.0):
+        steps = np.mod(sign * np.diff(angle) + 1e-9, 2 * np.pi) - 1e-9
+        if steps.sum() < 2 * np.pi:
+            return np.asarray(angle[0] + sign * np.append(0.0, np.cumsum(steps)))
+    return np.unwrap(angle)
+
+
 def branches(w: Writer, step: Step, each: Candidate) -> None:
     """Input angle, transmission angle with its sign, and the lengths again at every position."""
     points, a = each.linkage.points, each.positions["A"]
     if "B" not in each.positions or "O2" not in points or each.linkage.guides:
         return
     o1, o2, b = points["O1"], points["O2"], each.positions["B"]
-    turned = np.degrees(np.unwrap(np.angle(a - o1)))
+    turned = np.degrees(_one_way(np.angle(a - o1)))
     step.say(w.words("branches"))
     columns = [
         (w.words("position"), numbers(len(a))),
@@ -90,7 +99,7 @@ def branches(w: Writer, step: Step, each: Candidate) -> None:
     step.say(w.words("branches_sound" if not each.defects else "branches_defects"))
 
 
-def coordinates(w: Writer, each: Candidate, names: str) -> list[tuple[str, list[str]]]:
+def coordinates(w: Writer, each: Candidate, names: Iterable[str]) -> list[tuple[str, list[str]]]:
     """Columns with the coordinates of moving points at every position."""
     columns = []
     for name in names:

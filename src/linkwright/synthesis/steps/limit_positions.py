@@ -134,7 +134,9 @@ def _drag_lengths(w: Writer, step: Step, given: tuple[Term, ...]) -> None:
     along = first.x * cosine(phi) + first.y * sine(phi) - second.x * cosine(last) - second.y * sine(last)
     square = first.x.squared + first.y.squared - second.x.squared - second.y.squared
     step.say(w.words("drag.equal"))
-    step.find(a, square / (TWO * along), w.unit)
+    above = step.find(w.value("q", square.value, "1"), square, f"{w.unit}²")
+    below = step.find(w.length("q", along.value / w.scale, "2"), along, w.unit)
+    step.find(a, above / (TWO * below), w.unit)
     for end, turned in ((first, phi), (second, last)):
         apart = Pair(end.x - a * cosine(turned), end.y - a * sine(turned))
         step.find(b, root(apart.x.squared + apart.y.squared), w.unit)

@@ -16,20 +16,20 @@ from linkwright.worked.page import Matrices, Matrix, Step, Tabulated
 from linkwright.worked.terms import ZERO, Term, symbol
 
 #: Lengths are printed in m where the longest link has this length or more, m.
-LARGE = 1.0
+LARGE = 10.0
 #: Share of its size below which a deviation is rounding.
 ROUNDING = 1e-11
 #: Most rows of a table of positions.
 MOST_ROWS = 24
 GREEK = {
-    "α": "alpha", "β": "beta", "γ": "gamma", "ε": "varepsilon", "ζ": "zeta", "θ": "theta", "λ": "lambda", "μ": "mu",
-    "ρ": "rho", "φ": "varphi", "ψ": "psi", "Δ": "Delta",
+    "α": "alpha", "β": "beta", "γ": "gamma", "δ": "delta", "ε": "varepsilon", "ζ": "zeta", "θ": "theta",
+    "λ": "lambda", "μ": "mu", "ρ": "rho", "φ": "varphi", "ψ": "psi", "Δ": "Delta",
 }  # fmt: skip
 
 
 @dataclass
 class Writer:
-    """The steps of one synthesis as they are written; ``pictures``: kinds of diagrams behind a step, by its number."""
+    """The steps of one synthesis as they are written; ``pictures``: kinds of diagrams behind a step by its number."""
 
     found: Synthesis
     say: Say
