@@ -32,6 +32,7 @@ from linkwright.report.markdown import own_text, printable
 from linkwright.report.numbers import typeset
 from linkwright.report.section import SECTIONS, Section, section_names
 from linkwright.report.settings import settings, worked_place
+from linkwright.synthesis.task_file import TaskFile, task_file
 from linkwright.whole_files import refuse_target, write_whole
 from linkwright.words import speaker
 from linkwright.words.sentence import Sentence, in_language
@@ -115,7 +116,8 @@ def report(
     """The report of a machine, or of several with their comparison; and of calculations, cams among them.
 
     Args:
-        machines: mechanisms, calculations of machine parts, paths or gallery names.
+        machines: mechanisms, calculations of machine parts, paths or gallery names; also of files that hold a task of
+            synthesis alone.
         sources: the files of mechanisms that are given themselves, for what is read from files (tasks of synthesis).
         sections: names of sections in the order wanted; empty: what the first file says, else all that apply.
         language: ``en`` or ``zh``.
@@ -133,11 +135,11 @@ def report(
         LinkwrightError: an unknown section or language, a model that cannot be read, settings that make no sense.
     """
     require_language(language)
-    given, problems = _told_apart(machines)
+    given, problems, tasks = _told_apart(machines, language)
     cases = _cases(given, sources, language, position, positions)
-    own = cases[0].settings if cases else settings({})
+    own = cases[0].settings if cases else settings(tasks[0].report if tasks else {}, language)
     chosen = _chosen(sections or own.sections)
-    names = [case.mechanism.name for case in cases] or [problem.name for problem in problems]
+    names = [case.mechanism.name for case in cases] or [each.name for each in (*problems, *tasks)]
     document = Document(
         own.title or " / ".join(dict.fromkeys(names)),
         speaker(language),
@@ -153,11 +155,15 @@ def report(
             _add(document, case, part, asked=bool(sections))
     for problem in problems:
         _add_calculation(document, problem)
+    for task in tasks:
+        _add_task(document, task, own.text.get("synthesis", ""))
     return Report(document)
 
 
-def _told_apart(machines: Machine | Sequence[Machine]) -> tuple[list[Mechanism | str], list[Problem]]:
-    """Mechanisms (or their files) and calculations."""
+def _told_apart(
+    machines: Machine | Sequence[Machine], language: str
+) -> tuple[list[Mechanism | str], list[Problem], list[TaskFile]]:
+    """Mechanisms (or their files), calculations, and files that hold a task of synthesis alone."""
     from linkwright.parts.file import kind_of
     from linkwright.parts.file import load as load_calculation
 
@@ -165,7 +171,7 @@ def _told_apart(machines: Machine | Sequence[Machine]) -> tuple[list[Mechanism |
     if not given:
         raise RequestError("report.no_machine")
     found: list[Mechanism | str] = []
-    problems = []
+    problems, tasks = [], []
     for each in given:
         require(each, Mechanism, Problem, str, PathLike)
         if isinstance(each, Problem):
@@ -174,9 +180,32 @@ def _told_apart(machines: Machine | Sequence[Machine]) -> tuple[list[Mechanism |
             found.append(each)
         elif kind_of(str(each)) is not None:
             problems.append(load_calculation(str(each)))
+        elif (task := task_file(each)) is not None:
+            tasks.append(task.said_in(language))
         else:
             found.append(str(each))
-    return found, problems
+    return found, problems, tasks
+
+
+def _add_task(document: Document, task: TaskFile, text: str) -> None:
+    """Adds the synthesis of a file that holds a task alone; one without a result says why."""
+    from linkwright.report.sections.synthesis import of_task
+
+    say = document.say
+    document.blocks.append(Heading(literal(task.name), 1))
+    if task.purpose:
+        document.blocks.append(Paragraph(literal(task.purpose)))
+    if task.source:
+        document.blocks.append(Paragraph(say("report.source", source=literal(task.source))))
+    try:
+        for block in chain(_own(text, document) if text else (), of_task(task.file, document.language)):
+            if isinstance(block, Paragraph) and block.kind == "missing":
+                document.missing.append(say("cli.about", name=task.name, cause=_unmarked(block.text)))
+            document.blocks += _parts_of(block, document)
+    except LinkwrightError as error:
+        sentence = error.say(document.language)
+        document.blocks.append(Paragraph(say("report.left_out", sentence=literal(sentence)), "missing"))
+        document.missing.append(say("cli.about", name=task.name, cause=sentence))
 
 
 def _add_calculation(document: Document, problem: Problem) -> None:

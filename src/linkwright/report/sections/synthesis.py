@@ -13,6 +13,9 @@ from linkwright.synthesis.result import Synthesis, SynthesisError
 from linkwright.words import speaker
 from linkwright.words.sentence import in_language
 
+#: Share of the page's width that a diagram takes.
+WIDTHS = {"synthesis": 1.0, "construction": 0.7, "structural_error": 0.75}
+
 
 @section("synthesis", 12.0, optional=True)
 def blocks(case: Case) -> Iterator[Block]:
@@ -61,6 +64,6 @@ def _figure(found: Synthesis, kind: str, language: str) -> Iterator[Block]:
         return
     caption = speaker(language)(f"synthesis_steps.caption.{kind}")
     try:
-        yield Figure(caption, ((picture(found.plot(kind, language=language, title="")), 0.8),))
+        yield Figure(caption, ((picture(found.plot(kind, language=language, title="")), WIDTHS[kind]),))
     except LinkwrightError as error:
         yield Paragraph(literal(error.say(language)), "missing")
