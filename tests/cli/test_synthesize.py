@@ -168,3 +168,17 @@ def test_what_is_met_but_for_rounding_has_no_error() -> None:
     table = [row for row in rows(printed) if row[0].isdigit()]
     assert all(row[2:4] == ["0", "0"] for row in every(table, least=2))
     assert not [line for line in printed.splitlines() if any(0 < abs(each) < 1e-9 for each in numbers(line))]
+
+
+def test_the_worked_solution() -> None:
+    """Every formula with its numbers; in data beside the candidates."""
+    printed = shown(*PRESS, "--worked")
+    assert (
+        "397.5/(√((3.55 + 1)² - 0.305²) - √((3.55 - 1)² - 0.305²))" in printed and "= 197.951 mm" in printed
+    )
+    found = data(*PRESS, "--worked")
+    (line,) = [
+        item for step in found["worked"]["steps"] for item in step["items"] if item.get("symbol") == "r"
+    ]
+    assert line["value"] == pytest.approx(197.9511, abs=5e-5)
+    assert found["candidates"][0]["crank [m]"] == pytest.approx(0.1979511, abs=1e-7)
