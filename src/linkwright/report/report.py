@@ -139,7 +139,8 @@ def report(
     cases = _cases(given, sources, language, position, positions)
     own = cases[0].settings if cases else settings(tasks[0].report if tasks else {}, language)
     chosen = _chosen(sections or own.sections)
-    names = [case.mechanism.name for case in cases] or [each.name for each in (*problems, *tasks)]
+    names = [case.mechanism.name for case in cases]
+    names = names or [problem.name for problem in problems] + [task.name for task in tasks]
     document = Document(
         own.title or " / ".join(dict.fromkeys(names)),
         speaker(language),

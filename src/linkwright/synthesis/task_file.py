@@ -55,7 +55,7 @@ def task_file(file: str | Path) -> TaskFile | None:
     if not isinstance(root, MappingNode):
         return None
     reader = Reader(name)
-    entries = tuple(entry for entry in root.entries if entry.key.text in HEADING)
+    entries = [entry for entry in root.entries if entry.key.text in HEADING]
     found = (
         reader.table(replace(root, entries=entries), Place("", ""), {key: HEADER[key] for key in HEADING})
         or {}

@@ -24,6 +24,8 @@ from linkwright.words import speaker
 #: Points of a circle; size of posed axes, as a share of the poses' extent.
 CIRCLE, AXES = 361, 0.18
 THIN, THICK = 0.8, 1.8
+#: How far curves are drawn, in units of the distance of the farthest point from the middle.
+ROOM = 1.2
 #: Places of a pin up to which each is named.
 MOST_NAMES = 3
 
@@ -49,7 +51,7 @@ class Plane:
         angle = np.linspace(first, last, CIRCLE)
         self.line(*(centre + radius * np.exp(1j * angle)), colour=colour, style=style)
 
-    def points(self, colour: str = INK, **places: complex) -> None:
+    def points(self, places: Mapping[str, complex], colour: str = INK) -> None:
         """Points with their names."""
         for name, place in places.items():
             z = 1e3 * complex(place)
@@ -60,8 +62,8 @@ class Plane:
         """Writes the names beside their points, away from the middle of all of them."""
         middle = np.mean([z for _, z, _ in self.named])
         for name, z, colour in self.named:
-            away = (z - middle) / max(abs(z - middle), 1e-12)
-            shift = (9 * away.real, 9 * away.imag + 2)
+            away = (z - middle) / (float(np.abs(z - middle)) or 1.0)
+            shift = (math.copysign(max(10 * abs(away.real), 7), away.real), 9 * away.imag + 2)
             self.axes.annotate(
                 name, (z.real, z.imag), shift, textcoords="offset points", color=colour, zorder=4,
                 ha="left" if away.real >= 0 else "right", va="center",
@@ -70,7 +72,7 @@ class Plane:
     def pivot(self, name: str, place: complex) -> None:
         """A fixed pivot on its support."""
         draw_support(self.axes, np.array([1e3 * place.real, 1e3 * place.imag]))
-        self.points(**{name: place})
+        self.points({name: place})
 
     def angle(self, at: complex, first: complex, last: complex, name: str, radius: float) -> None:
         """The angle between two rays from a point."""
@@ -90,11 +92,11 @@ def slider_crank(plane: Plane, d: SliderCrankDerivation, result: Synthesis) -> N
         up = (abs(b1) ** 2 - 2 * b1.real * (b1.real + b2.real) / 2) / (2 * d.offset)
         centre = complex((b1.real + b2.real) / 2, up)
         plane.circle(centre, abs(centre), COLOURS[2], style="--")
-        plane.points(COLOURS[2], M=centre)
+        plane.points({"M": centre}, COLOURS[2])
     for place, pin in ((b1, d.crank * b1 / abs(b1)), (b2, -d.crank * b2 / abs(b2))):
         plane.line(0, pin, colour=COLOURS[0], width=THICK)
         plane.line(pin, place, colour=COLOURS[0], width=THIN)
-    plane.points(B1=b1, B2=b2, A1=d.crank * b1 / abs(b1), A2=-d.crank * b2 / abs(b2))
+    plane.points({"B1": b1, "B2": b2, "A1": d.crank * b1 / abs(b1), "A2": -d.crank * b2 / abs(b2)})
     plane.pivot("O", 0j)
     if d.offset:
         plane.angle(0, b1, b2, "θ", 1.2 * d.crank)
@@ -110,7 +112,7 @@ def quick_return(plane: Plane, d: QuickReturnDerivation, result: Synthesis) -> N
         touch = pivot + d.frame * math.cos(d.theta / 2) * ray
         plane.line(pivot, pivot + length * ray, colour=COLOURS[0], width=THICK)
         plane.line(0, touch, colour=COLOURS[0], style="--")
-        plane.points(**{f"A{number}": touch, f"E{number}": pivot + length * ray})
+        plane.points({f"A{number}": touch, f"E{number}": pivot + length * ray})
     plane.line(pivot, 0.6j * d.crank, colour=FAINT, style="-.")
     if d.stroke:
         half = d.theta / 2
@@ -130,7 +132,7 @@ def crank_rocker(plane: Plane, d: CrankRockerDerivation, result: Synthesis) -> N
     if d.centre is not None:
         centre = c * d.centre
         plane.circle(centre, abs(centre - limits[0]), COLOURS[2], style="--")
-        plane.points(COLOURS[2], M=centre)
+        plane.points({"M": centre}, COLOURS[2])
     far, near = sorted(limits, key=lambda place: -abs(place - pivot))
     crank = 0.5 * (abs(far - pivot) - abs(near - pivot))
     plane.circle(pivot, crank)
@@ -143,7 +145,7 @@ def crank_rocker(plane: Plane, d: CrankRockerDerivation, result: Synthesis) -> N
         plane.line(pivot, pins[-1], colour=COLOURS[1], width=THICK)
         plane.line(pins[-1], place, colour=COLOURS[0])
         plane.line(0, place, colour=COLOURS[0], width=THICK)
-    plane.points(B1=limits[0], B2=limits[1], **dict(zip(("A1", "A2"), pins, strict=True)))
+    plane.points({"B1": limits[0], "B2": limits[1], "A1": pins[0], "A2": pins[1]})
     plane.pivot("O1", pivot)
     plane.pivot("O2", 0j)
     plane.angle(0, limits[0], limits[1], "ψ", 0.3 * c)
@@ -154,7 +156,12 @@ def crank_rocker(plane: Plane, d: CrankRockerDerivation, result: Synthesis) -> N
 def motion(plane: Plane, d: MotionDerivation, result: Synthesis) -> None:
     """The poses, the places of both pins with their circles, the bisectors of three poses, curves of four."""
     best, shapes = result.best, result.curves
-    for name, curve in shapes.items():
+    pivots = [best.linkage.points[name] for name in best.linkage.frame]
+    corners = np.concatenate([d.p, *best.positions.values(), pivots])
+    middle = corners.mean()
+    reach = ROOM * float(np.abs(corners - middle).max())
+    for name, whole in shapes.items():
+        curve = whole[np.abs(whole - middle) <= reach]
         colour = FAINT if "centre" in name else "#d9a13b"
         plane.axes.plot(1e3 * curve.real, 1e3 * curve.imag, ".", ms=2, color=colour)
     size = AXES * max(result.extent, 1e-9)
@@ -162,7 +169,7 @@ def motion(plane: Plane, d: MotionDerivation, result: Synthesis) -> None:
         if not math.isnan(angle):
             turn = size * np.exp(1j * angle)
             plane.line(place + turn, place, place + 1j * turn, colour=INK, width=1.2)
-        plane.points(**{f"P{number}": place})
+        plane.points({f"P{number}": place})
     for pin, pivot, colour in (("A", "O1", COLOURS[0]), ("B", "O2", COLOURS[1])):
         _pin(plane, best.positions[pin], best.linkage.points.get(pivot), (pin, pivot), colour, len(d.p) == 3)
     a, b = best.positions["A"], best.positions["B"]
@@ -194,7 +201,7 @@ def _pin(
                 plane.line(centre + 0.15 * (centre - middle), away, colour=FAINT, style="--")
         plane.pivot(pivot, centre)
     shown = range(len(places)) if len(places) <= MOST_NAMES else (0, len(places) - 1)
-    plane.points(colour, **{f"{pin}{j + 1}": complex(places[j]) for j in shown})
+    plane.points({f"{pin}{j + 1}": complex(places[j]) for j in shown}, colour)
 
 
 DRAWN: Mapping[type, Callable[[Plane, Any, Synthesis], None]] = {

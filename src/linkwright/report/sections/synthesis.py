@@ -13,8 +13,8 @@ from linkwright.synthesis.result import Synthesis, SynthesisError
 from linkwright.words import speaker
 from linkwright.words.sentence import in_language
 
-#: Share of the page's width that a diagram takes.
-WIDTHS = {"synthesis": 1.0, "construction": 0.7, "structural_error": 0.75}
+#: Share of the page's width that a diagram takes, and one with a function beside the linkages.
+WIDTH, WIDE = 0.75, 1.0
 
 
 @section("synthesis", 12.0, optional=True)
@@ -64,6 +64,14 @@ def _figure(found: Synthesis, kind: str, language: str) -> Iterator[Block]:
         return
     caption = speaker(language)(f"synthesis_steps.caption.{kind}")
     try:
-        yield Figure(caption, ((picture(found.plot(kind, language=language, title="")), WIDTHS[kind]),))
+        yield Figure(
+            caption, ((picture(found.plot(kind, language=language, title="")), _width(found, kind)),)
+        )
     except LinkwrightError as error:
         yield Paragraph(literal(error.say(language)), "missing")
+
+
+def _width(found: Synthesis, kind: str) -> float:
+    """The share of the page's width that a diagram takes."""
+    curves = [each.curve for each in found if each.curve is not None]
+    return WIDE if kind == "synthesis" and any(curve.ndim == 2 for curve in curves) else WIDTH

@@ -260,9 +260,9 @@ def _way_of(
     if equation is None:
         method = "burmester"
     elif len(x) == 4:
-        method, which = "zero_angle", "output" if free[1] else "input"
-        moved = (x + zeros[0], y) if free[1] else (x, y + zeros[1])
-        roots = harmonics(*moved, which)
+        method = "zero_angle"
+        of_output = harmonics(x + zeros[0], y, "output")
+        roots = of_output if free[1] else harmonics(x, y + zeros[1], "input")
     return FunctionDerivation(
         method, x, y, (float(zeros[0]), float(zeros[1])), free, frame, equation=equation, harmonics=roots
     )

@@ -63,7 +63,7 @@ def drag_link(quick_return_ratio: float, frame: float, *, link_ratio: float = 5.
     values = {"quick_return_ratio": quick_return_ratio, "follower_angle [rad]": float(best[1])}
     each = four_bar_candidate(complex(o1[0]), a[0], b[0], complex(o2[0]), facts, 0, 0.0, values=values)
     derivation = DragLinkDerivation(
-        quick_return_ratio, frame, link_ratio, math.pi + theta, *(float(number) for number in best[1:]),
+        quick_return_ratio, frame, link_ratio, math.pi + theta, float(best[1]), float(best[2]),
         complex(a[0, 0]), complex(a[0, 1]), complex(b[0, 0]), complex(b[0, 1]),
     )  # fmt: skip
     return Synthesis("drag_link", (each,), derivation=derivation)

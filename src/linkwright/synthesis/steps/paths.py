@@ -143,7 +143,7 @@ def _proportions(w: Writer, step: Step, kind: str) -> None:
         step.find(term, symbol(f"{share:.6g}", f"{share:.6g}", share) * unit, w.unit)
 
 
-def _along(w: Writer, places: np.ndarray, off: np.ndarray) -> None:  # type: ignore[type-arg]
+def _along(w: Writer, places: np.ndarray, off: np.ndarray) -> None:
     """Coordinates of the drawing point along the stretch, and its distance from the line."""
     step = w.step("error")
     step.say(w.words("line.positions"))
