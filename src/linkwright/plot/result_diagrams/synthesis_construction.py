@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from linkwright.core.arrays import Complexes
-from linkwright.plot.diagrams.axes import framed
+from linkwright.plot.diagrams.axes import Legend, framed
 from linkwright.plot.diagrams.base import Request, result_diagram
 from linkwright.plot.diagrams.picture import COLOURS, FAINT, INK, Axes, Figure, new_figure
 from linkwright.plot.diagrams.position import draw_support
@@ -19,7 +19,7 @@ from linkwright.synthesis.report import title_said
 from linkwright.synthesis.requirements.crank_rocker import CrankRockerDerivation, QuickReturnDerivation
 from linkwright.synthesis.requirements.slider_crank import SliderCrankDerivation
 from linkwright.synthesis.result import Synthesis
-from linkwright.words import speaker
+from linkwright.words import Say, speaker
 
 #: Points of a circle; size of posed axes, as a share of the poses' extent.
 CIRCLE, AXES = 361, 0.18
@@ -33,8 +33,8 @@ MOST_NAMES = 3
 class Plane:
     """A plane in mm on which a construction is drawn."""
 
-    def __init__(self, axes: Axes) -> None:
-        self.axes = axes
+    def __init__(self, axes: Axes, say: Say) -> None:
+        self.axes, self.say, self.legend = axes, say, Legend()
         self.named: list[tuple[str, complex, str]] = []
 
     def line(self, *places: complex, colour: str = INK, width: float = THIN, style: Any = "-") -> None:
@@ -163,7 +163,8 @@ def motion(plane: Plane, d: MotionDerivation, result: Synthesis) -> None:
     for name, whole in shapes.items():
         curve = whole[np.abs(whole - middle) <= reach]
         colour = FAINT if "centre" in name else "#d9a13b"
-        plane.axes.plot(1e3 * curve.real, 1e3 * curve.imag, ".", ms=2, color=colour)
+        (dots,) = plane.axes.plot(1e3 * curve.real, 1e3 * curve.imag, ".", ms=2, color=colour)
+        plane.legend.add(plane.say(f"synthesize.legend.{name}"), dots)
     size = AXES * max(result.extent, 1e-9)
     for number, (place, angle) in enumerate(zip(d.p, d.phi, strict=True), 1):
         if not math.isnan(angle):
@@ -217,12 +218,12 @@ def draw_construction(result: Synthesis, request: Request) -> Figure:
     """The construction of the first candidate."""
     figure = new_figure(request.size or (7.5, 6))
     axes = figure.subplots()
-    plane = Plane(axes)
+    plane = Plane(axes, speaker(request.language))
     DRAWN[type(result.derivation)](plane, result.derivation, result)
     plane.label()
     axes.set_aspect("equal", adjustable="datalim")
     axes.set_xlabel("x (mm)")
     axes.set_ylabel("y (mm)")
     axes.margins(0.08)
-    framed(figure, title_said(result, speaker(request.language)), request)
+    framed(figure, title_said(result, plane.say), request, plane.legend)
     return figure
