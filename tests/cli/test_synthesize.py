@@ -182,3 +182,18 @@ def test_the_worked_solution() -> None:
     ]
     assert line["value"] == pytest.approx(197.9511, abs=5e-5)
     assert found["candidates"][0]["crank [m]"] == pytest.approx(0.1979511, abs=1e-7)
+
+
+def test_a_curve_beside_its_task(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The file that a task names lies beside the task, wherever the program runs."""
+    folder, elsewhere = tmp_path / "task", tmp_path / "elsewhere"
+    folder.mkdir()
+    elsewhere.mkdir()
+    task = folder / "curve.yaml"
+    task.write_text("format: 1\nsynthesis: {task: free_curve, file: letter.csv, joints: 5, seconds: 0.1}\n")
+    monkeypatch.chdir(elsewhere)
+    is_refused(
+        ["synthesize", str(task)], "synthesize.free_curve.file", ends=1, path=str(folder / "letter.csv")
+    )
+    (folder / "letter.csv").write_text("7,7\n7,7\n")
+    is_refused(["synthesize", str(task)], "synthesize.path.one_place", ends=1)

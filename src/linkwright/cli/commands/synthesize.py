@@ -75,15 +75,15 @@ def _solve(task: str, demands: dict[str, Any], options: argparse.Namespace, sess
 
 def _asked(options: argparse.Namespace, session: Session) -> tuple[str, dict[str, Any]]:
     """The task and its demands, from a file or the command line."""
-    from linkwright.files.source import GALLERY, read_source
+    from linkwright.files.source import GALLERY
     from linkwright.synthesis.task_names import TASK_NAMES
-    from linkwright.synthesis.tasks import asked_in
+    from linkwright.synthesis.tasks import asked_in, asked_of
 
     if options.task not in TASK_NAMES and not options.demands:
         near = Path(options.task)
         if not near.suffix and not near.exists() and not options.task.startswith(GALLERY):
             return options.task, {}
-        return asked_in(*read_source(options.task))
+        return asked_of(options.task)
     for text in options.demands:
         if not text.partition("=")[1]:
             raise UsageError("synthesize.bad_demand", text=text)
