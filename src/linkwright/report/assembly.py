@@ -30,6 +30,7 @@ from linkwright.report.order import Part
 from linkwright.report.section import Section
 from linkwright.report.sections.references import own_sources
 from linkwright.report.settings import Chapter, Settings
+from linkwright.synthesis.task_file import TaskFile
 from linkwright.words.sentence import Sentence, in_language
 from linkwright.words.titles import title_said
 
@@ -59,13 +60,21 @@ def _add_chapter(document: Document, part: Part, chapter: Chapter) -> None:
         ]
 
 
-def _add_calculation(document: Document, part: Part, problem: Problem) -> None:
-    """Adds a calculation, its own chapters behind it; one without a result says why."""
+def _add_calculation(document: Document, part: Part, problem: Problem | TaskFile) -> None:
+    """Adds a calculation, or a task of synthesis, its own chapters behind it; one without a result says why."""
     from linkwright.report.calculation import OwnText, calculation
+    from linkwright.report.sections.synthesis import task_chapter
 
     name = title_said(problem.name, document.language)
+    say, language = document.say, document.language
     try:
-        for block in calculation(problem, part.own, document.say, document.language):
+        for block in (
+            task_chapter(problem, part.own, say, language)
+            if isinstance(problem, TaskFile)
+            else calculation(problem, part.own, say, language)
+        ):
+            if isinstance(block, Paragraph) and block.kind == "missing":
+                _miss(document, name, plain(block.text))
             found = _own(block.text, part.own, document, name) if isinstance(block, OwnText) else (block,)
             document.blocks += (new for each in found for new in _parts_of(each, document))
     except LinkwrightError as error:

@@ -21,6 +21,7 @@ from linkwright.report.document import Document, Source, walk
 from linkwright.report.machine_results import Case
 from linkwright.report.order import Calculation, chosen, parts
 from linkwright.report.settings import settings, worked_place
+from linkwright.synthesis.task_file import TaskFile, task_file
 from linkwright.whole_files import refuse_target, write_whole
 from linkwright.words import speaker
 from linkwright.words.sentence import Sentence
@@ -89,8 +90,8 @@ class Report:
 
 
 Machine = Mechanism | Problem | str | Path
-#: A model or its file, or a calculation with its file.
-Given = Mechanism | str | tuple[Problem, str]
+#: A model or its file, a calculation with its file, or a file that holds a task of synthesis alone.
+Given = Mechanism | str | tuple[Problem, str] | TaskFile
 
 
 def report(
@@ -107,7 +108,8 @@ def report(
     """The report of a machine, or of several with their comparison; and of calculations, cams among them.
 
     Args:
-        machines: mechanisms, calculations of machine parts, paths or gallery names.
+        machines: mechanisms, calculations of machine parts, paths or gallery names; also of files that hold a task of
+            synthesis alone.
         sources: the files of mechanisms that are given themselves, for what is read from files (tasks of synthesis).
         sections: names of sections and titles of own chapters in the order wanted; empty: what the first file says,
             else all that apply.
@@ -127,13 +129,13 @@ def report(
         LinkwrightError: an unknown section or language, a model that cannot be read, settings that make no sense.
     """
     require_language(language)
-    given = _cases(_read(machines), sources, language, position, positions, folder)
+    given = _cases(_read(machines, language), sources, language, position, positions, folder)
     cases = [each for each in given if isinstance(each, Case)]
     calculations = [each for each in given if isinstance(each, Calculation)]
     own = (cases or calculations)[0].settings
     entries = chosen(sections, own)
     names = [case.mechanism.name for case in cases]
-    names = names or [title_said(each.problem.name, language) for each in calculations]
+    names = names or [each.title(language) for each in calculations]
     document = Document(
         own.title or " / ".join(dict.fromkeys(names)),
         speaker(language),
@@ -152,8 +154,8 @@ def report(
     return Report(document)
 
 
-def _read(machines: Machine | Sequence[Machine]) -> list[Given]:
-    """Mechanisms (or their files) and calculations, with the file of one that is read here."""
+def _read(machines: Machine | Sequence[Machine], language: str) -> list[Given]:
+    """Mechanisms (or their files), calculations with the file of one that is read here, and tasks of synthesis."""
     from linkwright.parts.file import kind_of
     from linkwright.parts.file import load as load_calculation
 
@@ -167,6 +169,8 @@ def _read(machines: Machine | Sequence[Machine]) -> list[Given]:
             found.append((each, ""))
         elif isinstance(each, Mechanism):
             found.append(each)
+        elif (task := task_file(each)) is not None:
+            found.append(task.said_in(language))
         else:
             calculated = kind_of(str(each)) is not None
             found.append((load_calculation(str(each)), str(each)) if calculated else str(each))
@@ -190,6 +194,9 @@ def _cases(
             found.append(
                 Calculation(problem, settings(problem.report, language, None, _beside(folder, file)))
             )
+            continue
+        if isinstance(each, TaskFile):
+            found.append(Calculation(each, settings(each.report, language, None, _beside(folder, each.file))))
             continue
         mechanism = each if isinstance(each, Mechanism) else _loaded(str(each), language)
         mechanism = mechanism.said_in(language)

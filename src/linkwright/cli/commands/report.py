@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
+
+if TYPE_CHECKING:
+    from linkwright.mechanism.mechanism import Mechanism
 
 FORMS = ("pdf", "html", "docx")
 #: Names of the sections in their usual order.
@@ -35,10 +39,17 @@ def run(options: argparse.Namespace, session: Session) -> int:
     from linkwright.cli.source import read_model
     from linkwright.parts.file import kind_of
     from linkwright.report.report import report
+    from linkwright.synthesis.task_file import task_file
 
     path = _path(options)
-    machines = [file if kind_of(file) else read_model(file, session)[0] for file in options.files]
-    sources = [file for file in options.files if not kind_of(file)]
+    machines: list[Mechanism | str] = []
+    sources = []
+    for file in options.files:
+        if kind_of(file) or task_file(file) is not None:
+            machines.append(file)
+        else:
+            machines.append(read_model(file, session)[0])
+            sources.append(file)
     with progress(session.say, "report.working") as told:
         found = report(
             machines,
