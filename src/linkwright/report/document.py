@@ -98,7 +98,20 @@ class Source:
     text: str
 
 
-Block = Heading | Paragraph | Formula | Table | Figure | Source
+@dataclass(frozen=True)
+class Code:
+    """A listing, printed line by line as it is; one with a caption is numbered. ``language`` colours its words
+    (``python``, ``yaml``; empty: none)."""
+
+    text: str
+    language: str = ""
+    caption: str = ""
+    label: str = ""
+
+
+Block = Heading | Paragraph | Formula | Table | Figure | Code | Source
+#: What is numbered within its chapter, each kind for itself.
+NUMBERED = (Formula, Table, Figure, Code)
 
 
 #: A paragraph of fewer characters stays with the formula, table or figure that it leads to.
@@ -133,9 +146,14 @@ class Document:
             return False
         return (
             isinstance(before[0], Heading)
-            or isinstance(after[0], Formula | Table | Figure)
+            or isinstance(after[0], NUMBERED)
             or block[0].text.endswith((":", "："))
         )
+
+
+def _counted(block: Formula | Table | Figure | Code) -> bool:
+    """Whether a block has a number: a formula unless it is without one, a listing with a caption, all others."""
+    return bool(block.caption) if isinstance(block, Code) else getattr(block, "number", True)
 
 
 class Numbers:
@@ -146,7 +164,7 @@ class Numbers:
         self.labels: dict[str, int] = {}
         self.document = document
         levels: list[int] = []
-        chapter, counts = 0, {Formula: 0, Table: 0, Figure: 0}
+        chapter, counts = 0, dict.fromkeys(NUMBERED, 0)
         for index, block in enumerate(document.blocks):
             if isinstance(block, Heading):
                 levels = [*(levels + [0] * 4)[: block.level]]
@@ -155,7 +173,7 @@ class Numbers:
                     self.of[index] = ".".join(map(str, levels))
                 if levels[0] != chapter:
                     chapter, counts = levels[0], dict.fromkeys(counts, 0)
-            elif isinstance(block, Formula | Table | Figure) and getattr(block, "number", True):
+            elif isinstance(block, NUMBERED) and _counted(block):
                 counts[type(block)] += 1
                 self.of[index] = f"{chapter}.{counts[type(block)]}"
             if getattr(block, "label", ""):

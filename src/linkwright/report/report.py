@@ -18,10 +18,9 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.parts.base import Problem
 from linkwright.registry import listed
 from linkwright.report.document import (
+    NUMBERED,
     Block,
     Document,
-    Figure,
-    Formula,
     Heading,
     Paragraph,
     Table,
@@ -323,7 +322,7 @@ def _placed(block: Block, shift: int, prefix: str) -> Block:
         return replace(block, level=min(block.level + shift, 4))
     if not prefix:
         return block
-    if isinstance(block, Formula | Table | Figure) and block.label:
+    if isinstance(block, NUMBERED) and block.label:
         return replace(block, label=f"{prefix}{block.label}")
     if isinstance(block, Paragraph):
         return replace(block, text=block.text.replace("[[", f"[[{prefix}"))

@@ -14,6 +14,7 @@ from linkwright.plot.svg.render import natural_size
 from linkwright.plot.svg.text import check_fonts
 from linkwright.report.document import (
     Block,
+    Code,
     Document,
     Figure,
     Formula,
@@ -25,68 +26,13 @@ from linkwright.report.document import (
     plain,
     spans,
 )
-from linkwright.report.formula import (
-    ACCENTS,
-    Accent,
-    Atom,
-    Bracket,
-    Fraction,
-    Node,
-    Root,
-    Row,
-    Script,
-    formula,
-    set_lines,
-    width,
-)
+from linkwright.report.formula import formula, width
+from linkwright.report.formula_lines import set_lines
+from linkwright.report.typst_formula import quoted, typst
 from linkwright.words.characters import cells
 
-_ACCENTS = {"dot": "dot", "ddot": "dot.double", "vec": "arrow", "overrightarrow": "arrow", "bar": "macron"}
-_SPACES = {",": "thin", ";": "med", ":": "med", " ": "med", "quad": "quad"}
-_ESCAPED = '\\"'
-assert _ACCENTS.keys() == ACCENTS.keys()
-
-
-def typst(node: Node) -> str:
-    """A formula between dollar signs of Typst."""
-    match node:
-        case Atom("letter" | "number", text):
-            return text
-        case Atom("space", text):
-            return _SPACES[text]
-        case Atom("open" | "close", text):
-            return f"\\{text}"
-        case Atom("sign", text):
-            return f"\\{text}" if text in "/;,:!" else text
-        case Atom(_, text):
-            return quoted(text)
-        case Row(items):
-            return " ".join(typst(each) for each in items)
-        case Fraction(above, below):
-            return f"frac({typst(above)}, {typst(below)})"
-        case Root(inside):
-            return f"sqrt({typst(inside)})"
-        case Script(base, below, above):
-            found = '""' if base == Row() else f"lr({typst(base)})" if isinstance(base, Row) else typst(base)
-            found += f"_({typst(below)})" if below is not None else ""
-            return found + (f"^({typst(above)})" if above is not None else "")
-        case Accent(mark, inside):
-            return f"accent({typst(inside)}, {_ACCENTS[mark]})"
-        case Bracket(inside, left, right):
-            return (
-                f"lr(({typst(inside)}))"
-                if (left, right) == ("(", ")")
-                else f"lr({left} {typst(inside)} {right})"
-            )
-
-
-def quoted(text: str) -> str:
-    """A text as a string of Typst."""
-    return '"' + "".join(f"\\{c}" if c in _ESCAPED else c for c in text).replace("\n", " ") + '"'
-
-
 LATIN = ("Libertinus Serif", "DejaVu Serif", "DejaVu Sans")
-MATHEMATICS = "New Computer Modern Math"
+MATHEMATICS, MONOSPACED = "New Computer Modern Math", "DejaVu Sans Mono"
 #: Families with Chinese characters, the one that reads best in print first.
 CHINESE = (
     "Noto Serif CJK SC", "Source Han Serif SC", "Noto Serif SC", "Songti SC", "SimSun", "Noto Sans CJK SC",
@@ -125,8 +71,14 @@ _HEAD = """\
 #show math.equation.where(block: true): set align(left)
 #show figure: set block(above: 1.1em, below: 1.1em)
 #show figure.where(kind: table): set figure.caption(position: top)
+#show figure.where(kind: raw): set figure.caption(position: top)
+#show figure.where(kind: raw): set block(breakable: true)
 #show figure.caption: set text(9.5pt)
 #show figure.caption.where(kind: table): set block(sticky: true)
+#show figure.caption.where(kind: raw): set block(sticky: true)
+#show raw: set text(font: {monospaced})
+#show raw.where(block: true): set text(8.3pt)
+#show raw.where(block: true): set par(justify: false)
 #set table(
   stroke: (x, y) => (top: if y == 0 {{ 0.9pt }} else if y == 1 {{ 0.6pt }} else {{ 0pt }}),
   inset: (x: 4.5pt, y: 3pt))
@@ -142,6 +94,7 @@ _HEAD = """\
     columns: columns.len(), table.header(..head), ..cells)] }} else {{
     table(columns: columns, align: align, table.header(..head), ..cells, table.hline(stroke: 0.9pt)) }}
 }}
+#let lw-overline(body) = if lw-is-html {{ math.accent(body, math.macron) }} else {{ math.overline(body) }}
 #let lw-row(body, number) = block(width: 100%, above: 0.6em, below: 0.6em, breakable: false,
   grid(columns: (1fr, auto), column-gutter: 6pt, align: (left + horizon, right + horizon),
     pad(left: 1.2em, body), number))
@@ -174,6 +127,11 @@ _HEAD = """\
   block(height: 7em, breakable: false, above: 0pt, below: 0pt)
   v(-7em)
 }}
+#let lw-code(text, lang) = {{
+  if lw-is-html {{ raw(text, block: true, lang: lang) }} else {{
+    let body = raw(text.replace(regex("\\S{{90}}"), it => it.text + str.from-unicode(8203)), block: true, lang: lang)
+    block(width: 100%, inset: 6pt, fill: luma(246), stroke: (left: 2pt + luma(190)), align(left, body)) }}
+}}
 #let lw-note(body) = {{
   if lw-is-html {{ html.elem("p", attrs: (class: "note"))[#body] }} else {{
     block(width: 100%, inset: 7pt, fill: luma(244), stroke: (left: 2pt + rgb("#c8501e")), body) }}
@@ -185,7 +143,9 @@ max-width:52rem;margin:2rem auto;padding:0 1rem;color:#1c2733;background:#fff}ta
 font-size:.84rem;margin:.4rem auto}th,td{padding:.2rem .55rem;text-align:left}th{border-top:2px solid;\
 border-bottom:1px solid}.title,.under{text-align:center}tbody tr:last-child td{border-bottom:2px solid}\
 figure{margin:1.4rem 0;text-align:center;overflow-x:auto}figure img{max-width:100%;height:auto;display:inline-block\
-!important}figcaption{font-size:.9rem;margin:.4rem}.pictures{display:flex;flex-wrap:wrap;\
+!important}figcaption{font-size:.9rem;margin:.4rem}\
+pre{font-size:.82rem;line-height:1.4;text-align:left;overflow-x:auto;padding:.6rem .8rem;color:#1c2733;\
+background:#f4f4f4;border-left:3px solid #bbb}.pictures{display:flex;flex-wrap:wrap;\
 justify-content:space-evenly;gap:.6rem}a{color:#0b57a4}.formula{display:flex;justify-content:space-between;align-items:\
 center;margin:.2rem 0 .2rem 1.2rem;padding:.15rem 0;overflow:auto hidden}\
 .note{background:#f4f4f4;border-left:3px solid #c8501e;\
@@ -313,6 +273,7 @@ class _Writer:
             running=quoted(shortened(document.title)),
             fonts=_listed(families),
             mathematics=_listed((MATHEMATICS, *families)),
+            monospaced=_listed((MONOSPACED, *families)),
             language=quoted(document.language),
         )
         title = f"#lw-title[{_words(document.title)}]\n"
@@ -338,6 +299,8 @@ class _Writer:
                 return self._table(index, block)
             case Figure():
                 return self._figure(index, block)
+            case Code():
+                return self._code(index, block)
             case Source():
                 return f"{block.text}\n"
 
@@ -385,6 +348,17 @@ class _Writer:
         return (
             f"#figure({body}, kind: image, numbering: none, supplement: none, "
             f"caption: {self._caption(index, figure.caption)}) <{_place(index)}>\n"
+        )
+
+    def _code(self, index: int, code: Code) -> str:
+        lines = code.text.expandtabs(4).rstrip("\n").split("\n")
+        text = "\\n".join(quoted(line)[1:-1] for line in lines)
+        body = f'lw-code("{text}", {quoted(code.language) if code.language else "none"})'
+        if not code.caption:
+            return f"#{body}\n"
+        return (
+            f"#figure({body}, kind: raw, numbering: none, supplement: none, "
+            f"caption: {self._caption(index, code.caption)}) <{_place(index)}>\n"
         )
 
     def inline(self, text: str) -> str:

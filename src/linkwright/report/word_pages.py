@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Iterator
 from typing import Any
 from xml.sax.saxutils import escape
 
 from linkwright.errors import LinkwrightError
 from linkwright.report.document import (
     Block,
+    Code,
     Document,
     Figure,
     Formula,
@@ -22,80 +22,10 @@ from linkwright.report.document import (
     plain,
     spans,
 )
-from linkwright.report.formula import (
-    ACCENTS,
-    Accent,
-    Atom,
-    Bracket,
-    Fraction,
-    Node,
-    Root,
-    Row,
-    Script,
-    formula,
-    set_lines,
-)
+from linkwright.report.formula import Atom, Row, formula
+from linkwright.report.formula_lines import set_lines
+from linkwright.report.word_formula import SPACE, equation
 from linkwright.words.characters import cells, printable
-
-SPACE = "http://schemas.openxmlformats.org/officeDocument/2006/math"
-_SPACES = {",": "\u2009", ";": "\u2005", ":": "\u2005", " ": "\u2005", "quad": "\u2003"}
-
-
-def equation(row: Row) -> Any:
-    """The element ``m:oMath`` of a formula."""
-    return _part("oMath", row)
-
-
-def _element(name: str, *inside: Any, **attributes: str) -> Any:
-    from lxml import etree
-
-    found = etree.Element(f"{{{SPACE}}}{name}", nsmap={"m": SPACE})
-    for key, value in attributes.items():
-        found.set(f"{{{SPACE}}}{key}", value)
-    found.extend(inside)
-    return found
-
-
-def _part(name: str, node: Node) -> Any:
-    return _element(name, *_elements(node))
-
-
-def _elements(node: Node) -> Iterator[Any]:
-    match node:
-        case Row(items):
-            for item in items:
-                yield from _elements(item)
-        case Atom(kind, text):
-            yield _run(kind, text)
-        case Fraction(above, below):
-            yield _element("f", _part("num", above), _part("den", below))
-        case Root(inside):
-            hidden = _element("radPr", _element("degHide", val="1"))
-            yield _element("rad", hidden, _element("deg"), _part("e", inside))
-        case Script(base, below, None) if below is not None:
-            yield _element("sSub", _part("e", base), _part("sub", below))
-        case Script(base, None, above) if above is not None:
-            yield _element("sSup", _part("e", base), _part("sup", above))
-        case Script(base, below, above) if below is not None and above is not None:
-            yield _element("sSubSup", _part("e", base), _part("sub", below), _part("sup", above))
-        case Script(base):
-            yield from _elements(base)
-        case Accent(mark, inside):
-            yield _element("acc", _element("accPr", _element("chr", val=ACCENTS[mark])), _part("e", inside))
-        case Bracket(inside, left, right):
-            sides = _element("dPr", _element("begChr", val=left), _element("endChr", val=right))
-            yield _element("d", sides, _part("e", inside))
-
-
-def _run(kind: str, text: str) -> Any:
-    shown = _SPACES[text] if kind == "space" else text
-    written = _element("t")
-    written.text = shown
-    written.set("{http://www.w3.org/XML/1998/namespace}space", "preserve")
-    if kind in ("upright", "space", "open", "close"):
-        return _element("r", _element("rPr", _element("nor")), written)
-    return _element("r", written)
-
 
 #: Width of the text, inches; pictures' dots per inch.
 TEXT, DOTS = 6.69, 160.0
@@ -109,6 +39,8 @@ LETTER = 0.062
 GAP, SMALL = 0.22, 8
 #: Fonts by language: of Latin letters, of Chinese characters.
 FONTS = ("Cambria", "SimSun")
+#: The style of listings and its font.
+CODE, MONOSPACED = "Code", "Consolas"
 
 
 def word(document: Document) -> bytes:
@@ -206,6 +138,8 @@ class _Writer:
                 self._table(index, block)
             case Figure():
                 self._figure(index, block)
+            case Code():
+                self._code(index, block)
             case Source():
                 self.file.add_paragraph(block.text)
 
@@ -231,7 +165,7 @@ class _Writer:
 
         line = self.file.add_paragraph(style="Caption")
         line.alignment = WD_ALIGN_PARAGRAPH.CENTER
-        line.paragraph_format.keep_with_next = isinstance(self.document.blocks[index], Table)
+        line.paragraph_format.keep_with_next = isinstance(self.document.blocks[index], Table | Code)
         line.add_run(f"{self.numbers.name(index)}  ")
         self._inline(line, text)
         self._bookmark(line, index)
@@ -283,6 +217,33 @@ class _Writer:
             if picture.height > tallest:
                 picture.width, picture.height = int(picture.width * tallest / picture.height), tallest
         self._caption(index, block.caption)
+
+    def _code(self, index: int, block: Code) -> None:
+        """The lines of a listing, each a paragraph, so that a long one breaks over pages."""
+        if block.caption:
+            self._caption(index, block.caption)
+        for text in block.text.expandtabs(4).rstrip("\n").split("\n"):
+            self.file.add_paragraph(printable(text), style=self._code_style())
+
+    def _code_style(self) -> Any:
+        """The paragraph style of listings: letters of one width, lines without gaps."""
+        from docx.enum.style import WD_STYLE_TYPE
+        from docx.oxml import parse_xml
+        from docx.oxml.ns import nsdecls, qn
+        from docx.shared import Pt
+
+        styles = self.file.styles
+        if CODE in styles:
+            return styles[CODE]
+        style = styles.add_style(CODE, WD_STYLE_TYPE.PARAGRAPH)
+        style.base_style = styles["Normal"]
+        style.font.name, style.font.size = MONOSPACED, Pt(8.5)
+        style.element.get_or_add_rPr().get_or_add_rFonts().set(qn("w:eastAsia"), FONTS[1])
+        style.paragraph_format.space_before = style.paragraph_format.space_after = Pt(0)
+        style.paragraph_format.line_spacing = 1.0
+        shade = f'<w:shd {nsdecls("w")} w:val="clear" w:color="auto" w:fill="F4F4F4"/>'
+        style.element.get_or_add_pPr().insert_element_before(parse_xml(shade), "w:spacing", "w:ind", "w:jc")
+        return style
 
     def _inline(self, line: Any, text: str) -> None:
         for kind, part in spans(text):
