@@ -235,9 +235,9 @@ class ForceLines:
         ]
         if not rows:
             return
-        write("reactions = [", *rows, "]", "for joint, link, force in reactions:")
+        write("reactions = [", *rows, "]", "for joint_of, on, force in reactions:")
         for i, part in enumerate("xy"):
-            write(f'    table[f"{Output("reaction", "{joint}", part, "{link}").heading}"] = force[..., {i}]')
+            write(f'    table[f"{Output("reaction", "{joint_of}", part, "{on}").heading}"] = force[..., {i}]')
         for (joint, link), text in self.couples.items():
             write(f"table[{quoted(Output('couple', joint, on=link).heading)}] = {text}")
 

@@ -22,7 +22,7 @@ from linkwright.words.sentence import in_language
 #: Names that the program uses itself.
 TAKEN = (
     "np", "lw", "dyads", "Body", "Line", "Load", "G", "cross", "table", "motion", "library", "turning", "reactions",
-    "name", "line", "lean", "slide", "sign", "shift", "point", "part", "i", "joint", "link", "force", "row", "value",
+    "label", "axis", "lean", "moved", "sign", "shift", "place", "part", "i", "joint_of", "on", "force", "row", "value",
     "print", "zip", "map", "enumerate",
 )  # fmt: skip
 
@@ -286,17 +286,17 @@ class Listing:
             if link in self.plan.axes
         ]
         heads = [
-            Output(kind, "{name}").heading for kind in ("angle", "angular_velocity", "angular_acceleration")
+            Output(kind, "{label}").heading for kind in ("angle", "angular_velocity", "angular_acceleration")
         ]
         self.write(
-            *wrapped("for name, line, lean in", links, ":"),
-            f'    table[f"{heads[0]}"] = np.angle(np.exp(1j * (line.angle - lean)))',
-            f'    table[f"{heads[1]}"] = line.angular_velocity',
-            f'    table[f"{heads[2]}"] = line.angular_acceleration',
+            *wrapped("for label, axis, lean in", links, ":"),
+            f'    table[f"{heads[0]}"] = np.angle(np.exp(1j * (axis.angle - lean)))',
+            f'    table[f"{heads[1]}"] = axis.angular_velocity',
+            f'    table[f"{heads[2]}"] = axis.angular_acceleration',
         )
 
     def _slide_columns(self) -> None:
-        heads = [Output(kind, "{name}").heading for kind in SLIDE]
+        heads = [Output(kind, "{label}").heading for kind in SLIDE]
         parts = ("displacement", "velocity", "acceleration")
         listed = [self._slide(step, i) for step in self.plan.steps for i in range(len(step.slides))]
         listed += [
@@ -307,10 +307,10 @@ class Listing:
         ]
         if listed:
             self.write(
-                *wrapped("for name, slide, sign, shift in", listed, ":"),
-                f'    table[f"{heads[0]}"] = sign * slide.{parts[0]} + shift',
+                *wrapped("for label, moved, sign, shift in", listed, ":"),
+                f'    table[f"{heads[0]}"] = sign * moved.{parts[0]} + shift',
                 *(
-                    f'    table[f"{head}"] = sign * slide.{part}'
+                    f'    table[f"{head}"] = sign * moved.{part}'
                     for head, part in zip(heads[1:], parts[1:], strict=True)
                 ),
             )
@@ -329,10 +329,10 @@ class Listing:
         if not wanted:
             return
         points = [f"({quoted(key)}, {self.placed[key]})" for key in wanted]
-        self.write(*wrapped("for name, point in", points, ":"), '    for i, part in enumerate("xy"):')
+        self.write(*wrapped("for label, place in", points, ":"), '    for i, part in enumerate("xy"):')
         for kind in POINT:
-            head = Output(kind, "{name}", "{part}").heading
-            self.write(f'        table[f"{head}"] = point.{kind}[..., i]')
+            head = Output(kind, "{label}", "{part}").heading
+            self.write(f'        table[f"{head}"] = place.{kind}[..., i]')
 
 
 def wrapped(before: str, items: Sequence[str], after: str = "") -> Iterable[str]:
