@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import csv
 import io
+import runpy
 import subprocess
 import sys
+from contextlib import redirect_stdout
 from pathlib import Path
 
 import numpy as np
 import pytest
 from tests import store
+from tests.reference.random_mechanisms import random_mechanism
 
 import linkwright as lw
 
@@ -19,11 +22,17 @@ STEPS = 24
 CORE = ("shaper_quick_return", "dyad_prp", "oldham_coupling", "stephenson_sixbar_triad", "truss")
 
 
-def run(path: Path) -> dict[str, np.ndarray]:
-    """What the program prints, by columns."""
-    done = subprocess.run([sys.executable, str(path)], capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr
-    head, *rows = csv.reader(io.StringIO(done.stdout))
+def run(path: Path, *, apart: bool = True) -> dict[str, np.ndarray]:
+    """What the program prints, by columns; ``apart``: in a process of its own."""
+    if apart:
+        done = subprocess.run([sys.executable, str(path)], capture_output=True, text=True, check=False)
+        assert done.returncode == 0, done.stderr
+        printed = done.stdout
+    else:
+        with redirect_stdout(io.StringIO()) as caught:
+            runpy.run_path(str(path))
+        printed = caught.getvalue()
+    head, *rows = csv.reader(io.StringIO(printed))
     return dict(zip(head, np.array(rows, dtype=float).T, strict=True))
 
 
@@ -39,12 +48,12 @@ def agrees(printed: dict[str, np.ndarray], wanted: dict[str, np.ndarray], rows: 
         assert np.abs(gap).max() <= 1e-9 * sizes[name[name.index("[") :]], name
 
 
-def compare(name: str, folder: Path) -> set[str]:
-    """Writes and runs the program of a gallery machine; the columns of the result that it does not print."""
-    motion = lw.solve_motion(store.machine(name), steps=STEPS, failures="mark")
-    result = lw.solve_forces(motion) if motion.mechanism.has_loads else motion
-    path = lw.export(result, folder / "solution.py", model=f"gallery:{name}")
-    printed = run(path)
+def compare(machine: lw.Mechanism, model: str, folder: Path, *, apart: bool = False) -> set[str]:
+    """Writes and runs the program of a machine; the columns of the result that it does not print."""
+    motion = lw.solve_motion(machine, steps=STEPS, failures="mark")
+    result = lw.solve_forces(motion) if machine.has_loads else motion
+    path = lw.export(result, folder / "solution.py", model=model)
+    printed = run(path, apart=apart)
     wanted = result.columns()
     agrees(printed, wanted, np.flatnonzero(motion.ok))
     derived = ("magnitude", "residual", "shaking", "time [s]")
@@ -53,17 +62,35 @@ def compare(name: str, folder: Path) -> set[str]:
 
 @pytest.mark.parametrize("name", CORE)
 def test_the_program_prints_the_results(name: str, tmp_path: Path):
-    assert compare(name, tmp_path) == set()
+    assert compare(store.machine(name), f"gallery:{name}", tmp_path, apart=True) == set()
 
 
 @pytest.mark.rotating
 @pytest.mark.parametrize("name", [name for name in store.names() if name not in CORE])
 def test_programs_of_the_whole_gallery(name: str, tmp_path: Path):
-    left = compare(name, tmp_path)
+    left = compare(store.machine(name), f"gallery:{name}", tmp_path)
     # several groups share a pin whose force the library gives for all of them together
     shared = {"excavator", "pinion_between_racks", "printing_press"}
     passive = {each for each in left if each.startswith(("ring_2 on", "ring_3 on"))}
     assert left == set() or name in shared or (name == "planetary_two_inputs" and left == passive)
+
+
+#: Guides that moving links carry, both modes of every dyad, driven blocks, welded plates, loads of all kinds.
+SEEDS = (3, 8, 19, 31, 300, 305)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_programs_of_random_machines(seed: int, tmp_path: Path):
+    text = random_mechanism(seed, triads=False, inner_drivers=False, with_loads=seed >= 300)
+    path = tmp_path / "machine.yaml"
+    path.write_text(text, "utf-8")
+    assert compare(lw.load(path), str(path), tmp_path) == set()
+
+
+@pytest.mark.rotating
+@pytest.mark.parametrize("seed", range(1000, 1040))
+def test_programs_of_more_random_machines(seed: int, tmp_path: Path):
+    test_programs_of_random_machines(seed, tmp_path)
 
 
 MODEL = """

@@ -41,8 +41,6 @@ class ForceLines:
         """Whether the functions find the forces of every link."""
         if self.forces is None or self.forces.static:
             return False
-        if any(step.kind == "weld" for step in self.listing.plan.steps):
-            return False
         return all(self._alone(each) for step in self.listing.plan.others for each in step.group.joints)
 
     def _alone(self, connection: Connection) -> bool:
@@ -80,8 +78,9 @@ class ForceLines:
         bodies = [self._body(link) for link in step.links]
         function = "forces"
         subject = names.of("dyad", f"{step.kind.lower()}_{step.number}")
-        if step.kind in ("bar", "slider"):
-            function, subject = f"{step.kind}_forces", names.of("link", step.links[0])
+        if step.kind in ("bar", "slider", "weld"):
+            function = "slider_forces" if step.kind == "slider" else "bar_forces"
+            subject = names.of("link", step.links[0])
         while len(bodies) > 1 and bodies[-1] == "None":
             bodies.pop()
         arguments = [] if bodies == ["None"] else bodies
@@ -128,18 +127,20 @@ class ForceLines:
         self._note(joint, link, force)
         self._note(joint, known, f"-{force}")
         name = self.listing.names.of("link", link)
-        place = f"{name}.origin" if isinstance(outer, Guide) else self.listing.point(known, joint)
+        own = isinstance(outer, Guide) or step.kind == "weld"
+        place = f"{name}.origin" if own else self.listing.point(known, joint)
         whole = force
         if step.kind == "slider":
             along = f"np.stack([np.cos({name}.angle), np.sin({name}.angle)], axis=-1)"
             whole = f"({force} + {found}.effort[..., None] * {along})"
+        if step.kind == "weld":  # what would drive a bar there holds the link
+            self.couples |= {(joint, link): f"{found}.effort", (joint, known): f"-{found}.effort"}
         if isinstance(outer, Guide):
             self._couple(joint, link, couple, f"{name}.origin", whole, self.listing.plan.axes[link].origin)
         if known == "frame":
             return
-        more = {"bar": f", -{found}.effort"}.get(
-            step.kind, f", -{couple}" if isinstance(outer, Guide) else ""
-        )
+        held = f"{found}.effort" if step.kind in ("bar", "weld") else couple if isinstance(outer, Guide) else ""
+        more = f", -{held}" if held else ""
         self.on.setdefault(known, []).append(f"Load(-{whole}, {place}{more})")
 
     def _inner(self, step: Step, found: str) -> None:
@@ -163,7 +164,8 @@ class ForceLines:
         place = self.listing.plan.local(guide.block, guide.at)
         if origin is None or guide.block != link or abs(place - origin) > 0.0:
             at = self.listing.point(guide.block, guide.at)
-            at = at if guide.block == "frame" else f"{at}.position"
+            resting = guide.block == "frame" or "frame" in self.mechanism.pin_links(guide.at)
+            at = at if resting else f"{at}.position"
             name = self.listing.names.of("couple", f"couple_{joint}")
             self.listing.write(
                 f"{name} = {couple} + cross(", f"    np.subtract({about}.position, {at}), {force}", ")"
@@ -239,6 +241,8 @@ class ForceLines:
         for i, part in enumerate("xy"):
             write(f'    table[f"{Output("reaction", "{joint_of}", part, "{on}").heading}"] = force[..., {i}]')
         for (joint, link), text in self.couples.items():
+            if link == "frame":
+                continue
             write(f"table[{quoted(Output('couple', joint, on=link).heading)}] = {text}")
 
 

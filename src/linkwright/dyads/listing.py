@@ -22,8 +22,8 @@ from linkwright.words.sentence import in_language
 #: Names that the program uses itself.
 TAKEN = (
     "np", "lw", "dyads", "Body", "Line", "Load", "G", "cross", "table", "motion", "library", "turning", "reactions",
-    "label", "axis", "lean", "moved", "sign", "shift", "place", "part", "i", "joint_of", "on", "force", "row", "value",
-    "print", "zip", "map", "enumerate",
+    "label", "axis", "lean", "moved", "sign", "shift", "place", "part", "i", "joint_of", "on", "force", "row",
+    "value", "print", "zip", "map", "enumerate",
 )  # fmt: skip
 
 
