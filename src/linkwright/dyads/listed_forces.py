@@ -139,7 +139,9 @@ class ForceLines:
             self._couple(joint, link, couple, f"{name}.origin", whole, self.listing.plan.axes[link].origin)
         if known == "frame":
             return
-        held = f"{found}.effort" if step.kind in ("bar", "weld") else couple if isinstance(outer, Guide) else ""
+        held = (
+            f"{found}.effort" if step.kind in ("bar", "weld") else couple if isinstance(outer, Guide) else ""
+        )
         more = f", -{held}" if held else ""
         self.on.setdefault(known, []).append(f"Load(-{whole}, {place}{more})")
 

@@ -71,12 +71,14 @@ def _even(values: Floats, turns: bool) -> str | None:
     if turns:
         whole = 360.0 * np.round(gap / 360.0)
         if whole.any() and np.abs(gap - whole).max() <= EVEN * abs(step) * count:
-            return None if not _from_zero(values) else f"({_course(start, step, count)}) % 360"
+            turn = next((each for each in (360, -360) if _within(values, each)), None)
+            return None if turn is None else f"({_course(start, step, count)}) % {turn}"
     return _course(start, step, count) if np.abs(gap).max() <= EVEN * abs(step) * count else None
 
 
-def _from_zero(values: Floats) -> bool:
-    return bool((values >= 0.0).all() and (values < 360.0).all())
+def _within(values: Floats, turn: float) -> bool:
+    """Whether angles lie between zero and a whole turn of this sense, as a remainder does."""
+    return bool((values / turn >= 0.0).all() and (values / turn < 1.0).all())
 
 
 def _course(start: float, step: float, count: int) -> str:

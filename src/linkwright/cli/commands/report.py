@@ -13,7 +13,7 @@ FORMS = ("pdf", "html", "docx")
 #: Names of the sections in their usual order.
 SECTIONS = (
     "task", "drawing", "structure", "method", "worked", "tables", "curves", "reactions", "gears", "cams", "torque",
-    "limits", "flywheel", "synthesis", "errata", "comparison", "appendix", "references",
+    "limits", "flywheel", "synthesis", "errata", "calls", "program", "comparison", "appendix", "references",
 )  # fmt: skip
 
 
