@@ -11,7 +11,7 @@ from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
 
-NAMES = ("csv", "dxf", "html", "json", "mjcf", "modelica", "parquet", "pdf", "png", "svg", "xlsx")
+NAMES = ("csv", "dxf", "html", "json", "mjcf", "modelica", "parquet", "pdf", "png", "python", "svg", "xlsx")
 #: Options of formats; one that a format lacks is refused with those that it has.
 OPTIONS = (
     "degrees", "unit", "position", "paths", "curve", "dimensions", "labels", "accelerations", "form", "name",
@@ -54,6 +54,8 @@ def run(options: argparse.Namespace, session: Session) -> int:
     mechanism, _ = read_model(options.file, session)
     if chosen == "html":
         form |= _of_page(options.file, options.beside or ())
+    if chosen == "python":
+        form["model"] = str(options.file)
     export(
         mechanism,
         path,

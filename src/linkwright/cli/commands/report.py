@@ -16,8 +16,9 @@ if TYPE_CHECKING:
 FORMS = ("pdf", "html", "docx")
 #: Names of the sections in their usual order.
 SECTIONS = (
-    "task", "drawing", "structure", "method", "worked", "tables", "curves", "reactions", "balance", "gears", "cams",
-    "torque", "limits", "flywheel", "synthesis", "errata", "comparison", "appendix", "references",
+    "task", "drawing", "structure", "flow", "method", "worked", "tables", "curves", "reactions", "free_bodies", "balance",
+    "gears", "cams", "torque", "limits", "flywheel", "synthesis", "errata", "calls", "program", "comparison", "conclusion",
+    "appendix", "references",
 )  # fmt: skip
 
 

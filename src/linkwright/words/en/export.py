@@ -8,13 +8,15 @@ writes the results to a file; the file's ending chooses the format.
   .csv .parquet   one wide table, SI units         .json   everything, with units
   .xlsx           one sheet per subject            .dxf    drawing at true scale
   .xml            MuJoCo model (MJCF)              .mo     Modelica model
-  .svg .png .pdf  kinematic drawing                .html   living page, works without a network""",
+  .svg .png .pdf  kinematic drawing                .html   living page, works without a network
+  .py             Python program that solves the machine group by group""",
     "examples": """\
 linkwright export gallery:jaw_crusher_sixbar --output crusher.xlsx
 linkwright export conveyor.yaml --output conveyor.dxf --unit mm --paths C rod.F
 linkwright export conveyor.yaml --output conveyor.xml         MuJoCo
 linkwright export conveyor.yaml --output conveyor.mo          Modelica
-linkwright export conveyor.yaml --to conveyor.html            living page""",
+linkwright export conveyor.yaml --to conveyor.html            living page
+linkwright export conveyor.yaml --to solution.py              Python program""",
     "beside_help": "html: further models on the same page, for comparison",
     "output_help": "the file; its ending chooses the format",
     "format_help": "the format, where the ending does not say it: {names}",

@@ -7,13 +7,15 @@ WORDS = {
   .csv .parquet   一张宽表，SI 单位          .json   全部结果，附单位
   .xlsx           每类结果一张工作表          .dxf    真实比例的机构图
   .xml            MuJoCo 模型（MJCF）         .mo     Modelica 模型
-  .svg .png .pdf  机构简图                   .html   交互页面，无需网络""",
+  .svg .png .pdf  机构简图                   .html   交互页面，无需网络
+  .py             逐个杆组求解本机构的 Python 程序""",
     "examples": """\
 linkwright export gallery:jaw_crusher_sixbar --output crusher.xlsx
 linkwright export conveyor.yaml --output conveyor.dxf --unit mm --paths C rod.F
 linkwright export conveyor.yaml --output conveyor.xml         MuJoCo
 linkwright export conveyor.yaml --output conveyor.mo          Modelica
-linkwright export conveyor.yaml --to conveyor.html            交互页面""",
+linkwright export conveyor.yaml --to conveyor.html            交互页面
+linkwright export conveyor.yaml --to solution.py              Python 程序""",
     "beside_help": "html：同一页上用于比较的其他模型",
     "output_help": "输出文件；后缀决定格式",
     "format_help": "后缀不能说明格式时指定：{names}",
