@@ -48,6 +48,8 @@ CSS = "".join((
     f"text{{font-family:{FAMILY_LIST}}}",
     f".lw-name{{fill:{INK};font-style:italic}}.lw-link{{fill:#52606d}}.lw-value{{fill:{GROUND}}}",
     f".lw-legend{{fill:{INK}}}.lw-axis{{fill:none;stroke:{GROUND};stroke-width:1}}",
+    f".lw-flow{{fill:#fff;stroke:{INK};stroke-width:1.5;stroke-linejoin:round}}.lw-flow-call{{font-weight:bold}}",
+    f".lw-flow-line{{fill:none;stroke:{INK};stroke-width:1.3}}.lw-flow-head{{fill:{INK}}}",
     ".lw-faded{opacity:.28}",
     ".lw-dashed{opacity:.62}.lw-dashed path,.lw-dashed circle{stroke-dasharray:5 3.5;fill-opacity:.25}",
 ))  # fmt: skip
