@@ -43,6 +43,8 @@ CSS = "".join((
     f".lw-load-ring{{fill:#fff;stroke:{PURPLE};stroke-width:1.6}}",
     f".lw-load-thin{{fill:none;stroke:{PURPLE};stroke-width:1.6}}",
     _arrow("driver", TEAL, 2.4),
+    _arrow("weight", GREEN),
+    _arrow("inertia", BLUE),
     _arrow("velocity", BLUE),
     _arrow("acceleration", GREEN),
     f"text{{font-family:{FAMILY_LIST}}}",
@@ -50,6 +52,7 @@ CSS = "".join((
     f".lw-legend{{fill:{INK}}}.lw-axis{{fill:none;stroke:{GROUND};stroke-width:1}}",
     f".lw-flow{{fill:#fff;stroke:{INK};stroke-width:1.5;stroke-linejoin:round}}.lw-flow-call{{font-weight:bold}}",
     f".lw-flow-line{{fill:none;stroke:{INK};stroke-width:1.3}}.lw-flow-head{{fill:{INK}}}",
+    ".lw-short path{stroke-dasharray:3 2.2}.lw-rule{fill:none;stroke:#9aa4ae;stroke-width:.9}",
     ".lw-faded{opacity:.28}",
     ".lw-dashed{opacity:.62}.lw-dashed path,.lw-dashed circle{stroke-dasharray:5 3.5;fill-opacity:.25}",
 ))  # fmt: skip

@@ -1,5 +1,5 @@
-"""The symbols of a flow chart at their places: columns, the lines between them, connectors where a line would leave its
-column.
+"""The symbols of a flow chart at their places: columns, the lines between them, connectors where a line would leave
+its column.
 
 Units are those of the paper; symbols after ISO 5807 (GB/T 1526).
 """

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Sequence
 
 import numpy as np
@@ -10,15 +9,15 @@ import numpy as np
 from linkwright.plot.drawing.picture import document
 from linkwright.plot.flow_chart.content import Node
 from linkwright.plot.flow_chart.layout import BARS, LEAN, LINE, RADIUS, SIZE, Box, Page, fold, laid_out
-from linkwright.plot.svg.element import Attribute, Element, circle, element, path
-from linkwright.plot.svg.text import text_element
+from linkwright.plot.svg.element import Element, circle, element, path
+from linkwright.plot.svg.text import sentence_element
 from linkwright.plot.symbols.arrows import head
 from linkwright.plot.symbols.base import points, vec, way
 
 #: Printed width of a unit, mm: two columns fill the width of an A4 page's text, and letters have 8.5 points.
 MILLIMETRE = 0.23
 #: Height of a page's picture, mm, and columns on it.
-TALLEST, COLUMNS = 222.0, 2
+TALLEST, COLUMNS = 205.0, 2
 
 
 def flow_chart_pages(
@@ -41,7 +40,7 @@ def _document(sheet: Page, title: str, heading: str) -> str:
         lines = fold(heading, wide - left)
         top = -LINE * (len(lines) + 0.8)
         content += [
-            _text(left, top + LINE * number + SIZE, line, "lw-legend", None)
+            sentence_element(left, top + LINE * number + SIZE, line, "lw-legend", SIZE)
             for number, line in enumerate(lines)
         ]
     return document(content, (left, top, wide, tall), title, None, millimetre=MILLIMETRE)
@@ -61,28 +60,7 @@ def _boxes(sheet: Page) -> Iterator[Element]:
         first = box.y - LINE * len(box.lines) / 2 + 0.5 * (LINE + 0.7 * SIZE)
         for number, text in enumerate(box.lines):
             style = "lw-legend lw-flow-call" if number < box.bold else "lw-legend"
-            yield _text(box.x, first + LINE * number, text, style)
-
-
-def _text(x: float, y: float, text: str, style: str, anchor: str | None = "middle") -> Element:
-    """A line of text; ``M_d`` has an index."""
-    content: list[Element | str] = []
-    for number, part in enumerate(re.split(r"(?<=\b[MF])_(d(?:,[^\s,，、]+)?)", text)):
-        low = number % 2 == 1
-        if low:
-            content.append(element("tspan", {"dy": 0.25 * SIZE, "font-size": 0.75 * SIZE}, part))
-        elif number and part:
-            content.append(element("tspan", {"dy": -0.25 * SIZE, "xml:space": "preserve"}, part))
-        elif part:
-            content.append(part)
-    place: dict[str, Attribute | None] = {
-        "class": style,
-        "x": x,
-        "y": y,
-        "font-size": SIZE,
-        "text-anchor": anchor,
-    }
-    return element("text", place, *content)
+            yield sentence_element(box.x, first + LINE * number, text, style, SIZE, "middle")
 
 
 def _outline(box: Box) -> Iterator[Element]:
@@ -117,7 +95,7 @@ def _rectangle(box: Box, rx: float | None = None) -> Element:
 
 def _marks(sheet: Page) -> Iterator[Element]:
     for word in sheet.words:
-        yield _text(word.x, word.y, word.text, "lw-legend", None)
+        yield sentence_element(word.x, word.y, word.text, "lw-legend", SIZE)
     for x, y, letter in sheet.circles:
         yield circle((x, y), RADIUS, "lw-flow")
-        yield text_element(x, y + 0.36 * SIZE, letter, "lw-legend", SIZE, "middle")
+        yield sentence_element(x, y + 0.36 * SIZE, letter, "lw-legend", SIZE, "middle")
