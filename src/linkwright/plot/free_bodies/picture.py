@@ -106,31 +106,46 @@ def body_picture(shapes: LinkShapes, body: FreeBody, usual: float, room: tuple[f
     """
     reach = shapes.reach(body.link)
     force = max((each.size for each in body.forces), default=0.0)
-    for length, longest in SIZES:
+
+    def sketch(length: float, longest: float) -> _Sketch:
         metres = round_scale(reach, length) if reach else usual
-        newtons = round_scale(force, longest) if force else None
-        found = _drawn(shapes, body, metres, newtons)
-        left, top, right, bottom = found.box
-        if right - left <= room[0] and bottom - top <= room[1]:
-            break
-    return found
+        return _Sketch(shapes, body, metres, round_scale(force, longest) if force else None)
+
+    for size in SIZES[:-1]:
+        drawn = sketch(*size)
+        if _fits(bounds(drawn.ink), room) and _fits((found := drawn.finished()).box, room):
+            return found
+    return sketch(*SIZES[-1]).finished()
 
 
-def _drawn(shapes: LinkShapes, body: FreeBody, metres: float, newtons: float | None) -> BodyPicture:
-    scene = shapes.of(body.link, metres)
-    view, index = scene.machine.view, shapes.index
-    ink = scene.ink(index)
-    arrows = arranged(body.forces, view, 1.0 / (newtons * MILLIMETRE) if newtons else 0.0, ink)
-    turns, labels = arcs(body.couples, view)
-    elements = scene.at(index)
-    elements += [each for arrow in arrows for each in arrow.elements]
-    elements += [each for shape in turns for each in shape.elements]
-    ink = [*ink, *(arrow.ink for arrow in arrows), *(line for shape in turns for line in shape.ink)]
-    labels = [*(arrow.label for arrow in arrows), *labels, *_names(scene, body.link, index)]
-    texts, extent = _placed_labels(labels, ink)
-    box = bounds([*ink, *extent])
-    short = any(not arrow.to_scale for arrow in arrows)
-    return BodyPicture(body, (*elements, *texts), box, metres, newtons, short)
+def _fits(box: Box, room: tuple[float, float]) -> bool:
+    left, top, right, bottom = box
+    return right - left <= room[0] and bottom - top <= room[1]
+
+
+class _Sketch:
+    """A link with its arrows and arcs at given scales, without names so far."""
+
+    def __init__(self, shapes: LinkShapes, body: FreeBody, metres: float, newtons: float | None) -> None:
+        self.body, self.metres, self.newtons, self.index = body, metres, newtons, shapes.index
+        self.scene = shapes.of(body.link, metres)
+        view, link = self.scene.machine.view, self.scene.ink(shapes.index)
+        per_newton = 1.0 / (newtons * MILLIMETRE) if newtons else 0.0
+        self.arrows = arranged(body.forces, view, per_newton, link)
+        self.turns, self.labels = arcs(body.couples, view)
+        self.ink = [*link, *(a.ink for a in self.arrows), *(line for t in self.turns for line in t.ink)]
+
+    def finished(self) -> BodyPicture:
+        """The picture with its names."""
+        elements = self.scene.at(self.index)
+        elements += [each for arrow in self.arrows for each in arrow.elements]
+        elements += [each for shape in self.turns for each in shape.elements]
+        labels = [*(arrow.label for arrow in self.arrows), *self.labels]
+        labels += _names(self.scene, self.body.link, self.index)
+        texts, extent = _placed_labels(labels, self.ink)
+        box = bounds([*self.ink, *extent])
+        short = any(not arrow.to_scale for arrow in self.arrows)
+        return BodyPicture(self.body, (*elements, *texts), box, self.metres, self.newtons, short)
 
 
 def _names(scene: Scene, link: str, index: int) -> list[Label]:
