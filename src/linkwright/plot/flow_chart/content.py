@@ -26,6 +26,8 @@ Shape = Literal["terminator", "data", "preparation", "process", "call", "decisio
 LOOP, NEXT, FORCES = "loop", "next", "forces"
 #: Names that one line lists.
 LONGEST = 12
+#: Positions that are listed.
+FEW = 8
 
 
 @dataclass(frozen=True)
@@ -140,13 +142,19 @@ class _Writer:
     def _loop(self) -> Node:
         loop, say = self._over, self.say
         step, count = self._step, len(loop.values)
-        first, last = loop.text(float(loop.values[0])), loop.text(float(loop.values[-1]))
+        first = loop.text(float(loop.values[0]))
         line = (
-            say("range", symbol=loop.symbol, first=first, last=last)
+            say("values", symbol=loop.symbol, values=say("and").join(self._values()))
             if step is None
             else say("step", symbol=loop.symbol, first=first, step=loop.text(step))
         )
         return Node("preparation", (say("loop", count=count), line, self._meaning()))
+
+    def _values(self) -> list[str]:
+        """The positions, of many the first ones and the last."""
+        loop = self._over
+        shown = [loop.text(float(value)) for value in loop.values]
+        return shown if len(shown) <= FEW else [*shown[: FEW - 2], "…", shown[-1]]
 
     def _meaning(self) -> str:
         if self._over.symbol == "t":

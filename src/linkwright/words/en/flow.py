@@ -18,7 +18,7 @@ WORDS = {
     "wheels": "sizes of the wheels",
     "loop": "i = 1; N = {count}",
     "step": "{symbol} = {first}; Δ{symbol} = {step}",
-    "range": "{symbol} from {first} to {last}",
+    "values": "{symbol} = {values}",
     "input": "{symbol}: coordinate of {driver}",
     "time": "t: time",
     "driven_turn": "driven link {link} turns about {joint}",

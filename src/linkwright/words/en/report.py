@@ -91,6 +91,7 @@ linkwright report crusher.yaml --sections task structure worked tables""",
     "numbered_limit": "The {count} positions are equally spaced in time and numbered from the limit position at the "
     "input {input} on.",
     "numbered_start": "The {count} positions are equally spaced over the motion and numbered from its start.",
+    "not_numbered_from": "The positions are numbered from the start of the motion, not from {text}: {reason}.",
     "position_number": "no.",
     "links_table": "Angles, angular velocities and angular accelerations of the links",
     "guides_table": "Displacement, velocity and acceleration of the blocks in their guides",

@@ -18,7 +18,7 @@ WORDS = {
     "wheels": "轮的尺寸",
     "loop": "i = 1；N = {count}",
     "step": "{symbol} = {first}；Δ{symbol} = {step}",
-    "range": "{symbol} 由 {first} 到 {last}",
+    "values": "{symbol} = {values}",
     "input": "{symbol}：{driver} 的坐标",
     "time": "t：时间",
     "driven_turn": "原动件 {link} 绕 {joint} 转动",
