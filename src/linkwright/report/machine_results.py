@@ -78,7 +78,7 @@ class Case:
         """The whole cycle; positions that are not reached are marked."""
         found = solve_motion(self.mechanism, steps=STEPS, failures="mark")
         if not found.ok.any():
-            raise Missing(found.outcomes[0].sentence)
+            raise LinkwrightError(found.outcomes[0].sentence)
         return found
 
     @cached_property
@@ -147,7 +147,7 @@ class Case:
         if self.mechanism.drivers:
             motion, (index,) = with_times(motion, [self.moment])
         if not motion.ok[index]:
-            raise Missing(motion.outcomes[index].sentence)
+            raise LinkwrightError(motion.outcomes[index].sentence)
         return (solve_forces(motion) if self.mechanism.has_loads else motion), index
 
     @property

@@ -12,8 +12,9 @@ from linkwright.cli.session import Session
 FORMS = ("pdf", "html", "docx")
 #: Names of the sections in their usual order.
 SECTIONS = (
-    "task", "drawing", "structure", "method", "worked", "tables", "curves", "reactions", "gears", "cams", "torque",
-    "limits", "flywheel", "synthesis", "errata", "comparison", "appendix", "references",
+    "task", "drawing", "structure", "flow", "method", "worked", "tables", "curves", "reactions", "free_bodies",
+    "gears", "cams", "torque", "limits", "flywheel", "synthesis", "errata", "comparison", "conclusion", "appendix",
+    "references",
 )  # fmt: skip
 
 

@@ -16,7 +16,7 @@ from linkwright.report.section import section
 TALLEST, FIRST = 228.0, 178.0
 
 
-@section("free_bodies", 8.5, optional=True)
+@section("free_bodies", 8.45, optional=True)
 def blocks(case: Case) -> Iterator[Block]:
     """All that acts on each link, drawn and in numbers."""
     say = case.say
