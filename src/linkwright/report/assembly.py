@@ -24,6 +24,7 @@ from linkwright.report.document import (
     texts,
     with_prefix,
 )
+from linkwright.report.machine_results import Missing
 from linkwright.report.markdown import own_text, own_words
 from linkwright.report.numbers import typeset
 from linkwright.report.order import Part
@@ -100,11 +101,11 @@ def _add(document: Document, within: Part, part: Section, *, asked: bool) -> Non
                 _miss(document, prefix + title, plain(block.text))
             found += [new for each in _parts_of(block, document) for new in _placed(each, shift, prefix)]
     except LinkwrightError as error:
-        if part.optional and not asked and not text:
-            return
-        sentence = error.say(document.language)
-        found.append(Paragraph(say("report.left_out", sentence=literal(sentence)), "missing"))
-        _miss(document, prefix + title, sentence)
+        named = asked or part.name in within.own.sections
+        if named or not (part.optional and isinstance(error, Missing)):
+            sentence = error.say(document.language)
+            found.append(Paragraph(say("report.left_out", sentence=literal(sentence)), "missing"))
+            _miss(document, prefix + title, sentence)
     except Exception as error:
         sentence = say("report.unexpected", kind=type(error).__name__, message=" ".join(str(error).split()))
         found.append(Paragraph(literal(sentence), "missing"))

@@ -51,6 +51,8 @@ class Case:
     def __init__(self, mechanism: Mechanism, settings: Settings, language: str, source: str = "") -> None:
         self.mechanism, self.settings, self.language, self.source = mechanism, settings, language, source
         self.say: Say = speaker(language)
+        #: Why the numbered positions do not begin at the limit position that the file names.
+        self.unnumbered = ""
         #: Design numbers that the report shows.
         self.used: dict[str, None] = {}
 
@@ -76,7 +78,7 @@ class Case:
         """The whole cycle; positions that are not reached are marked."""
         found = solve_motion(self.mechanism, steps=STEPS, failures="mark")
         if not found.ok.any():
-            raise Missing(found.outcomes[0].sentence)
+            raise LinkwrightError(found.outcomes[0].sentence)
         return found
 
     @cached_property
@@ -145,7 +147,7 @@ class Case:
         if self.mechanism.drivers:
             motion, (index,) = with_times(motion, [self.moment])
         if not motion.ok[index]:
-            raise Missing(motion.outcomes[index].sentence)
+            raise LinkwrightError(motion.outcomes[index].sentence)
         return (solve_forces(motion) if self.mechanism.has_loads else motion), index
 
     @property
@@ -219,16 +221,17 @@ class Case:
         return [self.input_text(float(value)) for value in numbered.motion.input[list(numbered.rows)]]
 
     def _first_limit(self) -> tuple[str, LimitPosition | None]:
-        """The output that the positions are numbered by, and its limit position."""
+        """The output that the positions are numbered by, and its limit position; none where it reverses nowhere."""
         from linkwright.plot.drawing.positions import limits_of
 
         chosen = self.settings.numbered_from
         name, _, kind = chosen.partition(" ")
         try:
             limits = limits_of(self.motion, name or None)
-        except LinkwrightError:
+        except LinkwrightError as error:
             if chosen:
-                raise
+                reason = self.told(error)
+                self.unnumbered = self.say("report.not_numbered_from", text=chosen, reason=reason)
             return "", None
         wanted = kind or "min"
         found = [each for each in limits if each.kind == wanted] or list(limits)

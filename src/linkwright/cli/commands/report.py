@@ -16,9 +16,15 @@ if TYPE_CHECKING:
 FORMS = ("pdf", "html", "docx")
 #: Names of the sections in their usual order.
 SECTIONS = (
+<<<<<<< HEAD
     "task", "drawing", "structure", "flow", "method", "worked", "tables", "curves", "reactions", "free_bodies", "balance",
     "gears", "cams", "torque", "limits", "flywheel", "synthesis", "errata", "calls", "program", "comparison", "conclusion",
     "appendix", "references",
+=======
+    "task", "drawing", "structure", "flow", "method", "worked", "tables", "curves", "reactions", "free_bodies",
+    "gears", "cams", "torque", "limits", "flywheel", "synthesis", "errata", "comparison", "conclusion", "appendix",
+    "references",
+>>>>>>> flow
 )  # fmt: skip
 
 

@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError, RequestError
-from linkwright.plot.svg.render import MOST_PIXELS
+from linkwright.plot.drawing.picture import PIXELS, Drawing
+from linkwright.plot.svg.render import MOST_PIXELS, natural_size, pdf, png
 from linkwright.whole_files import refuse_target, write_whole
 from linkwright.words.sentence import Sentence
 
@@ -71,6 +72,7 @@ def families(language: str) -> list[str]:
 
 
 ENDINGS = (".svg", ".pdf", ".png")
+PIXELS_PER_INCH = 25.4 * PIXELS
 COLOURS = ("#1f5fa8", "#c8501e", "#2c8a4b", "#8a4fa3", "#a3781a", "#2a9aa8", "#b0305c", "#5b6470")
 INK, FAINT, SHADE = "#222222", "#8c929a", "#f3dfc1"
 _STYLE: dict[str, Any] = {
@@ -119,10 +121,10 @@ def style(language: str) -> Iterator[None]:
 
 @dataclass(frozen=True)
 class Diagram:
-    """A diagram: its ``kind`` and ``figure`` (of matplotlib); ``save`` writes it, notebooks show it."""
+    """A diagram: its ``kind`` and ``figure`` (of matplotlib, or a drawing); ``save`` writes it, notebooks show it."""
 
     kind: str
-    figure: Figure
+    figure: Figure | Drawing
     language: str = "en"
 
     def save(self, path: str | Path, *, dpi: float = 200.0, force: bool = False) -> Path:
@@ -136,7 +138,7 @@ class Diagram:
 
     def content(self, ending: str, *, dpi: float = 200.0) -> bytes:
         """What a file with the ending ``.svg``, ``.pdf`` or ``.png`` holds; LinkwrightError for another one."""
-        wide, tall = self.figure.get_size_inches()
+        wide, tall = self._inches
         if ending == ".png" and not 0 < dpi * dpi * wide * tall <= MOST_PIXELS:
             raise RequestError(
                 "picture.bad_dots",
@@ -161,7 +163,17 @@ class Diagram:
         """The diagram as one page of vector PDF."""
         return self._bytes("pdf", 72.0)
 
+    @property
+    def _inches(self) -> tuple[float, float]:
+        """Its width and height."""
+        if isinstance(self.figure, Drawing):
+            wide, tall = natural_size(self.figure.svg)
+            return wide / PIXELS_PER_INCH, tall / PIXELS_PER_INCH
+        return tuple(self.figure.get_size_inches())
+
     def _bytes(self, form: str, dpi: float) -> bytes:
+        if isinstance(self.figure, Drawing):
+            return _drawn(self.figure.svg, form, dpi)
         canvas: Any = _canvas(form)(self.figure)
         stream = io.BytesIO()
         date = {"svg": {"Date": None}, "pdf": {"CreationDate": None}, "png": {"Software": "Linkwright"}}[form]
@@ -173,8 +185,15 @@ class Diagram:
         return self.svg()
 
     def __repr__(self) -> str:
-        width, height = self.figure.get_size_inches()
+        width, height = self._inches
         return f"Diagram({self.kind!r}: {width:g} × {height:g} inches)"
+
+
+def _drawn(svg: str, form: str, dpi: float) -> bytes:
+    """The file of a drawing."""
+    if form == "svg":
+        return svg.encode()
+    return pdf(svg) if form == "pdf" else png(svg, zoom=dpi / PIXELS_PER_INCH)
 
 
 def _canvas(form: str) -> Any:

@@ -94,12 +94,17 @@ def laid_out(
     """
     placed = followed(placements(motion), beside)
     machine = Machine(motion, placed, fitted(motion, placed, diagonal), beside)
-    parts = [*wheels(machine), *bodies(machine), *guides(machine), *pins(machine), *welds(machine)]
+    parts = parts_of(machine)
     if inputs:
         parts += input_arrows(machine, index)
     if centres:
         parts += mass_centres(machine)
     return Scene(machine, tuple(parts))
+
+
+def parts_of(machine: Machine) -> list[Part]:
+    """Wheels, bodies and joints."""
+    return [*wheels(machine), *bodies(machine), *guides(machine), *pins(machine), *welds(machine)]
 
 
 def mass_centres(machine: Machine) -> Iterator[Part]:

@@ -16,6 +16,7 @@ from linkwright.words.sentence import Sentence
 
 NARROW = frozenset("iljfI.,:;'|![]() ")
 WIDE = frozenset("mwMW@%")
+_SYMBOL = re.compile(r"(?<![A-Za-z0-9_])([FMμ])_([A-Za-z]+(?:,[^\s,，、；;]+)?)")
 _INDEX = re.compile(r"^(?P<stem>[^\W\d_]{1,2}'*)_?(?P<index>\d+'*)$")
 
 
@@ -78,6 +79,24 @@ def text_element(
         "text-anchor": side,
     }
     return element("text", place, *content)
+
+
+def sentence_element(
+    x: float, y: float, text: str, style: str, size: float, anchor: str = "start"
+) -> Element:
+    """A line of text as it is, but for symbols such as ``M_d`` and ``μ_F``, whose indices are set low."""
+    content: list[Element | str] = []
+    parts = _SYMBOL.split(text)
+    for before, letter, low in zip(parts[::3], [*parts[1::3], ""], [*parts[2::3], ""], strict=True):
+        plain = before + letter
+        if content and plain:
+            content.append(element("tspan", {"dy": -0.25 * size, "xml:space": "preserve"}, plain))
+        elif plain:
+            content.append(plain)
+        if low:
+            content.append(element("tspan", {"dy": 0.25 * size, "font-size": 0.75 * size}, low))
+    side = None if anchor == "start" else anchor
+    return element("text", {"class": style, "x": x, "y": y, "font-size": size, "text-anchor": side}, *content)
 
 
 FAMILIES = (

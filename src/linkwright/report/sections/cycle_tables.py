@@ -12,7 +12,7 @@ from linkwright.errors import LinkwrightError
 from linkwright.kinematics.table import motion_results
 from linkwright.kinetostatics.table import force_results
 from linkwright.report.document import Block, Paragraph, Table, literal
-from linkwright.report.machine_results import Case
+from linkwright.report.machine_results import Case, Missing
 from linkwright.report.numbers import column, faded, residual, typeset, without_rounding
 from linkwright.report.section import section
 
@@ -27,6 +27,8 @@ def blocks(case: Case) -> Iterator[Block]:
         yield Paragraph(say("report.numbered_limit", count=count, input=place))
     elif case.mechanism.drivers:
         yield Paragraph(say("report.numbered_start", count=count))
+    if case.unnumbered:
+        yield Paragraph(literal(case.unnumbered), "note")
     for note in case.motion.notes:
         yield Paragraph(literal(case.sentence(note)), "note")
     yield Paragraph(literal(case.links_text))
@@ -35,6 +37,8 @@ def blocks(case: Case) -> Iterator[Block]:
         yield table(case, say(title), columns, wanted)
     try:
         columns = without_rounding(force_results(case.numbered_forces))
+    except Missing:
+        return
     except LinkwrightError as error:
         yield Paragraph(literal(case.told(error)), "missing")
         return

@@ -14,7 +14,7 @@ from linkwright.report.section import section
 from linkwright.report.sections.curves import pictures
 
 
-@section("torque", 9.0)
+@section("torque", 9.0, optional=True)
 def blocks(case: Case) -> Iterator[Block]:
     """Effort from the joint forces beside effort from the powers of all forces."""
     if not case.mechanism.drivers:

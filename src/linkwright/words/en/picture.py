@@ -61,6 +61,8 @@ WORDS = {
     "no_forces": 'no joint of "{name}" carries a force: its links have no mass and there are no loads; '
     "give masses (mass: 5 kg) or loads (loads: …)",
     "one_mechanism_forces": "force polygons show one mechanism at one position; give one result",
+    "one_flow_chart": "a flow chart shows how one mechanism is solved; give one result",
+    "one_free_bodies": "free-body diagrams show one mechanism at one position; give one result",
     "bad_diagonal": "a machine cannot be drawn {diagonal} large; give a diagonal above zero",
     "bad_inches": "a diagram cannot be {size} inches large; give width and height, 1 to 100 each, as in size=(6, 4)",
     "no_kind": 'there is no kind of diagram "{name}"; {hint}',

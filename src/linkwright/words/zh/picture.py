@@ -56,6 +56,8 @@ WORDS = {
     "no_forces": "“{name}”的运动副都不受力：构件没有质量，也没有载荷；请给出质量（mass: 5 kg）或载荷（"
     "loads: …）",
     "one_mechanism_forces": "力多边形只显示一个机构的一个位置；请只给一个结果",
+    "one_flow_chart": "程序框图只显示一个机构的求解；请只给一个结果",
+    "one_free_bodies": "受力分析图只显示一个机构的一个位置；请只给一个结果",
     "bad_diagonal": "机构不能画成对角线为 {diagonal} 的大小；请给出大于零的对角线",
     "bad_inches": "图的大小不能是 {size} 英寸；请给出宽和高，各 1 到 100，如 size=(6, 4)",
     "no_kind": "没有这种图“{name}”；{hint}",
