@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping
 from functools import lru_cache, partial
 from typing import Any
@@ -33,9 +32,6 @@ def machine(given: Mapping[str, Any]) -> Find:
     values = {output.column: column[0] for output, column in results_of(motion, forces).items()}
 
     def find(what: str) -> float:
-        if what.endswith(".direction"):
-            base = what.removesuffix(".direction")
-            return math.atan2(values[f"{base}.y"], values[f"{base}.x"])
         if what == "input_torque" and forces is not None:
             return float(forces.input_torque[0])
         if what in values:

@@ -38,7 +38,7 @@ def blocks(case: Case) -> Iterator[Block]:
     except LinkwrightError as error:
         yield Paragraph(literal(case.told(error)), "missing")
         return
-    sizes = [each for each in _of(columns, "reaction", "couple") if not each.component]
+    sizes = [each for each in _of(columns, "reaction", "reaction_direction", "couple") if not each.component]
     efforts = _of(columns, "effort")
     yield from varying(case, "report.reactions_table", columns, sizes)
     if efforts:
