@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import chain
 from os import PathLike
@@ -110,7 +110,7 @@ def report(
     sections: Sequence[str] = (),
     language: str = "en",
     position: str = "",
-    positions: int | None = None,
+    positions: int | str | Sequence[str] | Mapping[str, object] | None = None,
     progress: Progress | None = None,
 ) -> Report:
     """The report of a machine, or of several with their comparison; and of calculations, cams among them.
@@ -122,8 +122,9 @@ def report(
         language: ``en`` or ``zh``.
         position: input of the worked position, such as ``"60 deg"``; else what the file says, else a sixth of the
             cycle.
-        positions: numbered positions of the tables, else what the file says, else 24, or 25 where the
-            input would be the same in all of them.
+        positions: of the tables: so many, numbered from a limit position, or those listed in their order
+            (``"0..-360 deg:15 deg"``, ``["0 deg", "60 deg", "limits"]``, ``{"from": "0 deg", "step": "-15 deg",
+            "count": 25}``); else what the file says, else 24, or 25 where the input would be the same in all of them.
         progress: is told how many sections are done, and of how many.
 
     Returns:
@@ -197,7 +198,7 @@ def _add_calculation(document: Document, problem: Problem) -> None:
 
 
 def _cases(
-    given: list[Mechanism | str], sources: Sequence[str], language: str, position: str, positions: int | None
+    given: list[Mechanism | str], sources: Sequence[str], language: str, position: str, positions: object
 ) -> list[Case]:
     found = []
     for index, each in enumerate(given):

@@ -22,7 +22,7 @@ def arguments(option: Options) -> None:
     names = ", ".join(SECTIONS)
     option("--sections", "NAME", nargs="+", default=[], help=option.say("report.sections_help", names=names))
     option("--position", "INPUT", default="")
-    option.count("--positions")
+    option("--positions", "POSITIONS", nargs="+")
     option("--to", "pdf|html|docx")
     option("--output", "FILE")
     option.force()
@@ -31,6 +31,7 @@ def arguments(option: Options) -> None:
 def run(options: argparse.Namespace, session: Session) -> int:
     """Writes the report; sections that have nothing to show are named on the console."""
     from linkwright.cli.files import write_whole
+    from linkwright.cli.positions import joined
     from linkwright.cli.progress import progress
     from linkwright.cli.source import read_model
     from linkwright.parts.file import kind_of, load
@@ -46,7 +47,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
             sections=options.sections,
             language=session.language,
             position=options.position,
-            positions=options.positions,
+            positions=joined(options.positions) if options.positions else None,
             progress=told,
         )
         content = found.content(path.suffix.lower())

@@ -11,6 +11,7 @@ writes the results to a file; the file's ending chooses the format.
   .svg .png .pdf  kinematic drawing                .html   living page, works without a network""",
     "examples": """\
 linkwright export gallery:jaw_crusher_sixbar --output crusher.xlsx
+linkwright export crusher.yaml --at "0..-360deg:15" --output crusher.csv --degrees
 linkwright export conveyor.yaml --output conveyor.dxf --unit mm --paths C rod.F
 linkwright export conveyor.yaml --output conveyor.xml         MuJoCo
 linkwright export conveyor.yaml --output conveyor.mo          Modelica
