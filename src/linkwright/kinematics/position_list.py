@@ -9,23 +9,19 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from typing import Any, Literal
-
-import numpy as np
+from typing import TYPE_CHECKING, Any, Literal
 
 from linkwright import units
-from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import amount
 from linkwright.errors import QuantityError, RequestError
-from linkwright.kinematics.cycle import CycleError
-from linkwright.kinematics.limits import LimitPosition
-from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import output_of
-from linkwright.kinematics.output_limits import limits_of
-from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
+
+if TYPE_CHECKING:
+    from linkwright.kinematics.limits import LimitPosition
+    from linkwright.kinematics.motion import Motion
 
 #: More positions than this are taken for a slip.
 MOST = 1_000_000
@@ -94,6 +90,8 @@ class PositionList:
         Raises LinkwrightError for a limit position that is not there, and for an input of a driver that follows a
         law of its own.
         """
+        from linkwright.kinematics.solve import solve_motion
+
         if self._by_time(mechanism):
             times = self.times(mechanism, output)
             return solve_motion(mechanism, times=times, failures=failures)
@@ -108,6 +106,8 @@ class PositionList:
 
     def times(self, mechanism: Mechanism, output: str = "") -> list[float]:
         """The times, s; raises as :meth:`solved`."""
+        from linkwright.kinematics.cycle import CycleError
+
         found = []
         for value, timed in self._values(mechanism, output, "time"):
             driver = next(iter(mechanism.drivers.values()))
@@ -124,6 +124,8 @@ class PositionList:
         self, mechanism: Mechanism, output: str, kind: Literal["input", "time"]
     ) -> Iterator[tuple[float, bool]]:
         """Every position, and whether it is a time; limit positions as ``kind``."""
+        from linkwright.kinematics.solve import solve_motion
+
         cycle: Motion | None = None
         for entry in self.entries:
             if isinstance(entry, Place):
@@ -140,6 +142,8 @@ class PositionList:
 
 
 def _limits(cycle: Motion, entry: AtLimit, output: str) -> list[LimitPosition]:
+    from linkwright.kinematics.output_limits import limits_of
+
     found = sorted(limits_of(cycle, entry.output or output or None), key=lambda each: each.index)
     chosen = [each for each in found if entry.kind in ("limits", each.kind)]
     if not chosen:
@@ -236,10 +240,11 @@ def _stepped(given: Mapping[str, Any], dimensions: Sequence[str]) -> Iterable[En
         return [Place(begin.value + k * step, begin.is_time) for k in range(count)]
     end = _place(texts["to"], "", dimensions).value
     if count:
-        return [Place(float(value), begin.is_time) for value in np.linspace(begin.value, end, count)]
+        share = [k / (count - 1) for k in range(count)]
+        return [Place((1.0 - k) * begin.value + k * end, begin.is_time) for k in share]
     shown = f"{texts['from']}..{texts['to']}:{texts['step']}"
     step = _place(texts["step"], "", dimensions).value
-    return [Place(float(value), begin.is_time) for value in _steps(begin.value, end, step, shown)]
+    return [Place(value, begin.is_time) for value in _steps(begin.value, end, step, shown)]
 
 
 def _count(text: str) -> int:
@@ -257,18 +262,18 @@ def _range(text: str, dimensions: Sequence[str]) -> list[Place]:
     end = _place(last, unit, dimensions)
     only = ("time",) if end.is_time else [each for each in dimensions if each != "time"]
     begin, step = (_place(each, unit, only).value for each in (first, step_text))
-    return [Place(float(value), end.is_time) for value in _steps(begin, end.value, step, text)]
+    return [Place(value, end.is_time) for value in _steps(begin, end.value, step, text)]
 
 
-def _steps(begin: float, end: float, step: float, text: str) -> Floats:
+def _steps(begin: float, end: float, step: float, text: str) -> list[float]:
     """From ``begin`` on, not beyond ``end``; a step without a sign leads towards the end."""
     count = abs(end - begin) / abs(step) if step else math.inf
     if count > MOST:
         raise RequestError("solve.range_long", text=text, most=MOST)
     if step < 0.0 < end - begin:
         raise RequestError("solve.step_away", text=text)
-    steps = np.arange(math.floor(count * (1 + 1e-12) + 1e-9) + 1)
-    return np.asarray(begin + math.copysign(step, end - begin) * steps)
+    along = math.copysign(step, end - begin)
+    return [begin + along * k for k in range(math.floor(count * (1 + 1e-12) + 1e-9) + 1)]
 
 
 def _place(text: str, unit: str, dimensions: Sequence[str]) -> Place:
