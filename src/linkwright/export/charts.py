@@ -227,11 +227,11 @@ def _scales(chart: Chart) -> tuple[dict[str, Any], dict[str, Any]]:
     low, high = float(x.min()), float(x.max())
     if not high > low:
         return {}, {}
-    found: dict[str, Any] = {"min": low, "max": high}
+    step = _step((high - low) / 8.0)
     if chart.curves[0].x.column.unit == "°":
-        found["major_unit"] = next(
-            (each for each in _TURN_STEPS if (high - low) / each <= 12.0), _step((high - low) / 8.0)
-        )
+        step = next((each for each in _TURN_STEPS if (high - low) / each <= 12.0), step)
+    ends = {"min": math.floor(low / step + 1e-9) * step, "max": math.ceil(high / step - 1e-9) * step}
+    found: dict[str, Any] = {**ends, "major_unit": step}
     values = chart.curves[0].x.column.values
     reverse = bool(values[-1] < values[0]) and _follows(values)
     found |= {"reverse": True, "crossing": "max"} if reverse else {"crossing": "min"}
