@@ -258,7 +258,10 @@ def _range(text: str, dimensions: Sequence[str]) -> list[Place]:
     first, last = bounds.split("..", 1)
     if not colon or not step_text.strip():
         raise RequestError("solve.range_step", text=text)
-    unit = _NUMBER.sub("", last.strip(), count=1).strip()
+    number = _NUMBER.match(last.strip())
+    unit = last.strip()[number.end() :] if number else ""
+    if not number or re.match(r"[*/^+-]", unit):
+        unit = last.strip().rpartition(" ")[2]
     end = _place(last, unit, dimensions)
     only = ("time",) if end.is_time else [each for each in dimensions if each != "time"]
     begin, step = (_place(each, unit, only).value for each in (first, step_text))
