@@ -38,7 +38,7 @@ def file_arguments(option: Options) -> None:
     group.force()
     drawn = group.of("draw")
     drawn("--width", "PIXELS", type=whole_number)
-    drawn("--fonts", "FILE", nargs="+", default=())
+    drawn.fonts()
 
 
 def names(words: Sequence[str] | None) -> tuple[str, ...]:

@@ -78,7 +78,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     )
     for note in drawing.notes:
         session.tell(note)
-    told(drawing.save(options.output, fonts=options.fonts, width=options.width, force=True), options, session)
+    told(drawing.save(options.output, width=options.width, force=True), options, session)
     return 0
 
 

@@ -46,6 +46,7 @@ def arguments(option: Options) -> None:
     option.count("--width")
     option("--size", "N", type=float)
     option("--beside", "FILE", nargs="+")
+    option.fonts()
     option.force()
 
 

@@ -41,6 +41,7 @@ def arguments(option: Options) -> None:
     form("--title", "TEXT")
     form("--dpi", "N", default="200")
     form("--output", "FILE")
+    form.fonts()
     form.force()
 
 

@@ -25,6 +25,7 @@ def arguments(option: Options) -> None:
     option("--positions", "POSITIONS", nargs="+")
     option("--to", "pdf|html|docx")
     option("--output", "FILE")
+    option.fonts()
     option.force()
 
 
