@@ -65,6 +65,7 @@ KINDS = {
     "effort": Kind("driver", "torque", "effort", "M", slid="force", form="part"),
     "reaction": Kind("joint", "force", "r", "F", vector=True, form="phrase"),
     "couple": Kind("joint", "torque", "c", "M", form="phrase"),
+    "reaction_direction": Kind("joint", "angle", symbol=r"\beta", word="direction", form="phrase"),
     "heat": Kind("joint", "power", form="phrase"),
     "friction": Kind("joint", "", "friction"),
     "unsupplied": Kind("joint", "", "left"),

@@ -127,7 +127,8 @@ class LinkMotion:
     def angle(self) -> Floats:
         """Angle of the link's x axis against the frame's, (n,) rad, counter-clockwise positive.
 
-        Continuous over positions that can be reached; the first lies in (-π, π].
+        Continuous over positions that can be reached, in the order of time, and of driven links also over positions
+        that are far apart; the first lies in (-π, π].
         """
         return self._motion.kept(("angle", self.name), self._angle)
 
@@ -139,16 +140,18 @@ class LinkMotion:
         return angles.counts(self.name) if steady else angles.follows(self.name)
 
     def _angle(self) -> Floats:
-        if self.counted:
+        apart = not self._motion.positions.is_way
+        if self.counted or (apart and self._motion.solver.motion.angles.follows(self.name)):
             turned = self._motion.row("turned_angle", self.name)
             known = turned[np.isfinite(turned)]
             first = float(known[0]) if len(known) else 0.0
             return locked(turned - 2.0 * np.pi * np.ceil(first / (2.0 * np.pi) - 0.5))
         raw = np.arctan2(self.direction[:, 1], self.direction[:, 0])
-        good = np.isfinite(raw)
-        if good.all():
-            return locked(_unwrapped(raw))
+        order = self._motion.order
+        good = np.flatnonzero(np.isfinite(raw)) if order is None else order[np.isfinite(raw[order])]
         raw[good] = _unwrapped(raw[good])
+        if order is not None and len(good):
+            raw -= TURN * np.ceil(raw[good.min()] / TURN - 0.5)
         return locked(raw)
 
     @property

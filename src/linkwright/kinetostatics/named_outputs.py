@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Literal, Protocol
@@ -13,7 +14,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.inputs import Input
 from linkwright.core.outputs import NAMED, Output
 from linkwright.engine.tangent import Slopes
-from linkwright.engine.trace import Scalar, Value, absolute, angle, atan, minimum, nearest_turn, sqrt
+from linkwright.engine.trace import Scalar, Value, absolute, angle, atan, minimum, nearest_turn, select, sqrt
 from linkwright.engine.vector import Vec
 from linkwright.errors import RequestError
 from linkwright.joints.pose import Rotor
@@ -270,6 +271,11 @@ class Named:
         radius = self.motion.motion.dimensions(f"{joint}.pin_radius")
         return force * radius * self.motion.motion.turning(link, other)
 
+    def reaction_direction(self, name: str, output: Output) -> Scalar:
+        """Direction of a joint's force from the x axis, above -π up to π; NaN where there is no force."""
+        force = self.forces.forces.reaction(output.owner, output.on)
+        return select(force.square > 0.0, angle(force.y + 0.0, force.x), math.nan)
+
     def areal_velocity(self, name: str, output: Output) -> Scalar:
         """Area per time that the line from the frame's origin to a point sweeps over, counter-clockwise positive."""
         place, velocity, _ = self.motion.outputs.point(output.owner)
@@ -323,6 +329,7 @@ _FORMULAS: dict[str, Callable[[Named, str, Output], Scalar]] = {
     "conditioning": Named.conditioning,
     "velocity_ratio": Named.velocity_ratio,
     "heat": Named.heat,
+    "reaction_direction": Named.reaction_direction,
     "areal_velocity": Named.areal_velocity,
     "distance": Named.distance,
     "equivalent_inertia": Named.equivalent_inertia,

@@ -8,15 +8,19 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.core.outputs import Output
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.cycle import at_inputs
 from linkwright.kinematics.limits import LimitPosition
 from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.position_list import PositionList
 from linkwright.kinematics.solve import solve_motion, with_times
 from linkwright.kinetostatics.forces import Forces, solve_forces
+from linkwright.kinetostatics.table import results_of
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.report.numbers import Heads
+from linkwright.report.numbers import Heads, without_rounding
 from linkwright.report.settings import Settings, worked_place
 from linkwright.structure.group import Structure
 from linkwright.words import Say, speaker
@@ -37,12 +41,16 @@ class Missing(LinkwrightError):
 
 @dataclass(frozen=True)
 class Numbered:
-    """Positions of the tables, numbered from 1: a motion that passes them, and where in it they are."""
+    """Positions of the tables, numbered from 1: a motion that passes them, and where in it they are.
+
+    ``listed``: they are those that the file lists, in its order.
+    """
 
     motion: Motion
     rows: tuple[int, ...]
     start: LimitPosition | None
     output: str
+    listed: bool = False
 
 
 class Case:
@@ -118,7 +126,7 @@ class Case:
 
     def input_text(self, value: float) -> str:
         """An input as the tables print it, without its unit."""
-        return f"{np.degrees(value):.2f}" if self.rotary else f"{1e3 * value:.2f}"
+        return f"{(np.degrees(value) if self.rotary else 1e3 * value) + 0.0:.2f}"
 
     @property
     def input_unit(self) -> str:
@@ -191,11 +199,15 @@ class Case:
     # numbered positions -------------------------------------------------------------------------
     @cached_property
     def numbered(self) -> Numbered:
-        """Equally spaced positions from a limit position of the output on (else from the start)."""
-        motion = self.motion
+        """Equally spaced positions from a limit position of the output on (else from the start), or those that are
+        listed."""
+        motion, asked = self.motion, self.settings.positions
         if not self.mechanism.drivers:
             return Numbered(motion, (0,), None, "")
-        count = self.settings.positions or self._usual
+        if isinstance(asked, PositionList):
+            found = asked.solved(self.mechanism, self.settings.numbered_from.partition(" ")[0])
+            return Numbered(found, tuple(range(found.steps)), None, "", listed=True)
+        count = asked or self._usual
         output, limit = self._first_limit()
         period = motion.positions.period
         if period is None:
@@ -214,15 +226,17 @@ class Case:
         turns = abs(law.constant_speed or 0.0) * (self.motion.positions.period or 0.0) / (48.0 * np.pi)
         return 25 if law.rotary and turns > 0.5 and abs(turns - round(turns)) < 1e-9 else 24
 
-    def inputs_of(self, numbered: Numbered) -> list[str]:
-        """The input at every numbered position, as tables print it."""
-        if not self.mechanism.drivers:
-            return ["–"]
-        return [self.input_text(float(value)) for value in numbered.motion.input[list(numbered.rows)]]
+    @cached_property
+    def varying(self) -> frozenset[Output]:
+        """Results that change over the cycle, or from one numbered position to another."""
+        found = without_rounding(results_of(self.motion, self.forces if self.mechanism.has_loads else None))
+        forces = self.numbered_forces if self.mechanism.has_loads else None
+        chosen = without_rounding(results_of(self.numbered.motion, forces))
+        return frozenset(each for each in found if varies(found[each]) or varies(chosen[each]))
 
     def _first_limit(self) -> tuple[str, LimitPosition | None]:
         """The output that the positions are numbered by, and its limit position; none where it reverses nowhere."""
-        from linkwright.plot.drawing.positions import limits_of
+        from linkwright.kinematics.output_limits import limits_of
 
         chosen = self.settings.numbered_from
         name, _, kind = chosen.partition(" ")
@@ -275,6 +289,12 @@ class Case:
     def sentence(self, text: str) -> str:
         """A sentence in the report's language."""
         return in_language(text, self.language)
+
+
+def varies(values: Floats) -> bool:
+    """Whether a result changes over the positions."""
+    known = values[np.isfinite(values)]
+    return bool(len(known)) and float(np.ptp(known)) > 1e-12 * max(float(np.abs(known).max()), 1e-300)
 
 
 def picture(diagram: Diagram) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from os import PathLike
 from pathlib import Path
@@ -101,7 +101,7 @@ def report(
     sections: Sequence[str] = (),
     language: str = "en",
     position: str = "",
-    positions: int | None = None,
+    positions: int | str | Sequence[str] | Mapping[str, object] | None = None,
     folder: str | Path = "",
     progress: Progress | None = None,
 ) -> Report:
@@ -116,8 +116,9 @@ def report(
         language: ``en`` or ``zh``.
         position: input of the worked position, such as ``"60 deg"``; else what the file says, else a sixth of the
             cycle.
-        positions: numbered positions of the tables, else what the file says, else 24, or 25 where the
-            input would be the same in all of them.
+        positions: of the tables: so many, numbered from a limit position, or those listed in their order
+            (``"0..-360 deg:15 deg"``, ``["0 deg", "60 deg", "limits"]``, ``{"from": "0 deg", "step": "-15 deg",
+            "count": 25}``); else what the file says, else 24, or 25 where the input would be the same in all of them.
         folder: where pictures of own texts are looked for; empty: beside the file of each machine.
         progress: is told how many sections are done, and of how many.
 
@@ -182,7 +183,7 @@ def _cases(
     sources: Sequence[str],
     language: str,
     position: str,
-    positions: int | None,
+    positions: object,
     folder: str | Path,
 ) -> list[Case | Calculation]:
     """Machines and calculations with their settings; machines of one name are numbered."""

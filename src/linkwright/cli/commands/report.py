@@ -16,15 +16,9 @@ if TYPE_CHECKING:
 FORMS = ("pdf", "html", "docx")
 #: Names of the sections in their usual order.
 SECTIONS = (
-<<<<<<< HEAD
-    "task", "drawing", "structure", "flow", "method", "worked", "tables", "curves", "reactions", "free_bodies", "balance",
-    "gears", "cams", "torque", "limits", "flywheel", "synthesis", "errata", "calls", "program", "comparison", "conclusion",
-    "appendix", "references",
-=======
     "task", "drawing", "structure", "flow", "method", "worked", "tables", "curves", "reactions", "free_bodies",
-    "gears", "cams", "torque", "limits", "flywheel", "synthesis", "errata", "comparison", "conclusion", "appendix",
-    "references",
->>>>>>> flow
+    "balance", "gears", "cams", "torque", "limits", "flywheel", "synthesis", "errata", "calls", "program",
+    "comparison", "conclusion", "appendix", "references",
 )  # fmt: skip
 
 
@@ -33,15 +27,17 @@ def arguments(option: Options) -> None:
     names = ", ".join(SECTIONS)
     option("--sections", "NAME", nargs="+", default=[], help=option.say("report.sections_help", names=names))
     option("--position", "INPUT", default="")
-    option.count("--positions")
+    option("--positions", "POSITIONS", nargs="+")
     option("--to", "pdf|html|docx")
     option("--output", "FILE")
+    option.fonts()
     option.force()
 
 
 def run(options: argparse.Namespace, session: Session) -> int:
     """Writes the report; sections that have nothing to show are named on the console."""
     from linkwright.cli.files import write_whole
+    from linkwright.cli.positions import joined
     from linkwright.cli.progress import progress
     from linkwright.cli.source import read_model
     from linkwright.parts.file import kind_of
@@ -64,7 +60,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
             sections=options.sections,
             language=session.language,
             position=options.position,
-            positions=options.positions,
+            positions=joined(options.positions) if options.positions else None,
             progress=told,
         )
         content = found.content(path.suffix.lower())

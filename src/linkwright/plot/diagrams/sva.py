@@ -112,7 +112,11 @@ def _of_result(source: Source, output: Output) -> Panel:
     """A force, or a rate that is named alone."""
     results = results_of(source.motion, None if output.of_motion else source.forces)
     found = result_meant(source.mechanism, output.name, results)
-    return Panel(found.name, found.dimension, (Curve("", source.closed(results[found]), "max"),))
+    values = source.closed(results[found])
+    if found.kind != "reaction_direction":
+        return Panel(found.name, found.dimension, (Curve("", values, "max"),))
+    over = np.abs(np.diff(values, prepend=values[0])) > np.pi  # from -180 to 180 degrees: no line is drawn
+    return Panel(found.name, found.dimension, (Curve("", np.where(over, np.nan, values)),))
 
 
 def _of_point(source: Source, key: str, say: Say) -> list[Panel]:

@@ -12,6 +12,7 @@ writes the results to a file; the file's ending chooses the format.
   .py             Python program that solves the machine group by group""",
     "examples": """\
 linkwright export gallery:jaw_crusher_sixbar --output crusher.xlsx
+linkwright export crusher.yaml --at "0..-360deg:15" --output crusher.csv --degrees
 linkwright export conveyor.yaml --output conveyor.dxf --unit mm --paths C rod.F
 linkwright export conveyor.yaml --output conveyor.xml         MuJoCo
 linkwright export conveyor.yaml --output conveyor.mo          Modelica
@@ -33,6 +34,7 @@ linkwright export conveyor.yaml --to solution.py              Python program""",
     "sheet.forces": "Forces",
     "sheet.loads": "Loads",
     "sheet.outputs": "Outputs",
+    "sheet.charts": "Charts",
     "sheet.metrics": "Metrics",
     "head.item": "item",
     "head.value": "value",
@@ -80,6 +82,7 @@ linkwright export conveyor.yaml --to solution.py              Python program""",
     "quantity.x": "force x",
     "quantity.y": "force y",
     "quantity.magnitude": "force",
+    "quantity.direction": "direction of the force",
     "quantity.couple": "couple",
     "quantity.shaking_force": "shaking force",
     "quantity.shaking_moment": "shaking moment",

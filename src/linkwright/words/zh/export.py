@@ -11,6 +11,7 @@ WORDS = {
   .py             逐个杆组求解本机构的 Python 程序""",
     "examples": """\
 linkwright export gallery:jaw_crusher_sixbar --output crusher.xlsx
+linkwright export crusher.yaml --at "0..-360deg:15" --output crusher.csv --degrees
 linkwright export conveyor.yaml --output conveyor.dxf --unit mm --paths C rod.F
 linkwright export conveyor.yaml --output conveyor.xml         MuJoCo
 linkwright export conveyor.yaml --output conveyor.mo          Modelica
@@ -32,6 +33,7 @@ linkwright export conveyor.yaml --to solution.py              Python 程序""",
     "sheet.forces": "力",
     "sheet.loads": "载荷",
     "sheet.outputs": "输出",
+    "sheet.charts": "曲线图",
     "sheet.metrics": "指标",
     "head.item": "项目",
     "head.value": "值",
@@ -79,6 +81,7 @@ linkwright export conveyor.yaml --to solution.py              Python 程序""",
     "quantity.x": "力 x",
     "quantity.y": "力 y",
     "quantity.magnitude": "力",
+    "quantity.direction": "力的方向角",
     "quantity.couple": "力偶矩",
     "quantity.shaking_force": "振动力",
     "quantity.shaking_moment": "振动力矩",
