@@ -1,0 +1,54 @@
+"""Tables as panels of sheets: of their own size."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from linkwright.sheets.panel import Drawn, Panel
+from linkwright.sheets.paper import Box
+from linkwright.sheets.picture import TEXT, Picture, Words, as_runs, runs_width
+
+#: Height of a row in heights of its letters, and space beside a text, mm.
+ROW, BESIDE = 1.9, 1.6
+
+
+class TablePanel(Panel):
+    """A table with a head: texts in cells; widths follow the texts."""
+
+    smallest = largest = 0.0
+
+    def __init__(
+        self,
+        name: str,
+        rank: float,
+        head: Sequence[Words],
+        rows: Sequence[Sequence[Words]],
+        caption: Words,
+        *,
+        height: float = TEXT,
+    ) -> None:
+        self.name, self.rank = name, rank
+        self.rows = [list(head), *(list(row) for row in rows)]
+        self.caption, self.height = caption, height
+
+    def drawn(self, size: float, scale: float | None) -> Drawn:
+        picture, tall = Picture(), ROW * self.height
+        widths = [
+            max(runs_width(as_runs(row[k]), self.height) for row in self.rows) + 2 * BESIDE
+            for k in range(len(self.rows[0]))
+        ]
+        whole = Box(0.0, -tall * len(self.rows), sum(widths), 0.0)
+        for number, row in enumerate(self.rows):
+            left, level = 0.0, -tall * number
+            for width, text in zip(widths, row, strict=True):
+                baseline = level - 0.5 * tall - 0.42 * self.height
+                picture.text((left + 0.5 * width, baseline), text, self.height, "middle")
+                left += width
+            if number:
+                picture.line([(0.0, level), (whole.right, level)], "thick" if number == 1 else "thin")
+        left = 0.0
+        for width in widths[:-1]:
+            left += width
+            picture.line([(left, 0.0), (left, whole.bottom)])
+        picture.box(whole, "thick")
+        return Drawn(picture, (as_runs(self.caption),))
