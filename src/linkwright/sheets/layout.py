@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import field, replace
+from functools import cached_property
 
 from linkwright.core.dataclass import dataclass
 from linkwright.sheets.panel import Block
@@ -97,15 +98,16 @@ class Row:
 Places = dict[str, Box]
 
 
-def packed(blocks: Sequence[Block], room: Room) -> list[Row] | None:
+def packed(blocks: Sequence[Block], room: Room, *, even: bool = False) -> list[Row] | None:
     """Rows that hold all blocks in their order, None where they have no room; each block goes into the first row in
-    which it fits, a new row is as high as its first block."""
+    which it fits. A new row is as high as its first block, with ``even`` as the highest one that is still to come."""
     rows: list[Row] = []
     top = room.whole.top
-    for block in blocks:
+    for number, block in enumerate(blocks):
         if any(row.take(block) for row in rows):
             continue
-        opened = _opened(block, room, top)
+        high = max(each.height for each in blocks[number:]) if even else block.height
+        opened = _opened(block, room, top, high) or _opened(block, room, top, block.height)
         if opened is None:
             return None
         rows += opened
@@ -113,10 +115,10 @@ def packed(blocks: Sequence[Block], room: Room) -> list[Row] | None:
     return rows
 
 
-def _opened(block: Block, room: Room, top: float) -> list[Row] | None:
-    """Rows side by side between what is taken, from a height down, one of which holds the block."""
-    while top - block.height >= room.whole.bottom - 1e-9:
-        rows = [Row(a, b, top, block.height) for a, b in room.stretches(top, top - block.height)]
+def _opened(block: Block, room: Room, top: float, high: float) -> list[Row] | None:
+    """Rows of a height side by side between what is taken, from ``top`` down, one of which holds the block."""
+    while top - high >= room.whole.bottom - 1e-9:
+        rows = [Row(a, b, top, high) for a, b in room.stretches(top, top - high)]
         if any(row.take(block) for row in rows):
             return rows
         lower = [box.bottom - GAP for box in room.taken if box.bottom - GAP < top - 1e-9]
@@ -135,7 +137,7 @@ def spread(rows: Sequence[Row], room: Room) -> Places:
         spare = row.right - row.left - sum(column.width for column in row.columns)
         gap = min(WIDEST_GAP, spare / (len(row.columns) + 1))
         x = row.left + 0.5 * (spare - gap * (len(row.columns) - 1))
-        for column in row.columns:
+        for column in _in_the_middle(row):
             free = row.height - sum(block.height for block in column.blocks)
             between = free / (len(column.blocks) + 1)
             y = row.top - between
@@ -146,6 +148,15 @@ def spread(rows: Sequence[Row], room: Room) -> Places:
                 y -= between
             x += column.width + gap
     return _lowered(found, rows, room)
+
+
+def _in_the_middle(row: Row) -> list[Column]:
+    """The columns of a row from left to right: the first one, where it is as high as the row, in the middle."""
+    first, *others = row.columns
+    if len(first.blocks) > 1 or len(others) < 2:
+        return row.columns
+    left = (len(others) + 1) // 2
+    return [*others[:left], first, *others[left:]]
 
 
 def _lowered(found: Places, rows: Sequence[Row], room: Room) -> Places:
@@ -174,40 +185,74 @@ class Layout:
     left_out: tuple[str, ...] = ()
 
 
+def _as_given(blocks: list[Block]) -> list[Block]:
+    return blocks
+
+
+def _tall_first(blocks: list[Block]) -> list[Block]:
+    return sorted(blocks, key=lambda block: -block.height)
+
+
+#: Orders in which blocks are packed, with even rows or not; the share of size that the given one, which reads better,
+#: may cost.
+_ORDERS = ((_as_given, True), (_as_given, False), (_tall_first, False))
+_TIDY = 0.4
+
+
+@dataclass(frozen=True)
+class _Asked:
+    """Panels to lay out, the order in which they are packed, whether in ``even`` rows, and their room."""
+
+    names: Sequence[str]
+    order: Callable[[list[Block]], list[Block]]
+    even: bool
+    draw: Draw
+    room: Room
+
+    def rows(self, shares: Mapping[str, float]) -> list[Row] | None:
+        """The rows with panels of these shares of their size ranges; None where they have no room."""
+        blocks = self.order([self.draw(name, shares[name]) for name in self.names])
+        return packed(blocks, self.room, even=self.even)
+
+    @cached_property
+    def share(self) -> float | None:
+        """The largest share of their size ranges with which all panels have room; None where there is none."""
+        return next((each for each in SHARES if self.rows(dict.fromkeys(self.names, each))), None)
+
+    @property
+    def merit(self) -> float:
+        """The share, and more for the order that reads better."""
+        return (self.share or 0.0) + (_TIDY if self.order is _as_given else 0.0)
+
+
 def laid_out(names: Sequence[str], ranks: Mapping[str, float], draw: Draw, room: Room) -> Layout:
     """The layout of panels in their order.
 
     Where not even the smallest sizes have room, the panel of the highest rank is left out, and so on.
     """
-    chosen, left_out = list(names), []
+    chosen, left_out = list(names), list[str]()
     while chosen:
-        share = next(
-            (each for each in SHARES if _rows(chosen, dict.fromkeys(chosen, each), draw, room)), None
-        )
-        if share is not None:
-            return _grown(chosen, share, draw, room, tuple(left_out))
+        tried = [_Asked(tuple(chosen), order, even, draw, room) for order, even in _ORDERS]
+        fitting = [asked for asked in tried if asked.share is not None]
+        if fitting:
+            return _grown(max(fitting, key=lambda asked: asked.merit), tuple(left_out))
         worst = max(reversed(chosen), key=lambda name: ranks[name])
         chosen.remove(worst)
         left_out.append(worst)
     return Layout({}, {}, tuple(left_out))
 
 
-def _rows(names: Sequence[str], shares: Mapping[str, float], draw: Draw, room: Room) -> list[Row] | None:
-    """The first order of the blocks that has room: as given, or the tall ones first."""
-    blocks = [draw(name, shares[name]) for name in names]
-    return packed(blocks, room) or packed(sorted(blocks, key=lambda block: -block.height), room)
-
-
-def _grown(names: Sequence[str], share: float, draw: Draw, room: Room, left_out: tuple[str, ...]) -> Layout:
+def _grown(asked: _Asked, left_out: tuple[str, ...]) -> Layout:
     """The layout with every panel as large as the others let it."""
-    shares = dict.fromkeys(names, share)
-    rows = _rows(names, shares, draw, room)
+    share = asked.share or 0.0
+    shares = dict.fromkeys(asked.names, share)
+    rows = asked.rows(shares)
     assert rows is not None
-    for name in names:
+    for name in asked.names:
         for larger in (each for each in SHARES if each > share):
-            tried = _rows(names, {**shares, name: larger}, draw, room)
+            tried = asked.rows({**shares, name: larger})
             if tried is not None:
                 rows, shares[name] = tried, larger
                 break
-    blocks = {name: draw(name, shares[name]) for name in names}
-    return Layout(blocks, spread(rows, room), left_out)
+    blocks = {name: asked.draw(name, shares[name]) for name in asked.names}
+    return Layout(blocks, spread(rows, asked.room), left_out)

@@ -68,10 +68,10 @@ class Block:
         return Box(left, bottom, left + self.width, bottom + self.height)
 
 
-def block_of(name: str, drawn: Drawn) -> Block:
-    """A drawn panel with its caption, as one picture."""
+def block_of(name: str, drawn: Drawn, caption: float = CAPTION) -> Block:
+    """A drawn panel with its caption, as one picture; ``caption``: height of its first line."""
     inner = drawn.picture.bounds
-    heights = [CAPTION if number == 0 else TEXT for number in range(len(drawn.caption))]
+    heights = [caption if number == 0 else TEXT for number in range(len(drawn.caption))]
     widths = [runs_width(line, height) for line, height in zip(drawn.caption, heights, strict=True)]
     wide = max([inner.width, *widths])
     below = sum(LEADING * height for height in heights) + (UNDER if heights else 0.0)
@@ -90,18 +90,16 @@ def preferred(least: float) -> float:
     return min(k * power for k in (1.0, 2.0, 2.5, 4.0, 5.0, 10.0) if k * power >= least * (1 - 1e-9))
 
 
-#: Reducing and enlarging scales that GB/T 14690 prefers, then those that it allows, of each power of ten.
-_PREFERRED, _ALLOWED = (1.0, 2.0, 5.0), (1.5, 2.5, 3.0, 4.0, 6.0)
+#: Reductions of ISO 5455 and those that GB/T 14690 prefers, then those of the ones it allows that go with 1–2–2.5–4–5.
+_PREFERRED, _ALLOWED = (1.0, 2.0, 5.0), (2.5, 4.0)
 
 
-def drawing_scale(least: float, *, allowed: bool = True) -> float:
-    """The smallest reduction of GB/T 14690 (2.0 for 1:2, 0.5 for 2:1) that is not below a value."""
+def drawing_scale(least: float, *, allowed: bool = False) -> float:
+    """The smallest reduction (2.0 for 1:2, 0.5 for 2:1) that is not below a value; ``allowed``: also 1:2.5, 1:4,
+    2.5:1 and 4:1, which GB/T 14690 allows."""
     power = 10.0 ** math.floor(math.log10(least) + 1e-12)
-    found: list[float] = []
-    for each in (power / 10, power, 10 * power):
-        found += [k * each for k in _PREFERRED]
-        if allowed:
-            found += [k * each for k in _ALLOWED] if each >= 1.0 else [each / 0.4, each / 0.25]
+    steps = (*_PREFERRED, *(_ALLOWED if allowed else ()))
+    found = [k * each for k in steps for each in (power, 10 * power)]
     return min(each for each in found if each >= least * (1 - 1e-9))
 
 

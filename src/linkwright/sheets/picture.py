@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.plot.svg.text import needs_chinese
 from linkwright.plot.svg.text import width as text_width
 from linkwright.sheets.paper import Box
 
@@ -28,6 +29,8 @@ Words: TypeAlias = str | Runs
 LEAST, TEXT, CAPTION, HEADING = 2.5, 3.5, 5.0, 7.0
 #: Height of a capital letter and depth of a descender in sizes of the font; size of indices.
 CAPITAL, DESCENT, INDEX = 0.72, 0.24, 0.72
+#: Height of a Chinese character in sizes of the font.
+CHARACTER = 0.92
 #: Length and half width of arrow heads, mm.
 HEAD = (3.2, 0.55)
 
@@ -74,7 +77,8 @@ class Circle:
 class Text:
     """A line of text: its baseline begins, has its middle or ends at ``at``; ``height`` of a capital letter.
 
-    ``turn``: direction of the line, degrees counter-clockwise; ``symbol``: set in italics.
+    ``turn``: direction of the line, degrees counter-clockwise; ``symbol``: set in italics; ``squeeze``: width of its
+    letters as a share of their own. Of Chinese text the ``height`` is that of a character.
     """
 
     at: Floats
@@ -83,6 +87,7 @@ class Text:
     anchor: Anchor = "start"
     turn: float = 0.0
     symbol: bool = False
+    squeeze: float = 1.0
 
     def moved(self, shift: Floats) -> Text:
         """The same elsewhere."""
@@ -91,12 +96,12 @@ class Text:
     @property
     def size(self) -> float:
         """Size of its font, mm."""
-        return self.height / CAPITAL
+        return font_size(self.runs, self.height)
 
     @property
     def width(self) -> float:
         """Its width, mm, estimated a little too large."""
-        return runs_width(self.runs, self.height)
+        return self.squeeze * runs_width(self.runs, self.height)
 
     @property
     def cloud(self) -> Floats:
@@ -172,10 +177,11 @@ class Picture:
         *,
         turn: float = 0.0,
         symbol: bool = False,
+        squeeze: float = 1.0,
     ) -> None:
         """A line of text."""
         if runs := as_runs(words):
-            self.items.append(Text(np.asarray(at, dtype=float), runs, height, anchor, turn, symbol))
+            self.items.append(Text(np.asarray(at, dtype=float), runs, height, anchor, turn, symbol, squeeze))
 
     def add(self, other: Picture, shift: ArrayLike = (0.0, 0.0)) -> None:
         """All of another picture, shifted."""
@@ -219,9 +225,15 @@ def joined(*parts: Words) -> Runs:
     return tuple(run for part in parts for run in as_runs(part))
 
 
+def font_size(runs: Sequence[tuple[str, int]], height: float) -> float:
+    """The size of the font with which capitals, or Chinese characters where there are some, have a height."""
+    chinese = any(needs_chinese(text) for text, _ in runs)
+    return height / (CHARACTER if chinese else CAPITAL)
+
+
 def runs_width(runs: Sequence[tuple[str, int]], height: float) -> float:
     """The width of a line of text, mm; an index above stands over the one below."""
-    size, wide, above = height / CAPITAL, 0.0, 0.0
+    size, wide, above = font_size(runs, height), 0.0, 0.0
     for text, level in runs:
         part = text_width(text, size * (INDEX if level else 1.0))
         if level > 0:

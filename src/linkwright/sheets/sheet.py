@@ -19,13 +19,14 @@ from linkwright.sheets.kind import SHEETS, Content, Subject
 from linkwright.sheets.layout import GAP, Layout, Room, laid_out
 from linkwright.sheets.panel import Block, Panel, block_of
 from linkwright.sheets.paper import SIZES, Box, Paper
-from linkwright.sheets.picture import Picture, Text
+from linkwright.sheets.picture import CAPTION, TEXT, Picture, Text
 from linkwright.sheets.settings import Placed, Settings, settings
 from linkwright.sheets.svg import svg
 from linkwright.sheets.title_block import TitleBlock, gb_block, iso_block, school_block
 from linkwright.whole_files import refuse_target, write_whole
 from linkwright.words import speaker
 from linkwright.words.sentence import in_language
+from linkwright.words.titles import title_said
 
 ENDINGS = (".pdf", ".svg", ".dxf")
 
@@ -119,7 +120,7 @@ def sheet(
         own = section
     chosen = kind or ("mechanism" if isinstance(drawn, Mechanism) else str(drawn.kind))
     report = drawn.report if isinstance(drawn, Mechanism) else {}
-    name = in_language(drawn.name, language)
+    name = title_said(in_language(drawn.name, language), language)
     wanted = settings(own, language, size=size or "", report=report, name=name)
     if chosen not in SHEETS:
         raise RequestError("sheet.no_kind", kind=chosen, kinds=tuple(SHEETS))
@@ -147,8 +148,9 @@ def _given(machine: Mechanism | Problem | str | Path) -> tuple[Mechanism | Probl
 class _Drawer:
     """Draws panels at shares of their size ranges, each picture once."""
 
-    def __init__(self, panels: Mapping[str, Panel], placed: Mapping[str, Placed], room: Box) -> None:
-        self.panels, self.placed, self.room = panels, placed, room
+    def __init__(self, panels: Mapping[str, Panel], placed: Mapping[str, Placed], room: Box, caption: float
+    ) -> None:
+        self.panels, self.placed, self.room, self.caption = panels, placed, room, caption
         self._blocks: dict[tuple[str, float], Block] = {}
 
     def __call__(self, name: str, share: float) -> Block:
@@ -156,7 +158,7 @@ class _Drawer:
         largest = min(panel.largest, max(self.room.width, self.room.height))
         size = given.size or panel.smallest + share * max(0.0, largest - panel.smallest)
         if (name, size) not in self._blocks:
-            self._blocks[name, size] = block_of(name, panel.drawn(size, given.scale))
+            self._blocks[name, size] = block_of(name, panel.drawn(size, given.scale), self.caption)
         return self._blocks[name, size]
 
 
@@ -169,7 +171,7 @@ def _composed(subject: Subject, content: Content, kind: str, name: str) -> Sheet
     bar = _bar_place(inner, corner)
     room = Room(inner.inset(GAP), (corner, bar))
     panels = _chosen(content.panels, wanted)
-    draw = _Drawer(panels, wanted.panels, room.whole)
+    draw = _Drawer(panels, wanted.panels, room.whole, TEXT if paper.size in ("A3", "A4") else CAPTION)
     fixed = {key: draw(key, 1.0).at(*at) for key in panels if (at := wanted.panels.get(key, Placed()).at)}
     _refuse_outside(fixed, inner)
     free = [key for key in panels if key not in fixed]

@@ -77,6 +77,9 @@ def _class(item: Line | Circle) -> str:
 def _text(item: Text, height: float) -> Element:
     x, y = float(item.at[0]), height - float(item.at[1])
     turn = f"rotate({number(-item.turn)} {number(x)} {number(y)})" if item.turn else None
+    if item.squeeze < 1.0:
+        turn = f"translate({number(x)} {number(y)}) scale({item.squeeze:.3f} 1)"
+        x = y = 0.0
     anchor = None if item.anchor == "start" else item.anchor
     style = "italic" if item.symbol else None
     root = element(

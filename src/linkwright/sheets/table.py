@@ -10,10 +10,12 @@ from linkwright.sheets.picture import TEXT, Picture, Words, as_runs, runs_width
 
 #: Height of a row in heights of its letters, and space beside a text, mm.
 ROW, BESIDE = 1.9, 1.6
+#: Rows of a table that is not parted.
+LONG = 10
 
 
 class TablePanel(Panel):
-    """A table with a head: texts in cells; widths follow the texts."""
+    """A table with a head: texts in cells; widths follow the texts; a long one stands in two halves side by side."""
 
     smallest = largest = 0.0
 
@@ -28,7 +30,11 @@ class TablePanel(Panel):
         height: float = TEXT,
     ) -> None:
         self.name, self.rank = name, rank
-        self.rows = [list(head), *(list(row) for row in rows)]
+        half = -(-len(rows) // 2)
+        parts = [rows] if len(rows) <= LONG else [rows[:half], [*rows[half:], *([[""] * len(head)] * (len(rows) % 2))]]
+        self.rows = [[cell for _ in parts for cell in head]]
+        self.rows += [[cell for row in side for cell in row] for side in zip(*parts, strict=True)]
+        self.parts = len(parts)
         self.caption, self.height = caption, height
 
     def drawn(self, size: float, scale: float | None) -> Drawn:
@@ -47,8 +53,9 @@ class TablePanel(Panel):
             if number:
                 picture.line([(0.0, level), (whole.right, level)], "thick" if number == 1 else "thin")
         left = 0.0
-        for width in widths[:-1]:
+        for number, width in enumerate(widths[:-1], 1):
             left += width
-            picture.line([(left, 0.0), (left, whole.bottom)])
+            middle = number * self.parts == len(widths)
+            picture.line([(left, 0.0), (left, whole.bottom)], "thick" if middle else "thin")
         picture.box(whole, "thick")
         return Drawn(picture, (as_runs(self.caption),))

@@ -72,17 +72,23 @@ def _write(picture: Picture, cell: Cell, box: Box) -> None:
         room -= LEAST + 1.5
     if not cell.text:
         return
-    lines, height = fitted(cell.text, box.width - 2.0, room, cell.letters)
+    width = box.width - 1.6
+    lines, height = fitted(cell.text, width, room, cell.letters)
     step = 1.45 * height
     level = box.bottom + 0.5 * room + 0.5 * step * (len(lines) - 1) - 0.5 * height
     for line in lines:
-        picture.text((0.5 * (box.left + box.right), level), line, height, "middle")
+        squeeze = min(1.0, width / max(runs_width(as_runs(line), height), 1e-9))
+        picture.text((0.5 * (box.left + box.right), level), line, height, "middle", squeeze=squeeze)
         level -= step
 
 
 def fitted(text: str, width: float, room: float, letters: float) -> tuple[list[str], float]:
-    """A text in one or two lines that fit a width, and the height of its letters: at most ``letters``, mm."""
+    """A text in one or two lines that fit a width, and the height of its letters: at most ``letters``, mm.
+
+    Chinese characters may be squeezed to 0.7 of their width, as in long imitation Song (GB/T 14691).
+    """
     least = TEXT if needs_chinese(text) else LEAST
+    width /= 0.7 if needs_chinese(text) else 1.0
     heights = [each for each in (letters, 7.0, 5.0, TEXT, LEAST) if least <= each <= max(letters, least)]
     for height in heights:
         if runs_width(as_runs(text), height) <= width and height <= room:
