@@ -15,7 +15,10 @@ LONG = 10
 
 
 class TablePanel(Panel):
-    """A table with a head: texts in cells; widths follow the texts; a long one stands in two halves side by side."""
+    """A table with a head: texts in cells; widths follow the texts.
+
+    ``parts``: how many stand side by side, of one after the other; by default two where it is long.
+    """
 
     smallest = largest = 0.0
 
@@ -28,13 +31,15 @@ class TablePanel(Panel):
         caption: Words,
         *,
         height: float = TEXT,
+        parts: int | None = None,
     ) -> None:
         self.name, self.rank = name, rank
-        half = -(-len(rows) // 2)
-        parts = [rows] if len(rows) <= LONG else [rows[:half], [*rows[half:], *([[""] * len(head)] * (len(rows) % 2))]]
-        self.rows = [[cell for _ in parts for cell in head]]
-        self.rows += [[cell for row in side for cell in row] for side in zip(*parts, strict=True)]
-        self.parts = len(parts)
+        self.parts = parts or (1 if len(rows) <= LONG else 2)
+        tall = -(-len(rows) // self.parts)
+        filled = [*rows, *([[""] * len(head)] * (tall * self.parts - len(rows)))]
+        sides = [filled[k * tall : (k + 1) * tall] for k in range(self.parts)]
+        self.rows = [[cell for _ in sides for cell in head]]
+        self.rows += [[cell for row in side for cell in row] for side in zip(*sides, strict=True)]
         self.caption, self.height = caption, height
 
     def drawn(self, size: float, scale: float | None) -> Drawn:
@@ -55,7 +60,7 @@ class TablePanel(Panel):
         left = 0.0
         for number, width in enumerate(widths[:-1], 1):
             left += width
-            middle = number * self.parts == len(widths)
-            picture.line([(left, 0.0), (left, whole.bottom)], "thick" if middle else "thin")
+            between = number * self.parts % len(widths) == 0
+            picture.line([(left, 0.0), (left, whole.bottom)], "thick" if between else "thin")
         picture.box(whole, "thick")
         return Drawn(picture, (as_runs(self.caption),))

@@ -37,6 +37,11 @@ class DevelopmentPanel(Panel):
         self.walls = [wall.contact(phi).point for wall in design.cam.walls]
         self.scale = ""
 
+    @property
+    def extent(self) -> tuple[float, float]:
+        """Width and height of the development at full size, m."""
+        return 2 * math.pi * self.radius, float(np.ptp(np.concatenate(self.walls).imag))
+
     def drawn(self, size: float, scale: float | None) -> Drawn:
         wide = 2 * math.pi * self.radius
         reduction = 1e3 * scale if scale else drawing_scale(1e3 * wide / max(size - 2 * _MARGIN, 10.0))
@@ -52,25 +57,24 @@ class DevelopmentPanel(Panel):
         picture.line(paper.points(self.pitch), "chain")
         for wall in self.walls:
             picture.line(paper.points(wall), "thick")
-        names = self._rollers(picture, paper, (low, high))
+        names = self._rollers(picture, paper, low)
         names += self._marks(picture, paper, (end, high))
         writer = Names(picture)
         for words, spots, leader in names:
             writer.write(words, spots, leader=leader)
         return Drawn(picture, tuple(self._caption(reduction)))
 
-    def _rollers(self, picture: Picture, paper: Paper, edges: tuple[float, float]) -> list[Name]:
-        """The divided angles with the roller at each; gives their numbers."""
+    def _rollers(self, picture: Picture, paper: Paper, low: float) -> list[Name]:
+        """The divided angles from the lower edge with the roller at each; gives their numbers."""
         names: list[Name] = []
-        low, high = edges
         roller = paper.length(self.design.cam.follower.roller_radius)
         inside = np.minimum(self.places, np.nextafter(2 * math.pi, 0.0))
         for k, centre in enumerate(pitch_of(self.design, inside)):
             at = paper.point(centre)
-            picture.line([(at[0], low), (at[0], high)], "thin")
+            picture.line([(at[0], low), at], "thin")
             picture.circle(at, roller, "thin")
             number = str(k % (len(self.places) - 1))
-            names.append((as_runs(number), around((at[0], low), -1j, (1.5, 5.0)), None))
+            names.append((as_runs(number), around((at[0], low), -1j, (1.5, 7.0, 12.5)), None))
         return names
 
     def _marks(self, picture: Picture, paper: Paper, corner: tuple[float, float]) -> list[Name]:
@@ -89,9 +93,9 @@ class DevelopmentPanel(Panel):
             start, slope = pitch_of(self.design, phi)[0], self.design.wall.contact(phi).normal[0]
             spots = angle_between(picture, paper.point(start), 1j, complex(slope), 0.0)
             names.append((indexed("α", "max"), spots, None))
-        for key, curve, share in (("pitch", self.pitch, 0.5), ("profile", self.walls[0], 0.45)):
+        for key, curve, share in (("pitch", self.pitch, 0.28), ("profile", self.walls[1], 0.36)):
             place = paper.point(curve[round(share * (len(curve) - 1))])
-            spots = around(place, 1j, (14.0, 20.0, 26.0), (50.0, -50.0, 35.0, -35.0, 130.0, -130.0))
+            spots = around(place, 1j, (14.0, 20.0, 28.0, 36.0), (50.0, 70.0, 35.0, -50.0, -70.0, -35.0))
             names.append((as_runs(self.say(f"cam_sheet.{key}_curve")), spots, place))
         return names
 

@@ -11,6 +11,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.laws.base import MotionLaw
 from linkwright.laws.program import TURN, MotionProgram, Program
 
 Way = Literal["rise", "dwell", "fall"]
@@ -46,8 +47,9 @@ def phases(program: Program) -> tuple[Phase, ...]:
     found: list[Phase] = []
     lifts = itertools.pairwise(program.lift_at_edges)
     ends = itertools.pairwise(program.edges.tolist())
-    for (start, end), (low, high), law in zip(ends, lifts, program.law_names, strict=True):
-        way: Way = "dwell" if law == "dwell" or high == low else "rise" if high > low else "fall"
+    for (start, end), (low, high), (own, _) in zip(ends, lifts, program.moved_by, strict=True):
+        law = _name(own)
+        way: Way = "dwell" if own is None or high == low else "rise" if high > low else "fall"
         if found and found[-1].way == way:
             last = found.pop()
             laws = tuple(dict.fromkeys((*last.laws, law)))
@@ -55,6 +57,13 @@ def phases(program: Program) -> tuple[Phase, ...]:
         else:
             found.append(Phase(way, start, end, (law,)))
     return _named(found)
+
+
+def _name(law: MotionLaw | None) -> str:
+    """The name of a law; of one that is made from another (turned round, cut, shifted) that one's."""
+    while isinstance(inner := getattr(law, "law", None), MotionLaw):
+        law = inner
+    return "dwell" if law is None else law.key
 
 
 def _named(found: Sequence[Phase]) -> tuple[Phase, ...]:

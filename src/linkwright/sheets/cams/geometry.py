@@ -65,7 +65,7 @@ def inverted(design: CamDesign, phi: Floats) -> Inverted:
 
 @dataclass(frozen=True)
 class Sharpest:
-    """The pressure angle that is nearest to its limit (largest where there is none): value and limit in rad, place."""
+    """The pressure angle nearest to its limit (the largest where there is none): value, limit and place in rad."""
 
     value: float
     limit: float | None

@@ -29,9 +29,9 @@ class Names:
         self.samples = np.concatenate([*samples, np.empty((0, 3))])
         self.boxes = [bounds_of([text]) for text in picture.texts]
 
-    def write(self, words: Words, spots: Sequence[Spot], height: float = TEXT, *, leader: ArrayLike | None = None) -> None:
+    def write(self, words: Words, spots: Sequence[Spot], *, leader: ArrayLike | None = None) -> None:
         """A text at the spot where it meets least; ``leader``: the place that a thin line leads to from there."""
-        found = [_text(words, spot, height) for spot in spots]
+        found = [_text(words, spot) for spot in spots]
         costs = [self._cost(text) + _LATER * k for k, text in enumerate(found)]
         best = int(np.argmin(costs))
         text = found[best]
@@ -50,7 +50,9 @@ class Names:
         return float(weight[inside].sum()) + _TEXT * sum(box.meets(other) for other in self.boxes)
 
 
-def around(at: ArrayLike, away: complex, gaps: Sequence[float], turns: Sequence[float] = (0.0,)) -> list[Spot]:
+def around(
+    at: ArrayLike, away: complex, gaps: Sequence[float], turns: Sequence[float] = (0.0,)
+) -> list[Spot]:
     """Spots about a place: at distances (mm) in a direction turned by angles (degrees)."""
     place = np.asarray(at, dtype=float)
     unit = away / abs(away)
@@ -62,13 +64,13 @@ def around(at: ArrayLike, away: complex, gaps: Sequence[float], turns: Sequence[
     return found
 
 
-def _text(words: Words, spot: Spot, height: float) -> Text:
+def _text(words: Words, spot: Spot) -> Text:
     """A text whose near side is at a spot."""
     at, away = spot
     unit = away / abs(away)
     anchor: Anchor = "start" if unit.real > 0.35 else "end" if unit.real < -0.35 else "middle"
-    drop = 0.5 * height * (1.0 - unit.imag)
-    return Text(at - (0.0, drop), as_runs(words), height, anchor)
+    drop = 0.5 * TEXT * (1.0 - unit.imag)
+    return Text(at - (0.0, drop), as_runs(words), TEXT, anchor)
 
 
 def _samples(item: Line | Circle) -> Floats:

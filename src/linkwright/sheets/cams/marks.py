@@ -132,7 +132,9 @@ def _turning(picture: Picture, paper: Paper, design: CamDesign) -> Iterator[Name
     tip = cmath.exp(1j * (middle + half))
     picture.head(radius * pair(tip), pair(1j * cam.turn * tip))
     ray = cmath.exp(1j * middle)
-    spots = around((0.0, 0.0), ray, (radius + 2.0, radius - 6.0, radius + 4.0), (0.0, 12.0, -12.0, 25.0, -25.0))
+    spots = around(
+        (0.0, 0.0), ray, (radius + 2.0, radius - 6.0, radius + 4.0), (0.0, 12.0, -12.0, 25.0, -25.0)
+    )
     yield as_runs("ω"), spots, None
 
 
@@ -147,7 +149,8 @@ def _curves(paper: Paper, design: CamDesign, say: Say) -> Iterator[Name]:
     for key, curve, share in curves:
         ray = cmath.exp(1j * (low + share * (high - low)))
         point = curve[int(np.argmin(np.abs(np.angle(curve / ray))))]
-        spots = around(far * pair(ray), ray, (8.0, 14.0, 20.0), (0.0, 20.0, -20.0, 40.0, -40.0))
+        edge = max(far, paper.length(abs(point))) * pair(ray)
+        spots = around(edge, ray, (8.0, 14.0, 20.0), (0.0, 20.0, -20.0, 40.0, -40.0))
         yield as_runs(say(f"cam_sheet.{key}_curve")), spots, paper.point(point)
 
 

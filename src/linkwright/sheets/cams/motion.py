@@ -65,7 +65,7 @@ class MotionPanel(Panel):
             if number == 0:
                 self._divisions(picture, wide, zero, each)
                 below = min(below, zero - _NUMBERS)
-                self._dimensions(picture, wide, (zero, below), levels)
+                self._dimensions(picture, wide, below, levels)
                 between = (below, below - _LEVEL * (max(levels, default=-1) + 1) - 1.0)
                 below = between[1]
             scales.append(graphical(strip.symbol, each, strip.unit))
@@ -101,16 +101,16 @@ class MotionPanel(Panel):
         for number, place in enumerate(places.tolist()):
             x = wide * place / TURN
             height = float(np.interp(place, self.design.angles, lift)) / each
-            picture.line([(x, zero), (x, zero + height)] if abs(height) > 0.3 else [(x, zero - 1.0), (x, zero)])
+            picture.line(
+                [(x, zero), (x, zero + height)] if abs(height) > 0.3 else [(x, zero - 1.0), (x, zero)]
+            )
             name = str(number % len(self.places))
             half = 0.5 * runs_width(as_runs(name), LEAST)
             if x - half > last + 0.5:
                 picture.text((x, zero - 1.5 - LEAST), name, LEAST, "middle")
                 last = x + half
 
-    def _boundaries(
-        self, picture: Picture, wide: float, between: tuple[float, float], bottom: float
-    ) -> None:
+    def _boundaries(self, picture: Picture, wide: float, between: tuple[float, float], bottom: float) -> None:
         """Where phases meet, through all curves but for the numbers and dimensions ``between``."""
         for phase in self.phases[1:]:
             x = wide * phase.start / TURN
@@ -149,9 +149,8 @@ class MotionPanel(Panel):
             return start, end + 2 * half + 4.0, end + half + 3.0
         return start - 2 * half - 4.0, end, start - half - 3.0
 
-    def _dimensions(self, picture: Picture, wide: float, place: tuple[float, float], levels: Sequence[int]) -> None:
+    def _dimensions(self, picture: Picture, wide: float, top: float, levels: Sequence[int]) -> None:
         """The angles of the phases beneath the numbers of the divided angles."""
-        zero, top = place
         for phase, name, level in zip(self.phases, self._names(), levels, strict=True):
             start, end = wide * phase.start / TURN, wide * phase.end / TURN
             height = top - _LEVEL * level - 5.5

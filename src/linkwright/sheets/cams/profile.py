@@ -5,6 +5,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Sequence
+from functools import cached_property
 
 import numpy as np
 
@@ -25,6 +26,8 @@ _DENSE = 1440
 BEYOND, _MARGIN = 4.0, 12.0
 #: Length of the stem of a translating follower at 0 beyond the other ones' lines, and where its guide is, mm.
 _STEM, _GUIDE = 19.0, 12.0
+#: Radius of an offset circle on paper from which the followers' lines begin at it, mm.
+_OFFSET = 4.0
 #: Share of the base circle within which the pitch curve is taken for it.
 _SAME = 1e-6
 
@@ -45,11 +48,18 @@ class ProfilePanel(Panel):
         cloud = [self.pitch, *self.walls, self.at.face.ravel()]
         self.outer = float(max(np.abs(each).max(initial=0.0) for each in cloud))
         self.scale = ""
+        self._drawn: dict[float, Drawn] = {}
 
     def drawn(self, size: float, scale: float | None) -> Drawn:
-        wanted = 1e3 * self._extent() / max(size - 2 * (BEYOND + _MARGIN), 10.0)
+        wanted = 1e3 * max(self.extent) / max(size - 2 * (BEYOND + _MARGIN), 10.0)
         reduction = 1e3 * scale if scale else drawing_scale(wanted)
         self.scale = scale_text(reduction)
+        if reduction not in self._drawn:
+            self._drawn[reduction] = self._at(reduction)
+        return self._drawn[reduction]
+
+    def _at(self, reduction: float) -> Drawn:
+        """The picture at a scale."""
         paper, picture = Paper(reduction), Picture()
         self._centre(picture, paper)
         self._circles(picture, paper)
@@ -62,12 +72,13 @@ class ProfilePanel(Panel):
             names.write(words, spots, leader=leader)
         return Drawn(picture, tuple(self._caption(reduction)))
 
-    def _extent(self) -> float:
-        """Longer side of the picture at full size, m."""
+    @cached_property
+    def extent(self) -> tuple[float, float]:
+        """Width and height of the picture at full size, m."""
         oscillating = self.design.cam.follower.oscillating
         ends = self.at.foot if oscillating else self.outer * self.at.along
         cloud = np.concatenate([*self.walls, self.pitch, self.at.face.ravel(), ends])
-        return max(float(np.ptp(cloud.real)), float(np.ptp(cloud.imag)))
+        return float(np.ptp(cloud.real)), float(np.ptp(cloud.imag))
 
     def _centre(self, picture: Picture, paper: Paper) -> None:
         """The axes of the cam and its pin."""
@@ -113,7 +124,7 @@ class ProfilePanel(Panel):
     def _stem(self, picture: Picture, paper: Paper, k: int) -> tuple[Floats, complex]:
         """The line along which a translating follower slides, from where it touches the offset circle."""
         along, foot = complex(self.at.along[k]), complex(self.at.foot[k])
-        start = foot if abs(foot) > 1e-12 else complex(self.at.rest[k])
+        start = foot if paper.length(abs(foot)) > _OFFSET else complex(self.at.rest[k])
         end = paper.point(foot + self._reach(foot) * along) + BEYOND * pair(along)
         picture.line([paper.point(start), end], "thin")
         return end, along

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
@@ -12,18 +13,21 @@ from linkwright.laws.smoothest import FoundProgram
 from linkwright.sheets.cams.division import Phase, divided, phases
 from linkwright.sheets.cams.geometry import pitch_of
 from linkwright.sheets.cams.scales import fixed, plain
-from linkwright.sheets.picture import Words, as_runs, indexed, joined
+from linkwright.sheets.panel import Drawn
+from linkwright.sheets.picture import Runs, Words, as_runs, indexed, joined
 from linkwright.sheets.table import TablePanel
 from linkwright.words import Say, has
 
 Row = list[Words]
+#: Most parts of the table of points side by side.
+_PARTS = 3
 
 
-def data_table(design: CamDesign, say: Say) -> TablePanel:
-    """Motion, sizes and checks of a cam: name, symbol, value."""
+def data_table(design: CamDesign, say: Say, parts: int) -> TablePanel:
+    """Motion, sizes and checks of a cam: name, symbol, value; in so many parts side by side."""
     head = [say(f"cam_sheet.{key}") for key in ("quantity", "symbol", "value")]
     rows = [*_motion(design, say), *_sizes(design, say), *_checks(design, say)]
-    return TablePanel("table_data", 2.0, head, rows, say("cam_sheet.data"))
+    return TablePanel("table_data", 2.0, head, rows, say("cam_sheet.data"), parts=parts)
 
 
 def _row(say: Say, key: str, symbol: Words, value: float, unit: str) -> Row:
@@ -85,7 +89,9 @@ def _sizes(design: CamDesign, say: Say) -> Iterator[Row]:
             yield _row(say, "face_offset", "f", 1e3 * follower.face_offset, "mm")
         else:
             yield _row(say, "arm", indexed("l", "r"), 1e3 * (follower.arm or 0.0), "mm")
-        yield _row(say, "start_angle", indexed("ψ", "0"), math.degrees(follower.start_angle(base) or 0.0), "°")
+        yield _row(
+            say, "start_angle", indexed("ψ", "0"), math.degrees(follower.start_angle(base) or 0.0), "°"
+        )
     elif follower.kind != "flat" and follower.offset:
         yield _row(say, "offset", "e", 1e3 * follower.offset, "mm")
     if design.face is not None:
@@ -107,21 +113,27 @@ def _checks(design: CamDesign, say: Say) -> Iterator[Row]:
         yield _row(say, "smallest_radius", indexed("ρ", "min"), 1e3 * design.smallest_radius.value, "mm")
 
 
-def points_table(design: CamDesign, say: Say, letters: float) -> TablePanel:
-    """Lift, pitch curve, profile and pressure angle at the divided angles, in two blocks side by side.
+class PointsTable(TablePanel):
+    """A table with a ``note`` beneath its caption."""
 
-    ``letters``: their height, mm.
-    """
+    note: Runs = ()
+
+    def drawn(self, size: float, scale: float | None) -> Drawn:
+        table = super().drawn(size, scale)
+        return replace(table, caption=(*table.caption, self.note))
+
+
+def points_table(design: CamDesign, say: Say, letters: float, tall: int) -> PointsTable:
+    """Lift, pitch curve, profile and pressure angle at the divided angles, in parts side by side of at most
+    ``tall`` rows, as far as the paper is wide enough; ``letters``: their height, mm."""
     head, rows = _points(design)
-    half = math.ceil(len(rows) / 2)
-    right = [*rows[half:], *([[""] * len(head)] * (2 * half - len(rows)))]
-    both = [[*left, *other] for left, other in zip(rows[:half], right, strict=True)]
-    profile = joined("x, y ", say("cam_sheet.profile_curve"))
+    parts = min(_PARTS, math.ceil(len(rows) / tall))
+    found = PointsTable("table_points", 3.0, head, rows, say("cam_sheet.points"), height=letters, parts=parts)
+    found.note = joined("x, y ", say("cam_sheet.profile_curve"))
     if design.cam.follower.kind == "roller":
         pitch = joined(indexed("x", "0"), ", ", indexed("y", "0"), " ", say("cam_sheet.pitch_curve"))
-        profile = joined(pitch, "; ", profile)
-    caption = joined(say("cam_sheet.points"), " (", profile, ")")
-    return TablePanel("table_points", 3.0, [*head, *head], both, caption, height=letters)
+        found.note = joined(pitch, ";  ", found.note)
+    return found
 
 
 def _points(design: CamDesign) -> tuple[Row, list[Row]]:

@@ -21,7 +21,9 @@ from linkwright.sheets.kind import SHEETS, Content, Subject
 from linkwright.sheets.picture import LEAST, TEXT
 
 #: Share of the paper's shorter side that the diagrams of the motion take at most.
-_MOTION = 0.46
+_MOTION = 0.42
+#: Width of a profile over its height from which the data stand below it in two parts, the points beside it.
+_WIDE = 1.2
 
 
 @SHEETS.register("cam")
@@ -32,11 +34,12 @@ def cam(subject: Subject) -> Content:
     barrel = design.cam.barrel_radius is not None
     profile = DevelopmentPanel(design, say) if barrel else ProfilePanel(design, say)
     large = paper.size in ("A0", "A1")
+    wide = profile.extent[0] > _WIDE * profile.extent[1]
     panels = (
         MotionPanel(design, say, _MOTION * min(paper.frame.width, paper.frame.height)),
         profile,
-        data_table(design, say),
-        points_table(design, say, TEXT if large else LEAST),
+        data_table(design, say, 2 if wide else 1),
+        points_table(design, say, TEXT if large else LEAST, 14 if wide else 10),
     )
     return Content(panels, lambda: profile.scale)
 
