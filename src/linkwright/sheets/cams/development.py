@@ -10,8 +10,8 @@ import numpy as np
 from linkwright.cams.result import CamDesign
 from linkwright.sheets.cams.division import divided
 from linkwright.sheets.cams.geometry import Paper, pitch_of, sharpest
-from linkwright.sheets.cams.labels import Names, around
-from linkwright.sheets.cams.marks import Name, angle_between, said
+from linkwright.sheets.cams.labels import Name, Names, around
+from linkwright.sheets.cams.marks import angle_between, said
 from linkwright.sheets.cams.scales import graphical
 from linkwright.sheets.panel import Drawn, Panel, drawing_scale, scale_text
 from linkwright.sheets.picture import Picture, Runs, as_runs, indexed, joined
@@ -71,7 +71,7 @@ class DevelopmentPanel(Panel):
         inside = np.minimum(self.places, np.nextafter(2 * math.pi, 0.0))
         for k, centre in enumerate(pitch_of(self.design, inside)):
             at = paper.point(centre)
-            picture.line([(at[0], low), at], "thin")
+            picture.line([(at[0], low), (at[0], at[1])], "thin")
             picture.circle(at, roller, "thin")
             number = str(k % (len(self.places) - 1))
             names.append((as_runs(number), around((at[0], low), -1j, (1.5, 7.0, 12.5)), None))

@@ -86,7 +86,7 @@ def divided(program: Program) -> Floats:
     moves, the ends of dwells; equal parts of the turn where there are no phases."""
     parts = phases(program)
     if not parts:
-        return np.arange(round(TURN / _PLAIN)) * _PLAIN
+        return np.asarray(np.arange(round(TURN / _PLAIN)) * _PLAIN, dtype=np.float64)
     step = _STEP
     while len(found := _divided(program, step)) > MOST and step < 1.0:
         step *= 1.25

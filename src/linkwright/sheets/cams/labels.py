@@ -9,7 +9,18 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Floats
-from linkwright.sheets.picture import TEXT, Anchor, Circle, Line, Picture, Text, Words, as_runs, bounds_of
+from linkwright.sheets.picture import (
+    TEXT,
+    Anchor,
+    Circle,
+    Line,
+    Picture,
+    Runs,
+    Text,
+    Words,
+    as_runs,
+    bounds_of,
+)
 
 #: Distance of samples along lines, mm; what a sample of a thick line, of a thin one, and a text cost.
 _EVERY, _THICK, _THIN, _TEXT = 0.7, 4.0, 1.0, 1000.0
@@ -18,6 +29,8 @@ _CLEAR, _LATER = 0.7, 0.4
 
 #: A place with the direction in which a text leads away from it.
 Spot = tuple[Floats, complex]
+#: A text with the spots where it may be, and the place that its leader leads to.
+Name = tuple[Runs, list[Spot], Floats | None]
 
 
 class Names:

@@ -12,16 +12,16 @@ from linkwright.cams.result import CamDesign
 from linkwright.core.arrays import Complexes, Floats
 from linkwright.sheets.cams.division import divided, widest_gap
 from linkwright.sheets.cams.geometry import Paper, inverted, pair, pitch_of, sharpest
-from linkwright.sheets.cams.labels import Spot, around
+from linkwright.sheets.cams.labels import Name, Spot, around
 from linkwright.sheets.cams.scales import equal, plain
 from linkwright.sheets.picture import Picture, Runs, as_runs, indexed, joined
 from linkwright.words import Say
 
-#: A text with the places where it may be, and the place that its leader leads to.
-Name = tuple[Runs, list[Spot], Floats | None]
 #: Turns of names about what they mean, degrees.
 _TURNS = (0.0, 25.0, -25.0, 55.0, -55.0, 90.0, -90.0)
 _NEAR = (0.0, 12.0, -12.0, 30.0, -30.0, 45.0, -45.0)
+#: Gap of the followers below which they are close together, rad.
+_CLOSE = math.radians(50)
 #: Length of the lines of the pressure angle and radius of its arc, mm.
 _ARM, _ARC = 24.0, 17.0
 
@@ -38,9 +38,13 @@ def marked(picture: Picture, paper: Paper, design: CamDesign, say: Say, outer: f
 
 
 def _free(design: CamDesign) -> tuple[float, float]:
-    """The directions between which the paper shows no follower, from the first on counter-clockwise, rad."""
+    """The directions between which the paper shows no follower, from the first on counter-clockwise, rad; where the
+    followers are close together, of four gaps, so that the middles of quarters lie between them."""
     cam = design.cam
-    start, end = widest_gap(divided(cam.program))
+    places = divided(cam.program)
+    start, end = widest_gap(places)
+    if end - start < _CLOSE:
+        end = start + 4 * (end - start)
     first = 0.0 if cam.follower.oscillating else math.pi / 2
     ends = (first - cam.turn * start, first - cam.turn * end)
     return min(ends), max(ends)
@@ -103,7 +107,7 @@ def _radii(picture: Picture, paper: Paper, design: CamDesign) -> Iterator[Name]:
     cam = design.cam
     base, roller = cam.base_radius or 0.0, cam.follower.roller_radius
     low, high = _free(design)
-    shown = [("0", base + roller, 0.36), ("b", base, 0.64)] if roller else [("0", base, 0.5)]
+    shown = [("0", base + roller, 0.375), ("b", base, 0.625)] if roller else [("0", base, 0.5)]
     for index, radius, share in shown:
         ray = cmath.exp(1j * (low + share * (high - low)))
         tip = paper.length(radius) * pair(ray)
@@ -142,9 +146,9 @@ def _curves(paper: Paper, design: CamDesign, say: Say) -> Iterator[Name]:
     """The names of profile and pitch curve, with leaders from near the ends of the free directions."""
     phi = np.linspace(0.0, 2 * math.pi, 721)[:-1]
     low, high = _free(design)
-    curves: list[tuple[str, Complexes, float]] = [("profile", design.wall.contact(phi).point, 0.12)]
+    curves: list[tuple[str, Complexes, float]] = [("profile", design.wall.contact(phi).point, 0.125)]
     if design.cam.follower.kind == "roller":
-        curves.append(("pitch", pitch_of(design, phi), 0.88))
+        curves.append(("pitch", pitch_of(design, phi), 0.875))
     far = paper.length((design.cam.base_radius or 0.0) + design.cam.follower.roller_radius)
     for key, curve, share in curves:
         ray = cmath.exp(1j * (low + share * (high - low)))

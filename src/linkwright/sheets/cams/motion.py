@@ -81,8 +81,8 @@ class MotionPanel(Panel):
         """A curve with its axes; ``place``: width, height of the zero line, scale."""
         wide, zero, each = place
         x = np.degrees(self.design.angles) * wide / 360.0
-        picture.arrow((0.0, zero), (wide + 9.0, zero), "thin")
-        picture.text((wide + 9.5, zero - 5.5), "δ/°", TEXT, "end")
+        picture.arrow((0.0, zero), (wide + 13.0, zero), "thin")
+        picture.text((wide + 3.5, zero - 5.5), "δ/°", TEXT)
         picture.arrow((0.0, zero + ends[0] - 1.0), (0.0, zero + ends[1] + 8.0), "thin")
         picture.text((2.0, zero + ends[1] + 4.5), f"{strip.symbol}/({strip.unit})" if "/" in strip.unit
                      else f"{strip.symbol}/{strip.unit}", TEXT)  # fmt: skip
@@ -117,19 +117,23 @@ class MotionPanel(Panel):
             picture.line([(x, -_ABOVE), (x, between[0] + _NUMBERS)], "dashed")
             picture.line([(x, between[1]), (x, bottom)], "dashed")
 
-    def _names(self) -> list[Runs]:
+    def _names(self, wide: float) -> list[Runs]:
+        """The angle of each phase; where that has no room between its ends the symbol alone, if this has."""
         found = []
         for phase in self.phases:
             symbol = indexed(*phase.symbol) if phase.symbol[0] else ()
             degrees = f"{plain(math.degrees(phase.angle), 5)}°"
-            found.append(joined(symbol, f" = {degrees}") if symbol else as_runs(degrees))
+            whole = joined(symbol, f" = {degrees}") if symbol else as_runs(degrees)
+            span = wide * phase.angle / TURN
+            short = symbol and _fits(symbol, span) and not _fits(whole, span)
+            found.append(symbol if short else whole)
         return found
 
     def _levels(self, wide: float) -> list[int]:
         """At which level the angle of each phase is written, so that none meets its neighbour."""
         levels: list[int] = []
         taken: list[float] = []
-        for phase, name in zip(self.phases, self._names(), strict=True):
+        for phase, name in zip(self.phases, self._names(wide), strict=True):
             left, right, _ = self._span(phase, name, wide)
             level = next((k for k, end in enumerate(taken) if left > end + 1.0), len(taken))
             if level == len(taken):
@@ -143,7 +147,7 @@ class MotionPanel(Panel):
         beside them."""
         start, end = wide * phase.start / TURN, wide * phase.end / TURN
         half = 0.5 * runs_width(name, TEXT)
-        if end - start > 2 * half + 2.0:
+        if _fits(name, end - start):
             return start, end, 0.5 * (start + end)
         if end + 2 * half + 4.0 < wide:
             return start, end + 2 * half + 4.0, end + half + 3.0
@@ -151,7 +155,7 @@ class MotionPanel(Panel):
 
     def _dimensions(self, picture: Picture, wide: float, top: float, levels: Sequence[int]) -> None:
         """The angles of the phases beneath the numbers of the divided angles."""
-        for phase, name, level in zip(self.phases, self._names(), levels, strict=True):
+        for phase, name, level in zip(self.phases, self._names(wide), levels, strict=True):
             start, end = wide * phase.start / TURN, wide * phase.end / TURN
             height = top - _LEVEL * level - 5.5
             left, right, middle = self._span(phase, name, wide)
@@ -178,6 +182,11 @@ def strips(design: CamDesign) -> tuple[Strip, Strip, Strip]:
     factor = 1.0 if speed else 1e3
     values = (1e3 * s, factor * v * (speed or 1.0), factor * a * (speed or 1.0) ** 2)
     return tuple(Strip(*each) for each in zip(symbols, ("mm", *units), values, strict=True))  # type: ignore[return-value]
+
+
+def _fits(text: Runs, room: float) -> bool:
+    """Whether a text fits between two marks."""
+    return runs_width(text, TEXT) + 2.0 <= room
 
 
 def _in_lines(parts: Sequence[Runs], wide: float) -> Iterator[Runs]:

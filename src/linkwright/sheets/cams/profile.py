@@ -13,7 +13,7 @@ from linkwright.cams.result import CamDesign
 from linkwright.core.arrays import Complexes, Floats
 from linkwright.sheets.cams.division import divided, widest_gap
 from linkwright.sheets.cams.geometry import Paper, inverted, pair, pitch_of
-from linkwright.sheets.cams.labels import Names, Spot, around
+from linkwright.sheets.cams.labels import Name, Names, around
 from linkwright.sheets.cams.marks import marked, said
 from linkwright.sheets.cams.scales import graphical
 from linkwright.sheets.cams.symbols import frame_pin, guide
@@ -102,10 +102,10 @@ class ProfilePanel(Panel):
         if offset := _offset(self.design):
             picture.circle((0.0, 0.0), paper.length(offset), "chain")
 
-    def _followers(self, picture: Picture, paper: Paper) -> list[tuple[Runs, list[Spot], None]]:
+    def _followers(self, picture: Picture, paper: Paper) -> list[Name]:
         """The positions 0, 1, 2 …; gives their numbers with the places where these may be."""
         follower = self.design.cam.follower
-        numbers: list[tuple[Runs, list[Spot], None]] = []
+        numbers: list[Name] = []
         for k in range(len(self.places)):
             end, away = (self._arm if follower.oscillating else self._stem)(picture, paper, k)
             spots = around(end, away, (2.0, 4.0, 6.0), (0.0, 30.0, -30.0, 60.0, -60.0))

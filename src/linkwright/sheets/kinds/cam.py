@@ -66,7 +66,7 @@ def _design(subject: Subject) -> CamDesign:
 
 def _speed(mechanism: Mechanism, name: str) -> float:
     """Angular velocity of a cam against its carrier, rad/s; zero where it varies or nothing drives it."""
-    from linkwright.kinematics.motion import solve_motion
+    from linkwright.kinematics.solve import solve_motion
 
     joint = mechanism.joints[name]
     assert isinstance(joint, CamJoint)
