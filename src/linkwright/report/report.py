@@ -16,23 +16,32 @@ from linkwright.files.model_file import load
 from linkwright.files.source import GALLERY
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.parts.base import Problem
-from linkwright.registry import listed
+from linkwright.report.cover import cover
 from linkwright.report.document import (
+    NUMBERED,
     Block,
     Document,
-    Figure,
-    Formula,
     Heading,
     Paragraph,
+    Source,
+    Sources,
     Table,
+    changed,
     fitted,
     literal,
+    plain,
+    spans,
+    texts,
+    walk,
+    with_prefix,
 )
 from linkwright.report.machine_results import Case
-from linkwright.report.markdown import own_text, printable
+from linkwright.report.markdown import own_text, own_words
 from linkwright.report.numbers import typeset
-from linkwright.report.section import SECTIONS, Section, section_names
-from linkwright.report.settings import settings, worked_place
+from linkwright.report.order import Part, chosen, parts
+from linkwright.report.section import Section
+from linkwright.report.sections.references import own_sources
+from linkwright.report.settings import Chapter, Settings, settings, worked_place
 from linkwright.whole_files import refuse_target, write_whole
 from linkwright.words import speaker
 from linkwright.words.sentence import Sentence, in_language
@@ -75,6 +84,8 @@ class Report:
         if ending == ".docx":
             from linkwright.report.word_pages import word
 
+            if any(isinstance(block, Source) for block in walk(self.document.blocks)):
+                self._miss(Sentence("report.typst_in_word").say(self.document.language))
             return word(self.document)
         if ending == ".typ":
             from linkwright.report.typst_pages import pages
@@ -111,6 +122,7 @@ def report(
     language: str = "en",
     position: str = "",
     positions: int | None = None,
+    folder: str | Path = "",
     progress: Progress | None = None,
 ) -> Report:
     """The report of a machine, or of several with their comparison; and of calculations, cams among them.
@@ -118,12 +130,13 @@ def report(
     Args:
         machines: mechanisms, calculations of machine parts, paths or gallery names.
         sources: the files of mechanisms that are given themselves, for what is read from files (tasks of synthesis).
-        sections: names of sections in the order wanted; empty: what the first file says, else all that apply.
+        sections: names of sections and titles of own chapters in the order wanted; empty: what the first file says, else all that apply.
         language: ``en`` or ``zh``.
         position: input of the worked position, such as ``"60 deg"``; else what the file says, else a sixth of the
             cycle.
         positions: numbered positions of the tables, else what the file says, else 24, or 25 where the
             input would be the same in all of them.
+        folder: where pictures of own texts are looked for; empty: beside the file of each machine.
         progress: is told how many sections are done, and of how many.
 
     Returns:
@@ -135,9 +148,9 @@ def report(
     """
     require_language(language)
     given, problems = _told_apart(machines)
-    cases = _cases(given, sources, language, position, positions)
+    cases = _cases(given, sources, language, position, positions, folder)
     own = cases[0].settings if cases else settings({})
-    chosen = _chosen(sections or own.sections)
+    entries = chosen(sections, own, calculations=bool(problems))
     names = [case.mechanism.name for case in cases] or [problem.name for problem in problems]
     document = Document(
         own.title or " / ".join(dict.fromkeys(names)),
@@ -145,15 +158,15 @@ def report(
         language,
         tuple(filter(None, (own.course, own.author, own.date))),
     )
-    parts = list(_parts(cases, chosen, document)) if cases else []
+    document.cover = cover(own, document)
+    ordered = list(parts(cases, entries, own))
     progress = progress or current_progress()
-    for done, (case, part) in enumerate(parts):
+    for done, part in enumerate(ordered):
         if progress is not None:
-            progress(done, len(parts))
+            progress(done, len(ordered))
         with reporting(None):
-            _add(document, case, part, asked=bool(sections))
-    for problem in problems:
-        _add_calculation(document, problem)
+            _add_part(document, part, problems, asked=bool(sections))
+    _tell_what_leads_nowhere(document)
     return Report(document)
 
 
@@ -197,7 +210,12 @@ def _add_calculation(document: Document, problem: Problem) -> None:
 
 
 def _cases(
-    given: list[Mechanism | str], sources: Sequence[str], language: str, position: str, positions: int | None
+    given: list[Mechanism | str],
+    sources: Sequence[str],
+    language: str,
+    position: str,
+    positions: int | None,
+    folder: str | Path,
 ) -> list[Case]:
     found = []
     for index, each in enumerate(given):
@@ -211,7 +229,8 @@ def _cases(
             own["position"] = position
         if positions is not None:
             own["positions"] = positions
-        found.append(Case(mechanism, settings(own, language, mechanism), language, source))
+        beside = Path(folder or ("" if source.startswith(GALLERY) else Path(source).parent))
+        found.append(Case(mechanism, settings(own, language, mechanism, beside), language, source))
     names = [case.mechanism.name for case in found]
     for number, case in enumerate(found, 1):
         if names.count(case.mechanism.name) > 1:
@@ -227,104 +246,113 @@ def _loaded(source: str, language: str) -> Mechanism:
     return replace(mechanism, name=title_said(mechanism.name, language))
 
 
-def _chosen(names: Iterable[str]) -> list[str]:
-    """Names of sections in order; raises RequestError for one that does not exist, the nearest offered."""
-    asked = list(names)
-    for name in asked:
-        if name not in SECTIONS:
-            raise RequestError("report.no_section", name=name, hint=listed(name, section_names()))
-    return asked or section_names()
+def _add_part(document: Document, part: Part, problems: Sequence[Problem], *, asked: bool) -> None:
+    """Adds what comes next; ``asked``: whether sections were named for this report."""
+    if part.section is not None:
+        _add(document, part, part.section, asked=asked)
+    elif part.chapter is not None:
+        _add_chapter(document, part, part.chapter)
+    elif part.name:
+        document.blocks.append(Heading(literal(part.name), 1))
+    else:
+        for problem in problems:
+            _add_calculation(document, problem)
 
 
-Part = Section | str
+def _add_chapter(document: Document, part: Part, chapter: Chapter) -> None:
+    """Adds an own chapter, within the part of a machine where it belongs to one of several."""
+    shift, prefix = (1, f"{part.within}: ") if part.within else (0, "")
+    heading = Heading(own_words(chapter.title), 1, chapter.label)
+    for block in chain([heading], _own(chapter.text, part.own, document, prefix + chapter.title)):
+        document.blocks += [
+            new for each in _parts_of(block, document) for new in _placed(each, shift, prefix)
+        ]
 
 
-def _parts(cases: list[Case], chosen: list[str], document: Document) -> Iterator[tuple[list[Case], Part]]:
-    """Machines and section in the order of the report; a text is the heading of a machine's part."""
-    held: list[str] = []
-    for name in [*chosen, ""]:
-        if name and not SECTIONS[name].common:
-            held.append(name)
-            continue
-        for case in cases if held else ():
-            if len(cases) > 1:
-                yield [case], case.mechanism.name
-            for own in held:
-                yield [case], SECTIONS[own]
-        held = []
-        if name:
-            yield cases, SECTIONS[name]
-
-
-def _add(document: Document, cases: list[Case], part: Part, *, asked: bool) -> None:
-    """Adds a section; what it cannot show becomes a paragraph that says why."""
-    if isinstance(part, str):
-        document.blocks.append(Heading(literal(part), 1))
-        return
-    say, first = document.say, cases[0]
-    several = not part.common and any(
-        isinstance(block, Heading) and block.text == literal(first.mechanism.name)
-        for block in document.blocks
-    )
-    shift = 1 if several else 0
+def _add(document: Document, within: Part, part: Section, *, asked: bool) -> None:
+    """Adds a section; what it cannot show becomes a paragraph that says why, and one without content nothing."""
+    say, cases = document.say, within.cases
+    shift, prefix = (1, f"{within.within}: ") if within.within else (0, "")
     title = say(f"report.title_{part.name}")
-    found: list[Block] = [Heading(title, 1 + shift)]
-    text = first.settings.text.get(part.name, "")
-    prefix = f"{first.mechanism.name}: " if several else ""
+    found: list[Block] = []
+    text = within.own.text.get(part.name, "")
+    own = _own(text, within.own, document, prefix + title) if text else ()
     try:
-        for block in chain(_own(text, document) if text else (), part.blocks(cases)):
+        for block in chain(own, part.blocks(cases) if cases else own_sources(within.own)):
             if isinstance(block, Paragraph) and block.kind == "missing":
-                document.missing.append(say("cli.about", name=prefix + title, cause=_unmarked(block.text)))
-            found += [_placed(each, shift, prefix) for each in _parts_of(block, document)]
+                _miss(document, prefix + title, plain(block.text))
+            found += [new for each in _parts_of(block, document) for new in _placed(each, shift, prefix)]
     except LinkwrightError as error:
         if part.optional and not asked and not text:
             return
         sentence = error.say(document.language)
         found.append(Paragraph(say("report.left_out", sentence=literal(sentence)), "missing"))
-        document.missing.append(say("cli.about", name=prefix + title, cause=sentence))
+        _miss(document, prefix + title, sentence)
     except Exception as error:
         sentence = say("report.unexpected", kind=type(error).__name__, message=" ".join(str(error).split()))
         found.append(Paragraph(literal(sentence), "missing"))
-        document.missing.append(say("cli.about", name=prefix + title, cause=sentence))
+        _miss(document, prefix + title, sentence)
         document.broken = True
-    document.blocks += found
+    if found:
+        document.blocks += [Heading(title, 1 + shift), *found]
+
+
+def _miss(document: Document, title: str, sentence: str) -> None:
+    """Notes what a chapter lacks, once."""
+    told = document.say("cli.about", name=title, cause=sentence)
+    if told not in document.missing:
+        document.missing.append(told)
 
 
 def _parts_of(block: Block, document: Document) -> Iterator[Block]:
-    """A block; of a table that is too wide for a page its parts."""
-    if not isinstance(block, Table):
-        yield block
-        return
-    rows = tuple(tuple(typeset(cell) for cell in row) for row in block.rows)
-    first, *rest = fitted(replace(block, rows=rows), WIDEST)
-    yield first
-    for part in rest:
-        yield replace(part, caption=document.say("report.continued", caption=block.caption))
+    """A block; of a table that is too wide for a page its parts, of lists and quotations likewise."""
+
+    def parted(each: Block) -> Iterator[Block]:
+        if not isinstance(each, Table):
+            yield each
+            return
+        rows = tuple(tuple(typeset(cell) for cell in row) for row in each.rows)
+        first, *rest = fitted(replace(each, rows=rows), WIDEST)
+        yield first
+        for part in rest:
+            caption = document.say("report.continued", caption=each.caption) if each.caption else ""
+            yield replace(part, caption=caption)
+
+    yield from changed(block, parted)
 
 
-def _own(text: str, document: Document) -> Iterator[Block]:
+def _own(text: str, own: Settings, document: Document, title: str) -> Iterator[Block]:
     """The blocks of own text; behind one that cannot be printed as it was meant stands why."""
-    for block in own_text(text):
-        shown, faults = printable(block)
-        yield shown
+    for block, faults in own_text(text, beside=own.beside):
+        yield block
         for fault in faults:
-            yield Paragraph(literal(in_language(fault, document.language)), "missing")
+            sentence = in_language(fault.sentence, document.language)
+            _miss(document, title, sentence)
+            yield Paragraph(literal(sentence), "missing")
 
 
-def _unmarked(text: str) -> str:
-    from linkwright.report.document import plain
-
-    return plain(text)
-
-
-def _placed(block: Block, shift: int, prefix: str) -> Block:
+def _placed(block: Block, shift: int, prefix: str) -> Iterator[Block]:
     """A block of one of several machines: its headings one level down, its labels the machine's own."""
-    if isinstance(block, Heading):
-        return replace(block, level=min(block.level + shift, 4))
-    if not prefix:
-        return block
-    if isinstance(block, Formula | Table | Figure) and block.label:
-        return replace(block, label=f"{prefix}{block.label}")
-    if isinstance(block, Paragraph):
-        return replace(block, text=block.text.replace("[[", f"[[{prefix}"))
-    return block
+
+    def own(each: Block) -> Iterator[Block]:
+        if isinstance(each, Heading):
+            each = replace(each, level=min(each.level + shift, 4))
+        if prefix and isinstance(each, Heading | NUMBERED) and each.label:
+            each = replace(each, label=f"{prefix}{each.label}")
+        yield with_prefix(each, prefix) if prefix else each
+
+    yield from changed(block, own)
+
+
+def _tell_what_leads_nowhere(document: Document) -> None:
+    """Notes what texts refer to and is not there: labels of blocks, and the list of sources."""
+    numbers = document.number()
+    parts = [span for block in numbers.blocks for text in texts(block) for span in spans(text)]
+    asked = [span.link[1:] for span in parts if span.link[:1] == "#"]
+    asked += [span.text for span in parts if span.kind == "reference"]
+    for label in dict.fromkeys(asked):
+        if label not in numbers.labels:
+            document.missing.append(Sentence("report.no_label", label=label).say(document.language))
+    listed = any(isinstance(block, Sources) for block in numbers.blocks)
+    if any(span.kind == "source" for span in parts) and not listed:
+        document.missing.append(Sentence("report.no_list_of_sources").say(document.language))

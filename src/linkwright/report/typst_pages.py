@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable
 from functools import lru_cache
-from itertools import chain
+from itertools import chain, count
 from typing import Any
 from unicodedata import category
 
@@ -14,79 +14,33 @@ from linkwright.plot.svg.render import natural_size
 from linkwright.plot.svg.text import check_fonts
 from linkwright.report.document import (
     Block,
+    Code,
+    Cover,
     Document,
     Figure,
     Formula,
     Heading,
+    Listed,
     Numbers,
     Paragraph,
+    Quoted,
+    Rule,
     Source,
+    Sources,
+    Span,
     Table,
     plain,
     spans,
+    walk,
 )
-from linkwright.report.formula import (
-    ACCENTS,
-    Accent,
-    Atom,
-    Bracket,
-    Fraction,
-    Node,
-    Root,
-    Row,
-    Script,
-    formula,
-    set_lines,
-    width,
-)
+from linkwright.report.formula import formula, width
+from linkwright.report.formula_lines import set_lines
+from linkwright.report.typst_formula import quoted, typst
+from linkwright.report.typst_style import COVER, HEAD, STYLE
 from linkwright.words.characters import cells
 
-_ACCENTS = {"dot": "dot", "ddot": "dot.double", "vec": "arrow", "overrightarrow": "arrow", "bar": "macron"}
-_SPACES = {",": "thin", ";": "med", ":": "med", " ": "med", "quad": "quad"}
-_ESCAPED = '\\"'
-assert _ACCENTS.keys() == ACCENTS.keys()
-
-
-def typst(node: Node) -> str:
-    """A formula between dollar signs of Typst."""
-    match node:
-        case Atom("letter" | "number", text):
-            return text
-        case Atom("space", text):
-            return _SPACES[text]
-        case Atom("open" | "close", text):
-            return f"\\{text}"
-        case Atom("sign", text):
-            return f"\\{text}" if text in "/;,:!" else text
-        case Atom(_, text):
-            return quoted(text)
-        case Row(items):
-            return " ".join(typst(each) for each in items)
-        case Fraction(above, below):
-            return f"frac({typst(above)}, {typst(below)})"
-        case Root(inside):
-            return f"sqrt({typst(inside)})"
-        case Script(base, below, above):
-            found = '""' if base == Row() else f"lr({typst(base)})" if isinstance(base, Row) else typst(base)
-            found += f"_({typst(below)})" if below is not None else ""
-            return found + (f"^({typst(above)})" if above is not None else "")
-        case Accent(mark, inside):
-            return f"accent({typst(inside)}, {_ACCENTS[mark]})"
-        case Bracket(inside, left, right):
-            return (
-                f"lr(({typst(inside)}))"
-                if (left, right) == ("(", ")")
-                else f"lr({left} {typst(inside)} {right})"
-            )
-
-
-def quoted(text: str) -> str:
-    """A text as a string of Typst."""
-    return '"' + "".join(f"\\{c}" if c in _ESCAPED else c for c in text).replace("\n", " ") + '"'
-
-
 LATIN = ("Libertinus Serif", "DejaVu Serif", "DejaVu Sans")
-MATHEMATICS = "New Computer Modern Math"
+MATHEMATICS, MONOSPACED = "New Computer Modern Math", "DejaVu Sans Mono"
 #: Families with Chinese characters, the one that reads best in print first.
 CHINESE = (
     "Noto Serif CJK SC", "Source Han Serif SC", "Noto Serif SC", "Songti SC", "SimSun", "Noto Sans CJK SC",
@@ -101,6 +55,8 @@ LINE, LEFT = 41.0, 9.0
 SURE = 35.0
 #: Width of the text, mm, and rows of a table that stays on one page.
 TEXT, TOGETHER = 170.0, 32
+#: Share of the width and height, mm, of a cover's picture.
+LOGO, TALL_LOGO = 0.4, 40.0
 #: Characters across a table beyond which its long columns are wrapped.
 ACROSS = 112
 #: Warnings of Typst that say nothing about the page.
@@ -109,92 +65,6 @@ _EXPECTED = ("html export is under active", "was ignored during HTML export", "e
 _NO_INK = ("Cc", "Cf", "Mn", "Zs", "Zl", "Zp")
 #: What Typst says of a text for which no font has a glyph.
 _NO_GLYPH = "could not be displayed"
-_HEAD = """\
-#set document(title: {title}, author: ())
-#set page(paper: "a4", margin: (x: 20mm, top: 24mm, bottom: 22mm), numbering: "1", header: context {{
-  if here().page() > 1 {{ text(8.5pt, fill: luma(90))[#{running}; #h(1fr) Linkwright] }} }})
-#set text(font: {fonts}, size: 10.5pt, lang: {language})
-#set par(justify: true, leading: 0.62em, spacing: 0.95em)
-#set heading(numbering: none)
-#show heading: set block(above: 1.3em, below: 0.7em)
-#show heading.where(level: 1): set text(15pt)
-#show heading.where(level: 2): set text(12.5pt)
-#show heading.where(level: 3): set text(11pt)
-#show math.equation: set text(font: {mathematics})
-#show math.equation.where(block: true): set block(above: 0.55em, below: 0.55em)
-#show math.equation.where(block: true): set align(left)
-#show figure: set block(above: 1.1em, below: 1.1em)
-#show figure.where(kind: table): set figure.caption(position: top)
-#show figure.caption: set text(9.5pt)
-#show figure.caption.where(kind: table): set block(sticky: true)
-#set table(
-  stroke: (x, y) => (top: if y == 0 {{ 0.9pt }} else if y == 1 {{ 0.6pt }} else {{ 0pt }}),
-  inset: (x: 4.5pt, y: 3pt))
-#let lw-is-html = sys.inputs.form == "html"
-#let lw-title(body) = if lw-is-html {{ html.elem("h1", attrs: (class: "title"))[#body] }} else {{
-  align(center, {{ set par(justify: false); text(19pt, weight: "bold", body) }}) }}
-#let lw-under(body) = if lw-is-html {{ html.elem("p", attrs: (class: "under"))[#body] }} else {{
-  align(center, {{ set par(justify: false); body }}) }}
-#let lw-table(columns, align, kind, head, ..cells) = {{
-  set text(8.8pt)
-  set par(justify: false)
-  if lw-is-html {{ html.elem("div", attrs: (class: kind))[#table(
-    columns: columns.len(), table.header(..head), ..cells)] }} else {{
-    table(columns: columns, align: align, table.header(..head), ..cells, table.hline(stroke: 0.9pt)) }}
-}}
-#let lw-row(body, number) = block(width: 100%, above: 0.6em, below: 0.6em, breakable: false,
-  grid(columns: (1fr, auto), column-gutter: 6pt, align: (left + horizon, right + horizon),
-    pad(left: 1.2em, body), number))
-#let lw-html(body, number) = html.elem("div", attrs: (class: "formula"))[
-  #html.elem("div")[#body] #html.elem("span")[#number]]
-#let lw-formula(body, number) = {{
-  if lw-is-html {{ lw-html(body, number) }} else {{ lw-row(body, number) }}
-}}
-#let lw-wide(body, number) = {{
-  if lw-is-html {{ lw-html(body, number) }} else {{
-    lw-row(layout(room => {{
-      let wide = measure(body).width
-      if wide > room.width {{
-        scale(100% * (room.width / wide), origin: left, reflow: true, body)
-      }} else {{ body }}
-    }}), number)
-  }}
-}}
-#let lw-picture(svg, share, high) = {{
-  if lw-is-html {{ image(bytes(svg), format: "svg", width: share * 100%) }} else {{
-    image(bytes(svg), format: "svg", width: share * 170mm, height: high * 1mm)
-  }}
-}}
-#let lw-pictures(..given) = {{
-  if lw-is-html {{ html.elem("div", attrs: (class: "pictures"))[#given.pos().join()] }} else {{
-    align(center, given.pos().map(each => box(each)).join(h(1fr, weak: true)))
-  }}
-}}
-#let lw-need = if not lw-is-html {{
-  block(height: 7em, breakable: false, above: 0pt, below: 0pt)
-  v(-7em)
-}}
-#let lw-note(body) = {{
-  if lw-is-html {{ html.elem("p", attrs: (class: "note"))[#body] }} else {{
-    block(width: 100%, inset: 7pt, fill: luma(244), stroke: (left: 2pt + rgb("#c8501e")), body) }}
-}}
-"""
-_STYLE = """\
-<style>body{font:16px/1.55 "Noto Serif","Libertinus Serif","DejaVu Serif","Noto Serif CJK SC","Songti SC",serif;\
-max-width:52rem;margin:2rem auto;padding:0 1rem;color:#1c2733;background:#fff}table{border-collapse:collapse;\
-font-size:.84rem;margin:.4rem auto}th,td{padding:.2rem .55rem;text-align:left}th{border-top:2px solid;\
-border-bottom:1px solid}.title,.under{text-align:center}tbody tr:last-child td{border-bottom:2px solid}\
-figure{margin:1.4rem 0;text-align:center;overflow-x:auto}figure img{max-width:100%;height:auto;display:inline-block\
-!important}figcaption{font-size:.9rem;margin:.4rem}.pictures{display:flex;flex-wrap:wrap;\
-justify-content:space-evenly;gap:.6rem}a{color:#0b57a4}.formula{display:flex;justify-content:space-between;align-items:\
-center;margin:.2rem 0 .2rem 1.2rem;padding:.15rem 0;overflow:auto hidden}\
-.note{background:#f4f4f4;border-left:3px solid #c8501e;\
-padding:.5rem .8rem}nav ol{padding-left:1.2rem}nav a{color:inherit;text-decoration:none}nav a:hover{text-decoration:\
-underline}@media print{figure{break-inside:avoid}}body>div:not(.formula,.note){margin:1em 0}\
-@media screen and (prefers-color-scheme:dark){body{color:#dfe5ec;background:#15191e}figure img{background:#fff}\
-.note{background:#242a32}a{color:#8cc4ff}}\
-@media screen and (max-width:40rem){table:has(th:nth-child(5)){min-width:34rem}\
-table:has(th:nth-child(8)){min-width:46rem}}</style>"""
 
 
 def pages(document: Document) -> tuple[str, dict[str, str]]:
@@ -265,14 +135,16 @@ def typst_fault(text: str) -> str:
 
 def _styled(page: bytes, document: Document) -> bytes:
     """The page with its style, and a rule for every way in which columns of its tables are aligned."""
-    marks = {table.align or "<" * len(table.head) for table in document.blocks if isinstance(table, Table)}
+    marks = {
+        table.align or "<" * len(table.head) for table in walk(document.blocks) if isinstance(table, Table)
+    }
     rules = [
         f".{aligned_by(each)} :is(td,th):nth-child({i}){{text-align:{'right' if mark == '>' else 'center'}}}"
         for each in sorted(marks)
         for i, mark in enumerate(each, 1)
         if mark != "<"
     ]
-    style = f"{_STYLE}<style>{''.join(rules)}</style>"
+    style = f"{STYLE}<style>{''.join(rules)}</style>"
     return page.replace(b"</head>", style.encode() + b"</head>", 1)
 
 
@@ -304,26 +176,46 @@ class _Writer:
     def __init__(self, document: Document) -> None:
         self.document = document
         self.numbers: Numbers = document.number()
+        self.places = count()
         self.pictures: dict[str, str] = {}
+        #: How deep in lists and quotations it is.
+        self.depth = 0
 
     def text(self) -> str:
         document, families = self.document, fonts(self.document.language)
-        head = _HEAD.format(
+        head = HEAD.format(
             title=quoted(document.title),
             running=quoted(shortened(document.title)),
             fonts=_listed(families),
             mathematics=_listed((MATHEMATICS, *families)),
+            monospaced=_listed((MONOSPACED, *families)),
             language=quoted(document.language),
         )
-        title = f"#lw-title[{_words(document.title)}]\n"
-        under = "".join(f"#lw-under[{_words(line)}]\n" for line in document.lines)
+        if document.cover is not None:
+            title = self._cover(document.cover)
+        else:
+            title = f"#lw-title[{_words(document.title)}]\n"
+            title += "".join(f"#lw-under[{_words(line)}]\n" for line in document.lines)
         contents = (
             ""
             if not document.contents
             else f"#outline(title: [{_words(document.say('report.contents'))}], depth: 2)\n"
         )
-        parts = [self._block(i, block) for i, block in enumerate(document.blocks)]
-        return "\n".join([head, title, under, contents, *parts])
+        if document.contents and document.cover is not None:
+            contents += "#if not lw-is-html { pagebreak(weak: true) }\n"
+        return "\n".join([head, title, contents, *self._blocks(document.blocks)])
+
+    def _cover(self, cover: Cover) -> str:
+        rows = "".join(f"([{_words(name)}], [{_words(value)}])," for name, value in cover.rows)
+        above = "".join(f"[{_words(line)}]," for line in cover.above)
+        logo = self._picture(cover.logo, LOGO, TALL_LOGO) if cover.logo else "none"
+        return (
+            f"{COVER}#lw-cover([{_words(cover.kind)}], [{_words(cover.title)}], ({above}), ({rows}), "
+            f"[{_words(cover.below)}], {logo})\n"
+        )
+
+    def _blocks(self, blocks: Iterable[Block]) -> list[str]:
+        return [self._block(next(self.places), block) for block in blocks]
 
     def _block(self, index: int, block: Block) -> str:
         match block:
@@ -331,20 +223,51 @@ class _Writer:
                 number = _words(self.numbers.before(index))
                 return f"{'=' * block.level} {number}{self.inline(block.text)} <{_place(index)}>\n"
             case Paragraph():
-                return self._paragraph(block, sticky=self.document.leads(index))
+                return self._paragraph(block, sticky=not self.depth and self.numbers.leads(index))
             case Formula():
                 return self._formula(index, block)
             case Table():
                 return self._table(index, block)
             case Figure():
                 return self._figure(index, block)
+            case Code():
+                return self._code(index, block)
+            case Listed():
+                items = "".join(f"[{self._inside(item, tight=_tight(block))}], " for item in block.items)
+                kind = "list(" if block.start is None else f"enum(start: {block.start}, "
+                return f"#{kind}tight: {str(_tight(block)).lower()}, {items})\n"
+            case Quoted():
+                return f"#lw-quote[{self._inside(block.blocks)}]\n"
+            case Rule():
+                return "#lw-rule\n"
+            case Sources():
+                return self._sources(index, block)
             case Source():
                 return f"{block.text}\n"
+
+    def _inside(self, blocks: Iterable[Block], *, tight: bool = False) -> str:
+        """Blocks within another one, ``tight``: without room between them."""
+        self.depth += 1
+        found = [each.strip() for each in self._blocks(blocks)]
+        self.depth -= 1
+        return ("\n" if tight else "\n\n").join(found)
+
+    def _sources(self, index: int, block: Sources) -> str:
+        ordered = sorted(block.entries, key=lambda each: self.numbers.sources[each[0]])
+        lines = []
+        for key, text in dict(ordered).items():
+            number = self.numbers.sources[key]
+            lines.append(
+                f"#lw-source([#box[{_words(f'[{number}]')}] <{_source(number)}>], [{self.inline(text)}])\n"
+            )
+        return "\n".join(lines)
 
     def _paragraph(self, block: Paragraph, *, sticky: bool) -> str:
         text = self.inline(block.text)
         if block.kind == "bullet":
             return f"- {text}"
+        if block.kind == "footnote":
+            return f"#lw-small[{text}]\n"
         if block.kind == "lead" or (not block.kind and sticky):
             return f"#block(sticky: true)[{text}]\n"
         return f"#lw-note[{text}]\n" if block.kind else f"{text}\n"
@@ -365,49 +288,93 @@ class _Writer:
         sides = ", ".join(f"{align[mark]} + horizon" for mark in marks)
         head = ", ".join(f"strong[{self.inline(cell)}]" for cell in table.head)
         cells = ", ".join(f"[{self.inline(cell)}]" for row in table.rows for cell in row)
+        caption = f"caption: {self._caption(index, table.caption)}" if table.caption else ""
         parted = (
             "#lw-need\n#[#show figure: set block(breakable: true)\n" if len(table.rows) > TOGETHER else "#["
         )
         return (
             f"{parted}#figure(lw-table(({columns},), ({sides},), {quoted(aligned_by(marks))}, ({head},), {cells}), "
             "kind: table, numbering: none, supplement: none, "
-            f"caption: {self._caption(index, table.caption)}) <{_place(index)}>]\n"
+            f"{caption}) <{_place(index)}>]\n"
         )
 
     def _figure(self, index: int, figure: Figure) -> str:
-        found = []
-        for svg, share in figure.pictures:
-            name = f"picture{len(self.pictures)}"
-            self.pictures[name] = svg
-            wide, high = placed(svg, share, figure.tallest)
-            found.append(f"lw-picture(sys.inputs.{name}, {wide:.4f}, {high:.2f})")
+        found = [self._picture(svg, share, figure.tallest) for svg, share in figure.pictures]
         body = found[0] if len(found) == 1 else f"lw-pictures({', '.join(found)})"
+        caption = f"caption: {self._caption(index, figure.caption)}" if figure.caption else ""
         return (
-            f"#figure({body}, kind: image, numbering: none, supplement: none, "
-            f"caption: {self._caption(index, figure.caption)}) <{_place(index)}>\n"
+            f"#figure({body}, kind: image, numbering: none, supplement: none, {caption}) <{_place(index)}>\n"
+        )
+
+    def _picture(self, svg: str, share: float, tallest: float) -> str:
+        name = f"picture{len(self.pictures)}"
+        self.pictures[name] = svg
+        wide, high = placed(svg, share, tallest)
+        return f"lw-picture(sys.inputs.{name}, {wide:.4f}, {high:.2f})"
+
+    def _code(self, index: int, code: Code) -> str:
+        lines = code.text.expandtabs(4).rstrip("\n").split("\n")
+        text = "\\n".join(quoted(line)[1:-1] for line in lines)
+        body = f'lw-code("{text}", {quoted(code.language) if code.language else "none"})'
+        if not code.caption:
+            return f"#{body}\n"
+        return (
+            f"#figure({body}, kind: raw, numbering: none, supplement: none, "
+            f"caption: {self._caption(index, code.caption)}) <{_place(index)}>\n"
         )
 
     def inline(self, text: str) -> str:
-        """A text with its formulas, strong words and references."""
-        return "".join(self._spans(text))
+        """A text with its formulas, styles, links and references."""
+        return "".join(self._span(span) for span in spans(text))
 
-    def _spans(self, text: str) -> Iterator[str]:
-        for kind, part in spans(text):
-            if kind == "formula":
-                yield f"${typst(formula(part))}$"
-            elif kind == "strong":
-                yield f"#strong[{_words(part)}]"
-            elif kind == "code":
-                yield f"#raw({quoted(part)});"
-            elif kind == "reference":
-                index = self.numbers.labels.get(part)
-                yield (
-                    _words(part)
-                    if index is None
-                    else (f"#link(<{_place(index)}>)[{_words(self.numbers.name(index))}]")
-                )
-            else:
-                yield _words(part)
+    def _span(self, span: Span) -> str:
+        match span.kind:
+            case "formula":
+                found = f"${typst(formula(span.text))}$"
+            case "code":
+                found = f"#raw({quoted(span.text)});"
+            case "break":
+                return "#linebreak();"
+            case "reference":
+                found = self._leading(self.numbers.labels.get(span.text), span.text)
+            case "source":
+                number = self.numbers.sources.get(span.text)
+                found = _words(f"[{number}]") if number else _words(span.text)
+                if number and any(isinstance(each, Sources) for each in self.numbers.blocks):
+                    found = f"#link(<{_source(number)}>)[{found}]"
+            case _:
+                found = _emphasised(span.text) if "emphasis" in span.styles else _words(span.text)
+        for style, command in _COMMANDS.items():
+            found = f"#{command}[{found}]" if style in span.styles else found
+        if not span.link:
+            return found
+        index = self.numbers.labels.get(span.link[1:]) if span.link[0] == "#" else None
+        if span.link[0] != "#":
+            return f"#lw-url({quoted(span.link)}, [{found}])"
+        return found if index is None else f"#link(<{_place(index)}>)[{found}]"
+
+    def _leading(self, index: int | None, label: str) -> str:
+        if index is None:
+            return _words(label)
+        return f"#link(<{_place(index)}>)[{_words(self.numbers.name(index))}]"
+
+
+#: Styles in Typst.
+_COMMANDS = {"strong": "strong", "raised": "super", "struck": "strike"}
+
+
+def _emphasised(text: str) -> str:
+    """A text in italics; Chinese characters, which have none, with dots below them."""
+    parts = re.split(r"([\u2e80-\u9fff\uf900-\ufaff]+)", text)
+    return "".join(
+        f"#lw-dots({quoted(part)});" if i % 2 else f"#emph[{_words(part)}]"
+        for i, part in enumerate(parts) if part
+    )  # fmt: skip
+
+
+def _tight(listed: Listed) -> bool:
+    """Whether the items of a list are single lines."""
+    return all(len(item) <= 1 or isinstance(item[-1], Listed) for item in listed.items)
 
 
 def _wrapping(table: Table) -> list[bool]:
@@ -456,6 +423,10 @@ def breakable(text: str) -> str:
 
 def _listed(names: tuple[str, ...]) -> str:
     return "(" + "".join(f"{quoted(name)}, " for name in names) + ")"
+
+
+def _source(number: int) -> str:
+    return f"s{number}"
 
 
 def _place(index: int) -> str:

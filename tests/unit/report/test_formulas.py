@@ -9,9 +9,11 @@ from tests.refusals import refused
 
 import linkwright as lw
 from linkwright.report.document import Document, Formula
-from linkwright.report.formula import Atom, Row, formula, lines, set_lines, width
-from linkwright.report.typst_pages import typst
-from linkwright.report.word_pages import SPACE, equation, word
+from linkwright.report.formula import Atom, Row, formula, width
+from linkwright.report.formula_lines import lines, set_lines
+from linkwright.report.typst_formula import typst
+from linkwright.report.word_formula import SPACE, equation
+from linkwright.report.word_pages import word
 from linkwright.words import speaker
 
 SIGN = Atom("sign", "=")
@@ -24,6 +26,17 @@ FORMULAS = {
     r"-12.5\cdot 10^{-3}\,\mathrm{kg·m²}": '− 12.5 ⋅ 10^(− 3) thin "kg·m²"',
     r"F_{B,3\to 4y}": "F_(B \\, 3 → 4 y)",
     r"\mathrm{曲柄}": '"曲柄"',
+    r"\begin{bmatrix} a & b \\ c, & -1 \end{bmatrix}": 'mat(delim: #("[", "]"), align: #center, a, b; c \\,, − 1)',
+    r"\begin{pmatrix} x_1 \\ x_2 \\ \end{pmatrix}": 'mat(delim: #("(", ")"), align: #center, x_(1); x_(2))',
+    r"\begin{cases} 0 & x < 1 \\ h \end{cases}": 'mat(delim: #("{", none), align: #left, 0, x < 1; h, "")',
+    r"\begin{aligned} a &= b \\ c &= d \end{aligned}": "mat(delim: #none, row-gap: #0.6em, a & = b; c & = d)",
+    r"\left\{ a \right.": "lr(\\{ a )",
+    r"\sum_{i=1}^n \int_0^1 \mathrm{d}x": "∑_(i = 1)^(n) ∫_(0)^(1) upright(d) x",
+    r"\lim_{x\to 0} f'^2": 'limits("lim")_(x → 0) f^(′ 2)',
+    r"\frac12 \mathbf{A}\bm{x} \sqrt[3]{y}": "frac(1, 2) bold(upright(A)) bold(x) root(3, y)",
+    r"x \in [0, 2\pi)": "x ∈ \\[ 0 \\, 2 π \\)",
+    r"\mathrm{m/s^2}\,\text{if so}": 'upright(m) \\/ upright(s)^(2) thin "if so"',
+    r"\underbrace{a+b}_{c} \overset{!}{=} \hat{x}": "underbrace(a + b, c) limits(=)^(\\!) accent(x, hat)",
 }
 
 
@@ -53,6 +66,21 @@ def test_word_has_every_sign_and_the_nesting_of_the_formula() -> None:
     ]  # fmt: skip
 
 
+def test_word_has_the_rows_of_a_matrix_its_delimiters_and_the_limits_of_sums() -> None:
+    pytest.importorskip("docx")
+    found = equation(formula(r"\begin{bmatrix} a & b \\ c & d \end{bmatrix} = \sum_{i}^{n} x_i + \int y"))
+    rows = [[said(cell) for cell in row] for row in found.iter(f"{{{SPACE}}}mr")]
+    assert rows == [["a", "b"], ["c", "d"]]
+    marks = {each.tag.removeprefix(f"{{{SPACE}}}"): each.get(f"{{{SPACE}}}val") for each in found.iter()}
+    assert (marks["begChr"], marks["endChr"]) == ("[", "]")
+    first, second = found.iter(f"{{{SPACE}}}nary")
+    parts = [
+        [said(first.find(f"{{{SPACE}}}{name}")) for name in ("sub", "sup", "e")] for first in (first, second)
+    ]
+    assert parts == [["i", "n", "xi"], ["", "", "y"]]
+    assert said(found) == "abcd=inxi+y"
+
+
 @pytest.mark.parametrize("name", ["printing_press", "swing_conveyor", "geared_fivebar"])
 def test_every_line_of_a_worked_solution_can_be_printed(name: str) -> None:
     page = lw.worked(store.forces(name, 7), 1)
@@ -61,7 +89,10 @@ def test_every_line_of_a_worked_solution_can_be_printed(name: str) -> None:
             formula(latex)
 
 
-@pytest.mark.parametrize("latex", [r"\hat{x}", r"\frac{a", "}", r"\left(x"])
+@pytest.mark.parametrize("latex", [
+        r"\foo{x}", r"\frac{a", "}", r"\left(x", r"\left x \right)", r"\begin{tikz} a \end{tikz}",
+        r"\begin{bmatrix} a", "x#",
+    ])  # fmt: skip
 def test_what_is_no_formula_of_ours_is_refused(latex: str) -> None:
     with refused("report.no_formula", text=latex):
         formula(latex)

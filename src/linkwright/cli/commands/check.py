@@ -6,6 +6,7 @@ import argparse
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkwright import gallery
@@ -257,7 +258,11 @@ def _of_settings(name: str, mechanism: Mechanism, *, moves: bool) -> list[Findin
     numbers where the machine ``moves``."""
     found = list[Finding]()
     reading: dict[str, Callable[[Mechanism], None]]
-    reading = {"report": _report, "course": _course, "optimize": partial(_optimize, moves=moves)}
+    reading = {
+        "report": partial(_report, name),
+        "course": _course,
+        "optimize": partial(_optimize, moves=moves),
+    }
     for key, read in reading.items():
         try:
             if getattr(mechanism, key):
@@ -269,10 +274,10 @@ def _of_settings(name: str, mechanism: Mechanism, *, moves: bool) -> list[Findin
     return found
 
 
-def _report(mechanism: Mechanism) -> None:
+def _report(name: str, mechanism: Mechanism) -> None:
     from linkwright.report.settings import settings
 
-    settings(mechanism.report, mechanism=mechanism)
+    settings(mechanism.report, mechanism=mechanism, folder=Path(name).parent)
 
 
 def _course(mechanism: Mechanism) -> None:

@@ -1,0 +1,95 @@
+"""Lines of formulas: where an equation that is too wide for a page is broken."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from linkwright.core.dataclass import dataclass
+from linkwright.report.formula import Atom, Bracket, Node, Row, width
+
+#: Binary signs and relations: a line may break before them.
+SIGNS = "+-−=≤≥≈≠"
+
+
+def lines(row: Row, widest: float) -> Iterator[Row]:
+    """A formula in lines no wider than ``widest`` em: broken before signs, inside brackets where it must be."""
+    line: list[Node] = []
+    for piece in _pieces(row, widest):
+        if line and width(Row((*line, *piece))) > widest:
+            yield Row(tuple(line))
+            line = []
+        line += piece
+    yield Row(tuple(line))
+
+
+@dataclass(frozen=True)
+class Line:
+    """One line of an equation; ``place`` says where it begins: ``left``, ``right`` of the left side, ``below`` it,
+    at the equal ``sign`` of the line before, or ``further`` in as what goes on from there."""
+
+    place: str
+    row: Row
+
+
+def set_lines(sides: Sequence[Row], widest: float, left: float) -> Iterator[Line]:
+    """Sides joined by equal signs: on one line no wider than ``widest`` em, else the signs below each other.
+
+    Behind a left side wider than ``left`` em a new line begins.
+    """
+    equal = Atom("sign", "=")
+    if len(sides) == 1:
+        for number, row in enumerate(lines(sides[0], widest)):
+            yield Line("further" if number else "left", row)
+        return
+    if sum(width(row) for row in sides) + 1.25 * (len(sides) - 1) <= widest:
+        first, *rest = sides
+        yield Line("left", Row((*first.items, *(each for row in rest for each in (equal, *row.items)))))
+        return
+    first, *rest = sides
+    yield Line("left", first)
+    place, margin = ("below", 1.5) if width(first) > left else ("right", width(first) + 1.5)
+    for side in _joined(rest, widest - margin):
+        for number, row in enumerate(lines(side, widest - margin - 1.0)):
+            yield Line("further", row) if number else Line(place, Row((equal, *row.items)))
+        place = "sign"
+
+
+def _joined(sides: Sequence[Row], room: float) -> Iterator[Row]:
+    """Short sides that follow each other share a line."""
+    held: Row | None = None
+    for side in sides:
+        if held is not None and width(held) + width(side) + 1.25 <= room:
+            held = Row((*held.items, Atom("sign", "="), *side.items))
+            continue
+        if held is not None:
+            yield held
+        held = side
+    if held is not None:
+        yield held
+
+
+def _pieces(row: Row, widest: float) -> Iterator[list[Node]]:
+    """Parts between which a line may break; brackets that are too wide are opened."""
+    part: list[Node] = []
+    for item in _opened(row, widest):
+        breaks = isinstance(item, Atom) and item.kind == "sign" and item.text in f"{SIGNS}⋅"
+        if breaks and part and not _leading(part):
+            yield part
+            part = []
+        part.append(item)
+    yield part
+
+
+def _leading(part: Sequence[Node]) -> bool:
+    """Whether nothing but a sign or an opening bracket stands there yet: the next sign belongs to it."""
+    return all(isinstance(each, Atom) and (each.kind == "sign" or each.text == "(") for each in part)
+
+
+def _opened(row: Row, widest: float) -> Iterator[Node]:
+    for item in row.items:
+        if isinstance(item, Bracket) and width(item) > 0.6 * widest:
+            yield from (Atom("open", item.left),) if item.left else ()
+            yield from _opened(item.inside, widest)
+            yield from (Atom("close", item.right),) if item.right else ()
+        else:
+            yield item
