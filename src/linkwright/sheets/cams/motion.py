@@ -33,6 +33,12 @@ class Strip:
     unit: str
     values: Floats
 
+    @property
+    def label(self) -> str:
+        """What stands at its ordinate: ``v/(m/s)``."""
+        unit = f"({self.unit})" if "/" in self.unit else self.unit
+        return f"{self.symbol}/{unit}" if unit else self.symbol
+
 
 class MotionPanel(Panel):
     """s, v and a (oscillating: ψ, ω, ε) over the angle of the cam with its divided angles."""
@@ -84,8 +90,7 @@ class MotionPanel(Panel):
         picture.arrow((0.0, zero), (wide + 13.0, zero), "thin")
         picture.text((wide + 3.5, zero - 5.5), "δ/°", TEXT)
         picture.arrow((0.0, zero + ends[0] - 1.0), (0.0, zero + ends[1] + 8.0), "thin")
-        picture.text((2.0, zero + ends[1] + 4.5), f"{strip.symbol}/({strip.unit})" if "/" in strip.unit
-                     else f"{strip.symbol}/{strip.unit}", TEXT)  # fmt: skip
+        picture.text((2.0, zero + ends[1] + 4.5), strip.label, TEXT)
         step = preferred(_MARK * each)
         for k in range(math.ceil(ends[0] * each / step - 1e-9), math.floor(ends[1] * each / step + 1e-9) + 1):
             level = zero + k * step / each
@@ -173,7 +178,7 @@ def strips(design: CamDesign) -> tuple[Strip, Strip, Strip]:
     speed = design.loading.speed
     s, v, a, _ = design.motion
     if turning:
-        units = ("rad/s", "rad/s²") if speed else ("1", "1/rad")
+        units = ("rad/s", "rad/s²") if speed else ("", "1/rad")
         symbols = ("ψ", "ω", "ε") if speed else ("ψ", "ψ′", "ψ″")
         values = (np.degrees(s), v * (speed or 1.0), a * (speed or 1.0) ** 2)
         return tuple(Strip(*each) for each in zip(symbols, ("°", *units), values, strict=True))  # type: ignore[return-value]

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from linkwright.sheets.picture import Runs, indexed, joined
 
 
 def plain(value: float, digits: int = 4) -> str:
-    """A number as sheets print it: few digits, a true minus, no rounding noise."""
-    text = f"{value:.{digits}g}"
-    return "0" if abs(value) < 1e-12 else text.replace("-", "−")
+    """A number as sheets print it: few digits, no exponent, a true minus, no rounding noise."""
+    if abs(value) < 1e-12:
+        return "0"
+    return np.format_float_positional(value, digits, fractional=False, trim="-").replace("-", "−")
 
 
 def fixed(value: float, decimals: int = 2) -> str:
@@ -24,7 +27,7 @@ def equal(symbol: Runs, value: float, unit: str, digits: int = 4) -> Runs:
 
 
 def graphical(index: str, value: float, unit: str) -> Runs:
-    """``μ_s = 0.5 mm/mm``: a quantity per millimetre of paper."""
+    """``μ_s = 0.5 mm/mm``: a quantity per millimetre of paper; ``unit`` empty for a plain number."""
     over = f"({unit})/mm" if "/" in unit else f"{unit}/mm"
-    gap = "" if over.startswith("°") else " "
+    gap = "" if over[0] in "°/" else " "
     return joined(indexed("μ", index), f" = {plain(value)}{gap}{over}")
