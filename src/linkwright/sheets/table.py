@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from linkwright.sheets.panel import Drawn, Panel
 from linkwright.sheets.paper import Box
-from linkwright.sheets.picture import TEXT, Picture, Words, as_runs, runs_width
+from linkwright.sheets.picture import Picture, Words, as_runs, runs_width
 
 #: Height of a row in heights of its letters, and space beside a text, mm.
 ROW, BESIDE = 1.9, 1.6
@@ -26,29 +26,31 @@ class TablePanel(Panel):
         head: Sequence[Words],
         rows: Sequence[Sequence[Words]],
         caption: Words,
-        *,
-        height: float = TEXT,
     ) -> None:
         self.name, self.rank = name, rank
         half = -(-len(rows) // 2)
-        parts = [rows] if len(rows) <= LONG else [rows[:half], [*rows[half:], *([[""] * len(head)] * (len(rows) % 2))]]
+        parts = (
+            [rows]
+            if len(rows) <= LONG
+            else [rows[:half], [*rows[half:], *([[""] * len(head)] * (len(rows) % 2))]]
+        )
         self.rows = [[cell for _ in parts for cell in head]]
         self.rows += [[cell for row in side for cell in row] for side in zip(*parts, strict=True)]
         self.parts = len(parts)
-        self.caption, self.height = caption, height
+        self.caption = caption
 
     def drawn(self, size: float, scale: float | None) -> Drawn:
-        picture, tall = Picture(), ROW * self.height
+        picture, tall = Picture(), ROW * self.letters
         widths = [
-            max(runs_width(as_runs(row[k]), self.height) for row in self.rows) + 2 * BESIDE
+            max(runs_width(as_runs(row[k]), self.letters) for row in self.rows) + 2 * BESIDE
             for k in range(len(self.rows[0]))
         ]
         whole = Box(0.0, -tall * len(self.rows), sum(widths), 0.0)
         for number, row in enumerate(self.rows):
             left, level = 0.0, -tall * number
             for width, text in zip(widths, row, strict=True):
-                baseline = level - 0.5 * tall - 0.42 * self.height
-                picture.text((left + 0.5 * width, baseline), text, self.height, "middle")
+                baseline = level - 0.5 * tall - 0.42 * self.letters
+                picture.text((left + 0.5 * width, baseline), text, self.letters, "middle")
                 left += width
             if number:
                 picture.line([(0.0, level), (whole.right, level)], "thick" if number == 1 else "thin")

@@ -206,8 +206,8 @@ def corners(found: list[LinkForce]) -> Floats:
 
 
 def _pairs(found: list[LinkForce], scale: float) -> list[tuple[Floats, Floats]]:
-    corners = corners(found) / scale
-    return side_by_side(list(pairwise(corners)))
+    places = corners(found) / scale
+    return side_by_side(list(pairwise(places)))
 
 
 def _draw(axes: Axes, found: list[LinkForce], scale: float) -> None:
