@@ -13,12 +13,14 @@ from linkwright.metrics.quantities import si_unit
 from linkwright.plot.diagrams.axes import significant
 from linkwright.sheets.labels import Name, put
 from linkwright.sheets.panel import Drawn, Panel, preferred
-from linkwright.sheets.picture import LEAST, TEXT, Pen, Picture, Runs, Words, as_runs, indexed, joined
+from linkwright.sheets.picture import LEAST, Pen, Picture, Runs, Words, as_runs, indexed, joined
 
 #: Height of a diagram in widths; room for numbers at the left, below, and for the arrows of the axes, mm.
 FLATNESS, LEFT, BELOW, BEYOND = 0.45, 16.0, 9.0, 6.0
 #: Least distance of marks on an axis, and their length, mm.
 APART, MARK = 13.0, 1.2
+#: Distance of curves from zero, in their own heights, from which the axis does not begin at zero.
+FAR = 1.5
 _ANGLES = (1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 45.0, 60.0, 90.0, 180.0, 360.0, 720.0)
 _PENS: tuple[Pen, ...] = ("thick", "thin", "dashed", "chain")
 
@@ -80,6 +82,7 @@ class CurvePanel(Panel):
         self.curves = [Curve(curve.values * up.factor, curve.name) for curve in curves]
         self.levels = [(text, value * up.factor) for text, value in levels]
         self.backwards = backwards
+        self._pictures: dict[tuple[float, float], Picture] = {}
 
     def drawn(self, size: float, scale: float | None) -> Drawn:
         wide = size - LEFT - BEYOND - 8.0
@@ -87,34 +90,42 @@ class CurvePanel(Panel):
         x_scale = preferred((float(np.nanmax(self.x)) - float(np.nanmin(self.x)) or 1.0) / wide)
         low, top = self._range()
         y_scale = scale * self.y_axis.factor if scale else preferred((top - low) / high)
-        picture = self._picture(x_scale, y_scale, low, top)
+        if (x_scale, y_scale) not in self._pictures:
+            self._pictures[x_scale, y_scale] = self._picture(x_scale, y_scale, low, top)
+        picture = self._pictures[x_scale, y_scale]
         scales = joined(self.x_axis.scale(x_scale), ",  ", self.y_axis.scale(y_scale))
         return Drawn(picture, (as_runs(self.caption), scales))
 
     def _range(self) -> tuple[float, float]:
-        """The smallest and largest value, with zero among them."""
-        every = np.concatenate([*(c.values for c in self.curves), np.array([v for _, v in self.levels]), [0.0]])
+        """The smallest and largest value; zero among them unless the curves lie far from it."""
+        every = np.concatenate([*(curve.values for curve in self.curves), [v for _, v in self.levels]])
         low, top = float(np.nanmin(every)), float(np.nanmax(every))
-        return (low, top) if top - low > 1e-9 else (low - 0.5, low + 0.5)
+        if top - low <= 1e-9 * max(abs(low), abs(top), 1e-9):
+            return min(low, 0.0), max(top, 0.0) or 1.0
+        if max(low, -top) > FAR * (top - low):
+            return low - 0.1 * (top - low), top
+        return min(low, 0.0), max(top, 0.0)
 
     def _picture(self, x_scale: float, y_scale: float, low: float, top: float) -> Picture:
-        found = Picture()
+        """Axes, curves and levels; the axis below stands at zero where that is in the picture."""
+        found, base = Picture(), 0.0 if low <= 0.0 <= top else low
         x = self._places(self.x, x_scale)
         right = float(np.nanmax(x))
-        self._across(found, x_scale, right, low / y_scale)
-        self._up(found, y_scale, low, top)
+        self._across(found, x_scale, right, (low - base) / y_scale)
+        self._up(found, y_scale, (low, top), base)
         names = []
         for number, curve in enumerate(self.curves):
-            line = np.stack([x, curve.values / y_scale], axis=1)
+            line = np.stack([x, (curve.values - base) / y_scale], axis=1)
             found.line(line, _PENS[number % len(_PENS)])
             if curve.name:
                 good = line[np.isfinite(line).all(axis=1)]
                 spots = [good[int(share * (len(good) - 1))] for share in (0.15, 0.35, 0.6, 0.85)]
-                names.append(Name(as_runs(curve.name), spots, TEXT, clear=1.5, symbol=True))
+                names.append(Name(as_runs(curve.name), spots, self.letters, clear=1.5, symbol=True))
         for text, value in self.levels:
-            level = value / y_scale
+            level = (value - base) / y_scale
             found.line([(0.0, level), (right, level)], "dashed")
-            names.append(Name(as_runs(text), [np.array([share * right, level]) for share in (0.9, 0.7, 0.5, 0.2)], TEXT, clear=1.0))
+            spots = [np.array([share * right, level]) for share in (0.9, 0.7, 0.5, 0.2)]
+            names.append(Name(as_runs(text), spots, self.letters, clear=1.0))
         put(found, names)
         return found
 
@@ -126,7 +137,7 @@ class CurvePanel(Panel):
     def _across(self, picture: Picture, scale: float, right: float, floor: float) -> None:
         """The axis below at zero, its numbers under the curves."""
         picture.arrow((0.0, 0.0), (right + BEYOND, 0.0), "thin")
-        picture.text((right + BEYOND + 1.0, 1.2), self.x_axis.label(), TEXT)
+        picture.text((right + BEYOND + 1.0, 1.2), self.x_axis.label(), self.letters)
         low, top = float(np.nanmin(self.x)), float(np.nanmax(self.x))
         step = _step(APART * scale, angle=self.x_axis.dimension == "angle")
         for value in np.arange(math.ceil(low / step - 1e-9), math.floor(top / step + 1e-9) + 1) * step:
@@ -136,13 +147,15 @@ class CurvePanel(Panel):
                 picture.line([(place, floor), (place, floor - MARK)])
             picture.text((place, floor - MARK - 1.0 - LEAST), significant(float(value)), LEAST, "middle")
 
-    def _up(self, picture: Picture, scale: float, low: float, top: float) -> None:
+    def _up(self, picture: Picture, scale: float, ends: tuple[float, float], base: float) -> None:
         """The axis at the left with its numbers."""
-        picture.arrow((0.0, low / scale), (0.0, top / scale + BEYOND), "thin")
-        picture.text((1.5, top / scale + BEYOND - 2.0), self.y_axis.label(), TEXT)
+        low, top = ends
+        peak = (top - base) / scale
+        picture.arrow((0.0, (low - base) / scale), (0.0, peak + BEYOND), "thin")
+        picture.text((1.5, peak + BEYOND - 2.0), self.y_axis.label(), self.letters)
         step = _step(0.6 * APART * scale, angle=self.y_axis.dimension == "angle")
         for value in np.arange(math.ceil(low / step - 1e-9), math.floor(top / step + 1e-9) + 1) * step:
-            level = value / scale
+            level = (value - base) / scale
             picture.line([(-MARK, level), (0.0, level)])
             picture.text((-MARK - 0.8, level - 0.5 * LEAST), significant(float(value)), LEAST, "end")
 

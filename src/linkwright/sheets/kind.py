@@ -40,10 +40,8 @@ class Subject:
 
 @dataclass(frozen=True)
 class Content:
-    """The panels of a sheet in their order; ``scale``: of the main picture, as the title block prints it.
-
-    ``scale`` is called once the panels are drawn.
-    """
+    """The panels of a sheet in their order; ``scale``: what the title block prints where no panel has a scale as a
+    ratio."""
 
     panels: Sequence[Panel]
     scale: Callable[[], str] = lambda: ""

@@ -84,5 +84,3 @@ def _ink(picture: Picture) -> list[Floats]:
             corners = item.cloud
             found.append(np.vstack([corners, corners[:1], corners[2:3], corners[1:2], corners[3:]]))
     return found
-
-

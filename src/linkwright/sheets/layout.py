@@ -17,8 +17,12 @@ from linkwright.sheets.paper import Box
 
 #: Least space between panels, and between them and the frame, mm; most that a gap is spread to.
 GAP, WIDEST_GAP = 8.0, 60.0
+#: A row's first block stands in its middle where it is so many times as high as the others.
+MAIN = 1.4
+#: Rank from which a panel is left out where all others would be below this share of their size ranges.
+SPARE, COMFORT = 5.0, 0.15
 #: Shares of the way from the smallest to the largest size that are tried, from large to small.
-SHARES = tuple(1.0 - k / 20 for k in range(21))
+SHARES = tuple(1.0 - k / 12 for k in range(13))
 
 #: A panel's name with a share of its size range gives its block.
 Draw = Callable[[str, float], Block]
@@ -151,9 +155,10 @@ def spread(rows: Sequence[Row], room: Room) -> Places:
 
 
 def _in_the_middle(row: Row) -> list[Column]:
-    """The columns of a row from left to right: the first one, where it is as high as the row, in the middle."""
+    """The columns of a row from left to right: the first one, where its block is the main one, in the middle."""
     first, *others = row.columns
-    if len(first.blocks) > 1 or len(others) < 2:
+    highest = max((block.height for column in others for block in column.blocks), default=0.0)
+    if len(others) < 2 or first.blocks[0].height < MAIN * highest:
         return row.columns
     left = (len(others) + 1) // 2
     return [*others[:left], first, *others[left:]]
@@ -217,7 +222,9 @@ class _Asked:
     @cached_property
     def share(self) -> float | None:
         """The largest share of their size ranges with which all panels have room; None where there is none."""
-        return next((each for each in SHARES if self.rows(dict.fromkeys(self.names, each))), None)
+        if self.rows(dict.fromkeys(self.names, 0.0)) is None:
+            return None
+        return next((each for each in SHARES if self.rows(dict.fromkeys(self.names, each))), 0.0)
 
     @property
     def merit(self) -> float:
@@ -228,13 +235,15 @@ class _Asked:
 def laid_out(names: Sequence[str], ranks: Mapping[str, float], draw: Draw, room: Room) -> Layout:
     """The layout of panels in their order.
 
-    Where not even the smallest sizes have room, the panel of the highest rank is left out, and so on.
+    Where not even the smallest sizes have room, the panel of the highest rank is left out, and so on; one of a rank
+    of SPARE or more already where it leaves the others little room.
     """
     chosen, left_out = list(names), list[str]()
     while chosen:
         tried = [_Asked(tuple(chosen), order, even, draw, room) for order, even in _ORDERS]
         fitting = [asked for asked in tried if asked.share is not None]
-        if fitting:
+        crowded = len(chosen) > 1 and max(map(ranks.__getitem__, chosen)) >= SPARE
+        if fitting and not (crowded and all((asked.share or 0.0) < COMFORT for asked in fitting)):
             return _grown(max(fitting, key=lambda asked: asked.merit), tuple(left_out))
         worst = max(reversed(chosen), key=lambda name: ranks[name])
         chosen.remove(worst)

@@ -23,7 +23,9 @@ from linkwright.sheets.positions import Positions
 from linkwright.sheets.scene import draw_elements, draw_machine, outline_machine
 
 #: Room for symbols and names about the points of a machine, mm; smallest crank circle whose positions are numbered.
-AROUND, NUMBERED_RADIUS = 26.0, 9.0
+AROUND, NUMBERED_RADIUS = 8.0, 9.0
+#: Smallest and largest size as shares of the paper's length and width together.
+SIZES = (0.18, 0.32)
 #: Points whose paths are drawn, at most, and the least extent of a path, mm.
 PATHS, LEAST_PATH = 6, 3.0
 
@@ -31,17 +33,14 @@ PATHS, LEAST_PATH = 6, 3.0
 class MachinePanel(Panel):
     """The mechanism in the positions of the sheet."""
 
-    smallest, largest, rank = 70.0, 420.0, 0.0
+    rank = 0.0
 
     def __init__(self, name: str, positions: Positions) -> None:
         self.name, self.positions = name, positions
-        self.reduction = 1.0
         self.mechanism = positions.mechanism
-
-    @property
-    def scale(self) -> str:
-        """Its scale as a ratio, of the last picture that was drawn."""
-        return scale_text(self.reduction)
+        self._pictures: dict[float, Picture] = {}
+        paper = positions.subject.settings.paper
+        self.smallest, self.largest = (share * (paper.width + paper.height) for share in SIZES)
 
     @cached_property
     def _extent(self) -> float:
@@ -57,7 +56,7 @@ class MachinePanel(Panel):
         if scale is not None:
             return self._drawn(1e3 * scale)
         allowed = self.positions.subject.settings.paper.standard == "gb"
-        reduction = drawing_scale(1e3 * self._extent / max(size - AROUND, 20.0), allowed=allowed)
+        reduction = drawing_scale(1e3 * self._extent / max(size - AROUND, 10.0), allowed=allowed)
         while True:
             found = self._drawn(reduction)
             box = found.picture.bounds
@@ -66,10 +65,11 @@ class MachinePanel(Panel):
             reduction = drawing_scale(1.05 * reduction, allowed=allowed)
 
     def _drawn(self, reduction: float) -> Drawn:
-        self.reduction = reduction
-        picture = _Machine(self.positions, reduction).picture()
+        if reduction not in self._pictures:
+            self._pictures[reduction] = _Machine(self.positions, reduction, self.letters).picture()
+        picture = self._pictures[reduction]
         per_mm = joined(indexed("μ", "l"), f" = {reduction / 1e3:g} m/mm ({scale_text(reduction)})")
-        return Drawn(picture, (as_runs(self._caption), per_mm))
+        return Drawn(picture, (as_runs(self._caption), per_mm), scale_text(reduction))
 
     @property
     def _caption(self) -> str:
@@ -77,15 +77,17 @@ class MachinePanel(Panel):
         places = [(each.number, self.positions.place(each)) for each in shown]
         if not places or not places[0][1]:
             return words("caption_machine")
-        told = words("between").join(words("position", number=number, place=place) for number, place in places)
+        told = words("between").join(
+            words("position", number=number, place=place) for number, place in places
+        )
         return words("caption_positions", positions=told)
 
 
 class _Machine:
     """One picture of the machine; lengths of the machine are ``factor`` mm per metre."""
 
-    def __init__(self, positions: Positions, reduction: float) -> None:
-        self.positions, self.factor = positions, 1e3 / reduction
+    def __init__(self, positions: Positions, reduction: float, letters: float) -> None:
+        self.positions, self.factor, self.letters = positions, 1e3 / reduction, letters
         self.mechanism, self.motion = positions.mechanism, positions.motion
         self.main = positions.shown[0].index
         view = View(self.factor / UNIT)
@@ -109,7 +111,10 @@ class _Machine:
     def _paths(self) -> None:
         """The paths of moving points, thin chain lines; each place once, the longest first."""
         tracks = [self.positions.track(key) * self.factor for key in self.motion.point_names()]
-        spans = [float(np.nanmax(np.ptp(track[np.isfinite(track).all(axis=1)], axis=0), initial=0.0)) for track in tracks]
+        spans = [
+            float(np.nanmax(np.ptp(track[np.isfinite(track).all(axis=1)], axis=0), initial=0.0))
+            for track in tracks
+        ]
         order = sorted(range(len(tracks)), key=lambda k: -spans[k])
         kept: list[Floats] = []
         for k in order:
@@ -123,15 +128,17 @@ class _Machine:
         """Names of points, numbers of links, ω of the driver, names of loads."""
         machine, numbers = self.scene.machine, link_numbers(self.mechanism)
         for label in point_labels(machine, self.main):
-            yield name_of(label.text, _places(label), clear=2.2)
+            yield name_of(label.text, _places(label), height=self.letters, clear=2.2)
         for label in link_labels(self.scene, self.main):
-            yield Name(as_runs(str(numbers[label.text])), _places(label), clear=1.5, leader=True)
+            yield Name(as_runs(str(numbers[label.text])), _places(label), self.letters, leader=True)
         for label in load_labels(machine, self.main):
-            yield name_of(label.text, _places(label), clear=2.0)
+            yield name_of(label.text, _places(label), height=self.letters, clear=2.0)
         for driver in self.mechanism.drivers.values():
             if self.motion.positions.rotary[driver.name]:
                 at = np.array(machine.paper(driver.relative_to, driver.joint, self.main)) / TO_UNITS
-                yield Name(indexed("ω", str(numbers[driver.link])), [at], clear=8.5, symbol=True)
+                yield Name(
+                    indexed("ω", str(numbers[driver.link])), [at], self.letters, clear=8.5, symbol=True
+                )
         yield from self._roman()
 
     def _roman(self) -> Iterator[Name]:
@@ -140,7 +147,7 @@ class _Machine:
             return
         track = self.motion.point_of(key).position
         for shown in self.positions.shown:
-            yield Name(as_runs(shown.number), [track[shown.index] * self.factor], clear=4.5)
+            yield Name(as_runs(shown.number), [track[shown.index] * self.factor], self.letters, clear=4.5)
 
     # the numbered positions ----------------------------------------------------------------------
     def _driver(self) -> Driver | None:
@@ -183,10 +190,11 @@ class _Machine:
         for number, place in good:
             self.found.circle(place, 0.7, fill="paper")
             out = (place - middle) / (float(np.hypot(*(place - middle))) or 1.0) if turning else np.zeros(2)
-            found.append(Name(as_runs(str(number)), [place + 2.2 * out], LEAST, clear=0.6 if turning else 1.2))
+            found.append(
+                Name(as_runs(str(number)), [place + 2.2 * out], LEAST, clear=0.6 if turning else 1.2)
+            )
         return found
 
 
 def _places(label: Label) -> list[Floats]:
     return [np.array(anchor) / TO_UNITS for anchor in label.anchors]
-

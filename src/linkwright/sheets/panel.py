@@ -31,23 +31,29 @@ UNDER, LEADING = 3.0, 1.75
 
 @dataclass(frozen=True)
 class Drawn:
-    """A panel's picture in mm with any origin, and the lines of its caption, the first one larger."""
+    """A panel's picture in mm with any origin, and the lines of its caption, the first one larger.
+
+    ``scale``: as a ratio (1:2); the title block prints that of the first panel that has one.
+    """
 
     picture: Picture
     caption: tuple[Runs, ...] = ()
+    scale: str = ""
 
 
 class Panel(ABC):
     """One picture of a sheet.
 
     ``name``: by which files move it or leave it out; ``smallest`` and ``largest``: sizes of its longer side that are
-    worth drawing, mm; ``rank``: where panels have no room on a sheet, those of the highest rank are left out first.
+    worth drawing, mm; ``rank``: where panels have no room on a sheet, those of the highest rank are left out first;
+    ``letters``: height of its letters, mm, smaller on small paper.
     """
 
     name: str
     smallest: float = 40.0
     largest: float = 120.0
     rank: float = 5.0
+    letters: float = TEXT
 
     @abstractmethod
     def drawn(self, size: float, scale: float | None) -> Drawn:
@@ -62,6 +68,7 @@ class Block:
     picture: Picture
     width: float
     height: float
+    scale: str = ""
 
     def at(self, left: float, bottom: float) -> Box:
         """Its rectangle at a place of the paper."""
@@ -71,7 +78,7 @@ class Block:
 def block_of(name: str, drawn: Drawn, caption: float = CAPTION) -> Block:
     """A drawn panel with its caption, as one picture; ``caption``: height of its first line."""
     inner = drawn.picture.bounds
-    heights = [caption if number == 0 else TEXT for number in range(len(drawn.caption))]
+    heights = [caption if number == 0 else min(caption, TEXT) for number in range(len(drawn.caption))]
     widths = [runs_width(line, height) for line, height in zip(drawn.caption, heights, strict=True)]
     wide = max([inner.width, *widths])
     below = sum(LEADING * height for height in heights) + (UNDER if heights else 0.0)
@@ -81,7 +88,7 @@ def block_of(name: str, drawn: Drawn, caption: float = CAPTION) -> Block:
     for line, height in zip(drawn.caption, heights, strict=True):
         found.text((0.5 * wide, level - 1.25 * height), line, height, "middle")
         level -= LEADING * height
-    return Block(name, found, wide, below + inner.height)
+    return Block(name, found, wide, below + inner.height, drawn.scale)
 
 
 def preferred(least: float) -> float:

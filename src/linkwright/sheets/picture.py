@@ -179,8 +179,9 @@ class Picture:
         symbol: bool = False,
         squeeze: float = 1.0,
     ) -> None:
-        """A line of text."""
+        """A line of text; Chinese characters are not set smaller than TEXT."""
         if runs := as_runs(words):
+            height = max(height, TEXT) if any(needs_chinese(text) for text, _ in runs) else height
             self.items.append(Text(np.asarray(at, dtype=float), runs, height, anchor, turn, symbol, squeeze))
 
     def add(self, other: Picture, shift: ArrayLike = (0.0, 0.0)) -> None:
@@ -226,9 +227,10 @@ def joined(*parts: Words) -> Runs:
 
 
 def font_size(runs: Sequence[tuple[str, int]], height: float) -> float:
-    """The size of the font with which capitals, or Chinese characters where there are some, have a height."""
+    """The size of the font with which capitals, or Chinese characters where there are some, have a height; that of
+    Chinese characters is TEXT at least."""
     chinese = any(needs_chinese(text) for text, _ in runs)
-    return height / (CHARACTER if chinese else CAPITAL)
+    return max(height, TEXT) / CHARACTER if chinese else height / CAPITAL
 
 
 def runs_width(runs: Sequence[tuple[str, int]], height: float) -> float:

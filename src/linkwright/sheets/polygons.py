@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from abc import abstractmethod
+from itertools import pairwise
 from typing import ClassVar
 
 import numpy as np
@@ -22,7 +23,7 @@ from linkwright.plot.diagrams.scaled_page import LOW, side_by_side
 from linkwright.plot.force_names import link_numbers
 from linkwright.sheets.labels import Name, put
 from linkwright.sheets.panel import Drawn, Panel, preferred
-from linkwright.sheets.picture import LEAST, TEXT, Picture, as_runs, indexed, joined
+from linkwright.sheets.picture import LEAST, Picture, as_runs, indexed, joined
 from linkwright.sheets.positions import Positions, Shown
 
 #: Vectors that are shorter on the sheet have no name of their own, mm.
@@ -41,6 +42,7 @@ class ScaledPanel(Panel):
     def __init__(self, name: str, rank: float, positions: Positions, shown: Shown) -> None:
         self.name, self.rank = name, rank
         self.positions, self.shown = positions, shown
+        self._pictures: dict[float, Picture] = {}
 
     @abstractmethod
     def reach(self) -> float:
@@ -57,7 +59,9 @@ class ScaledPanel(Panel):
     def drawn(self, size: float, scale: float | None) -> Drawn:
         chosen = scale or preferred(self.reach() / max(size - 10.0, 8.0))
         per_mm = joined(indexed("μ", self.symbol), f" = {chosen:g} {self.unit}/mm")
-        return Drawn(self.picture(chosen), (as_runs(self.caption()), per_mm))
+        if chosen not in self._pictures:
+            self._pictures[chosen] = self.picture(chosen)
+        return Drawn(self._pictures[chosen], (as_runs(self.caption()), per_mm))
 
 
 class MotionPolygonPanel(ScaledPanel):
@@ -97,11 +101,11 @@ class MotionPolygonPanel(ScaledPanel):
             if step.role != "absolute":
                 found.arrow(start, end, "thin" if step.role in ("relative", "sliding") else "dashed")
         names: list[Name] = []
-        middle = np.mean([np.zeros(2), *self.polygon.images.values()], axis=0) / scale
         for texts, place in gathered(self.polygon, scale, self.prime):
             found.circle(place, 0.45, fill="ink")
-            names.append(Name(as_runs(", ".join(map(self._short, texts))), [place], symbol=True))
-        names += self._ends(pairs, middle)
+            runs = as_runs(", ".join(map(self._short, texts)))
+            names.append(Name(runs, [place], self.letters, symbol=True))
+        names += self._ends(pairs)
         put(found, names)
         return found
 
@@ -113,19 +117,21 @@ class MotionPolygonPanel(ScaledPanel):
             return text
         return f"{found[1]}{str(numbers[found[2]]).translate(LOW)}{found[3]}"
 
-    def _ends(self, pairs: list[tuple[Floats, Floats]], middle: Floats) -> list[Name]:
+    def _ends(self, pairs: list[tuple[Floats, Floats]]) -> list[Name]:
         """n′ at the ends of normal parts, k′ at those of Coriolis parts, numbered where there are several."""
-        seen = [
-            (step, end)
-            for step, (start, end) in zip(self.polygon.steps, pairs, strict=True)
-            if step.role in ENDS and np.hypot(*(end - start)) > SHORT
-        ]
+        parts = {
+            role: [
+                end
+                for step, (start, end) in zip(self.polygon.steps, pairs, strict=True)
+                if step.role == role and np.hypot(*(end - start)) > SHORT
+            ]
+            for role in ENDS
+        }
         found = []
-        for step, end in seen:
-            letter = ENDS[step.role]
-            alike = [other for other, _ in seen if other.role == step.role]
-            index = str(alike.index(step) + 1) if len(alike) > 1 else ""
-            found.append(Name(as_runs(((f"{letter}′", 0), (index, -1))), [end], LEAST, symbol=True))
+        for role, ends in parts.items():
+            for number, end in enumerate(ends, 1):
+                runs = as_runs(((f"{ENDS[role]}′", 0), (str(number) if len(ends) > 1 else "", -1)))
+                found.append(Name(runs, [end], LEAST, symbol=True))
         return found
 
 
@@ -173,7 +179,7 @@ class ForcePanel(ScaledPanel):
     def picture(self, scale: float) -> Picture:
         found = Picture()
         places = self.corners / scale
-        pairs = side_by_side(list(zip(places[:-1], places[1:], strict=True)))
+        pairs = side_by_side(list(pairwise(places)))
         names = []
         for vector, (start, end) in zip(self.vectors, pairs, strict=True):
             found.arrow(start, end, "thick" if vector.role == "reaction" else "thin")
@@ -182,8 +188,6 @@ class ForcePanel(ScaledPanel):
                 runs = indexed(vector.letter, vector.index)
                 if vector.role == "inertia":
                     runs = indexed("F", f"I{link_numbers(self.positions.mechanism)[self.link]}")
-                names.append(Name(runs, spots, TEXT, clear=1.2, symbol=True))
+                names.append(Name(runs, spots, self.letters, clear=1.2, symbol=True))
         put(found, names)
         return found
-
-

@@ -14,6 +14,7 @@ from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import with_times
 from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.plot.diagrams.axes import significant
 from linkwright.plot.drawing.positions import limits_of
 from linkwright.report.machine_results import Case
 from linkwright.report.settings import settings as report_settings
@@ -120,12 +121,12 @@ class Positions:
             return f"t = {float(self.motion.time[shown.index]):.4g} s"
         value = float(self.motion.input[shown.index])
         if self.case.rotary:
-            return f"φ = {float(np.round(np.degrees(value), 2)):g}°"
-        return f"s = {float(np.round(1e3 * value, 2)):g} mm"
+            return f"φ = {significant(float(np.round(np.degrees(value), 2)), 6)}°"
+        return f"s = {significant(float(np.round(1e3 * value, 2)), 6)} mm"
 
     @cached_property
     def numbered(self) -> tuple[Motion, list[int]]:
-        """Twelve equal steps of the cycle from the limit position that the report counts from, as rows of a motion."""
+        """Twelve equal steps of the cycle from the report's first position, as rows of a motion."""
         motion = self.motion
         period = motion.positions.period
         if not self.mechanism.drivers or motion.steps < 2:

@@ -19,7 +19,7 @@ from linkwright.sheets.kind import SHEETS, Content, Subject
 from linkwright.sheets.layout import GAP, Layout, Room, laid_out
 from linkwright.sheets.panel import Block, Panel, block_of
 from linkwright.sheets.paper import SIZES, Box, Paper
-from linkwright.sheets.picture import CAPTION, TEXT, Picture, Text
+from linkwright.sheets.picture import CAPTION, LEAST, TEXT, Picture, Text
 from linkwright.sheets.settings import Placed, Settings, settings
 from linkwright.sheets.svg import svg
 from linkwright.sheets.title_block import TitleBlock, gb_block, iso_block, school_block
@@ -148,9 +148,12 @@ def _given(machine: Mechanism | Problem | str | Path) -> tuple[Mechanism | Probl
 class _Drawer:
     """Draws panels at shares of their size ranges, each picture once."""
 
-    def __init__(self, panels: Mapping[str, Panel], placed: Mapping[str, Placed], room: Box, caption: float
+    def __init__(
+        self, panels: Mapping[str, Panel], placed: Mapping[str, Placed], room: Box, caption: float
     ) -> None:
         self.panels, self.placed, self.room, self.caption = panels, placed, room, caption
+        for panel in panels.values():
+            panel.letters = min(panel.letters, LEAST) if caption < CAPTION else panel.letters
         self._blocks: dict[tuple[str, float], Block] = {}
 
     def __call__(self, name: str, share: float) -> Block:
@@ -179,11 +182,13 @@ def _composed(subject: Subject, content: Content, kind: str, name: str) -> Sheet
     places = {**fixed, **layout.places}
     picture = frame(paper, zones=wanted.zones, block=corner)
     picture.add(control_bar(subject.say), (bar.left, bar.bottom))
+    blocks = {**{key: draw(key, 1.0) for key in fixed}, **layout.blocks}
     for key, box in places.items():
-        picture.add(
-            draw(key, 1.0).picture if key in fixed else layout.blocks[key].picture, (box.left, box.bottom)
-        )
-    picture.add(_block(subject, kind, content.scale()).picture(), (corner.left, corner.bottom))
+        picture.add(blocks[key].picture, (box.left, box.bottom))
+    scale = next(
+        (blocks[key].scale for key in panels if key in blocks and blocks[key].scale), content.scale()
+    )
+    picture.add(_block(subject, kind, scale).picture(), (corner.left, corner.bottom))
     return Sheet(paper, name, picture, places, corner, (*subject.notes, *_lacking(subject, layout)))
 
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from linkwright.sheets.panel import Drawn, Panel
 from linkwright.sheets.paper import Box
-from linkwright.sheets.picture import TEXT, Picture, Words, as_runs, runs_width
+from linkwright.sheets.picture import Picture, Words, as_runs, runs_width
 
 #: Height of a row in heights of its letters, and space beside a text, mm.
 ROW, BESIDE = 1.9, 1.6
@@ -30,7 +30,6 @@ class TablePanel(Panel):
         rows: Sequence[Sequence[Words]],
         caption: Words,
         *,
-        height: float = TEXT,
         parts: int | None = None,
     ) -> None:
         self.name, self.rank = name, rank
@@ -40,20 +39,20 @@ class TablePanel(Panel):
         sides = [filled[k * tall : (k + 1) * tall] for k in range(self.parts)]
         self.rows = [[cell for _ in sides for cell in head]]
         self.rows += [[cell for row in side for cell in row] for side in zip(*sides, strict=True)]
-        self.caption, self.height = caption, height
+        self.caption = caption
 
     def drawn(self, size: float, scale: float | None) -> Drawn:
-        picture, tall = Picture(), ROW * self.height
+        picture, tall = Picture(), ROW * self.letters
         widths = [
-            max(runs_width(as_runs(row[k]), self.height) for row in self.rows) + 2 * BESIDE
+            max(runs_width(as_runs(row[k]), self.letters) for row in self.rows) + 2 * BESIDE
             for k in range(len(self.rows[0]))
         ]
         whole = Box(0.0, -tall * len(self.rows), sum(widths), 0.0)
         for number, row in enumerate(self.rows):
             left, level = 0.0, -tall * number
             for width, text in zip(widths, row, strict=True):
-                baseline = level - 0.5 * tall - 0.42 * self.height
-                picture.text((left + 0.5 * width, baseline), text, self.height, "middle")
+                baseline = level - 0.5 * tall - 0.42 * self.letters
+                picture.text((left + 0.5 * width, baseline), text, self.letters, "middle")
                 left += width
             if number:
                 picture.line([(0.0, level), (whole.right, level)], "thick" if number == 1 else "thin")

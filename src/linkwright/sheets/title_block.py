@@ -183,8 +183,8 @@ def school_block(given: Fields, say: Say) -> TitleBlock:
     for row, (head, name, date) in enumerate(people):
         y = 16.0 + 8.0 * row
         cells += [
-            Cell(0, y, 15, 8, say(f"sheet.block.{head}")),
-            Cell(15, y, 25, 8, name),
+            Cell(0, y, 18, 8, say(f"sheet.block.{head}")),
+            Cell(18, y, 22, 8, name),
             Cell(40, y, 20, 8, date),
         ]
     cells += [

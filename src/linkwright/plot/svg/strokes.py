@@ -97,7 +97,9 @@ def _onwards(last: tuple[float, float], command: str, numbers: list[float]) -> l
         step = numbers[0] - (x if command == "H" else y if command == "V" else 0.0)
         return [(x + step, y)] if command in "Hh" else [(x, y + step)]
     if command == "A":
-        return _arc(last, (numbers[5], numbers[6]), numbers[0], large=bool(numbers[3]), sweep=bool(numbers[4]))
+        return _arc(
+            last, (numbers[5], numbers[6]), numbers[0], large=bool(numbers[3]), sweep=bool(numbers[4])
+        )
     return [(numbers[0], numbers[1])]
 
 

@@ -35,7 +35,6 @@ class DevelopmentPanel(Panel):
         phi = np.minimum(np.linspace(0.0, 2 * math.pi, _DENSE + 1), np.nextafter(2 * math.pi, 0.0))
         self.pitch = pitch_of(design, phi)
         self.walls = [wall.contact(phi).point for wall in design.cam.walls]
-        self.scale = ""
 
     @property
     def extent(self) -> tuple[float, float]:
@@ -45,7 +44,6 @@ class DevelopmentPanel(Panel):
     def drawn(self, size: float, scale: float | None) -> Drawn:
         wide = 2 * math.pi * self.radius
         reduction = 1e3 * scale if scale else drawing_scale(1e3 * wide / max(size - 2 * _MARGIN, 10.0))
-        self.scale = scale_text(reduction)
         paper, picture = Paper(reduction), Picture()
         low = paper.length(min(float(each.imag.min()) for each in self.walls)) - _EDGE
         high = paper.length(max(float(each.imag.max()) for each in self.walls)) + _EDGE
@@ -59,10 +57,10 @@ class DevelopmentPanel(Panel):
             picture.line(paper.points(wall), "thick")
         names = self._rollers(picture, paper, low)
         names += self._marks(picture, paper, (end, high))
-        writer = Names(picture)
+        writer = Names(picture, self.letters)
         for words, spots, leader in names:
             writer.write(words, spots, leader=leader)
-        return Drawn(picture, tuple(self._caption(reduction)))
+        return Drawn(picture, tuple(self._caption(reduction)), scale_text(reduction))
 
     def _rollers(self, picture: Picture, paper: Paper, low: float) -> list[Name]:
         """The divided angles from the lower edge with the roller at each; gives their numbers."""

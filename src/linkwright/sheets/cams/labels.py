@@ -36,15 +36,15 @@ Name = tuple[Runs, list[Spot], Floats | None]
 class Names:
     """Writes texts on a picture that is drawn already, one after the other."""
 
-    def __init__(self, picture: Picture) -> None:
-        self.picture = picture
+    def __init__(self, picture: Picture, letters: float = TEXT) -> None:
+        self.picture, self.letters = picture, letters
         samples = [_samples(item) for item in picture.items if isinstance(item, Line | Circle)]
         self.samples = np.concatenate([*samples, np.empty((0, 3))])
         self.boxes = [bounds_of([text]) for text in picture.texts]
 
     def write(self, words: Words, spots: Sequence[Spot], *, leader: ArrayLike | None = None) -> None:
         """A text at the spot where it meets least; ``leader``: the place that a thin line leads to from there."""
-        found = [_text(words, spot) for spot in spots]
+        found = [_text(words, spot, self.letters) for spot in spots]
         costs = [self._cost(text) + _LATER * k for k, text in enumerate(found)]
         best = int(np.argmin(costs))
         text = found[best]
@@ -77,13 +77,13 @@ def around(
     return found
 
 
-def _text(words: Words, spot: Spot) -> Text:
+def _text(words: Words, spot: Spot, height: float) -> Text:
     """A text whose near side is at a spot."""
     at, away = spot
     unit = away / abs(away)
     anchor: Anchor = "start" if unit.real > 0.35 else "end" if unit.real < -0.35 else "middle"
-    drop = 0.5 * TEXT * (1.0 - unit.imag)
-    return Text(at - (0.0, drop), as_runs(words), TEXT, anchor)
+    drop = 0.5 * height * (1.0 - unit.imag)
+    return Text(at - (0.0, drop), as_runs(words), height, anchor)
 
 
 def _samples(item: Line | Circle) -> Floats:

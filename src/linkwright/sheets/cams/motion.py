@@ -88,9 +88,9 @@ class MotionPanel(Panel):
         wide, zero, each = place
         x = np.degrees(self.design.angles) * wide / 360.0
         picture.arrow((0.0, zero), (wide + 13.0, zero), "thin")
-        picture.text((wide + 3.5, zero - 5.5), "δ/°", TEXT)
+        picture.text((wide + 3.5, zero - 5.5), "δ/°", self.letters)
         picture.arrow((0.0, zero + ends[0] - 1.0), (0.0, zero + ends[1] + 8.0), "thin")
-        picture.text((2.0, zero + ends[1] + 4.5), strip.label, TEXT)
+        picture.text((2.0, zero + ends[1] + 4.5), strip.label, self.letters)
         step = preferred(_MARK * each)
         for k in range(math.ceil(ends[0] * each / step - 1e-9), math.floor(ends[1] * each / step + 1e-9) + 1):
             level = zero + k * step / each
@@ -130,9 +130,13 @@ class MotionPanel(Panel):
             degrees = f"{plain(math.degrees(phase.angle), 5)}°"
             whole = joined(symbol, f" = {degrees}") if symbol else as_runs(degrees)
             span = wide * phase.angle / TURN
-            short = symbol and _fits(symbol, span) and not _fits(whole, span)
+            short = symbol and self._fits(symbol, span) and not self._fits(whole, span)
             found.append(symbol if short else whole)
         return found
+
+    def _fits(self, text: Runs, room: float) -> bool:
+        """Whether a text fits between two marks."""
+        return runs_width(text, self.letters) + 2.0 <= room
 
     def _levels(self, wide: float) -> list[int]:
         """At which level the angle of each phase is written, so that none meets its neighbour."""
@@ -151,8 +155,8 @@ class MotionPanel(Panel):
         """From where to where the angle of a phase takes room, and the middle of its text: between its ends, else
         beside them."""
         start, end = wide * phase.start / TURN, wide * phase.end / TURN
-        half = 0.5 * runs_width(name, TEXT)
-        if _fits(name, end - start):
+        half = 0.5 * runs_width(name, self.letters)
+        if self._fits(name, end - start):
             return start, end, 0.5 * (start + end)
         if end + 2 * half + 4.0 < wide:
             return start, end + 2 * half + 4.0, end + half + 3.0
@@ -169,7 +173,7 @@ class MotionPanel(Panel):
                 if end - start > 6.0:
                     picture.head((x, height), (x - other, 0.0), 2.5)
             picture.line([(min(start, left), height), (max(end, right), height)])
-            picture.text((middle, height + 1.0), name, TEXT, "middle")
+            picture.text((middle, height + 1.0), name, self.letters, "middle")
 
 
 def strips(design: CamDesign) -> tuple[Strip, Strip, Strip]:
@@ -187,11 +191,6 @@ def strips(design: CamDesign) -> tuple[Strip, Strip, Strip]:
     factor = 1.0 if speed else 1e3
     values = (1e3 * s, factor * v * (speed or 1.0), factor * a * (speed or 1.0) ** 2)
     return tuple(Strip(*each) for each in zip(symbols, ("mm", *units), values, strict=True))  # type: ignore[return-value]
-
-
-def _fits(text: Runs, room: float) -> bool:
-    """Whether a text fits between two marks."""
-    return runs_width(text, TEXT) + 2.0 <= room
 
 
 def _in_lines(parts: Sequence[Runs], wide: float) -> Iterator[Runs]:

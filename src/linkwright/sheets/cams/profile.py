@@ -47,13 +47,11 @@ class ProfilePanel(Panel):
         self.walls = [_wall(design, k) for k in range(len(design.cam.walls))]
         cloud = [self.pitch, *self.walls, self.at.face.ravel()]
         self.outer = float(max(np.abs(each).max(initial=0.0) for each in cloud))
-        self.scale = ""
         self._drawn: dict[float, Drawn] = {}
 
     def drawn(self, size: float, scale: float | None) -> Drawn:
         wanted = 1e3 * max(self.extent) / max(size - 2 * (BEYOND + _MARGIN), 10.0)
         reduction = 1e3 * scale if scale else drawing_scale(wanted)
-        self.scale = scale_text(reduction)
         if reduction not in self._drawn:
             self._drawn[reduction] = self._at(reduction)
         return self._drawn[reduction]
@@ -67,10 +65,10 @@ class ProfilePanel(Panel):
         self._curves(picture, paper)
         self._first(picture, paper)
         wanted_names += marked(picture, paper, self.design, self.say, self.outer)
-        names = Names(picture)
+        names = Names(picture, self.letters)
         for words, spots, leader in wanted_names:
             names.write(words, spots, leader=leader)
-        return Drawn(picture, tuple(self._caption(reduction)))
+        return Drawn(picture, tuple(self._caption(reduction)), scale_text(reduction))
 
     @cached_property
     def extent(self) -> tuple[float, float]:

@@ -128,7 +128,8 @@ def points_table(design: CamDesign, say: Say, letters: float, tall: int) -> Poin
     ``tall`` rows, as far as the paper is wide enough; ``letters``: their height, mm."""
     head, rows = _points(design)
     parts = min(_PARTS, math.ceil(len(rows) / tall))
-    found = PointsTable("table_points", 3.0, head, rows, say("cam_sheet.points"), height=letters, parts=parts)
+    found = PointsTable("table_points", 3.0, head, rows, say("cam_sheet.points"), parts=parts)
+    found.letters = letters
     found.note = joined("x, y ", say("cam_sheet.profile_curve"))
     if design.cam.follower.kind == "roller":
         pitch = joined(indexed("x", "0"), ", ", indexed("y", "0"), " ", say("cam_sheet.pitch_curve"))

@@ -41,7 +41,7 @@ def cam(subject: Subject) -> Content:
         data_table(design, say, 2 if wide else 1),
         points_table(design, say, TEXT if large else LEAST, 14 if wide else 10),
     )
-    return Content(panels, lambda: profile.scale)
+    return Content(panels)
 
 
 def _design(subject: Subject) -> CamDesign:

@@ -11,7 +11,7 @@ from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinetostatics.forces import Forces
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.plot.diagrams.base import Request
-from linkwright.plot.diagrams.force_polygon import polygon_links
+from linkwright.plot.diagrams.force_polygon import link_forces, polygon_links
 from linkwright.plot.diagrams.outputs import main_output
 from linkwright.plot.diagrams.panels import Panel as Plotted
 from linkwright.plot.diagrams.source import InputAxis, Source
@@ -48,14 +48,16 @@ def mechanism(subject: Subject) -> Content:
             number = len(shown.number)
             panels += _made(
                 lambda s=shown, n=number, r=later: VelocityPanel(f"velocity_{n}", 1.0 + r, positions, s),
-                lambda s=shown, n=number, r=later: AccelerationPanel(f"acceleration_{n}", 1.5 + r, positions, s),
+                lambda s=shown, n=number, r=later: AccelerationPanel(
+                    f"acceleration_{n}", 1.5 + r, positions, s
+                ),
             )
     forces = positions.forces
     if forces is not None:
         panels += _force_polygons(positions, forces)
     panels += _curves(positions)
     panels += [data_table(positions), *motion_table(positions), *force_table(positions)]
-    return Content(panels, lambda: machine.scale)
+    return Content(panels)
 
 
 def _made(*makers: Callable[[], Panel]) -> Iterator[Panel]:
@@ -72,6 +74,8 @@ def _force_polygons(positions: Positions, forces: Forces) -> Iterator[Panel]:
     for shown in positions.shown:
         rank = 5.0 if shown.number == "I" else 8.0
         for link in polygon_links(forces, shown.index):
+            if positions.mechanism.drivers and len(link_forces(forces, link, shown.index)) < 3:
+                continue
             name = f"force_{len(shown.number)}_{link}"
             yield ForcePanel(name, rank, positions, shown, forces, link)
 
@@ -86,7 +90,9 @@ def _curves(positions: Positions) -> Iterator[Panel]:
     try:
         name = _moving(positions.mechanism, main_output(source.motion))
         for (word, rank), plotted in zip(_MOTION, Sva().panels(source, request), strict=False):
-            yield _curve(word, rank, subject.words(f"caption_curve_{word}", output=name), source.axis, plotted)
+            yield _curve(
+                word, rank, subject.words(f"caption_curve_{word}", output=name), source.axis, plotted
+            )
     except LinkwrightError as error:
         subject.notes.append(subject.words("no_curves", sentence=positions.case.told(error)))
     if positions.forces is None:
@@ -114,4 +120,6 @@ def _curve(name: str, rank: float, caption: str, axis: InputAxis, plotted: Plott
     curves = [Curve(each.values, each.label if len(plotted.curves) > 1 else "") for each in plotted.curves]
     levels = [(level.label, level.value) for level in plotted.levels]
     values = np.asarray(axis.values, dtype=float)
-    return CurvePanel(name, rank, caption, (across, values), up, curves, levels=levels, backwards=axis.backwards)
+    return CurvePanel(
+        name, rank, caption, (across, values), up, curves, levels=levels, backwards=axis.backwards
+    )
