@@ -67,11 +67,12 @@ def settings(
     size: str = "",
     report: Mapping[str, Any] | None = None,
     name: str = "",
+    usual: str = "A1",
 ) -> Settings:
-    """The settings in a language; ``size`` before that of the file; ``name``: of the machine, for a title block
-    without a title."""
+    """The settings in a language; ``size`` before that of the file, ``usual`` where neither is; ``name``: of the
+    machine, for a title block without a title."""
     given = read_section(section)
-    paper = _paper(given, language, size)
+    paper = _paper(given, language, size or given.get("size") or usual)
     words = {**_fallback(report or {}, language), **_words(given), **(given.get(language) or {})}
     words.setdefault("title", name)
     fields = Fields(
@@ -92,10 +93,9 @@ def settings(
 
 
 def _paper(given: Mapping[str, Any], language: str, size: str) -> Paper:
-    chosen = size or given.get("size") or "A1"
-    upright = given.get("orientation", "portrait" if chosen == "A4" else "landscape") == "portrait"
+    upright = given.get("orientation", "portrait" if size == "A4" else "landscape") == "portrait"
     standard = cast(Standard, given.get("standard") or ("gb" if language == "zh" else "iso"))
-    return Paper(chosen, upright, standard, given.get("binding", True))
+    return Paper(size, upright, standard, given.get("binding", True))
 
 
 def _words(given: Mapping[str, Any]) -> dict[str, str]:

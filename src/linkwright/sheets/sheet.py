@@ -28,6 +28,8 @@ from linkwright.words import speaker
 from linkwright.words.sentence import in_language
 from linkwright.words.titles import title_said
 
+#: Size of a kind of sheet where none is asked for, if it is not A1.
+USUAL = {"cam": "A2"}
 ENDINGS = (".pdf", ".svg", ".dxf")
 
 
@@ -100,7 +102,7 @@ def sheet(
         machine: a mechanism, a calculation, a path or a gallery name.
         kind: ``mechanism`` or ``cam``; by default what the machine is.
         of: the part that is meant, where there are several: the joint of a cam.
-        size: ``A0`` to ``A4``, before what the file says.
+        size: ``A0`` to ``A4``, before what the file says; A1 where neither does, A2 for a cam.
         language: ``en`` (frame after ISO 5457, title block after ISO 7200) or ``zh`` (GB/T 14689, GB/T 10609.1).
         section: keys of the section ``sheet`` instead of the file's.
 
@@ -121,7 +123,7 @@ def sheet(
     chosen = kind or ("mechanism" if isinstance(drawn, Mechanism) else str(drawn.kind))
     report = drawn.report if isinstance(drawn, Mechanism) else {}
     name = title_said(in_language(drawn.name, language), language)
-    wanted = settings(own, language, size=size or "", report=report, name=name)
+    wanted = settings(own, language, size=size or "", report=report, name=name, usual=USUAL.get(chosen, "A1"))
     if chosen not in SHEETS:
         raise RequestError("sheet.no_kind", kind=chosen, kinds=tuple(SHEETS))
     subject = Subject(drawn, wanted, language, speaker(language), of)

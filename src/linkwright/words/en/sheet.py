@@ -12,7 +12,7 @@ moves, scales or leaves out single panels.""",
 linkwright sheet gallery:shaper_quick_return
 linkwright sheet shaper.yaml --size A2 --output shaper.dxf
 linkwright sheet shaper.yaml --size A1 --lang zh""",
-    "size_help": "paper size, A0 to A4 (default: what the file says, else A1)",
+    "size_help": "paper size, A0 to A4 (default: what the file says, else A1, A2 for a cam)",
     "kind_help": "mechanism or cam (default: what the file holds)",
     "of_help": "the part that is meant, where there are several: the joint of a cam",
     "output_help": "file to write: .pdf, .svg or .dxf (default: the model's name, .pdf)",

@@ -10,7 +10,7 @@ WORDS = {
 linkwright sheet gallery:shaper_quick_return
 linkwright sheet shaper.yaml --size A2 --output shaper.dxf
 linkwright sheet shaper.yaml --size A1 --lang zh""",
-    "size_help": "图幅，A0～A4（默认：文件所写，否则 A1）",
+    "size_help": "图幅，A0～A4（默认：文件所写，否则 A1，凸轮为 A2）",
     "kind_help": "mechanism 或 cam（默认：按文件内容）",
     "of_help": "有几个时指明画哪一个：凸轮副的名称",
     "output_help": "要写的文件：.pdf、.svg 或 .dxf（默认：模型名，.pdf）",
