@@ -21,6 +21,8 @@ FLATNESS, LEFT, BELOW, BEYOND = 0.45, 16.0, 9.0, 6.0
 APART, MARK = 13.0, 1.2
 #: Distance of curves from zero, in their own heights, from which the axis does not begin at zero.
 FAR = 1.5
+#: Share of a diagram's height below which a level is zero.
+NOTHING = 1e-6
 _ANGLES = (1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 45.0, 60.0, 90.0, 180.0, 360.0, 720.0)
 _PENS: tuple[Pen, ...] = ("thick", "thin", "dashed", "chain")
 
@@ -36,7 +38,8 @@ class Axis:
 
     def label(self) -> Runs:
         """Symbol and unit."""
-        return joined(self.symbol, f"/{self.unit}" if self.unit else "")
+        unit = f"({self.unit})" if "/" in self.unit else self.unit
+        return joined(self.symbol, f"/{unit}" if unit else "")
 
     def scale(self, chosen: float) -> Runs:
         """The scale, given in its unit per mm, as a caption: in SI units per mm, degrees for angles."""
@@ -122,6 +125,8 @@ class CurvePanel(Panel):
                 spots = [good[int(share * (len(good) - 1))] for share in (0.15, 0.35, 0.6, 0.85)]
                 names.append(Name(as_runs(curve.name), spots, self.letters, clear=1.5, symbol=True))
         for text, value in self.levels:
+            if abs(value) < NOTHING * (top - low):
+                continue
             level = (value - base) / y_scale
             found.line([(0.0, level), (right, level)], "dashed")
             spots = [np.array([share * right, level]) for share in (0.9, 0.7, 0.5, 0.2)]
@@ -166,5 +171,5 @@ def _step(least: float, *, angle: bool) -> float:
         for each in _ANGLES:
             if each >= least * (1 - 1e-9):
                 return each
-    power = 10.0 ** math.floor(math.log10(least) + 1e-12)
+    power = math.pow(10.0, math.floor(math.log10(least) + 1e-12))
     return min(k * power for k in (1.0, 2.0, 5.0, 10.0) if k * power >= least * (1 - 1e-9))

@@ -25,7 +25,7 @@ from linkwright.sheets.scene import draw_elements, draw_machine, outline_machine
 #: Room for symbols and names about the points of a machine, mm; smallest crank circle whose positions are numbered.
 AROUND, NUMBERED_RADIUS = 8.0, 9.0
 #: Smallest and largest size as shares of the paper's length and width together.
-SIZES = (0.18, 0.32)
+SIZES = (0.22, 0.36)
 #: Points whose paths are drawn, at most, and the least extent of a path, mm.
 PATHS, LEAST_PATH = 6, 3.0
 
@@ -161,7 +161,7 @@ class _Machine:
         link, joint = self.mechanism.link(driver.link), self.mechanism.joints[driver.joint]
         if joint.coordinate == "slide":
             at = getattr(joint, "at", None)
-            return None if at not in link.points else canonical(self.mechanism, link.name, at)
+            return None if at is None or at not in link.points else canonical(self.mechanism, link.name, at)
         pivot = link.points.get(driver.joint)
         if pivot is None:
             return None

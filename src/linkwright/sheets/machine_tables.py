@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 
@@ -40,9 +40,9 @@ def _number(value: float) -> str:
     return significant(value) if value else "–"
 
 
-def _lengths(points: dict[str, tuple[float, float]] | object) -> Iterator[Runs]:
+def _lengths(points: Mapping[str, tuple[float, float]]) -> Iterator[Runs]:
     """Distances of a link's other points from its first one, two on a line; a dash where there are none."""
-    places = list(points.items())  # type: ignore[attr-defined]
+    places = list(points.items())
     found: list[Runs] = []
     for name, at in places[1:]:
         length = 1e3 * math.dist(places[0][1], at)

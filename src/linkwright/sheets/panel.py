@@ -23,7 +23,7 @@ import numpy as np
 
 from linkwright.core.dataclass import dataclass
 from linkwright.sheets.paper import Box
-from linkwright.sheets.picture import CAPTION, TEXT, Picture, Runs, runs_width
+from linkwright.sheets.picture import CAPTION, LEAST, TEXT, Picture, Runs, runs_width
 
 #: Between a picture and its caption, and from one line of text to the next in heights of letters.
 UNDER, LEADING = 3.0, 1.75
@@ -78,7 +78,10 @@ class Block:
 def block_of(name: str, drawn: Drawn, caption: float = CAPTION) -> Block:
     """A drawn panel with its caption, as one picture; ``caption``: height of its first line."""
     inner = drawn.picture.bounds
-    heights = [caption if number == 0 else min(caption, TEXT) for number in range(len(drawn.caption))]
+    heights = [
+        caption if number == 0 else (TEXT if caption > TEXT else LEAST)
+        for number in range(len(drawn.caption))
+    ]
     widths = [runs_width(line, height) for line, height in zip(drawn.caption, heights, strict=True)]
     wide = max([inner.width, *widths])
     below = sum(LEADING * height for height in heights) + (UNDER if heights else 0.0)
@@ -93,18 +96,18 @@ def block_of(name: str, drawn: Drawn, caption: float = CAPTION) -> Block:
 
 def preferred(least: float) -> float:
     """The smallest of 1, 2, 2.5, 4, 5 times a power of ten that is not below a value: graphical scales per mm."""
-    power = 10.0 ** math.floor(math.log10(least) + 1e-12)
+    power = math.pow(10.0, math.floor(math.log10(least) + 1e-12))
     return min(k * power for k in (1.0, 2.0, 2.5, 4.0, 5.0, 10.0) if k * power >= least * (1 - 1e-9))
 
 
-#: Reductions of ISO 5455 and those that GB/T 14690 prefers, then those of the ones it allows that go with 1–2–2.5–4–5.
+#: Reductions of ISO 5455 and those that GB/T 14690 prefers, then two of those that it allows.
 _PREFERRED, _ALLOWED = (1.0, 2.0, 5.0), (2.5, 4.0)
 
 
 def drawing_scale(least: float, *, allowed: bool = False) -> float:
     """The smallest reduction (2.0 for 1:2, 0.5 for 2:1) that is not below a value; ``allowed``: also 1:2.5, 1:4,
     2.5:1 and 4:1, which GB/T 14690 allows."""
-    power = 10.0 ** math.floor(math.log10(least) + 1e-12)
+    power = math.pow(10.0, math.floor(math.log10(least) + 1e-12))
     steps = (*_PREFERRED, *(_ALLOWED if allowed else ()))
     found = [k * each for k in steps for each in (power, 10 * power)]
     return min(each for each in found if each >= least * (1 - 1e-9))

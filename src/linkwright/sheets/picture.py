@@ -25,8 +25,8 @@ Anchor = Literal["start", "middle", "end"]
 #: A line of text in parts, each with its level: 0 on the line, -1 index below, 1 index above.
 Runs: TypeAlias = tuple[tuple[str, int], ...]
 Words: TypeAlias = str | Runs
-#: Heights of capital letters, mm: the least; of texts and dimensions; of captions; of headings (GB/T 14691, ISO 3098).
-LEAST, TEXT, CAPTION, HEADING = 2.5, 3.5, 5.0, 7.0
+#: Heights of capital letters, mm (GB/T 14691, ISO 3098): the least; of texts; of captions.
+LEAST, TEXT, CAPTION = 2.5, 3.5, 5.0
 #: Height of a capital letter and depth of a descender in sizes of the font; size of indices.
 CAPITAL, DESCENT, INDEX = 0.72, 0.24, 0.72
 #: Height of a Chinese character in sizes of the font.

@@ -12,6 +12,8 @@ from linkwright.files.compose import compose
 from linkwright.files.node_reader import Place
 from linkwright.files.reader import Reader
 from linkwright.files.write import flow
+from linkwright.mechanism.mechanism import Mechanism
+from linkwright.report.settings import worked_place
 from linkwright.sheets.fields import SHEET, WORDS
 from linkwright.sheets.paper import Paper, Standard
 from linkwright.sheets.title_block import Fields
@@ -90,6 +92,12 @@ def settings(
         tuple(given.get("leave_out", ())),
         {key: _placed(each) for key, each in given.get("panels", {}).items()},
     )
+
+
+def check(mechanism: Mechanism) -> None:
+    """Raises ModelError for a section ``sheet`` of which a key makes no sense, QuantityError for a position."""
+    for text in read_section(mechanism.sheet).get("positions", ()):
+        worked_place(mechanism, text)
 
 
 def _paper(given: Mapping[str, Any], language: str, size: str) -> Paper:

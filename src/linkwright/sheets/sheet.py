@@ -36,13 +36,14 @@ ENDINGS = (".pdf", ".svg", ".dxf")
 @dataclass(frozen=True)
 class Sheet:
     """A finished sheet: what is drawn on it in mm, ``panels`` the rectangles of its panels with their captions by
-    name, ``notes`` sentences on what it lacks."""
+    name, ``scale`` what the title block prints, ``notes`` sentences on what it lacks."""
 
     paper: Paper
     title: str
     picture: Picture = field(repr=False)
     panels: Mapping[str, Box]
     title_block: Box
+    scale: str = ""
     notes: tuple[str, ...] = ()
 
     @property
@@ -191,7 +192,7 @@ def _composed(subject: Subject, content: Content, kind: str, name: str) -> Sheet
         (blocks[key].scale for key in panels if key in blocks and blocks[key].scale), content.scale()
     )
     picture.add(_block(subject, kind, scale).picture(), (corner.left, corner.bottom))
-    return Sheet(paper, name, picture, places, corner, (*subject.notes, *_lacking(subject, layout)))
+    return Sheet(paper, name, picture, places, corner, scale, (*subject.notes, *_lacking(subject, layout)))
 
 
 def _block(subject: Subject, kind: str, scale: str) -> TitleBlock:
@@ -235,4 +236,4 @@ def _lacking(subject: Subject, layout: Layout) -> list[str]:
     if not layout.left_out:
         return []
     size = subject.settings.paper.size
-    return [subject.words("no_room", size=size, names=tuple(layout.left_out))]
+    return [subject.words("no_room", size=size, names=", ".join(layout.left_out))]

@@ -87,6 +87,10 @@ def fitted(text: str, width: float, room: float, letters: float) -> tuple[list[s
 
     Chinese characters may be squeezed to 0.7 of their width, as in long imitation Song (GB/T 14691).
     """
+    if "\n" in text:
+        parts = [part for part in text.split("\n") if part]
+        heights = [fitted(part, width, room / len(parts), letters)[1] for part in parts]
+        return [fitted(part, width, 1.3 * min(heights), min(heights))[0][0] for part in parts], min(heights)
     least = TEXT if needs_chinese(text) else LEAST
     width /= 0.7 if needs_chinese(text) else 1.0
     heights = [each for each in (letters, 7.0, 5.0, TEXT, LEAST) if least <= each <= max(letters, least)]
@@ -210,7 +214,7 @@ def iso_block(given: Fields, say: Say) -> TitleBlock:
     cells = [Cell(45.0 * k, 0, 45, 10, text, 3.5, name) for k, (name, text) in enumerate(top)]
     cells += [
         Cell(0, 10, 72, 20, given.school, 5.0, head("owner")),
-        Cell(72, 10, 108, 20, _joined(given.title, given.drawing), 5.0, head("title")),
+        Cell(72, 10, 108, 20, f"{given.title}\n{given.drawing}", 5.0, head("title")),
     ]
     bottom = (
         (40.0, head("kind"), head("kind_value")),

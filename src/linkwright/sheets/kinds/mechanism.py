@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
+from contextlib import suppress
 
 import numpy as np
 
@@ -43,15 +44,7 @@ def mechanism(subject: Subject) -> Content:
     machine = MachinePanel("mechanism", positions)
     panels: list[Panel] = [machine]
     if subject.drawn.drivers:
-        for shown in positions.shown:
-            later = 5.0 if shown.number == "II" else 0.0
-            number = len(shown.number)
-            panels += _made(
-                lambda s=shown, n=number, r=later: VelocityPanel(f"velocity_{n}", 1.0 + r, positions, s),
-                lambda s=shown, n=number, r=later: AccelerationPanel(
-                    f"acceleration_{n}", 1.5 + r, positions, s
-                ),
-            )
+        panels += _motion_polygons(positions)
     forces = positions.forces
     if forces is not None:
         panels += _force_polygons(positions, forces)
@@ -60,13 +53,13 @@ def mechanism(subject: Subject) -> Content:
     return Content(panels)
 
 
-def _made(*makers: Callable[[], Panel]) -> Iterator[Panel]:
-    """The panels that have something to show."""
-    for make in makers:
-        try:
-            yield make()
-        except LinkwrightError:
-            continue
+def _motion_polygons(positions: Positions) -> Iterator[Panel]:
+    """Velocity and acceleration polygon of each position; left out where all is at rest."""
+    for shown in positions.shown:
+        later, number = (5.0, 2) if shown.number == "II" else (0.0, 1)
+        for kind, name, rank in ((VelocityPanel, "velocity", 1.0), (AccelerationPanel, "acceleration", 1.5)):
+            with suppress(LinkwrightError):
+                yield kind(f"{name}_{number}", rank + later, positions, shown)
 
 
 def _force_polygons(positions: Positions, forces: Forces) -> Iterator[Panel]:
