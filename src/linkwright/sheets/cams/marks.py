@@ -22,6 +22,8 @@ _TURNS = (0.0, 25.0, -25.0, 55.0, -55.0, 90.0, -90.0)
 _NEAR = (0.0, 12.0, -12.0, 30.0, -30.0, 45.0, -45.0)
 #: Gap of the followers below which they are close together, rad.
 _CLOSE = math.radians(50)
+#: Distance from a break of the motion at which its curvature is that of a side, rad.
+_BESIDE = 1e-9
 #: Length of the lines of the pressure angle and radius of its arc, mm.
 _ARM, _ARC = 24.0, 17.0
 
@@ -85,10 +87,11 @@ def _tightest(picture: Picture, paper: Paper, design: CamDesign, outer: float) -
     radius = design.smallest_radius
     if radius is None or radius.value > 2 * outer:
         return
-    contact = design.wall.contact(np.array([radius.place]))
-    if not math.isclose(1.0 / float(contact.bend[0]), radius.value, rel_tol=1e-6):
-        return
-    point, inward = paper.point(contact.point[0]), -complex(contact.normal[0])
+    contact = design.wall.contact(radius.place + np.array([-_BESIDE, 0.0, _BESIDE]))
+    side = int(np.argmin(np.abs(contact.bend - 1.0 / radius.value)))
+    if not math.isclose(float(contact.bend[side]), 1.0 / radius.value, rel_tol=1e-5):
+        return  # it is on another wall
+    point, inward = paper.point(contact.point[side]), -complex(contact.normal[side])
     centre = point + paper.length(radius.value) * pair(inward)
     picture.arrow(centre, point, "thin")
     for way in ((1.2, 0.0), (0.0, 1.2)):
@@ -139,7 +142,7 @@ def _turning(picture: Picture, paper: Paper, design: CamDesign) -> Iterator[Name
     spots = around(
         (0.0, 0.0), ray, (radius + 2.0, radius - 6.0, radius + 4.0), (0.0, 12.0, -12.0, 25.0, -25.0)
     )
-    yield as_runs("ω"), spots, None
+    yield indexed("ω", "1" if cam.follower.oscillating else ""), spots, None
 
 
 def _curves(paper: Paper, design: CamDesign, say: Say) -> Iterator[Name]:

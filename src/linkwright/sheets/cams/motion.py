@@ -27,17 +27,18 @@ _WIDEST, _NARROWEST, _MARK = 360.0, 120.0, 9.0
 
 @dataclass(frozen=True)
 class Strip:
-    """One of the curves: its symbol, its unit, and the values (n,) in that unit."""
+    """One of the curves: its symbol, its unit, the values (n,) in that unit, and the index of its symbol."""
 
     symbol: str
     unit: str
     values: Floats
+    index: str = ""
 
     @property
-    def label(self) -> str:
+    def label(self) -> Runs:
         """What stands at its ordinate: ``v/(m/s)``."""
-        unit = f"({self.unit})" if "/" in self.unit else self.unit
-        return f"{self.symbol}/{unit}" if unit else self.symbol
+        unit = f"/({self.unit})" if "/" in self.unit else f"/{self.unit}"
+        return joined(indexed(self.symbol, self.index), unit if self.unit else "")
 
 
 class MotionPanel(Panel):
@@ -74,7 +75,7 @@ class MotionPanel(Panel):
                 self._dimensions(picture, wide, below, levels)
                 between = (below, below - _LEVEL * (max(levels, default=-1) + 1) - 1.0)
                 below = between[1]
-            scales.append(graphical(strip.symbol, each, strip.unit))
+            scales.append(graphical(strip.symbol + strip.index, each, strip.unit))
             top = below
         self._boundaries(picture, wide, between, top)
         lines = [as_runs(self.say("cam_sheet.motion"))]
@@ -178,19 +179,17 @@ class MotionPanel(Panel):
 
 def strips(design: CamDesign) -> tuple[Strip, Strip, Strip]:
     """Lift, velocity and acceleration: over time where the cam's speed is known, else over its angle in rad."""
-    turning = design.cam.follower.oscillating
     speed = design.loading.speed
     s, v, a, _ = design.motion
-    if turning:
-        units = ("rad/s", "rad/s²") if speed else ("", "1/rad")
-        symbols = ("ψ", "ω", "ε") if speed else ("ψ", "ψ′", "ψ″")
-        values = (np.degrees(s), v * (speed or 1.0), a * (speed or 1.0) ** 2)
-        return tuple(Strip(*each) for each in zip(symbols, ("°", *units), values, strict=True))  # type: ignore[return-value]
-    units = ("m/s", "m/s²") if speed else ("mm/rad", "mm/rad²")
-    symbols = ("s", "v", "a") if speed else ("s", "s′", "s″")
-    factor = 1.0 if speed else 1e3
-    values = (1e3 * s, factor * v * (speed or 1.0), factor * a * (speed or 1.0) ** 2)
-    return tuple(Strip(*each) for each in zip(symbols, ("mm", *units), values, strict=True))  # type: ignore[return-value]
+    if design.cam.follower.oscillating:
+        first = Strip("ψ", "°", np.degrees(s))
+        if speed:
+            return first, Strip("ω", "rad/s", speed * v, "2"), Strip("ε", "rad/s²", speed**2 * a, "2")
+        return first, Strip("ψ′", "", v), Strip("ψ″", "1/rad", a)
+    first = Strip("s", "mm", 1e3 * s)
+    if speed:
+        return first, Strip("v", "m/s", speed * v), Strip("a", "m/s²", speed**2 * a)
+    return first, Strip("s′", "mm/rad", 1e3 * v), Strip("s″", "mm/rad²", 1e3 * a)
 
 
 def _in_lines(parts: Sequence[Runs], wide: float) -> Iterator[Runs]:

@@ -25,7 +25,7 @@ _DENSE = 1440
 #: Paper, mm: how far followers' lines go on beyond the outermost point, and room for numbers and names beyond them.
 BEYOND, _MARGIN = 4.0, 12.0
 #: Length of the stem of a translating follower at 0 beyond the other ones' lines, and where its guide is, mm.
-_STEM, _GUIDE = 19.0, 12.0
+_STEM, _GUIDE = 22.0, 14.5
 #: Radius of an offset circle on paper from which the followers' lines begin at it, mm.
 _OFFSET = 4.0
 #: Share of the base circle within which the pitch curve is taken for it.
