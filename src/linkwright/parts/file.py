@@ -54,8 +54,11 @@ HEADING: Mapping[str, Field] = {
     "source": Text(doc="where it is taken from"),
     "expected": Free(doc="numbers to compare results with; not interpreted"),
     "parameters": Free(doc="named quantities for use in expressions"),
+    "report": Free(doc="title, own text, errata and more for the command report"),
     "sheet": SHEET_SECTION,
 }
+#: Keys that say nothing about the problem itself.
+ASIDE = tuple(key for key in HEADING if key != "parameters")
 
 
 def load(source: str | Path) -> Problem:
@@ -201,8 +204,12 @@ def _built(
 ) -> tuple[Problem | None, list[Finding]]:
     own = {key: value for key, value in values.items() if key not in HEADING}
     own |= {"name": values.get("name") or Path(reader.source).stem, "source": values.get("source") or ""}
+    told = {key: value for key, value in reader.free(root).items() if key not in ASIDE}
     try:
-        problem = owner.of_file(own, folder)
+        problem = replace(
+            owner.of_file(own, folder), purpose=values.get("purpose") or "", report=values.get("report") or {},
+            told=told, folder=folder,
+        )  # fmt: skip
         found: Sequence[Finding] = problem.findings()
     except ModelError as error:
         problem, found = None, error.findings

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
+from linkwright.parts.base import Problem
 from linkwright.registry import listed
 from linkwright.report.machine_results import Case
 from linkwright.report.section import SECTIONS, Section, section_names
@@ -18,14 +19,14 @@ SOURCES = "references"
 
 @dataclass(frozen=True)
 class Part:
-    """What comes next: a section of ``cases``, an own chapter, the heading of a machine (``name``), or the
-    calculations (none of these); ``own``: the settings that hold; ``within``: the machine of several whose part it
-    is."""
+    """What comes next: a section of ``cases``, an own chapter, a calculation, or the heading of a machine (``name``);
+    ``own``: the settings that hold; ``within``: the machine of several whose part it is."""
 
     own: Settings
     cases: tuple[Case, ...] = ()
     section: Section | None = None
     chapter: Chapter | None = None
+    problem: Problem | None = None
     name: str = ""
     within: str = ""
 
@@ -35,7 +36,8 @@ Entry = str | Chapter
 
 def chosen(names: Iterable[str], own: Settings, *, calculations: bool) -> list[Entry]:
     """Sections and own chapters in order: those that are named, chapters by their title, else what the file says,
-    else all; ``calculations`` behind the last section before the references, unless they are named.
+    else all; of a report of ``calculations`` alone these behind the last section before the references, unless they
+    are named.
 
     Raises RequestError for a name that does not exist, the nearest offered.
     """
@@ -63,27 +65,47 @@ def _with_rest(entries: list[Entry]) -> list[Entry]:
     return found
 
 
-def parts(cases: Sequence[Case], entries: Sequence[Entry], own: Settings) -> Iterator[Part]:
+def parts(
+    given: Sequence[Case | Problem], entries: Sequence[Entry], own: Settings, *, asked: bool
+) -> Iterator[Part]:
     """What a report holds, in its order. Sections of machines that follow each other make a part for each machine.
 
+    Calculations stand where ``calculations`` is named, else between the parts of the machines in the order of the
+    files, once.
+
     Own chapters of the first file that stand between two such sections belong to the first machine; its others are
-    of the whole report. The chapters of further files stand in the parts of their machines.
+    of the whole report. The chapters of further files stand in the parts of their machines, unless sections were
+    ``asked`` for by name.
     """
+    cases = [each for each in given if isinstance(each, Case)]
+    problems = [each for each in given if isinstance(each, Problem)]
+    chapters = list(given) if CALCULATIONS not in entries else [*cases]
+    several = len(chapters) > 1
     groups = list(_groups(entries))
     last = max((i for i, group in enumerate(groups) if len(group) > 1 or _of_machine(group[0])), default=-1)
     first = next((i for i, group in enumerate(groups) if _of_machine(group[0])), -1)
     for number, group in enumerate(groups):
         head = group[0]
         if _of_machine(head):
-            for place, case in enumerate(cases):
-                name = case.mechanism.name if len(cases) > 1 else ""
+            place = -1
+            for case in chapters:
+                if isinstance(case, Problem):
+                    yield Part(own, problem=case)
+                    continue
+                place += 1
+                name = case.mechanism.name if several else ""
                 if name:
                     yield Part(case.settings, name=name)
-                held = group if place == 0 else _of_other(case, group, number == first, number == last)
+                others = [] if asked else case.settings.sections
+                held = group if place == 0 else _of_other(others, group, number == first, number == last)
                 for each in held:
                     yield _part(case.settings, (case,), each, name)
-        elif isinstance(head, Chapter) or head in (CALCULATIONS, SOURCES) or cases:
+            chapters = [*cases]
+        elif head == CALCULATIONS:
+            yield from (Part(own, problem=each) for each in problems)
+        elif isinstance(head, Chapter) or head == SOURCES or cases:
             yield _part(own, tuple(cases), head)
+    yield from (Part(own, problem=each) for each in chapters if isinstance(each, Problem))
 
 
 def _of_machine(entry: Entry) -> bool:
@@ -108,11 +130,11 @@ def _groups(entries: Sequence[Entry]) -> Iterator[list[Entry]]:
     yield from ([other] for other in behind)
 
 
-def _of_other(case: Case, group: Sequence[Entry], first: bool, last: bool) -> Iterator[Entry]:
-    """The sections of a group, with a further file's chapters where they stand in that file's order."""
+def _of_other(own: Sequence[Entry], group: Sequence[Entry], first: bool, last: bool) -> Iterator[Entry]:
+    """The sections of a group, with a further file's chapters where they stand in its ``own`` order."""
     follow: dict[str, list[Chapter]] = {"": []}
     name = ""
-    for each in _with_rest(list(case.settings.sections)):
+    for each in _with_rest(list(own)):
         if isinstance(each, Chapter):
             follow.setdefault(name, []).append(each)
         elif _of_machine(each):
@@ -130,4 +152,4 @@ def _of_other(case: Case, group: Sequence[Entry], first: bool, last: bool) -> It
 def _part(own: Settings, cases: tuple[Case, ...], entry: Entry, within: str = "") -> Part:
     if isinstance(entry, Chapter):
         return Part(own, cases, chapter=entry, within=within)
-    return Part(own, cases) if entry == CALCULATIONS else Part(own, cases, SECTIONS[entry], within=within)
+    return Part(own, cases, SECTIONS[entry], within=within)

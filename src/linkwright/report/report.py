@@ -112,6 +112,8 @@ class Report:
 
 
 Machine = Mechanism | Problem | str | Path
+#: A model or its file, or a calculation.
+Given = Mechanism | str | Problem
 
 
 def report(
@@ -130,7 +132,8 @@ def report(
     Args:
         machines: mechanisms, calculations of machine parts, paths or gallery names.
         sources: the files of mechanisms that are given themselves, for what is read from files (tasks of synthesis).
-        sections: names of sections and titles of own chapters in the order wanted; empty: what the first file says, else all that apply.
+        sections: names of sections and titles of own chapters in the order wanted; empty: what the first file says,
+            else all that apply.
         language: ``en`` or ``zh``.
         position: input of the worked position, such as ``"60 deg"``; else what the file says, else a sixth of the
             cycle.
@@ -147,11 +150,16 @@ def report(
         LinkwrightError: an unknown section or language, a model that cannot be read, settings that make no sense.
     """
     require_language(language)
-    given, problems = _told_apart(machines)
-    cases = _cases(given, sources, language, position, positions, folder)
-    own = cases[0].settings if cases else settings({})
-    entries = chosen(sections, own, calculations=bool(problems))
-    names = [case.mechanism.name for case in cases] or [problem.name for problem in problems]
+    given = _read(machines)
+    models = [each for each in given if not isinstance(each, Problem)]
+    cases = _cases(models, sources, language, position, positions, folder)
+    problems = [each for each in given if isinstance(each, Problem)]
+    own = cases[0].settings if cases else settings(problems[0].report, language, folder=problems[0].folder)
+    entries = chosen(sections, own, calculations=not cases)
+    names = [
+        title_said(each.name, language) if isinstance(each, Problem) else each.mechanism.name
+        for each in _in_order(given, cases)
+    ]
     document = Document(
         own.title or " / ".join(dict.fromkeys(names)),
         speaker(language),
@@ -159,18 +167,24 @@ def report(
         tuple(filter(None, (own.course, own.author, own.date))),
     )
     document.cover = cover(own, document)
-    ordered = list(parts(cases, entries, own))
+    ordered = list(parts(_in_order(given, cases), entries, own, asked=bool(sections)))
     progress = progress or current_progress()
     for done, part in enumerate(ordered):
         if progress is not None:
             progress(done, len(ordered))
         with reporting(None):
-            _add_part(document, part, problems, asked=bool(sections))
+            _add_part(document, part, asked=bool(sections))
     _tell_what_leads_nowhere(document)
     return Report(document)
 
 
-def _told_apart(machines: Machine | Sequence[Machine]) -> tuple[list[Mechanism | str], list[Problem]]:
+def _in_order(given: Sequence[Given], cases: Sequence[Case]) -> list[Case | Problem]:
+    """Machines and calculations in the order in which they are given."""
+    machines = iter(cases)
+    return [each if isinstance(each, Problem) else next(machines) for each in given]
+
+
+def _read(machines: Machine | Sequence[Machine]) -> list[Given]:
     """Mechanisms (or their files) and calculations."""
     from linkwright.parts.file import kind_of
     from linkwright.parts.file import load as load_calculation
@@ -178,28 +192,29 @@ def _told_apart(machines: Machine | Sequence[Machine]) -> tuple[list[Mechanism |
     given = list(machines) if isinstance(machines, Iterable) and not isinstance(machines, str) else [machines]
     if not given:
         raise RequestError("report.no_machine")
-    found: list[Mechanism | str] = []
-    problems = []
+    found: list[Given] = []
     for each in given:
         require(each, Mechanism, Problem, str, PathLike)
-        if isinstance(each, Problem):
-            problems.append(each)
-        elif isinstance(each, Mechanism):
+        if isinstance(each, Problem | Mechanism):
             found.append(each)
-        elif kind_of(str(each)) is not None:
-            problems.append(load_calculation(str(each)))
         else:
-            found.append(str(each))
-    return found, problems
+            calculated = kind_of(str(each)) is not None
+            found.append(load_calculation(str(each)) if calculated else str(each))
+    return found
 
 
 def _add_calculation(document: Document, problem: Problem) -> None:
     """Adds a calculation; one without a result says why."""
-    from linkwright.report.calculation import calculation
+    from linkwright.report.calculation import OwnText, calculation
 
     try:
         for block in calculation(problem, document.say, document.language):
-            document.blocks += _parts_of(block, document)
+            found: Iterable[Block] = (
+                _own(block.text, block.own, document, problem.name)
+                if isinstance(block, OwnText)
+                else (block,)
+            )
+            document.blocks += (part for each in found for part in _parts_of(each, document))
     except LinkwrightError as error:
         sentence = error.say(document.language)
         document.blocks.append(Heading(literal(problem.name), 1))
@@ -210,7 +225,7 @@ def _add_calculation(document: Document, problem: Problem) -> None:
 
 
 def _cases(
-    given: list[Mechanism | str],
+    given: Sequence[Mechanism | str],
     sources: Sequence[str],
     language: str,
     position: str,
@@ -246,17 +261,16 @@ def _loaded(source: str, language: str) -> Mechanism:
     return replace(mechanism, name=title_said(mechanism.name, language))
 
 
-def _add_part(document: Document, part: Part, problems: Sequence[Problem], *, asked: bool) -> None:
+def _add_part(document: Document, part: Part, *, asked: bool) -> None:
     """Adds what comes next; ``asked``: whether sections were named for this report."""
     if part.section is not None:
         _add(document, part, part.section, asked=asked)
     elif part.chapter is not None:
         _add_chapter(document, part, part.chapter)
-    elif part.name:
-        document.blocks.append(Heading(literal(part.name), 1))
+    elif part.problem is not None:
+        _add_calculation(document, part.problem)
     else:
-        for problem in problems:
-            _add_calculation(document, problem)
+        document.blocks.append(Heading(literal(part.name), 1))
 
 
 def _add_chapter(document: Document, part: Part, chapter: Chapter) -> None:
@@ -337,7 +351,7 @@ def _placed(block: Block, shift: int, prefix: str) -> Iterator[Block]:
     def own(each: Block) -> Iterator[Block]:
         if isinstance(each, Heading):
             each = replace(each, level=min(each.level + shift, 4))
-        if prefix and isinstance(each, Heading | NUMBERED) and each.label:
+        if prefix and isinstance(each, (Heading, *NUMBERED)) and each.label:
             each = replace(each, label=f"{prefix}{each.label}")
         yield with_prefix(each, prefix) if prefix else each
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -155,9 +155,24 @@ def _of_cams(name: str, mechanism: Mechanism) -> list[Finding]:
 
 
 def _of_calculation(name: str) -> tuple[list[Finding], dict[str, object]]:
-    from linkwright.parts.file import check, kind_of
+    from linkwright.parts.file import check, kind_of, load
 
-    return check(name), {"kind": kind_of(name)}
+    found = check(name)
+    if all(each.severity != "error" for each in found):
+        problem = load(name)
+        found += _of_report(name, problem.report, problem.folder)
+    return found, {"kind": kind_of(name)}
+
+
+def _of_report(name: str, given: Mapping[str, object], folder: Path) -> list[Finding]:
+    """Findings about what a calculation's file says for its report."""
+    from linkwright.report.settings import settings
+
+    try:
+        settings(given, folder=folder)
+    except ModelError as error:
+        return [each if each.where else replace(each, where=name) for each in error.findings]
+    return []
 
 
 def _task(text: str, name: str) -> tuple[list[Finding], str] | None:

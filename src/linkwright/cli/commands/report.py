@@ -12,8 +12,8 @@ from linkwright.cli.session import Session
 FORMS = ("pdf", "html", "docx")
 #: Names of the sections in their usual order.
 SECTIONS = (
-    "task", "drawing", "structure", "method", "worked", "tables", "curves", "reactions", "gears", "cams", "torque",
-    "limits", "flywheel", "synthesis", "errata", "comparison", "appendix", "references",
+    "task", "drawing", "structure", "method", "worked", "tables", "curves", "reactions", "balance", "gears", "cams",
+    "torque", "limits", "flywheel", "synthesis", "errata", "comparison", "appendix", "references",
 )  # fmt: skip
 
 
