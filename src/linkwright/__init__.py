@@ -79,6 +79,8 @@ if TYPE_CHECKING:
     from linkwright.plot.drawing.picture import Drawing as Drawing
     from linkwright.report.report import Report as Report
     from linkwright.report.report import report as report
+    from linkwright.sheets.sheet import Sheet as Sheet
+    from linkwright.sheets.sheet import sheet as sheet
     from linkwright.structure import Structure as Structure
     from linkwright.structure import StructureError as StructureError
     from linkwright.structure import structure as structure

@@ -26,6 +26,7 @@ from linkwright.files.reader import Reader
 from linkwright.loads.base import Load, read_load
 from linkwright.mechanism.drawing import Drawing
 from linkwright.mechanism.mechanism import GRAVITY, Mechanism
+from linkwright.sheets.fields import FIELD as SHEET_SECTION
 from linkwright.words.sentence import Sentence
 
 FORMAT = 1
@@ -39,6 +40,7 @@ HEADER: Mapping[str, Field] = {
     "expected": Free(doc="numbers to compare results with; not interpreted"),
     "synthesis": Free(doc="a task with its demands for the command synthesize"),
     "report": Free(doc="title, own text, order of sections and more for the command report"),
+    "sheet": SHEET_SECTION,
     "course": Free(doc="what the command variants changes, within which limits, and what it asks"),
     "optimize": Free(doc="what varies, what is made least and what is kept, for the command optimize"),
     "gravity": GRAVITY,

@@ -269,12 +269,13 @@ def _of_friction(name: str, mechanism: Mechanism) -> list[Finding]:
 
 
 def _of_settings(name: str, mechanism: Mechanism, *, moves: bool) -> list[Finding]:
-    """What is wrong with the sections that only some commands read: report, course and optimize, the last one's
+    """What is wrong with sections that only some commands read: report, sheet, course and optimize, the last one's
     numbers where the machine ``moves``."""
     found = list[Finding]()
     reading: dict[str, Callable[[Mechanism], None]]
     reading = {
         "report": partial(_report, name),
+        "sheet": _sheet,
         "course": _course,
         "optimize": partial(_optimize, moves=moves),
     }
@@ -293,6 +294,12 @@ def _report(name: str, mechanism: Mechanism) -> None:
     from linkwright.report.settings import settings
 
     settings(mechanism.report, mechanism=mechanism, folder=Path(name).parent)
+
+
+def _sheet(mechanism: Mechanism) -> None:
+    from linkwright.sheets.settings import check
+
+    check(mechanism)
 
 
 def _course(mechanism: Mechanism) -> None:

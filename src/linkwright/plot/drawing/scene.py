@@ -13,7 +13,7 @@ from linkwright.kinematics.motion import Motion
 from linkwright.plot.drawing.guides import guides, welds
 from linkwright.plot.drawing.inputs import input_arrows
 from linkwright.plot.drawing.machine import LAYERS, Machine, Part, bodies, pins
-from linkwright.plot.drawing.view import DIAGONAL, fitted, followed, moved, placements
+from linkwright.plot.drawing.view import DIAGONAL, View, fitted, followed, moved, placements
 from linkwright.plot.drawing.wheels import wheels
 from linkwright.plot.svg.element import Element, group, number, path
 from linkwright.plot.symbols.base import SYMBOLS
@@ -87,13 +87,15 @@ def laid_out(
     centres: bool = False,
     beside: Sequence[tuple[Motion, int]] = (),
     diagonal: float = DIAGONAL,
+    view: View | None = None,
 ) -> Scene:
     """The scene of a motion; arrows of the drivers stand as at the position ``index``.
 
-    ``beside``: positions of other motions of the mechanism, counted on after its own.
+    ``beside``: positions of other motions of the mechanism, counted on after its own; ``view``: instead of one in
+    which the machine has the ``diagonal``.
     """
     placed = followed(placements(motion), beside)
-    machine = Machine(motion, placed, fitted(motion, placed, diagonal), beside)
+    machine = Machine(motion, placed, view or fitted(motion, placed, diagonal), beside)
     parts = parts_of(machine)
     if inputs:
         parts += input_arrows(machine, index)

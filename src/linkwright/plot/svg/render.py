@@ -81,17 +81,22 @@ def natural_size(svg: str) -> tuple[float, float]:
     return max(found.get("width", 1.0), 1e-3), max(found.get("height", 1.0), 1e-3)
 
 
-def pdf(svg: str, *, fonts: Paths = ()) -> bytes:
-    """The picture as one page of vector PDF, as large as the picture; needs the ``typst`` package."""
+def pdf(svg: str, *, fonts: Paths = (), millimetres: tuple[float, float] | None = None) -> bytes:
+    """The picture as one page of vector PDF, as large as the picture; needs the ``typst`` package.
+
+    ``millimetres``: width and height of the page, which the picture fills.
+    """
     try:
         typst: Any = importlib.import_module("typst")
     except ImportError:
         raise LinkwrightError("picture.pdf_needs") from None
     files = _font_files(fonts)
     check_fonts(svg, files)
-    source = (
-        '#set page(width: auto, height: auto, margin: 0pt)\n#image(bytes(sys.inputs.svg), format: "svg")\n'
-    )
+    page, size = "width: auto, height: auto", ""
+    if millimetres is not None:
+        page = f"width: {millimetres[0]}mm, height: {millimetres[1]}mm"
+        size = f", {page}"
+    source = f'#set page({page}, margin: 0pt)\n#image(bytes(sys.inputs.svg), format: "svg"{size})\n'
     folders = [str(file.parent) for file in files]
     return bytes(typst.compile(source.encode(), sys_inputs={"svg": svg}, font_paths=folders, format="pdf"))
 
