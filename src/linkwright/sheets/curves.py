@@ -9,11 +9,11 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.metrics.quantities import si_unit
 from linkwright.plot.diagrams.axes import significant
 from linkwright.sheets.labels import Name, put
 from linkwright.sheets.panel import Drawn, Panel, preferred
 from linkwright.sheets.picture import LEAST, Pen, Picture, Runs, Words, as_runs, indexed, joined
+from linkwright.units import si_unit
 
 #: Height of a diagram in widths; room for numbers at the left, below, and for the arrows of the axes, mm.
 FLATNESS, LEFT, BELOW, BEYOND = 0.45, 16.0, 9.0, 6.0

@@ -11,11 +11,11 @@ from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.cycle import at_inputs
 from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.output_limits import limits_of
 from linkwright.kinematics.solve import with_times
 from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.plot.diagrams.axes import significant
-from linkwright.plot.drawing.positions import limits_of
 from linkwright.report.machine_results import Case
 from linkwright.report.settings import settings as report_settings
 from linkwright.report.settings import worked_place
