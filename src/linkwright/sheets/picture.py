@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.plot.svg.text import needs_chinese
+from linkwright.plot.svg.fonts import needs_chinese
 from linkwright.plot.svg.text import width as text_width
 from linkwright.sheets.paper import Box
 
