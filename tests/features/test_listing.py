@@ -16,6 +16,7 @@ from tests import store
 from tests.reference.random_mechanisms import random_mechanism
 
 import linkwright as lw
+from linkwright.cli import main
 
 STEPS = 24
 #: Driven bar and slider, every dyad, moving guides; a group that the library solves; a structure without a driver.
@@ -141,3 +142,12 @@ gravity: [0, -9.81 m/s²]
     printed = run(lw.export(forces, tmp_path / "arm.py"))
     agrees(printed, forces.columns(), np.arange(forces.steps))
     assert {"elbow.effort [N·m]", "push.effort [N]", "rail on fore.couple [N·m]"} <= set(printed)
+
+
+def test_the_command_writes_the_program_for_its_file(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
+    model, target = tmp_path / "own machine.yaml", tmp_path / "solution.py"
+    model.write_text(store.text("triad"), "utf-8")
+    assert main(["export", str(model), "--to", str(target), "--steps", "6", "--lang", "zh"]) == 0
+    capsys.readouterr()
+    forces = lw.solve_forces(lw.solve_motion(lw.load(model), steps=6))
+    agrees(run(target, apart=False), forces.columns(), np.arange(6))

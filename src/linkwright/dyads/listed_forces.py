@@ -8,7 +8,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.outputs import Output
-from linkwright.dyads.listed_numbers import number, pair, quoted, series
+from linkwright.dyads.listed_numbers import call, number, pair, quoted, series
 from linkwright.dyads.plan import Guide, Step
 from linkwright.kinetostatics.link_balance import applied_rows
 from linkwright.mechanism.geometry import centre
@@ -86,12 +86,7 @@ class ForceLines:
         arguments = [] if bodies == ["None"] else bodies
         if any(self.mechanism.gravity) and any(self.mechanism.links[link].mass for link in step.links):
             arguments.append("gravity=G")
-        line = f"{found} = dyads.{function}({', '.join([subject, *arguments])})"
-        if len(line) <= 100:
-            self.listing.write(line)
-        else:
-            self.listing.write(f"{found} = dyads.{function}(", f"    {subject},")
-            self.listing.write(*(f"    {argument}," for argument in arguments), ")")
+        self.listing.write(*call(found, function, [subject, *arguments]))
         for i, outer in enumerate(step.outer):
             self._outer(step, found, i, outer)
         if step.inner:
