@@ -196,15 +196,23 @@ class ForceLines:
         size = max(float(np.abs(row).max(initial=0.0)) for row in (fx, fy, moment))
         if size == 0.0:
             return []
-        force = self._vector(fx, fy, size)
+        force = self._vector(link, fx, fy, size)
         acting = [each for each in self.mechanism.loads.values() if getattr(each, "on", None) == link]
         point = getattr(acting[0], "at", None) if len(acting) == 1 else None
         if isinstance(point, str) and self._through(link, point, fx, fy, moment):
             return [f"Load({force}, {self.listing.point(link, point)})"]
-        couple = series(np.where(np.abs(moment) > FADED * size, moment, 0.0))
+        couple = self._named(f"{link}_couple", series(np.where(np.abs(moment) > FADED * size, moment, 0.0)))
         if force == "(0, 0)":
             return [f"Load(couple={couple})"]
         return [f"Load({force}, (0, 0), {couple})"]
+
+    def _named(self, name: str, text: str) -> str:
+        """Numbers of all positions as a name, written before the call; a number as it is."""
+        if "np" not in text:
+            return text
+        own = self.listing.names.of("load", name)
+        self.listing.write(f"{own} = {text}")
+        return own
 
     def _through(self, link: str, point: str, fx: Floats, fy: Floats, moment: Floats) -> bool:
         """Whether the moment is that of the force at a point."""
@@ -212,12 +220,16 @@ class ForceLines:
         gap = np.abs(x * fy - y * fx - moment).max(initial=0.0)
         return bool(gap <= 1e-9 * max(float(np.abs(moment).max(initial=0.0)), 1e-300))
 
-    @staticmethod
-    def _vector(fx: Floats, fy: Floats, size: float) -> str:
+    def _vector(self, link: str, fx: Floats, fy: Floats, size: float) -> str:
+        """A force: its two components, or where they vary the name of an array that is written before the call."""
         parts = [series(np.where(np.abs(row) > FADED * size, row, 0.0)) for row in (fx, fy)]
         if all("np" not in each for each in parts):
             return f"({parts[0]}, {parts[1]})"
-        return f"np.stack(np.broadcast_arrays({parts[0]}, {parts[1]}), axis=-1)"
+        own = self.listing.names.of("load", f"{link}_force")
+        said = self.listing.say("dyads.listing_load", link=" ".join(link.split()))
+        self.listing.write(f"# {said}", f"{own} = np.zeros(({len(self.listing.rows)}, 2))")
+        self.listing.write(*(f"{own}[:, {i}] = {part}" for i, part in enumerate(parts) if part != "0"))
+        return own
 
     # columns ------------------------------------------------------------------------------------
     def columns(self) -> None:

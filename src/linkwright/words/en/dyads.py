@@ -32,4 +32,5 @@ WORDS = {
     "listing_forces": "joint forces, from the last group to the first",
     "listing_no_forces": "joint forces: not all groups have a function for them; lw.solve_forces(mechanism) has them",
     "listing_table": "table: the columns of `linkwright export`; angles within half a turn",
+    "listing_load": "loads of the model and friction on {link}, by positions",
 }
