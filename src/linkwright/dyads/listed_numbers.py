@@ -15,7 +15,7 @@ ZERO = 1e-14
 #: Share of a step up to which values are equally spaced.
 EVEN = 1e-9
 #: Columns of a line.
-WIDE = 96
+WIDE = 90
 
 
 def number(value: float) -> str:
