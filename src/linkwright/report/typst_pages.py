@@ -83,7 +83,7 @@ def compiled(document: Document, form: str) -> bytes:
     given: Any = form
     try:
         found, warnings = program.compile_with_warnings(
-            text.encode(), sys_inputs={**pictures, "form": form}, format=given, font_paths=_folders()
+            text.encode(), sys_inputs={**pictures, "form": form}, format=given, font_paths=[*_folders()]
         )
     except program.TypstError as error:
         raise LinkwrightError("report.typst_says", sentence=str(error)) from None
@@ -105,7 +105,7 @@ def without_glyph(document: Document) -> str:
 
 
 @lru_cache(maxsize=512)
-def _printed(text: str, families: tuple[str, ...], folders: tuple[str, ...] = ()) -> bool:
+def _printed(text: str, families: tuple[str, ...], folders: tuple[Any, ...] = ()) -> bool:
     """Whether Typst finds a glyph for every character; PDF/A is the form that it refuses without one."""
     import typst as program
 
@@ -114,7 +114,7 @@ def _printed(text: str, families: tuple[str, ...], folders: tuple[str, ...] = ()
         f"#set text(font: {_listed(families)})\n#{quoted(text)}"
     )
     try:
-        program.compile(source.encode(), format="pdf", pdf_standards="a-2b", font_paths=folders)
+        program.compile(source.encode(), format="pdf", pdf_standards="a-2b", font_paths=[*folders])
     except program.TypstError as error:
         return _NO_GLYPH not in str(error)
     return True
@@ -153,13 +153,13 @@ def aligned_by(marks: str) -> str:
     return "by-" + marks.translate(str.maketrans("<>^", "lrc"))
 
 
-def _folders() -> tuple[str, ...]:
+def _folders() -> tuple[Any, ...]:
     """Folders of the fonts that are given."""
     return tuple(dict.fromkeys(str(file.parent) for file in given_fonts()))
 
 
 @lru_cache(maxsize=8)
-def _families(folders: tuple[str, ...] = ()) -> frozenset[str]:
+def _families(folders: tuple[Any, ...] = ()) -> frozenset[str]:
     import typst as program
 
     return frozenset(program.Fonts(font_paths=list(folders)).families())
