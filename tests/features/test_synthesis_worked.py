@@ -49,6 +49,11 @@ CASES: dict[str, tuple[str, dict[str, Any]]] = {
         "function",
         {"inputs": ANGLES, "outputs": OUTPUTS, "input_zero": 0.4, "output_zero": 0.7, "equation_error": True},
     ),
+    "rounded": ("slider_crank", {"stroke": 0.3975, "rod_ratio": 3.55, "offset_ratio": 0.305, "rounding": 5e-4}),
+    "rounded pairs": (
+        "function",
+        {"inputs": ANGLES, "outputs": OUTPUTS, "frame": 0.1, "rounding": 1e-3},
+    ),
     "places": (
         "function",
         {"inputs": ANGLES[:4], "places": [0, 0.035, 0.064, 0.09], "linkage": "slider_crank", "output_zero": 0.01},
@@ -287,6 +292,33 @@ def test_a_crank_rocker_moves_as_its_lines_say(name: str) -> None:
     turn = abs(phi[psi.argmax()] - phi[psi.argmin()])
     slow = max(turn, math.tau - turn)
     assert slow / (math.tau - slow) == pytest.approx(1.2, abs=2e-3)
+
+
+def test_rounded_lengths_have_the_error_that_is_shown() -> None:
+    """Multiples of a millimetre, and the output of the rounded four-bar from its own triangle."""
+    best = case("rounded pairs").best
+    points = best.linkage.points
+    ends = {"a": ("O1", "A"), "b": ("A", "B"), "c": ("O2", "B"), "d": ("O1", "O2")}
+    lengths = {name: 1e3 * abs(points[last] - points[first]) for name, (first, last) in ends.items()}
+    assert [each - round(each) for each in lengths.values()] == pytest.approx([0] * 4, abs=1e-9)
+    zeros = [case("five pairs").best.values[f"{name}_zero [rad]"] for name in ("input", "output")]
+    off = [
+        output_of(lengths, x + zeros[0], y + zeros[1]) - y - zeros[1]
+        for x, y in zip(ANGLES, OUTPUTS, strict=True)
+    ]
+    assert best.deviations == pytest.approx(off, abs=1e-9) and 0 < best.error < 0.02
+    assert best.error == pytest.approx(np.sqrt(np.mean(np.square(off))), rel=1e-6)
+
+
+def test_rounding_that_loses_the_linkage_is_refused() -> None:
+    with refused("synthesize.rounding", lw.SynthesisError, given="500") as caught:
+        lw.synthesize("slider_crank", stroke=0.3975, rod_ratio=3.55, rounding=0.5)
+    nearest = caught.value.nearest
+    assert nearest.best.values["rod [m]"] == pytest.approx(3.55 * 0.3975 / 2)
+    with refused("synthesize.task.only_with", lw.SynthesisError, demand="rounding"):
+        lw.function_generation(ANGLES, OUTPUTS, linkage="watt", rounding=1e-3)
+    with refused("synthesize.not_positive", lw.SynthesisError, name="rounding"):
+        lw.function_generation(ANGLES, OUTPUTS, rounding=0.0)
 
 
 def test_branch_defects_show_in_the_signs() -> None:
