@@ -128,10 +128,7 @@ def of_pairs(phi: np.ndarray, psi: np.ndarray) -> np.ndarray:
 
 def test_press_lengths_rounded_to_half_millimetres() -> None:
     """The rounded lengths of both chains; of the slider-crank its stroke, K and transmission angles again."""
-    pairs = np.radians(PHI), np.radians(PSI)
-    double = lw.function_generation(
-        *pairs, input_zero=0, output_zero=0, frame=0.055, equation_error=True, rounding=5e-4
-    ).best.linkage
+    double = lw.synthesize("gallery:double_crank_of_ten_pairs").best.linkage
     assert [1e3 * each for each in double.lengths().values()] == pytest.approx([139.5, 136.5, 162.5, 55])
     slider = lw.synthesize("slider_crank", stroke=0.3975, rod_ratio=3.55, offset_ratio=0.305, rounding=5e-4)
     values = slider.best.values

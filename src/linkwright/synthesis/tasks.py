@@ -111,7 +111,7 @@ def synthesize(task: str | Path, **demands: Any) -> Synthesis:
     if not isinstance(task, str):
         raise refuse("task", task=told(task), known=tuple(known))
     if task not in known:
-        if task.lower().endswith((".yaml", ".yml", ".json")) or exists(task):
+        if task.startswith(GALLERY) or task.lower().endswith((".yaml", ".yml", ".json")) or exists(task):
             return synthesize_file(task)
         near = nearest(task, list(known))
         raise refuse("task", task=task, known=near or tuple(known))
