@@ -331,3 +331,42 @@ def test_branch_defects_show_in_the_signs() -> None:
 def test_cognates_have_no_way_of_their_own() -> None:
     with refused("synthesize.no_derivation", lw.SynthesisError, task="cognates"):
         lw.cognates(case("path").best.linkage).worked()
+
+
+def test_the_crank_pivot_lies_on_the_drawn_circle() -> None:
+    """Seen from the pivot the limit positions of the rocker enclose θ, and the dashed circle passes all three."""
+    lines = case("crank-rocker").plot("construction").figure.axes[0].lines
+    (circle,) = [line for line in lines if line.get_linestyle() == "--"]
+    x, y = circle.get_xdata(), circle.get_ydata()
+    centre, radius = complex(np.ptp(x) / 2 + min(x), np.ptp(y) / 2 + min(y)), np.ptp(x) / 2
+    values = {line.symbol: line.value for line in case("crank-rocker").worked().equations}
+    pivot = complex(values["x_O1"], values["y_O1"])
+    limits = [284.2078 * np.exp(1j * (90 + side * 20) * DEG) for side in (1, -1)]
+    for place in (pivot, *limits):
+        assert abs(place - centre) == pytest.approx(radius, rel=1e-4)
+    seen = np.angle((limits[0] - pivot) / (limits[1] - pivot))
+    assert abs(np.degrees(seen)) == pytest.approx(180 * 0.2 / 2.2, abs=1e-3)
+
+
+def test_the_error_curve_has_the_deviations() -> None:
+    found = case("equation")
+    (curve,) = [
+        line for line in found.plot("structural_error").figure.axes[0].lines if line.get_marker() == "o"
+    ]
+    assert curve.get_ydata() == pytest.approx(np.degrees(found.best.deviations))
+    assert curve.get_xdata() == pytest.approx(np.degrees(CASES["equation"][1]["inputs"]))
+
+
+@pytest.mark.parametrize(
+    "name", ["ratios", "in line", "shaper", "lever", "two poses", "five poses", "crank-rocker, K 1"]
+)
+def test_every_construction_is_drawn(name: str) -> None:
+    """With every limit position or place of a pin as a point."""
+    figure = case(name).plot("construction", language="zh").figure
+    names = {text.get_text() for text in figure.axes[0].texts}
+    assert {"B1", "B2"} <= names or {"E1", "E2"} <= names or {"A1", "B1", "P1"} <= names
+
+
+def test_what_is_exact_has_no_error_curve() -> None:
+    with pytest.raises(lw.LinkwrightError):
+        case("three pairs").plot("structural_error")

@@ -192,12 +192,12 @@ def _add_task(document: Document, task: TaskFile, text: str) -> None:
     """Adds the synthesis of a file that holds a task alone; one without a result says why."""
     from linkwright.report.sections.synthesis import of_task
 
-    say = document.say
+    say, own = document.say, settings(task.report, document.language)
     document.blocks.append(Heading(literal(task.name), 1))
-    if task.purpose:
-        document.blocks.append(Paragraph(literal(task.purpose)))
-    if task.source:
-        document.blocks.append(Paragraph(say("report.source", source=literal(task.source))))
+    if purpose := own.purpose or task.purpose:
+        document.blocks.append(Paragraph(literal(purpose)))
+    if source := own.source or task.source:
+        document.blocks.append(Paragraph(say("report.source", source=literal(source))))
     try:
         for block in chain(_own(text, document) if text else (), of_task(task.file, document.language)):
             if isinstance(block, Paragraph) and block.kind == "missing":
