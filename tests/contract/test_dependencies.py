@@ -10,7 +10,10 @@ from tests.every import every
 
 PROJECT = Path(__file__).parents[2] / "pyproject.toml"
 #: Names of distributions by what they are imported as, where the two differ.
-DISTRIBUTIONS = {"yaml": "pyyaml", "PIL": "pillow", "resvg_py": "resvg-py", "docx": "python-docx"}
+DISTRIBUTIONS = {
+    "yaml": "pyyaml", "PIL": "pillow", "resvg_py": "resvg-py", "docx": "python-docx", "markdown_it": "markdown-it-py",
+    "mdit_py_plugins": "mdit-py-plugins",
+}  # fmt: skip
 
 
 def declared(requirements: list[str]) -> set[str]:

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from tests.every import every
 from tests.refusals import refused
-from tests.worked_reading import reckon_lines
+from tests.worked_reading import numeric_matrices, reckon_lines
 
 import linkwright as lw
 
@@ -100,23 +100,15 @@ def case(name: str) -> lw.Synthesis:
 
 
 def items(name: str, kind: str) -> list[dict[str, Any]]:
-    """What a worked solution holds of a kind: ``matrices``, ``table``."""
+    """What a worked solution holds of a kind: ``relation``, ``table``."""
     data: Any = case(name).worked().data()
     return [item for step in data["steps"] for item in step["items"] if kind in item]
 
 
 def matrices(name: str) -> list[list[np.ndarray]]:
-    """The equations of matrices that hold numbers: left matrix, and what is behind the equal sign."""
-    found = []
-    for item in items(name, "matrices"):
-        numbers = [part for part in item["matrices"] if isinstance(part, list) and not named(part)]
-        found.append([np.array(part, float) for part in numbers])
+    """The matrices of numbers of every equation of matrices that has any."""
+    found = [numeric_matrices(item["latex"]) for item in items(name, "relation")]
     return [each for each in found if each]
-
-
-def named(rows: list[list[str]]) -> bool:
-    """Whether a matrix holds symbols."""
-    return any(each.isalpha() and each != "e" for each in "".join(text for row in rows for text in row))
 
 
 def column(name: str, head: str) -> np.ndarray:

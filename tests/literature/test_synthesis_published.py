@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 from tests.press_report import PHI, PSI
+from tests.worked_reading import numeric_matrices
 
 import linkwright as lw
 
@@ -148,12 +149,13 @@ def test_press_normal_equations_as_printed() -> None:
         inputs, outputs, input_zero=0, output_zero=0, frame=0.055, equation_error=True
     )
     steps: Any = found.worked().data()["steps"]
-    shown = [item["matrices"] for step in steps for item in step["items"] if "matrices" in item]
-    (normal, _, _, moment), (_, _, solution) = shown[-2:]
+    shown = [
+        numeric_matrices(item["latex"]) for step in steps for item in step["items"] if "relation" in item
+    ]
+    (normal, moment), (solution,) = [each for each in shown if each][-2:]
     lengths = {line.symbol: line.value for line in found.worked().equations}
     ours = np.concatenate(
-        [np.array(each, float).ravel() for each in (normal, moment, solution)]
-        + [np.array([lengths[name] for name in "abc"])]
+        [each.ravel() for each in (normal, moment, solution)] + [np.array([lengths[name] for name in "abc"])]
     )
     printed = np.concatenate([np.ravel(NORMAL), RIGHT, P, LENGTHS])
     both = np.concatenate([inputs, outputs])

@@ -28,6 +28,7 @@ def part_arguments(option: Options) -> None:
     option("--digits", "N", type=int, choices=DIGITS, default=6)
     option("--plot", "FILE")
     option("--output", "FILE")
+    option.fonts()
     option.force()
 
 
@@ -75,7 +76,7 @@ def read(source: str, command: str, session: Session) -> Problem:
     if source.startswith(GALLERY) and not session.json:
         title = title_said(problem.name, session.language)
         if title != problem.name:  # a copy finds again what the problem has found of itself
-            return replace(problem, name=title)  # type: ignore[type-var]
+            return replace(problem, name=title)  # type: ignore[call-arg]
     return problem
 
 

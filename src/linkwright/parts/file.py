@@ -20,6 +20,7 @@ from linkwright.files.read_model import FORMAT, TASK_KEYS, read_parameters
 from linkwright.files.reader import Reader
 from linkwright.files.schema import json_schema
 from linkwright.files.source import read_source
+from linkwright.sheets.fields import FIELD as SHEET_SECTION
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
@@ -53,7 +54,11 @@ HEADING: Mapping[str, Field] = {
     "source": Text(doc="where it is taken from"),
     "expected": Free(doc="numbers to compare results with; not interpreted"),
     "parameters": Free(doc="named quantities for use in expressions"),
+    "report": Free(doc="title, own text, errata and more for the command report"),
+    "sheet": SHEET_SECTION,
 }
+#: Keys that say nothing about the problem itself.
+ASIDE = tuple(key for key in HEADING if key != "parameters")
 
 
 def load(source: str | Path) -> Problem:
@@ -103,6 +108,14 @@ def kind_of(source: str | Path) -> str | None:
     """The kind that a file declares, None where it declares none; raises ModelError for no such file."""
     text, name, _ = _text(source)
     return declared_kind(read_root(text, name)[0])
+
+
+def sheet_section(source: str | Path) -> Mapping[str, Any]:
+    """The section ``sheet`` of a file; empty where it has none."""
+    text, name, _ = _text(source)
+    root, _ = read_root(text, name)
+    node = root.get("sheet") if isinstance(root, MappingNode) else None
+    return cast("Mapping[str, Any]", Reader(name).free(node)) if isinstance(node, MappingNode) else {}
 
 
 def problem_class(kind: str) -> type[Problem]:
@@ -191,8 +204,12 @@ def _built(
 ) -> tuple[Problem | None, list[Finding]]:
     own = {key: value for key, value in values.items() if key not in HEADING}
     own |= {"name": values.get("name") or Path(reader.source).stem, "source": values.get("source") or ""}
+    told = {key: value for key, value in reader.free(root).items() if key not in ASIDE}
     try:
-        problem = owner.of_file(own, folder)
+        problem = replace(
+            owner.of_file(own, folder), purpose=values.get("purpose") or "", report=values.get("report") or {},
+            told=told, folder=folder,
+        )  # fmt: skip
         found: Sequence[Finding] = problem.findings()
     except ModelError as error:
         problem, found = None, error.findings

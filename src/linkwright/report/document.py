@@ -1,19 +1,26 @@
 """What a report is made of: blocks in reading order, numbered and referred to, before it has any file form.
 
 Texts may hold formulas between dollar signs (LaTeX), ``**strong**`` words and references ``[[label]]`` to what has a
-label; a dollar sign of its own is ``\\$``.
+label; a dollar sign of its own is ``\\$``. What else marks a text comes from ``marked``, ``linked`` and ``cited``.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
-from dataclasses import field
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import field, replace
 
 from linkwright.core.dataclass import dataclass
 from linkwright.words import Say
 
-_MARKS = re.compile(r"(\$[^$]+\$|\*\*[^*]+\*\*|`[^`]+`|\[\[[^\]]+\]\])")
+#: Signs that switch a style on and off, and those around the target of a link, a source, the label of a link.
+STYLES = {"strong": "\ue010", "emphasis": "\ue011", "raised": "\ue012", "struck": "\ue013"}
+_LINK, _LINKED, _END, _BREAK, _CITE, _CITED = (chr(0xE014 + i) for i in range(6))
+_PRIVATE = re.compile("[\ue000-\ue01f]")
+_MARKS = re.compile(
+    r"(\$[^$]+\$|\*\*[^*]+\*\*|`[^`]+`|\[\[[^\]]+\]\]"
+    f"|[{''.join(STYLES.values())}{_END}{_BREAK}]|{_LINK}[^{_LINKED}]*{_LINKED}|{_CITE}[^{_CITED}]*{_CITED})"
+)
 _HIDDEN = {"$": "\ue000", "*": "\ue001", "`": "\ue002", "[": "\ue003", "]": "\ue004"}
 _INDEXED = re.compile(r"(?<![\w\ue000-\ue004])([A-Za-zα-ωΑ-Ω])_([A-Za-z0-9]+(?:,\d+)?)(?!\w)", re.ASCII)
 _SHOWN = {code: sign for sign, code in _HIDDEN.items()}
@@ -22,6 +29,31 @@ _SHOWN = {code: sign for sign, code in _HIDDEN.items()}
 def literal(text: str) -> str:
     """A text that is printed as it is, whatever marks it holds: names, sentences, sources."""
     return "".join(_HIDDEN.get(c, c) for c in text)
+
+
+def unmarked(text: str) -> str:
+    """A user's text without the signs that mark texts here."""
+    return _PRIVATE.sub("", text)
+
+
+def marked(text: str, style: str) -> str:
+    """A text in one of the STYLES; it may hold others."""
+    return f"{STYLES[style]}{text}{STYLES[style]}"
+
+
+def linked(text: str, target: str) -> str:
+    """A text that leads to an address, or to a block where ``target`` is ``#`` and its label."""
+    return f"{_LINK}{target}{_LINKED}{text}{_END}"
+
+
+def cited(source: str) -> str:
+    """The number of a source; its text is looked for in the Sources of the document."""
+    return f"{_CITE}{source}{_CITED}"
+
+
+def broken() -> str:
+    """The end of a line within a paragraph."""
+    return _BREAK
 
 
 def symbols(text: str) -> str:
@@ -52,8 +84,8 @@ class Heading:
 
 @dataclass(frozen=True)
 class Paragraph:
-    """A paragraph; ``kind`` is empty, ``missing`` (why something is not there), ``note``, ``bullet``, or ``lead``: it
-    stays with what follows."""
+    """A paragraph; ``kind`` is empty, ``missing`` (why something is not there), ``note``, ``bullet``, ``footnote``,
+    or ``lead``: it stays with what follows."""
 
     text: str
     kind: str = ""
@@ -70,8 +102,8 @@ class Formula:
 
 @dataclass(frozen=True)
 class Table:
-    """A table with a caption; ``align``: ``<``, ``>`` or ``^`` per column; ``key``: columns that every part repeats
-    where it is too wide for a page."""
+    """A table, numbered where it has a caption; ``align``: ``<``, ``>`` or ``^`` per column; ``key``: columns that
+    every part repeats where it is too wide for a page."""
 
     caption: str
     head: tuple[str, ...]
@@ -83,12 +115,40 @@ class Table:
 
 @dataclass(frozen=True)
 class Figure:
-    """Pictures with a caption, each SVG with the share of the page's width that it takes, up to ``tallest`` mm."""
+    """Pictures, numbered where they have a caption, each SVG with the share of the page's width that it takes, up
+    to ``tallest`` mm."""
 
     caption: str
     pictures: tuple[tuple[str, float], ...]
     label: str = ""
     tallest: float = 150.0
+
+
+@dataclass(frozen=True)
+class Listed:
+    """A list of items that hold blocks; ``start``: the number of the first one, None where they have dots."""
+
+    items: tuple[tuple[Block, ...], ...]
+    start: int | None = None
+
+
+@dataclass(frozen=True)
+class Quoted:
+    """Blocks that are somebody else's words, set in."""
+
+    blocks: tuple[Block, ...]
+
+
+@dataclass(frozen=True)
+class Rule:
+    """A line across the page."""
+
+
+@dataclass(frozen=True)
+class Sources:
+    """The list of sources, each once: text that is cited and text that is printed. Cited ones come first."""
+
+    entries: tuple[tuple[str, str], ...]
 
 
 @dataclass(frozen=True)
@@ -109,13 +169,26 @@ class Code:
     label: str = ""
 
 
-Block = Heading | Paragraph | Formula | Table | Figure | Code | Source
+Block = Heading | Paragraph | Formula | Table | Figure | Code | Listed | Quoted | Rule | Sources | Source
 #: What is numbered within its chapter, each kind for itself.
 NUMBERED = (Formula, Table, Figure, Code)
 
 
 #: A paragraph of fewer characters stays with the formula, table or figure that it leads to.
 SHORT = 400
+
+
+@dataclass(frozen=True)
+class Cover:
+    """A page before all others: picture (SVG text, share of the width), lines above the kind of document, the kind,
+    its title, rows of name and value, a line at the end."""
+
+    kind: str
+    title: str
+    above: tuple[str, ...] = ()
+    rows: tuple[tuple[str, str], ...] = ()
+    below: str = ""
+    logo: str = ""
 
 
 @dataclass
@@ -134,10 +207,74 @@ class Document:
     missing: list[str] = field(default_factory=list)
     broken: bool = False
     contents: bool = True
+    cover: Cover | None = None
 
     def number(self) -> Numbers:
         """Numbers of headings, formulas, tables and figures, and where labels are."""
         return Numbers(self)
+
+
+def walk(blocks: Iterable[Block]) -> Iterator[Block]:
+    """Blocks in reading order, those within lists and quotations behind these."""
+    for block in blocks:
+        yield block
+        yield from walk(within(block))
+
+
+def within(block: Block) -> tuple[Block, ...]:
+    """The blocks that a list or a quotation holds."""
+    match block:
+        case Listed(items):
+            return tuple(each for item in items for each in item)
+        case Quoted(blocks):
+            return blocks
+    return ()
+
+
+def changed(block: Block, change: Callable[[Block], Iterable[Block]]) -> Iterator[Block]:
+    """What becomes of a block, those within it first."""
+
+    def inner(blocks: Iterable[Block]) -> tuple[Block, ...]:
+        return tuple(new for each in blocks for new in changed(each, change))
+
+    if isinstance(block, Listed):
+        block = replace(block, items=tuple(inner(item) for item in block.items))
+    elif isinstance(block, Quoted):
+        block = replace(block, blocks=inner(block.blocks))
+    yield from change(block)
+
+
+def _counted(block: Formula | Table | Figure | Code) -> bool:
+    """Whether a block has a number: a formula unless it is without one, all others with a caption."""
+    return block.number if isinstance(block, Formula) else bool(block.caption)
+
+
+class Numbers:
+    """``blocks`` in reading order, those within others too; ``of[index]``: the number of one, as it is printed;
+    ``labels``: block by label; ``sources``: number by the text of a source."""
+
+    def __init__(self, document: Document) -> None:
+        self.of: dict[int, str] = {}
+        self.labels: dict[str, int] = {}
+        self.document = document
+        self.blocks = list(walk(document.blocks))
+        self.sources = _numbered_sources(self.blocks)
+        levels: list[int] = []
+        chapter, counts = 0, dict.fromkeys(NUMBERED, 0)
+        for index, block in enumerate(self.blocks):
+            if isinstance(block, Heading):
+                levels = [*(levels + [0] * 4)[: block.level]]
+                levels[-1] += 1
+                if block.number:
+                    self.of[index] = ".".join(map(str, levels))
+                if levels[0] != chapter:
+                    chapter, counts = levels[0], dict.fromkeys(NUMBERED, 0)
+            elif isinstance(block, NUMBERED) and _counted(block):
+                counts[type(block)] += 1
+                self.of[index] = f"{chapter}.{counts[type(block)]}"
+            label = getattr(block, "label", "")
+            if label and (index in self.of or isinstance(block, Heading)):
+                self.labels[label] = index
 
     def leads(self, index: int) -> bool:
         """Whether a short paragraph stays with the formula, table or figure behind it, a section's first always."""
@@ -150,69 +287,109 @@ class Document:
             or block[0].text.endswith((":", "："))
         )
 
-
-def _counted(block: Formula | Table | Figure | Code) -> bool:
-    """Whether a block has a number: a formula unless it is without one, a listing with a caption, all others."""
-    return bool(block.caption) if isinstance(block, Code) else getattr(block, "number", True)
-
-
-class Numbers:
-    """``of[index]``: the number of a block, as it is printed; ``labels``: block by label."""
-
-    def __init__(self, document: Document) -> None:
-        self.of: dict[int, str] = {}
-        self.labels: dict[str, int] = {}
-        self.document = document
-        levels: list[int] = []
-        chapter, counts = 0, dict.fromkeys(NUMBERED, 0)
-        for index, block in enumerate(document.blocks):
-            if isinstance(block, Heading):
-                levels = [*(levels + [0] * 4)[: block.level]]
-                levels[-1] += 1
-                if block.number:
-                    self.of[index] = ".".join(map(str, levels))
-                if levels[0] != chapter:
-                    chapter, counts = levels[0], dict.fromkeys(counts, 0)
-            elif isinstance(block, NUMBERED) and _counted(block):
-                counts[type(block)] += 1
-                self.of[index] = f"{chapter}.{counts[type(block)]}"
-            if getattr(block, "label", ""):
-                self.labels[block.label] = index  # type: ignore[union-attr]
-
     def before(self, index: int) -> str:
         """What stands before the text of a heading: its number."""
         return f"{self.of[index]}  " if index in self.of else ""
 
     def name(self, index: int) -> str:
         """How a block is called in a sentence: ``Table 3.1``."""
-        block, say = self.document.blocks[index], self.document.say
+        block, say = self.blocks[index], self.document.say
         kind = type(block).__name__.lower()
         return say(f"report.name_{kind}", number=self.of.get(index, ""))
 
 
-Span = tuple[str, str]
+def _numbered_sources(blocks: Sequence[Block]) -> dict[str, int]:
+    """Sources by number: those that are cited, in the order in which they are, then the others of the list."""
+    known = {key for block in blocks if isinstance(block, Sources) for key, _ in block.entries}
+    found = dict.fromkeys(
+        span.text
+        for block in blocks
+        for text in texts(block)
+        for span in spans(text)
+        if span.kind == "source"
+    )
+    ordered = [key for key in found if key in known or not known]
+    ordered += [
+        key for block in blocks if isinstance(block, Sources) for key, _ in block.entries if key not in found
+    ]
+    return {key: number for number, key in enumerate(dict.fromkeys(ordered), 1)}
+
+
+def texts(block: Block) -> Iterator[str]:
+    """The marked texts of a block, without those of blocks within it."""
+    match block:
+        case Heading(text) | Paragraph(text):
+            yield text
+        case Table():
+            yield from (block.caption, *block.head, *(cell for row in block.rows for cell in row))
+        case Figure() | Code():
+            yield block.caption
+        case Sources(entries):
+            yield from (text for _, text in entries)
+
+
+def with_prefix(block: Block, prefix: str) -> Block:
+    """A block whose texts refer to labels that begin so."""
+
+    def own(text: str) -> str:
+        return text.replace("[[", f"[[{prefix}").replace(f"{_LINK}#", f"{_LINK}#{prefix}")
+
+    match block:
+        case Paragraph() | Heading():
+            return replace(block, text=own(block.text))
+        case Table():
+            rows = tuple(tuple(map(own, row)) for row in block.rows)
+            return replace(block, caption=own(block.caption), head=tuple(map(own, block.head)), rows=rows)
+        case Figure() | Code():
+            return replace(block, caption=own(block.caption))
+    return block
+
+
+@dataclass(frozen=True)
+class Span:
+    """Part of a text: ``kind`` is ``text``, ``formula``, ``code``, ``reference`` (to a label), ``source`` or
+    ``break``; the styles it is in, and where it leads."""
+
+    kind: str
+    text: str
+    styles: frozenset[str] = frozenset()
+    link: str = ""
+
+
+_SINGLE = {code: style for style, code in STYLES.items()}
 
 
 def spans(text: str) -> Iterator[Span]:
-    """Parts of a text: (``text`` | ``formula`` | ``strong`` | ``code`` | ``reference``, what it holds)."""
+    """Parts of a text."""
+    styles, link = frozenset[str](), ""
     for part in _MARKS.split(text):
         if not part:
             continue
-        if part[0] == "$" and len(part) > 2:
-            yield "formula", part[1:-1]
+        if part in _SINGLE:
+            styles ^= {_SINGLE[part]}
+        elif part[0] == _LINK:
+            link = part[1:-1]
+        elif part == _END:
+            link = ""
+        elif part == _BREAK:
+            yield Span("break", "\n", styles, link)
+        elif part[0] == _CITE:
+            yield Span("source", part[1:-1], styles, link)
+        elif part[0] == "$" and len(part) > 2:
+            yield Span("formula", part[1:-1], styles, link)
         elif part.startswith("**"):
-            yield "strong", shown(part[2:-2])
+            yield Span("text", shown(part[2:-2]), styles | {"strong"}, link)
         elif part[0] == "`":
-            yield "code", shown(part[1:-1])
+            yield Span("code", shown(part[1:-1]), styles, link)
         elif part.startswith("[["):
-            yield "reference", part[2:-2]
+            yield Span("reference", part[2:-2], styles, link)
         else:
-            yield "text", shown(part)
+            yield Span("text", shown(part), styles, link)
 
 
 def plain(text: str) -> str:
     """A text without its marks."""
-    return "".join(part for _, part in spans(text))
+    return "".join(span.text for span in spans(text))
 
 
 def longest_part(text: str) -> int:
@@ -220,8 +397,8 @@ def longest_part(text: str) -> int:
     from linkwright.report.formula import formula, width
     from linkwright.words.characters import cells
 
-    joined = "".join("m" * round(2.6 * width(formula(part))) if kind == "formula" else part
-                     for kind, part in spans(text))  # fmt: skip
+    joined = "".join("m" * round(2.6 * width(formula(span.text))) if span.kind == "formula" else span.text
+                     for span in spans(text))  # fmt: skip
     return max((cells(word) for word in joined.split(" ")), default=1)
 
 

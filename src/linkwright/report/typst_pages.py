@@ -3,32 +3,40 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable
 from functools import lru_cache
-from itertools import chain
+from itertools import chain, count
 from typing import Any
 from unicodedata import category
 
 from linkwright.errors import LinkwrightError
+from linkwright.plot.svg.fonts import check_fonts, given_fonts
 from linkwright.plot.svg.render import natural_size
-from linkwright.plot.svg.text import check_fonts
 from linkwright.report.document import (
     Block,
     Code,
+    Cover,
     Document,
     Figure,
     Formula,
     Heading,
+    Listed,
     Numbers,
     Paragraph,
+    Quoted,
+    Rule,
     Source,
+    Sources,
+    Span,
     Table,
     plain,
     spans,
+    walk,
 )
 from linkwright.report.formula import formula, width
 from linkwright.report.formula_lines import set_lines
 from linkwright.report.typst_formula import quoted, typst
+from linkwright.report.typst_style import COVER, HEAD, STYLE
 from linkwright.words.characters import cells
 
 LATIN = ("Libertinus Serif", "DejaVu Serif", "DejaVu Sans")
@@ -47,6 +55,8 @@ LINE, LEFT = 41.0, 9.0
 SURE = 35.0
 #: Width of the text, mm, and rows of a table that stays on one page.
 TEXT, TOGETHER = 170.0, 32
+#: Share of the width and height, mm, of a cover's picture.
+LOGO, TALL_LOGO = 0.4, 40.0
 #: Characters across a table beyond which its long columns are wrapped.
 ACROSS = 112
 #: Warnings of Typst that say nothing about the page.
@@ -55,106 +65,6 @@ _EXPECTED = ("html export is under active", "was ignored during HTML export", "e
 _NO_INK = ("Cc", "Cf", "Mn", "Zs", "Zl", "Zp")
 #: What Typst says of a text for which no font has a glyph.
 _NO_GLYPH = "could not be displayed"
-_HEAD = """\
-#set document(title: {title}, author: ())
-#set page(paper: "a4", margin: (x: 20mm, top: 24mm, bottom: 22mm), numbering: "1", header: context {{
-  if here().page() > 1 {{ text(8.5pt, fill: luma(90))[#{running}; #h(1fr) Linkwright] }} }})
-#set text(font: {fonts}, size: 10.5pt, lang: {language})
-#set par(justify: true, leading: 0.62em, spacing: 0.95em)
-#set heading(numbering: none)
-#show heading: set block(above: 1.3em, below: 0.7em)
-#show heading.where(level: 1): set text(15pt)
-#show heading.where(level: 2): set text(12.5pt)
-#show heading.where(level: 3): set text(11pt)
-#show math.equation: set text(font: {mathematics})
-#show math.equation.where(block: true): set block(above: 0.55em, below: 0.55em)
-#show math.equation.where(block: true): set align(left)
-#show figure: set block(above: 1.1em, below: 1.1em)
-#show figure.where(kind: table): set figure.caption(position: top)
-#show figure.where(kind: raw): set figure.caption(position: top)
-#show figure.where(kind: raw): set block(breakable: true)
-#show figure.caption: set text(9.5pt)
-#show figure.caption.where(kind: table): set block(sticky: true)
-#show figure.caption.where(kind: raw): set block(sticky: true)
-#show raw: set text(font: {monospaced})
-#show raw.where(block: true): set text(8.3pt)
-#show raw.where(block: true): set par(justify: false)
-#set table(
-  stroke: (x, y) => (top: if y == 0 {{ 0.9pt }} else if y == 1 {{ 0.6pt }} else {{ 0pt }}),
-  inset: (x: 4.5pt, y: 3pt))
-#let lw-is-html = sys.inputs.form == "html"
-#let lw-title(body) = if lw-is-html {{ html.elem("h1", attrs: (class: "title"))[#body] }} else {{
-  align(center, {{ set par(justify: false); text(19pt, weight: "bold", body) }}) }}
-#let lw-under(body) = if lw-is-html {{ html.elem("p", attrs: (class: "under"))[#body] }} else {{
-  align(center, {{ set par(justify: false); body }}) }}
-#let lw-table(columns, align, kind, head, ..cells) = {{
-  set text(8.8pt)
-  set par(justify: false)
-  if lw-is-html {{ html.elem("div", attrs: (class: kind))[#table(
-    columns: columns.len(), table.header(..head), ..cells)] }} else {{
-    table(columns: columns, align: align, table.header(..head), ..cells, table.hline(stroke: 0.9pt)) }}
-}}
-#let lw-overline(body) = if lw-is-html {{ math.accent(body, math.macron) }} else {{ math.overline(body) }}
-#let lw-row(body, number) = block(width: 100%, above: 0.6em, below: 0.6em, breakable: false,
-  grid(columns: (1fr, auto), column-gutter: 6pt, align: (left + horizon, right + horizon),
-    pad(left: 1.2em, body), number))
-#let lw-html(body, number) = html.elem("div", attrs: (class: "formula"))[
-  #html.elem("div")[#body] #html.elem("span")[#number]]
-#let lw-formula(body, number) = {{
-  if lw-is-html {{ lw-html(body, number) }} else {{ lw-row(body, number) }}
-}}
-#let lw-wide(body, number) = {{
-  if lw-is-html {{ lw-html(body, number) }} else {{
-    lw-row(layout(room => {{
-      let wide = measure(body).width
-      if wide > room.width {{
-        scale(100% * (room.width / wide), origin: left, reflow: true, body)
-      }} else {{ body }}
-    }}), number)
-  }}
-}}
-#let lw-picture(svg, share, high) = {{
-  if lw-is-html {{ image(bytes(svg), format: "svg", width: share * 100%) }} else {{
-    image(bytes(svg), format: "svg", width: share * 170mm, height: high * 1mm)
-  }}
-}}
-#let lw-pictures(..given) = {{
-  if lw-is-html {{ html.elem("div", attrs: (class: "pictures"))[#given.pos().join()] }} else {{
-    align(center, given.pos().map(each => box(each)).join(h(1fr, weak: true)))
-  }}
-}}
-#let lw-need = if not lw-is-html {{
-  block(height: 7em, breakable: false, above: 0pt, below: 0pt)
-  v(-7em)
-}}
-#let lw-code(text, lang) = {{
-  if lw-is-html {{ raw(text, block: true, lang: lang) }} else {{
-    let body = raw(text.replace(regex("\\S{{90}}"), it => it.text + str.from-unicode(8203)), block: true, lang: lang)
-    block(width: 100%, inset: 6pt, fill: luma(246), stroke: (left: 2pt + luma(190)), align(left, body)) }}
-}}
-#let lw-note(body) = {{
-  if lw-is-html {{ html.elem("p", attrs: (class: "note"))[#body] }} else {{
-    block(width: 100%, inset: 7pt, fill: luma(244), stroke: (left: 2pt + rgb("#c8501e")), body) }}
-}}
-"""
-_STYLE = """\
-<style>body{font:16px/1.55 "Noto Serif","Libertinus Serif","DejaVu Serif","Noto Serif CJK SC","Songti SC",serif;\
-max-width:52rem;margin:2rem auto;padding:0 1rem;color:#1c2733;background:#fff}table{border-collapse:collapse;\
-font-size:.84rem;margin:.4rem auto}th,td{padding:.2rem .55rem;text-align:left}th{border-top:2px solid;\
-border-bottom:1px solid}.title,.under{text-align:center}tbody tr:last-child td{border-bottom:2px solid}\
-figure{margin:1.4rem 0;text-align:center;overflow-x:auto}figure img{max-width:100%;height:auto;display:inline-block\
-!important}figcaption{font-size:.9rem;margin:.4rem}\
-pre{font-size:.82rem;line-height:1.4;text-align:left;overflow-x:auto;padding:.6rem .8rem;color:#1c2733;\
-background:#f4f4f4;border-left:3px solid #bbb}.pictures{display:flex;flex-wrap:wrap;\
-justify-content:space-evenly;gap:.6rem}a{color:#0b57a4}.formula{display:flex;justify-content:space-between;align-items:\
-center;margin:.2rem 0 .2rem 1.2rem;padding:.15rem 0;overflow:auto hidden}\
-.note{background:#f4f4f4;border-left:3px solid #c8501e;\
-padding:.5rem .8rem}nav ol{padding-left:1.2rem}nav a{color:inherit;text-decoration:none}nav a:hover{text-decoration:\
-underline}@media print{figure{break-inside:avoid}}body>div:not(.formula,.note){margin:1em 0}\
-@media screen and (prefers-color-scheme:dark){body{color:#dfe5ec;background:#15191e}figure img{background:#fff}\
-.note{background:#242a32}a{color:#8cc4ff}}\
-@media screen and (max-width:40rem){table:has(th:nth-child(5)){min-width:34rem}\
-table:has(th:nth-child(8)){min-width:46rem}}</style>"""
 
 
 def pages(document: Document) -> tuple[str, dict[str, str]]:
@@ -173,7 +83,7 @@ def compiled(document: Document, form: str) -> bytes:
     given: Any = form
     try:
         found, warnings = program.compile_with_warnings(
-            text.encode(), sys_inputs={**pictures, "form": form}, format=given
+            text.encode(), sys_inputs={**pictures, "form": form}, format=given, font_paths=_folders()
         )
     except program.TypstError as error:
         raise LinkwrightError("report.typst_says", sentence=str(error)) from None
@@ -189,13 +99,13 @@ def without_glyph(document: Document) -> str:
     text, pictures = pages(document)
     rare = {c for c in chain(text, *pictures.values()) if not c.isascii() and category(c) not in _NO_INK}
     families = fonts(document.language)
-    if _printed("".join(sorted(rare)), families):
+    if _printed("".join(sorted(rare)), families, _folders()):
         return ""
-    return "".join(c for c in sorted(rare) if not _printed(c, families))
+    return "".join(c for c in sorted(rare) if not _printed(c, families, _folders()))
 
 
 @lru_cache(maxsize=512)
-def _printed(text: str, families: tuple[str, ...]) -> bool:
+def _printed(text: str, families: tuple[str, ...], folders: tuple[str, ...] = ()) -> bool:
     """Whether Typst finds a glyph for every character; PDF/A is the form that it refuses without one."""
     import typst as program
 
@@ -204,7 +114,7 @@ def _printed(text: str, families: tuple[str, ...]) -> bool:
         f"#set text(font: {_listed(families)})\n#{quoted(text)}"
     )
     try:
-        program.compile(source.encode(), format="pdf", pdf_standards="a-2b")
+        program.compile(source.encode(), format="pdf", pdf_standards="a-2b", font_paths=folders)
     except program.TypstError as error:
         return _NO_GLYPH not in str(error)
     return True
@@ -225,14 +135,16 @@ def typst_fault(text: str) -> str:
 
 def _styled(page: bytes, document: Document) -> bytes:
     """The page with its style, and a rule for every way in which columns of its tables are aligned."""
-    marks = {table.align or "<" * len(table.head) for table in document.blocks if isinstance(table, Table)}
+    marks = {
+        table.align or "<" * len(table.head) for table in walk(document.blocks) if isinstance(table, Table)
+    }
     rules = [
         f".{aligned_by(each)} :is(td,th):nth-child({i}){{text-align:{'right' if mark == '>' else 'center'}}}"
         for each in sorted(marks)
         for i, mark in enumerate(each, 1)
         if mark != "<"
     ]
-    style = f"{_STYLE}<style>{''.join(rules)}</style>"
+    style = f"{STYLE}<style>{''.join(rules)}</style>"
     return page.replace(b"</head>", style.encode() + b"</head>", 1)
 
 
@@ -241,18 +153,28 @@ def aligned_by(marks: str) -> str:
     return "by-" + marks.translate(str.maketrans("<>^", "lrc"))
 
 
-@lru_cache(maxsize=1)
-def _families() -> frozenset[str]:
+def _folders() -> tuple[str, ...]:
+    """Folders of the fonts that are given."""
+    return tuple(dict.fromkeys(str(file.parent) for file in given_fonts()))
+
+
+@lru_cache(maxsize=8)
+def _families(folders: tuple[str, ...] = ()) -> frozenset[str]:
     import typst as program
 
-    return frozenset(program.Fonts().families())
+    return frozenset(program.Fonts(font_paths=list(folders)).families())
 
 
 def fonts(language: str) -> tuple[str, ...]:
     """Families for texts, those that are there; Chinese ones for every language, since names may be Chinese."""
-    known = _families()
-    chinese = tuple(name for name in CHINESE if name in known)
+    known = _families(_folders())
+    given = known - _families() if given_fonts() else frozenset()
+    chinese = tuple(name for found in (given, known - given) for name in CHINESE if name in found)
+    chinese = (*chinese, *sorted(given - {*CHINESE}))
     if language == "zh" and not chinese:
+        _families.cache_clear()
+        known = _families(_folders())
+        chinese = tuple(name for name in CHINESE if name in known)
         check_fonts("中", ())
     latin, pictures = (tuple(name for name in each if name in known) for each in (LATIN, PICTURES))
     return (*latin, *chinese, *pictures)
@@ -264,11 +186,14 @@ class _Writer:
     def __init__(self, document: Document) -> None:
         self.document = document
         self.numbers: Numbers = document.number()
+        self.places = count()
         self.pictures: dict[str, str] = {}
+        #: How deep in lists and quotations it is.
+        self.depth = 0
 
     def text(self) -> str:
         document, families = self.document, fonts(self.document.language)
-        head = _HEAD.format(
+        head = HEAD.format(
             title=quoted(document.title),
             running=quoted(shortened(document.title)),
             fonts=_listed(families),
@@ -276,15 +201,31 @@ class _Writer:
             monospaced=_listed((MONOSPACED, *families)),
             language=quoted(document.language),
         )
-        title = f"#lw-title[{_words(document.title)}]\n"
-        under = "".join(f"#lw-under[{_words(line)}]\n" for line in document.lines)
+        if document.cover is not None:
+            title = self._cover(document.cover)
+        else:
+            title = f"#lw-title[{_words(document.title)}]\n"
+            title += "".join(f"#lw-under[{_words(line)}]\n" for line in document.lines)
         contents = (
             ""
             if not document.contents
             else f"#outline(title: [{_words(document.say('report.contents'))}], depth: 2)\n"
         )
-        parts = [self._block(i, block) for i, block in enumerate(document.blocks)]
-        return "\n".join([head, title, under, contents, *parts])
+        if document.contents and document.cover is not None:
+            contents += "#if not lw-is-html { pagebreak(weak: true) }\n"
+        return "\n".join([head, title, contents, *self._blocks(document.blocks)])
+
+    def _cover(self, cover: Cover) -> str:
+        rows = "".join(f"([{_words(name)}], [{_words(value)}])," for name, value in cover.rows)
+        above = "".join(f"[{_words(line)}]," for line in cover.above)
+        logo = self._picture(cover.logo, LOGO, TALL_LOGO) if cover.logo else "none"
+        return (
+            f"{COVER}#lw-cover([{_words(cover.kind)}], [{_words(cover.title)}], ({above}), ({rows}), "
+            f"[{_words(cover.below)}], {logo})\n"
+        )
+
+    def _blocks(self, blocks: Iterable[Block]) -> list[str]:
+        return [self._block(next(self.places), block) for block in blocks]
 
     def _block(self, index: int, block: Block) -> str:
         match block:
@@ -292,7 +233,7 @@ class _Writer:
                 number = _words(self.numbers.before(index))
                 return f"{'=' * block.level} {number}{self.inline(block.text)} <{_place(index)}>\n"
             case Paragraph():
-                return self._paragraph(block, sticky=self.document.leads(index))
+                return self._paragraph(block, sticky=not self.depth and self.numbers.leads(index))
             case Formula():
                 return self._formula(index, block)
             case Table():
@@ -301,13 +242,42 @@ class _Writer:
                 return self._figure(index, block)
             case Code():
                 return self._code(index, block)
+            case Listed():
+                items = "".join(f"[{self._inside(item, tight=_tight(block))}], " for item in block.items)
+                kind = "list(" if block.start is None else f"enum(start: {block.start}, "
+                return f"#{kind}tight: {str(_tight(block)).lower()}, {items})\n"
+            case Quoted():
+                return f"#lw-quote[{self._inside(block.blocks)}]\n"
+            case Rule():
+                return "#lw-rule\n"
+            case Sources():
+                return self._sources(index, block)
             case Source():
                 return f"{block.text}\n"
+
+    def _inside(self, blocks: Iterable[Block], *, tight: bool = False) -> str:
+        """Blocks within another one, ``tight``: without room between them."""
+        self.depth += 1
+        found = [each.strip() for each in self._blocks(blocks)]
+        self.depth -= 1
+        return ("\n" if tight else "\n\n").join(found)
+
+    def _sources(self, index: int, block: Sources) -> str:
+        ordered = sorted(block.entries, key=lambda each: self.numbers.sources[each[0]])
+        lines = []
+        for key, text in dict(ordered).items():
+            number = self.numbers.sources[key]
+            lines.append(
+                f"#lw-source([#box[{_words(f'[{number}]')}] <{_source(number)}>], [{self.inline(text)}])\n"
+            )
+        return "\n".join(lines)
 
     def _paragraph(self, block: Paragraph, *, sticky: bool) -> str:
         text = self.inline(block.text)
         if block.kind == "bullet":
             return f"- {text}"
+        if block.kind == "footnote":
+            return f"#lw-small[{text}]\n"
         if block.kind == "lead" or (not block.kind and sticky):
             return f"#block(sticky: true)[{text}]\n"
         return f"#lw-note[{text}]\n" if block.kind else f"{text}\n"
@@ -328,27 +298,29 @@ class _Writer:
         sides = ", ".join(f"{align[mark]} + horizon" for mark in marks)
         head = ", ".join(f"strong[{self.inline(cell)}]" for cell in table.head)
         cells = ", ".join(f"[{self.inline(cell)}]" for row in table.rows for cell in row)
+        caption = f"caption: {self._caption(index, table.caption)}" if table.caption else ""
         parted = (
             "#lw-need\n#[#show figure: set block(breakable: true)\n" if len(table.rows) > TOGETHER else "#["
         )
         return (
             f"{parted}#figure(lw-table(({columns},), ({sides},), {quoted(aligned_by(marks))}, ({head},), {cells}), "
             "kind: table, numbering: none, supplement: none, "
-            f"caption: {self._caption(index, table.caption)}) <{_place(index)}>]\n"
+            f"{caption}) <{_place(index)}>]\n"
         )
 
     def _figure(self, index: int, figure: Figure) -> str:
-        found = []
-        for svg, share in figure.pictures:
-            name = f"picture{len(self.pictures)}"
-            self.pictures[name] = svg
-            wide, high = placed(svg, share, figure.tallest)
-            found.append(f"lw-picture(sys.inputs.{name}, {wide:.4f}, {high:.2f})")
+        found = [self._picture(svg, share, figure.tallest) for svg, share in figure.pictures]
         body = found[0] if len(found) == 1 else f"lw-pictures({', '.join(found)})"
+        caption = f"caption: {self._caption(index, figure.caption)}" if figure.caption else ""
         return (
-            f"#figure({body}, kind: image, numbering: none, supplement: none, "
-            f"caption: {self._caption(index, figure.caption)}) <{_place(index)}>\n"
+            f"#figure({body}, kind: image, numbering: none, supplement: none, {caption}) <{_place(index)}>\n"
         )
+
+    def _picture(self, svg: str, share: float, tallest: float) -> str:
+        name = f"picture{len(self.pictures)}"
+        self.pictures[name] = svg
+        wide, high = placed(svg, share, tallest)
+        return f"lw-picture(sys.inputs.{name}, {wide:.4f}, {high:.2f})"
 
     def _code(self, index: int, code: Code) -> str:
         lines = code.text.expandtabs(4).rstrip("\n").split("\n")
@@ -362,26 +334,57 @@ class _Writer:
         )
 
     def inline(self, text: str) -> str:
-        """A text with its formulas, strong words and references."""
-        return "".join(self._spans(text))
+        """A text with its formulas, styles, links and references."""
+        return "".join(self._span(span) for span in spans(text))
 
-    def _spans(self, text: str) -> Iterator[str]:
-        for kind, part in spans(text):
-            if kind == "formula":
-                yield f"${typst(formula(part))}$"
-            elif kind == "strong":
-                yield f"#strong[{_words(part)}]"
-            elif kind == "code":
-                yield f"#raw({quoted(part)});"
-            elif kind == "reference":
-                index = self.numbers.labels.get(part)
-                yield (
-                    _words(part)
-                    if index is None
-                    else (f"#link(<{_place(index)}>)[{_words(self.numbers.name(index))}]")
-                )
-            else:
-                yield _words(part)
+    def _span(self, span: Span) -> str:
+        match span.kind:
+            case "formula":
+                found = f"${typst(formula(span.text))}$"
+            case "code":
+                found = f"#raw({quoted(span.text)});"
+            case "break":
+                return "#linebreak();"
+            case "reference":
+                found = self._leading(self.numbers.labels.get(span.text), span.text)
+            case "source":
+                number = self.numbers.sources.get(span.text)
+                found = _words(f"[{number}]") if number else _words(span.text)
+                if number and any(isinstance(each, Sources) for each in self.numbers.blocks):
+                    found = f"#link(<{_source(number)}>)[{found}]"
+            case _:
+                found = _emphasised(span.text) if "emphasis" in span.styles else _words(span.text)
+        for style, command in _COMMANDS.items():
+            found = f"#{command}[{found}]" if style in span.styles else found
+        if not span.link:
+            return found
+        index = self.numbers.labels.get(span.link[1:]) if span.link[0] == "#" else None
+        if span.link[0] != "#":
+            return f"#lw-url({quoted(span.link)}, [{found}])"
+        return found if index is None else f"#link(<{_place(index)}>)[{found}]"
+
+    def _leading(self, index: int | None, label: str) -> str:
+        if index is None:
+            return _words(label)
+        return f"#link(<{_place(index)}>)[{_words(self.numbers.name(index))}]"
+
+
+#: Styles in Typst.
+_COMMANDS = {"strong": "strong", "raised": "super", "struck": "strike"}
+
+
+def _emphasised(text: str) -> str:
+    """A text in italics; Chinese characters, which have none, with dots below them."""
+    parts = re.split(r"([\u2e80-\u9fff\uf900-\ufaff]+)", text)
+    return "".join(
+        f"#lw-dots({quoted(part)});" if i % 2 else f"#emph[{_words(part)}]"
+        for i, part in enumerate(parts) if part
+    )  # fmt: skip
+
+
+def _tight(listed: Listed) -> bool:
+    """Whether the items of a list are single lines."""
+    return all(len(item) <= 1 or isinstance(item[-1], Listed) for item in listed.items)
 
 
 def _wrapping(table: Table) -> list[bool]:
@@ -430,6 +433,10 @@ def breakable(text: str) -> str:
 
 def _listed(names: tuple[str, ...]) -> str:
     return "(" + "".join(f"{quoted(name)}, " for name in names) + ")"
+
+
+def _source(number: int) -> str:
+    return f"s{number}"
 
 
 def _place(index: int) -> str:

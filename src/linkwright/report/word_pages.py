@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import io
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from itertools import count
 from typing import Any
-from xml.sax.saxutils import escape
 
 from linkwright.errors import LinkwrightError
 from linkwright.report.document import (
@@ -14,9 +16,14 @@ from linkwright.report.document import (
     Figure,
     Formula,
     Heading,
+    Listed,
     Numbers,
     Paragraph,
+    Quoted,
+    Rule,
     Source,
+    Sources,
+    Span,
     Table,
     longest_part,
     plain,
@@ -25,18 +32,29 @@ from linkwright.report.document import (
 from linkwright.report.formula import Atom, Row, formula
 from linkwright.report.formula_lines import set_lines
 from linkwright.report.word_formula import SPACE, equation
+from linkwright.report.word_parts import (
+    SMALL,
+    TEXT,
+    add_cover,
+    as_item,
+    field_mark,
+    listing,
+    ruled,
+    ruled_table,
+    small,
+)
 from linkwright.words.characters import cells, printable
 
-#: Width of the text, inches; pictures' dots per inch.
-TEXT, DOTS = 6.69, 160.0
+#: Dots per inch of pictures.
+DOTS = 160.0
 #: Width of a line of formulas, and of a left side beyond which the right side begins a new line, em.
 LINE, LEFT = 33.0, 9.0
 #: Levels of headings in the list of contents.
 LISTED = 2
 #: Width of a character of a table, inches.
 LETTER = 0.062
-#: What the margins of a cell take, inches; size of the letters of tables, points.
-GAP, SMALL = 0.22, 8
+#: What the margins of a cell take, what an item of a list, a quotation and the lines of a source are set in, inches.
+GAP, LEVEL, QUOTED, HANGING = 0.22, 0.25, 0.35, 0.4
 #: Fonts by language: of Latin letters, of Chinese characters.
 FONTS = ("Cambria", "SimSun")
 #: The style of listings and its font.
@@ -54,27 +72,36 @@ def word(document: Document) -> bytes:
 
 
 class _Writer:
-    """Adds block after block."""
+    """Adds block after block; ``indent`` of what stands within a list or a quotation, inches."""
 
     def __init__(self, document: Document, file: Any) -> None:
         self.document, self.file = document, file
         self.numbers: Numbers = document.number()
-        self.mark = 0
+        self.places = count()
+        self.mark, self.indent, self.depth = 0, 0.0, 0
 
     def content(self) -> bytes:
         self._page()
-        self.file.add_heading(self.document.title, 0)
-        for line in self.document.lines:
-            self.file.add_paragraph(line)
+        if self.document.cover is not None:
+            add_cover(self.file, self.document.cover)
+        else:
+            self.file.add_heading(self.document.title, 0)
+            for line in self.document.lines:
+                self.file.add_paragraph(line)
         if self.document.contents:
             self._contents()
-        for index, block in enumerate(self.document.blocks):
-            self._block(index, block)
+            if self.document.cover is not None:
+                self.file.add_page_break()
+        self._blocks(self.document.blocks)
         self.file.core_properties.title = self.document.title[:255]
         self.file.core_properties.author = ""
         stream = io.BytesIO()
         self.file.save(stream)
         return stream.getvalue()
+
+    def _blocks(self, blocks: Iterable[Block]) -> None:
+        for block in blocks:
+            self._block(next(self.places), block)
 
     def _page(self) -> None:
         from docx.oxml.ns import qn
@@ -96,7 +123,7 @@ class _Writer:
 
         head = self.file.add_paragraph()
         head.add_run(self.document.say("report.contents")).bold = True
-        headings = [(i, block) for i, block in enumerate(self.document.blocks)
+        headings = [(i, block) for i, block in enumerate(self.numbers.blocks)
                     if isinstance(block, Heading) and block.level <= LISTED]  # fmt: skip
         line = head
         for index, block in headings:
@@ -104,10 +131,10 @@ class _Writer:
             line.paragraph_format.left_indent = Inches(0.25 * (block.level - 1))
             line.paragraph_format.space_after = Pt(0)
             if index == headings[0][0]:
-                _mark(line, "begin", f'TOC \\o "1-{LISTED}" \\h \\z \\u')
+                field_mark(line, "begin", f'TOC \\o "1-{LISTED}" \\h \\z \\u')
             self._entry(line, index, block)
         if headings:
-            _mark(line, "end")
+            field_mark(line, "end")
 
     def _entry(self, line: Any, index: int, block: Heading) -> None:
         """A section's number and title, leading there; its page is added where Word renews the field."""
@@ -126,12 +153,9 @@ class _Writer:
                 shown = self.file.add_heading(level=block.level)
                 shown.add_run(self.numbers.before(index))
                 self._inline(shown, block.text)
-                self._bookmark(shown, index)
+                self._bookmark(shown, f"b{index}")
             case Paragraph():
-                style = {"bullet": "List Bullet", "missing": "Intense Quote", "note": "Intense Quote"}
-                line = self.file.add_paragraph(style=style.get(block.kind))
-                line.paragraph_format.keep_with_next = block.kind == "lead" or self.document.leads(index)
-                self._inline(line, block.text)
+                self._paragraph(index, block)
             case Formula():
                 self._formula(index, block)
             case Table():
@@ -140,15 +164,72 @@ class _Writer:
                 self._figure(index, block)
             case Code():
                 self._code(index, block)
+            case Listed():
+                self._list(block)
+            case Quoted():
+                with self._moved(QUOTED):
+                    self._blocks(block.blocks)
+            case Rule():
+                ruled(self.file.add_paragraph())
+            case Sources():
+                self._sources(block)
             case Source():
-                self.file.add_paragraph(block.text)
+                self.file.add_paragraph(printable(block.text))
+
+    def _paragraph(self, index: int, block: Paragraph) -> Any:
+        from docx.shared import Inches, Pt
+
+        style = {"bullet": "List Bullet", "missing": "Intense Quote", "note": "Intense Quote"}.get(block.kind)
+        line = self.file.add_paragraph(style=style)
+        leads = not self.indent and index >= 0 and self.numbers.leads(index)
+        line.paragraph_format.keep_with_next = block.kind == "lead" or leads
+        if self.indent:
+            line.paragraph_format.left_indent = Inches(self.indent)
+        self._inline(line, block.text)
+        if block.kind == "footnote":
+            for run in line.runs:
+                run.font.size = Pt(SMALL + 1)
+        return line
+
+    @contextmanager
+    def _moved(self, inches: float) -> Iterator[None]:
+        self.indent += inches
+        yield
+        self.indent -= inches
+
+    def _list(self, block: Listed) -> None:
+        """Items with numbers or dots of their own list; what else an item holds is set in as its text is."""
+        number = listing(self.file, block.start)
+        for item in block.items:
+            first, *rest = item or (Paragraph(""),)
+            own = first if isinstance(first, Paragraph) else Paragraph("")
+            line = self._paragraph(next(self.places) if item and own is first else -1, own)
+            as_item(line, number, self.depth, LEVEL, self.indent)
+            self.depth += 1
+            with self._moved(LEVEL):
+                self._blocks(rest if own is first else item)
+            self.depth -= 1
+
+    def _sources(self, block: Sources) -> None:
+        from docx.shared import Inches
+
+        entries = dict(sorted(block.entries, key=lambda each: self.numbers.sources[each[0]]))
+        for key, text in entries.items():
+            number = self.numbers.sources[key]
+            line = self.file.add_paragraph()
+            line.paragraph_format.left_indent = Inches(HANGING)
+            line.paragraph_format.first_line_indent = Inches(-HANGING)
+            line.add_run(f"[{number}]\t")
+            line.paragraph_format.tab_stops.add_tab_stop(Inches(HANGING))
+            self._inline(line, text)
+            self._bookmark(line, f"s{number}")
 
     def _formula(self, index: int, block: Formula) -> None:
         from docx.enum.text import WD_TAB_ALIGNMENT
         from docx.shared import Inches
 
         line = self.file.add_paragraph()
-        line.paragraph_format.left_indent = Inches(0.3)
+        line.paragraph_format.left_indent = Inches(0.3 + self.indent)
         line.paragraph_format.tab_stops.add_tab_stop(Inches(TEXT), WD_TAB_ALIGNMENT.RIGHT)
         line.paragraph_format.keep_together = True
         for row in _lines(block):
@@ -158,17 +239,17 @@ class _Writer:
         number = self.numbers.of.get(index, "")
         if number:
             line.add_run(f"\t({number})")
-            self._bookmark(line, index)
+            self._bookmark(line, f"b{index}")
 
     def _caption(self, index: int, text: str) -> None:
         from docx.enum.text import WD_ALIGN_PARAGRAPH
 
         line = self.file.add_paragraph(style="Caption")
         line.alignment = WD_ALIGN_PARAGRAPH.CENTER
-        line.paragraph_format.keep_with_next = isinstance(self.document.blocks[index], Table | Code)
+        line.paragraph_format.keep_with_next = isinstance(self.numbers.blocks[index], Table | Code)
         line.add_run(f"{self.numbers.name(index)}  ")
         self._inline(line, text)
-        self._bookmark(line, index)
+        self._bookmark(line, f"b{index}")
 
     def _table(self, index: int, block: Table) -> None:
         from docx.enum.text import WD_ALIGN_PARAGRAPH
@@ -176,9 +257,10 @@ class _Writer:
         from docx.shared import Pt
 
         sides = {"<": WD_ALIGN_PARAGRAPH.LEFT, ">": WD_ALIGN_PARAGRAPH.RIGHT, "^": WD_ALIGN_PARAGRAPH.CENTER}
-        self._caption(index, block.caption)
+        if block.caption:
+            self._caption(index, block.caption)
         grid = self.file.add_table(rows=1 + len(block.rows), cols=len(block.head))
-        _ruled(grid, _widths(block))
+        ruled_table(grid, _widths(block))
         align = block.align or "<" * len(block.head)
         for number, (texts, row) in enumerate(zip((block.head, *block.rows), grid._tbl.tr_lst, strict=True)):
             for text, cell, mark in zip(texts, row.tc_lst, align, strict=True):
@@ -186,7 +268,7 @@ class _Writer:
                 line.alignment = sides[mark]
                 line.paragraph_format.space_after = Pt(0)
                 self._inline(line, text)
-                _small(line)
+                small(line)
                 for run in line.runs:
                     run.font.size = Pt(SMALL)
                     run.bold = True if number == 0 else run.bold
@@ -207,7 +289,7 @@ class _Writer:
 
         line = self.file.add_paragraph()
         line.alignment = WD_ALIGN_PARAGRAPH.CENTER
-        line.paragraph_format.keep_with_next = True
+        line.paragraph_format.keep_with_next = bool(block.caption)
         for svg, share in block.pictures:
             wide = TEXT * min(share, 1.0)
             picture = line.add_run().add_picture(
@@ -216,14 +298,19 @@ class _Writer:
             tallest = Mm(block.tallest)
             if picture.height > tallest:
                 picture.width, picture.height = int(picture.width * tallest / picture.height), tallest
-        self._caption(index, block.caption)
+        if block.caption:
+            self._caption(index, block.caption)
 
     def _code(self, index: int, block: Code) -> None:
         """The lines of a listing, each a paragraph, so that a long one breaks over pages."""
+        from docx.shared import Inches
+
         if block.caption:
             self._caption(index, block.caption)
         for text in block.text.expandtabs(4).rstrip("\n").split("\n"):
-            self.file.add_paragraph(printable(text), style=self._code_style())
+            line = self.file.add_paragraph(printable(text), style=self._code_style())
+            if self.indent:
+                line.paragraph_format.left_indent = Inches(self.indent)
 
     def _code_style(self) -> Any:
         """The paragraph style of listings: letters of one width, lines without gaps."""
@@ -246,29 +333,68 @@ class _Writer:
         return style
 
     def _inline(self, line: Any, text: str) -> None:
-        for kind, part in spans(text):
-            if kind == "formula":
-                line._p.append(equation(formula(part)))
-            elif kind == "reference" and part in self.numbers.labels:
-                self._link(line, self.numbers.labels[part])
-            else:
-                run = line.add_run(printable(part))
-                run.bold = True if kind == "strong" else None
+        for span in spans(text):
+            if span.kind == "formula":
+                line._p.append(equation(formula(span.text)))
+                continue
+            if span.kind == "break":
+                line.add_run().add_break()
+                continue
+            shown, target = self._shown(span)
+            run = line.add_run(printable(shown))
+            self._look(run, span)
+            if target:
+                self._link(line, run, target)
 
-    def _link(self, line: Any, index: int) -> None:
+    def _shown(self, span: Span) -> tuple[str, str]:
+        """What a part of a text shows, and where it leads: an address, or ``#`` and a bookmark."""
+        if span.kind == "source":
+            number = self.numbers.sources.get(span.text)
+            listed = any(isinstance(each, Sources) for each in self.numbers.blocks)
+            return (f"[{number}]" if number else span.text), (f"#s{number}" if number and listed else "")
+        label = span.text if span.kind == "reference" else span.link[1:] if span.link[:1] == "#" else ""
+        index = self.numbers.labels.get(label)
+        shown = self.numbers.name(index) if span.kind == "reference" and index is not None else span.text
+        if label:
+            return shown, "" if index is None else f"#b{index}"
+        return shown, span.link
+
+    def _look(self, run: Any, span: Span) -> None:
         from docx.oxml.ns import qn
 
-        link = line._p.makeelement(qn("w:hyperlink"), {qn("w:anchor"): f"b{index}"})
-        run = line.add_run(self.numbers.name(index))
+        run.bold = True if "strong" in span.styles else None
+        run.italic = True if "emphasis" in span.styles else None
+        run.font.superscript = True if "raised" in span.styles else None
+        run.font.strike = True if "struck" in span.styles else None
+        if span.kind == "code":
+            run.font.name = MONOSPACED
+        if "emphasis" in span.styles and any("\u2e80" <= c <= "\u9fff" for c in span.text):
+            run.italic = None
+            mark = run._r.makeelement(qn("w:em"), {qn("w:val"): "underDot"})
+            run._r.get_or_add_rPr().append(mark)
+
+    def _link(self, line: Any, run: Any, target: str) -> None:
+        from docx.opc.constants import RELATIONSHIP_TYPE
+        from docx.oxml.ns import qn
+        from docx.shared import RGBColor
+
+        if target[0] == "#":
+            given = {qn("w:anchor"): target[1:]}
+        else:
+            given = {
+                qn("r:id"): self.file.part.relate_to(target, RELATIONSHIP_TYPE.HYPERLINK, is_external=True)
+            }
+            run.font.color.rgb, run.font.underline = RGBColor(0x0B, 0x57, 0xA4), True
+        link = line._p.makeelement(qn("w:hyperlink"), given)
         link.append(run._r)
         line._p.append(link)
 
-    def _bookmark(self, line: Any, index: int) -> None:
+    def _bookmark(self, line: Any, name: str) -> None:
         from docx.oxml.ns import qn
 
         self.mark += 1
         number = str(self.mark)
-        begin = line._p.makeelement(qn("w:bookmarkStart"), {qn("w:id"): number, qn("w:name"): f"b{index}"})
+        begin = line._p.makeelement(qn("w:bookmarkStart"), {qn("w:id"): number, qn("w:name"): name})
         end = line._p.makeelement(qn("w:bookmarkEnd"), {qn("w:id"): number})
         line._p.append(begin)
         line._p.append(end)
@@ -302,52 +428,3 @@ def _widths(block: Table) -> list[float]:
     found = [a + more * max(w - a, 0.0) for w, a in zip(whole, asked, strict=True)]
     shrink = min(1.0, TEXT / sum(found))
     return [shrink * each for each in found]
-
-
-def _mark(line: Any, kind: str, asks: str = "") -> None:
-    """The begin of a field that is renewed when the file is opened, up to its result, or the end of one."""
-    from docx.oxml import parse_xml
-    from docx.oxml.ns import nsdecls
-
-    def run(inside: str) -> None:
-        line._p.append(parse_xml(f"<w:r {nsdecls('w')}>{inside}</w:r>"))
-
-    if kind == "end":
-        run('<w:fldChar w:fldCharType="end"/>')
-        return
-    run('<w:fldChar w:fldCharType="begin" w:dirty="true"/>')
-    run(f'<w:instrText xml:space="preserve"> {escape(asks)} </w:instrText>')
-    run('<w:fldChar w:fldCharType="separate"/>')
-
-
-def _small(line: Any) -> None:
-    """Sets the equations of a line in the size of tables."""
-    from docx.oxml import parse_xml
-    from docx.oxml.ns import nsdecls
-
-    for run in line._p.iter(f"{{{SPACE}}}r"):
-        look = parse_xml(f'<w:rPr {nsdecls("w")}><w:sz w:val="{2 * SMALL}"/></w:rPr>')
-        run.insert(len(run) - 1, look)
-
-
-def _ruled(grid: Any, widths: list[float]) -> None:
-    """Lines above and below a table and under its head; columns of these widths, inches."""
-    from docx.enum.table import WD_TABLE_ALIGNMENT
-    from docx.oxml import parse_xml
-    from docx.oxml.ns import nsdecls
-    from docx.shared import Inches
-
-    grid.alignment = WD_TABLE_ALIGNMENT.CENTER
-    grid.autofit = False
-    line = '<w:{} w:val="single" w:sz="{}" w:space="0" w:color="auto"/>'
-    borders = f"<w:tblBorders {nsdecls('w')}>{line.format('top', 8)}{line.format('bottom', 8)}</w:tblBorders>"
-    grid._tbl.tblPr.append(parse_xml(borders))
-    for column, wide in zip(grid.columns, widths, strict=True):
-        column.width = Inches(wide)
-    for number, row in enumerate(grid._tbl.tr_lst):
-        row.get_or_add_trPr().append(parse_xml(f"<w:cantSplit {nsdecls('w')}/>"))
-        for cell, wide in zip(row.tc_lst, widths, strict=True):
-            cell.width = Inches(wide)
-            if number == 0:
-                below = f"<w:tcBorders {nsdecls('w')}>{line.format('bottom', 6)}</w:tcBorders>"
-                cell.get_or_add_tcPr().append(parse_xml(below))

@@ -134,7 +134,7 @@ class Work:
             if ending.startswith(".report"):
                 from linkwright.report.report import report
 
-                report(document.mechanism, language=language).save(path)
+                report(document.mechanism, language=language, folder=self.files.folder).save(path)
             else:
                 from linkwright.export.export import export
 

@@ -7,10 +7,12 @@ from dataclasses import field, replace
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.errors import SelfCheckError
-from linkwright.words.characters import aligned, padded
+from linkwright.words.characters import aligned
 from linkwright.worked.digits import digits_needed, error_of, last_place, printed, put_in
 from linkwright.worked.render import latex, plain
 from linkwright.worked.terms import Pair, Term, symbol
+from linkwright.worked.written import plain as shown_plain
+from linkwright.worked.written import sides, upright
 
 #: A result smaller than this (SI) whose formula gives nothing at all is zero but for rounding.
 FADED = 1e-9
@@ -96,72 +98,19 @@ class Equation:
 
 
 @dataclass(frozen=True)
-class Matrix:
-    """Entries of a matrix in rows, each as plain text and as LaTeX."""
+class Written:
+    """A formula without a result of its own: plain text, of a matrix in several lines, and LaTeX of its sides.
 
-    rows: tuple[tuple[tuple[str, str], ...], ...]
+    ``cells``: rows of a table, headings first, which reports print in place of a system too wide for a formula.
+    """
 
-    @property
-    def lines(self) -> list[str]:
-        """Its rows in plain text, in brackets that go over all of them."""
-        inside = aligned([[text for text, _ in row] for row in self.rows], ">" * len(self.rows[0]))
-        if len(inside) == 1:
-            return [f"[{inside[0]}]"]
-        marks = ["⎡⎤", *["⎢⎥"] * (len(inside) - 2), "⎣⎦"]
-        width = max(map(len, inside))
-        return [
-            f"{mark[0]} {padded(line, width)} {mark[1]}" for mark, line in zip(marks, inside, strict=True)
-        ]
-
-    @property
-    def latex(self) -> str:
-        """As LaTeX."""
-        rows = r" \\ ".join(" & ".join(tex for _, tex in row) for row in self.rows)
-        return rf"\begin{{bmatrix}} {rows} \end{{bmatrix}}"
-
-
-@dataclass(frozen=True)
-class Matrices:
-    """An equation of matrices: ``parts`` are matrices and the signs between them (``=``, or empty for a product)."""
-
-    parts: tuple[Matrix | str, ...]
-
-    @property
-    def lines(self) -> list[str]:
-        """The matrices side by side in plain text, the signs halfway up."""
-        blocks = [part.lines if isinstance(part, Matrix) else [part or "·"] for part in self.parts]
-        high = max(map(len, blocks))
-        columns = []
-        for block in blocks:
-            above = (high - len(block)) // 2
-            width = max(map(len, block))
-            filled = [""] * above + block + [""] * (high - len(block) - above)
-            columns.append([padded(line, width) for line in filled])
-        return [" ".join(row).rstrip() for row in zip(*columns, strict=True)]
-
-    @property
-    def text(self) -> str:
-        """In plain text."""
-        return "\n".join(self.lines)
-
-    @property
-    def latex_sides(self) -> tuple[str, ...]:
-        """The sides of its equal signs as LaTeX."""
-        sides = [""]
-        for part in self.parts:
-            if part == "=":
-                sides.append("")
-            else:
-                sides[-1] += part.latex if isinstance(part, Matrix) else part
-        return tuple(sides)
+    text: str
+    latex_sides: tuple[str, ...]
+    cells: tuple[tuple[str, ...], ...] = ()
 
     def data(self) -> dict[str, object]:
         """Plain data."""
-        rows = [
-            [[text for text, _ in row] for row in part.rows] if isinstance(part, Matrix) else part
-            for part in self.parts
-        ]
-        return {"matrices": rows, "latex": " = ".join(self.latex_sides)}
+        return {"relation": self.text, "latex": " = ".join(self.latex_sides)}
 
 
 @dataclass(frozen=True)
@@ -183,7 +132,7 @@ class Tabulated:
         return {"table": self.title, "head": list(self.head), "rows": [list(row) for row in self.rows]}
 
 
-Item = Note | Relation | Equation | Matrices | Tabulated
+Item = Note | Relation | Equation | Written | Tabulated
 
 
 @dataclass
@@ -203,6 +152,13 @@ class Step:
     def say(self, text: str) -> None:
         """Adds a sentence."""
         self.items.append(Note(text))
+
+    def law(self, text: str, unit: str = "") -> None:
+        """Adds formulas as they are written on a line, several apart by ``;``; ``unit`` of numbers."""
+        for each in text.split("; "):
+            *first, last = sides(each)
+            last += rf"\quad {upright(unit)}" if unit else ""
+            self.items.append(Written(f"{shown_plain(each.strip())} {unit}".rstrip(), (*first, last)))
 
     def relate(self, left: Term, right: Term) -> None:
         """Adds an equation that is solved further below."""

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from unicodedata import east_asian_width
 
 from linkwright.words.characters import cells
-from linkwright.worked.page import Equation, Matrices, Note, Relation, Step, Tabulated
+from linkwright.worked.page import Equation, Note, Relation, Step, Tabulated, Written
 
 WIDTH = 100
 
@@ -32,10 +32,9 @@ def _step(step: Step) -> Iterator[str]:
             yield from wrapped(item.text)
         elif isinstance(item, Relation):
             yield from _long("    ", item.text, "    ")
-        elif isinstance(item, Matrices | Tabulated):
-            yield ""
-            yield from (f"    {line}" for line in item.text.splitlines())
-            yield ""
+        elif isinstance(item, Written | Tabulated):
+            lines = [f"    {line}".rstrip() for line in item.text.splitlines()]
+            yield from ["", *lines, ""] if len(lines) > 1 else lines
         else:
             yield from _equation(item, margin)
         previous_note = isinstance(item, Note)

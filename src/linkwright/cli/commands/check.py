@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkwright import gallery
@@ -154,9 +155,24 @@ def _of_cams(name: str, mechanism: Mechanism) -> list[Finding]:
 
 
 def _of_calculation(name: str) -> tuple[list[Finding], dict[str, object]]:
-    from linkwright.parts.file import check, kind_of
+    from linkwright.parts.file import check, kind_of, load
 
-    return check(name), {"kind": kind_of(name)}
+    found = check(name)
+    if all(each.severity != "error" for each in found):
+        problem = load(name)
+        found += _of_report(name, problem.report, problem.folder)
+    return found, {"kind": kind_of(name)}
+
+
+def _of_report(name: str, given: Mapping[str, object], folder: Path) -> list[Finding]:
+    """Findings about what a calculation's file says for its report."""
+    from linkwright.report.settings import settings
+
+    try:
+        settings(given, folder=folder)
+    except ModelError as error:
+        return [each if each.where else replace(each, where=name) for each in error.findings]
+    return []
 
 
 def _task(text: str, name: str) -> tuple[list[Finding], str] | None:
@@ -253,11 +269,16 @@ def _of_friction(name: str, mechanism: Mechanism) -> list[Finding]:
 
 
 def _of_settings(name: str, mechanism: Mechanism, *, moves: bool) -> list[Finding]:
-    """What is wrong with the sections that only some commands read: report, course and optimize, the last one's
+    """What is wrong with sections that only some commands read: report, sheet, course and optimize, the last one's
     numbers where the machine ``moves``."""
     found = list[Finding]()
     reading: dict[str, Callable[[Mechanism], None]]
-    reading = {"report": _report, "course": _course, "optimize": partial(_optimize, moves=moves)}
+    reading = {
+        "report": partial(_report, name),
+        "sheet": _sheet,
+        "course": _course,
+        "optimize": partial(_optimize, moves=moves),
+    }
     for key, read in reading.items():
         try:
             if getattr(mechanism, key):
@@ -269,10 +290,16 @@ def _of_settings(name: str, mechanism: Mechanism, *, moves: bool) -> list[Findin
     return found
 
 
-def _report(mechanism: Mechanism) -> None:
+def _report(name: str, mechanism: Mechanism) -> None:
     from linkwright.report.settings import settings
 
-    settings(mechanism.report, mechanism=mechanism)
+    settings(mechanism.report, mechanism=mechanism, folder=Path(name).parent)
+
+
+def _sheet(mechanism: Mechanism) -> None:
+    from linkwright.sheets.settings import check
+
+    check(mechanism)
 
 
 def _course(mechanism: Mechanism) -> None:

@@ -12,13 +12,13 @@ from linkwright.cli.session import Session
 
 if TYPE_CHECKING:
     from linkwright.mechanism.mechanism import Mechanism
-    from linkwright.parts.base import Problem
 
 FORMS = ("pdf", "html", "docx")
 #: Names of the sections in their usual order.
 SECTIONS = (
-    "task", "drawing", "structure", "method", "worked", "tables", "curves", "reactions", "gears", "cams", "torque",
-    "limits", "flywheel", "synthesis", "errata", "comparison", "appendix", "references",
+    "task", "drawing", "structure", "flow", "method", "worked", "tables", "curves", "reactions", "free_bodies",
+    "balance", "gears", "cams", "torque", "limits", "flywheel", "synthesis", "errata", "calls", "program",
+    "comparison", "conclusion", "appendix", "references",
 )  # fmt: skip
 
 
@@ -27,28 +27,28 @@ def arguments(option: Options) -> None:
     names = ", ".join(SECTIONS)
     option("--sections", "NAME", nargs="+", default=[], help=option.say("report.sections_help", names=names))
     option("--position", "INPUT", default="")
-    option.count("--positions")
+    option("--positions", "POSITIONS", nargs="+")
     option("--to", "pdf|html|docx")
     option("--output", "FILE")
+    option.fonts()
     option.force()
 
 
 def run(options: argparse.Namespace, session: Session) -> int:
     """Writes the report; sections that have nothing to show are named on the console."""
     from linkwright.cli.files import write_whole
+    from linkwright.cli.positions import joined
     from linkwright.cli.progress import progress
     from linkwright.cli.source import read_model
-    from linkwright.parts.file import kind_of, load
+    from linkwright.parts.file import kind_of
     from linkwright.report.report import report
     from linkwright.synthesis.task_file import task_file
 
     path = _path(options)
-    machines: list[Problem | Mechanism | str] = []
+    machines: list[Mechanism | str] = []
     sources = []
     for file in options.files:
-        if kind_of(file):
-            machines.append(load(file))
-        elif task_file(file) is not None:
+        if kind_of(file) or task_file(file) is not None:
             machines.append(file)
         else:
             machines.append(read_model(file, session)[0])
@@ -60,7 +60,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
             sections=options.sections,
             language=session.language,
             position=options.position,
-            positions=options.positions,
+            positions=joined(options.positions) if options.positions else None,
             progress=told,
         )
         content = found.content(path.suffix.lower())

@@ -27,6 +27,7 @@ def arguments(option: Options) -> None:
     option("--speed", "SPEED", default="60 rpm")
     option("--cluster", "ADDRESS", words="sweep.cluster_help")
     option("--state", "FILE", words="study.state_help")
+    option.fonts()
     option.force()
 
 

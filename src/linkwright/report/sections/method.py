@@ -12,7 +12,7 @@ from linkwright.report.machine_results import Case
 from linkwright.report.section import section
 from linkwright.structure.group import Group
 from linkwright.worked.chains import Chain, chain_closures
-from linkwright.worked.page import Equation, Note, Relation, Step, Tabulated
+from linkwright.worked.page import Equation, Note, Relation, Step, Tabulated, Written
 from linkwright.worked.symbols import Book, tex
 
 #: Width of a line of formulas, em.
@@ -61,7 +61,7 @@ def formulas(step: Step) -> Iterator[Block]:
         for item in step.items
         if not isinstance(item, Tabulated) and (not isinstance(item, Equation) or item.formula)
     ]
-    if not any(isinstance(item, Equation | Relation) for item in shown):
+    if not any(isinstance(item, Equation | Relation | Written) for item in shown):
         return
     yield Paragraph(strong(symbols(step.title)), "lead")
     held: list[str] = []

@@ -9,26 +9,36 @@ from inspect import getdoc
 from linkwright.errors import LinkwrightError
 from linkwright.groups.base import DYADS
 from linkwright.metrics.base import METRICS
-from linkwright.report.document import Block, Paragraph, Table, literal
-from linkwright.report.machine_results import Case, Missing
+from linkwright.report.document import Block, Sources, Table, literal
+from linkwright.report.machine_results import Case
+from linkwright.report.markdown import own_words
 from linkwright.report.section import section
+from linkwright.report.settings import Settings
 from linkwright.structure.group import Group
 
 
 @section("references", 31.0, common=True)
 def blocks(cases: Sequence[Case]) -> Iterator[Block]:
-    """Sources of the machine, of the groups' formulas and of the design numbers, each once."""
-    found: dict[str, None] = {}
+    """Own sources of the files, sources of the machines and of the groups' formulas, each once; where the design
+    numbers are defined. Nothing where none is known."""
+    found: dict[str, str] = {}
+    for case in cases:
+        found.update((text, own_words(text)) for text in case.settings.references.values())
     for case in cases:
         if case.origin:
-            found[case.origin] = None
+            found.setdefault(case.origin, literal(case.origin))
         for group in _groups(case):
-            found.update(dict.fromkeys(_of_group(group.signature)))
-    if not found:
-        raise Missing("report.no_references")
-    for number, source in enumerate(found, 1):
-        yield Paragraph(literal(f"[{number}] {source}"))
+            for text in _of_group(group.signature):
+                found.setdefault(text, literal(text))
+    if found:
+        yield Sources(tuple(found.items()))
     yield from _definitions(cases)
+
+
+def own_sources(own: Settings) -> Iterator[Block]:
+    """The sources that a file names."""
+    if own.references:
+        yield Sources(tuple((text, own_words(text)) for text in own.references.values()))
 
 
 def _groups(case: Case) -> Sequence[Group]:

@@ -5,12 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from linkwright.errors import LinkwrightError
+from linkwright.report.calculation import OwnText
 from linkwright.report.document import Block, Figure, Heading, Paragraph, literal, symbols
 from linkwright.report.machine_results import Case, Missing, picture
 from linkwright.report.section import section
 from linkwright.report.sections.worked_position import with_numbers
+from linkwright.report.settings import Settings
 from linkwright.synthesis.result import Synthesis, SynthesisError
-from linkwright.words import speaker
+from linkwright.synthesis.task_file import TaskFile
+from linkwright.words import Say, speaker
 from linkwright.words.sentence import in_language
 
 #: Share of the page's width that a diagram takes, and one with a function beside the linkages.
@@ -23,6 +26,18 @@ def blocks(case: Case) -> Iterator[Block]:
     if not case.mechanism.synthesis or not case.source:
         raise Missing("report.no_synthesis")
     yield from of_task(case.source, case.language)
+
+
+def task_chapter(task: TaskFile, own: Settings, say: Say, language: str) -> Iterator[Block | OwnText]:
+    """The chapter of a file that holds a task alone, under a heading with its name."""
+    yield Heading(literal(task.name), 1)
+    if purpose := own.purpose or task.purpose:
+        yield Paragraph(literal(purpose))
+    if source := own.source or task.source:
+        yield Paragraph(say("report.source", source=literal(source)))
+    if "synthesis" in own.text:
+        yield OwnText(own.text["synthesis"])
+    yield from of_task(task.file, language)
 
 
 def of_task(source: str, language: str) -> Iterator[Block]:

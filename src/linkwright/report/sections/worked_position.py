@@ -12,8 +12,9 @@ from linkwright.report.document import Block, Figure, Formula, Heading, Paragrap
 from linkwright.report.machine_results import Case
 from linkwright.report.section import section
 from linkwright.report.sections.method import side_by_side
-from linkwright.worked.page import Equation, Matrices, Note, Relation, Step, Tabulated
+from linkwright.worked.page import Equation, Note, Relation, Step, Tabulated, Written
 from linkwright.worked.solution import Worked
+from linkwright.worked.written import latex_symbol, upright
 
 #: A point, the width of the text and the tallest polygon, mm.
 POINT, TEXT, TALLEST = 25.4 / 72.0, 170.0, 225.0
@@ -56,7 +57,9 @@ def with_numbers(step: Step) -> Iterator[Block]:
         given = []
         if isinstance(item, Note):
             yield Paragraph(symbols(item.text))
-        elif isinstance(item, Relation | Matrices):
+        elif isinstance(item, Written) and item.cells:
+            yield _system(item)
+        elif isinstance(item, Relation | Written):
             yield Formula(item.latex_sides, number=False)
         elif isinstance(item, Tabulated):
             rows = tuple(tuple(map(symbols, row)) for row in item.rows)
@@ -67,13 +70,22 @@ def with_numbers(step: Step) -> Iterator[Block]:
     yield from side_by_side(given)
 
 
+def _system(item: Written) -> Table:
+    """A system of equations that is too wide for a formula, as a table."""
+    head, *rows = item.cells
+    names = tuple(f"${latex_symbol(each)}$" if each else "" for each in head)
+    return Table(
+        r"$A\,X=B$", names, tuple((literal(row[0]), *row[1:]) for row in rows), "<" + ">" * (len(head) - 1)
+    )
+
+
 def _result(item: Equation) -> str:
     """The result with its unit."""
     base, e, power = item.result.partition("e")
     number = rf"{base}\cdot 10^{{{power}}}" if e else base
     if item.unit == "°":
         return number + r"^\circ"
-    return rf"{number}\,\mathrm{{{item.unit}}}" if item.unit else number
+    return rf"{number}\,{upright(item.unit)}" if item.unit else number
 
 
 def _polygons(case: Case) -> Iterator[Block]:

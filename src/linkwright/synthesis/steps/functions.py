@@ -25,7 +25,8 @@ from linkwright.synthesis.steps.writing import (
     product,
     small,
 )
-from linkwright.worked.page import Matrix, Step
+from linkwright.worked.matrix import Matrix
+from linkwright.worked.page import Step
 from linkwright.worked.terms import TWO, Term, cosine, root, sine, symbol
 
 #: Pairs up to which every equation is printed.

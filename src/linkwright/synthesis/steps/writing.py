@@ -12,7 +12,8 @@ from numpy.typing import ArrayLike
 from linkwright.core.dataclass import dataclass
 from linkwright.synthesis.result import Synthesis
 from linkwright.words import Say
-from linkwright.worked.page import Matrices, Matrix, Step, Tabulated
+from linkwright.worked.matrix import Matrix, side_by_side
+from linkwright.worked.page import Step, Tabulated
 from linkwright.worked.terms import ZERO, Term, symbol
 
 #: Lengths are printed in m where the longest link has this length or more, m.
@@ -145,4 +146,4 @@ def entries(rows: Iterable[Iterable[tuple[str, str]]]) -> Matrix:
 
 def product(step: Step, *parts: Matrix | str) -> None:
     """Adds an equation of matrices."""
-    step.items.append(Matrices(parts))
+    step.items.append(side_by_side(parts))

@@ -1,6 +1,8 @@
 """Findings about model files."""
 
 WORDS = {
+    "old_key": 'the key "{key_}" has a new name: {new}',
+    "old_key_do": "write {new}: instead; files of this format with the old name go on being read",
     "kind_lacks": 'a joint of the kind "{kind}" does not supply "{what}", which is needed here; add the '
     "method to its class",
     "plain_stroke_part": "a part of a stroke",
@@ -196,6 +198,11 @@ WORDS = {
     "points_same": "the points {seen} and {name} are at the same place",
     "points_same_do": "give them different coordinates unless that is meant",
     "bad_parameter": '"{name}" cannot name a parameter: it is {what}',
+    "bad_output_name": '"{name}" cannot name an output: it is {what}',
+    "output_still": 'nothing in "{text}" moves',
+    "output_still_do": "use a place or a rate of the machine, such as a guide, a link's angle or POINT.x",
+    "output_dimension": 'the result of "{text}" is in {unit}, which is the unit of no quantity here',
+    "output_dimension_do": "write a formula of a length, an angle, a velocity or another quantity with a name",
     "defined_below": '"{name}" is defined below',
     "defined_below_do": "move it above",
     "in_circle": '"{name}" depends on itself: {ring}',

@@ -90,5 +90,13 @@ WORDS = {
     "drawn": "基圆 r = {radius} mm，φ = {angle}°",
     "drawn_barrel": "展开图，R = {radius} mm，φ = {angle}°",
     "compensation_points": "转角与所需升程不符：二者数目应相同，至少十二个，转角递增",
+    "compensated_output": "“{name}”不能保持不变；请给出模型自定义的输出、点的坐标、角度或位移",
+    "no_cam_joint": "“{machine}”中没有凸轮；请给从动件加上 kind: cam 的运动副",
+    "which_cam_joint": "是哪个凸轮？“{name}”不是{hint}",
+    "compensation_cycle": "从动件静止时，凸轮须在一个能完整通过的闭合循环内恰好转一圈",
+    "zone_or_span": "请给出区间（输入的两个值），或区间的长度，二者择一",
+    "compensation_no_effect": "在该区间内“{joint}”的升程不影响“{output}”",
     "compensation_zone": "工作区及其两侧的延伸不在所给转角之内，或接近一整转；请给较小的工作区",
+    "inertia_or_mass": "同时给了质量与转动惯量，或对直动从动件给了转动惯量",
+    "inertia_or_mass_remedy": "直动从动件请给 mass:，摆动从动件请给 inertia:",
 }

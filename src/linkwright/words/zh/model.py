@@ -1,6 +1,8 @@
 """对模型文件的意见。"""
 
 WORDS = {
+    "old_key": '键 "{key_}" 已改名为 {new}',
+    "old_key_do": "请改写为 {new}:；本格式中使用旧名的文件仍可读取",
     "kind_lacks": "“{kind}”类运动副没有提供此处需要的“{what}”；请在其类中补上该方法",
     "plain_stroke_part": "行程的一部分",
     "no_stroke_part": "“{text}”不是行程的一部分",
@@ -194,6 +196,11 @@ WORDS = {
     "points_same": "点 {seen} 与 {name} 位置相同",
     "points_same_do": "除非有意如此，请给出不同的坐标",
     "bad_parameter": "“{name}”不能作参数的名称：{what}",
+    "bad_output_name": "“{name}”不能作输出的名称：{what}",
+    "output_still": "“{text}”中没有任何运动量",
+    "output_still_do": "请用机构的位置或速度，如导路、构件的角度或 点.x",
+    "output_dimension": "“{text}”的结果单位为 {unit}，不是任何已知物理量的单位",
+    "output_dimension_do": "请写成长度、角度、速度、力等已知物理量的公式",
     "defined_below": "“{name}”在下面才定义",
     "defined_below_do": "请移到前面",
     "in_circle": "“{name}”取决于自身：{ring}",

@@ -1,0 +1,104 @@
+"""Pictures that a model file names for its report: read, checked, and held as SVG like all others."""
+
+from __future__ import annotations
+
+import base64
+import io
+import re
+from functools import lru_cache
+from pathlib import Path
+from urllib.parse import unquote
+
+from linkwright.core.dataclass import dataclass
+from linkwright.errors import LinkwrightError
+from linkwright.plot.svg.render import natural_size, png
+
+#: Endings of pictures, and the name of their form; largest file, bytes.
+FORMS = {".png": "png", ".jpg": "jpeg", ".jpeg": "jpeg", ".svg": "svg"}
+LARGEST = 20_000_000
+#: Dots per inch at which a picture has its own size, its shares of the page's width, the width of the text, inches.
+DOTS, SMALLEST, WIDEST, TEXT = 150.0, 0.25, 0.85, 6.69
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A picture as SVG, and the share of the page's width that it takes by nature."""
+
+    svg: str
+    share: float
+
+
+def picture_of(name: str, folder: Path) -> Picture:
+    """The picture of a file that lies beside the model; raises LinkwrightError where it is none."""
+    path = folder / unquote(name)
+    if path.suffix.lower() not in FORMS:
+        raise LinkwrightError("report.picture_form", name=name, endings=tuple(FORMS))
+    try:
+        about = path.stat()
+    except (OSError, ValueError):
+        raise LinkwrightError("report.no_picture", name=name, folder=folder.resolve()) from None
+    if not path.is_file():
+        raise LinkwrightError("report.no_picture", name=name, folder=folder.resolve())
+    if about.st_size > LARGEST:
+        raise LinkwrightError("report.large_picture", name=name, most=LARGEST // 1_000_000)
+    return _read(path, name, about.st_mtime_ns, about.st_size)
+
+
+@lru_cache(maxsize=64)
+def _read(path: Path, name: str, changed: int, size: int) -> Picture:
+    content = path.read_bytes()
+    if path.suffix.lower() == ".svg":
+        svg = _drawing(content, name)
+        wide = natural_size(svg)[0] / 96.0
+    else:
+        svg, across = _photograph(content, FORMS[path.suffix.lower()], name)
+        wide = across / DOTS
+    return Picture(svg, min(max(wide / TEXT, SMALLEST), WIDEST))
+
+
+def _drawing(content: bytes, name: str) -> str:
+    """An SVG file that can be drawn, with a size of its own."""
+    try:
+        text = content.decode("utf-8-sig")
+        text = text[text.index("<svg") :]
+        head = text[: text.index(">") + 1]
+        if not re.search(r'\swidth="[\d.]+(?:px)?"', head) or not re.search(
+            r'\sheight="[\d.]+(?:px)?"', head
+        ):
+            text = _sized(head) + text[len(head) :]
+        png(text, width=64)
+    except (ValueError, LinkwrightError) as error:
+        message = error.sentence if isinstance(error, LinkwrightError) else str(error)
+        raise LinkwrightError("report.bad_picture", name=name, message=message) from None
+    return text
+
+
+def _sized(head: str) -> str:
+    """The first element of an SVG with width and height in its own units: those of its view box."""
+    box = re.search(r'viewBox="\s*[-\d.eE]+[\s,]+[-\d.eE]+[\s,]+([\d.eE]+)[\s,]+([\d.eE]+)\s*"', head)
+    if box is None:
+        raise LinkwrightError("report.svg_size")
+    bare = re.sub(r'\s(width|height)="[^"]*"', "", head)
+    return bare.replace("<svg", f'<svg width="{box[1]}" height="{box[2]}"', 1)
+
+
+def _photograph(content: bytes, form: str, name: str) -> tuple[str, int]:
+    """A PNG or JPG file within an SVG, upright, and its pixels across."""
+    from PIL import Image, ImageOps
+
+    try:
+        with Image.open(io.BytesIO(content), formats=[form.upper()]) as opened:
+            opened.load()
+            turned = ImageOps.exif_transpose(opened)
+            wide, high = turned.size
+            if opened.getexif().get(0x0112, 1) != 1:
+                stream = io.BytesIO()
+                turned.convert("RGB").save(stream, "JPEG", quality=92)
+                content, form = stream.getvalue(), "jpeg"
+    except (OSError, ValueError, SyntaxError, Image.DecompressionBombError) as error:
+        raise LinkwrightError("report.bad_picture", name=name, message=str(error)) from None
+    data = base64.b64encode(content).decode()
+    return (
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{wide}" height="{high}" viewBox="0 0 {wide} {high}">'
+        f'<image width="{wide}" height="{high}" href="data:image/{form};base64,{data}"/></svg>'
+    ), wide
