@@ -90,9 +90,7 @@ class Positions:
         motion, rows, _ = self._passing
         for row in rows:
             if not motion.ok[row]:
-                self.subject.notes.append(
-                    self.subject.words("not_reached", sentence=motion.outcomes[row].sentence)
-                )
+                self.subject.note("not_reached", sentence=motion.outcomes[row].sentence)
         reached = [row for row in dict.fromkeys(rows) if motion.ok[row]]
         return [Shown(number, row) for number, row in zip(ROMAN, reached, strict=False)]
 
@@ -110,7 +108,7 @@ class Positions:
         try:
             return solve_forces(self.motion)
         except LinkwrightError as error:
-            self.subject.notes.append(self.subject.words("no_forces", sentence=self.case.told(error)))
+            self.subject.note("no_forces", sentence=error.sentence)
             return None
 
     def place(self, shown: Shown) -> str:
