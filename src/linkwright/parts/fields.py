@@ -17,8 +17,10 @@ from linkwright.fields.tables import MOST, ByAddress, Flag, Listed, Make, Named,
 from linkwright.registry import nearest
 from linkwright.words.sentence import Sentence
 
-__all__ = ["MOST", "AnyQuantity", "ByAddress", "Either", "Flag", "Known", "Listed", "Make", "Named", "Numbers", "Sample",
-           "Table", "Whole", "unknown_name"]  # fmt: skip
+__all__ = [
+    "MOST", "AnyQuantity", "ByAddress", "Either", "Flag", "Known", "Listed", "Make", "Named", "Numbers",
+    "Sample", "Table", "Whole", "unknown_name",
+]  # fmt: skip
 
 
 @dataclass(frozen=True)
