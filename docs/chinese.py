@@ -10,6 +10,39 @@ MEANINGS = {
     "a task with its demands for the command synthesize": "命令 synthesize 的综合任务及其要求",
     "title, own text, order of sections and more for the command report":
         "命令 report 的标题、自己的文字、各节次序等",
+    "size, title block, panels and their places for the command sheet": "命令 sheet 的图幅、标题栏、各图及其位置",
+    "paper size, A0 to A4; default A1": "图幅 A0～A4；默认 A1",
+    "default landscape; A4 portrait": "默认横放；A4 竖放",
+    "gb (GB/T 14689, 10609.1) or iso (ISO 5457, 7200); default by the language":
+        "gb（GB/T 14689、10609.1）或 iso（ISO 5457、7200）；默认按语言",
+    "title block: full, or the short one of schools; default full, short on A3 and A4":
+        "标题栏：full 为标准的，short 为学校用的简化标题栏；默认 full，A3、A4 为 short",
+    "whether a margin for binding is left (gb); default true": "是否留装订边（gb）；默认 true",
+    "whether the frame has numbered fields; default false": "是否画图幅分区；默认 false",
+    "title of the task in the title block; otherwise that of the report, else the machine's name":
+        "标题栏中的题目；未写则用说明书的题目，再则用机构的名称",
+    "name of the drawing in the title block": "标题栏中的图样名称",
+    "number of the drawing": "图号",
+    "school or company in the title block": "标题栏中的学校或单位",
+    "faculty or department": "院系或部门",
+    "class of the student": "班级",
+    "who made the drawing; otherwise the report's author": "设计者；未写则用说明书的作者",
+    "number of the student": "学号",
+    "who advises": "指导教师",
+    "who checks": "审核人",
+    "date of the drawing": "日期",
+    "number of this sheet": "第几张",
+    "how many sheets there are": "共几张",
+    "inputs of the positions that are worked out, one or two": "要画的一个或两个位置的输入",
+    "panels that are drawn, in their order; default all": "要画的图，按次序；默认全部",
+    "panels that are left out": "不画的图",
+    "place, size and scale of single panels by their names": "各图的位置、大小和比例尺，按图的名称",
+    "lower left corner of the panel with its caption, from that of the paper":
+        "图（连图名）的左下角，从图纸左下角算起",
+    "longest side of the picture at most, on paper": "图在纸上的最大边长",
+    "scale in SI units per millimetre of paper": "比例尺：每毫米图纸的 SI 值",
+    "the texts in the language en": "英文的文字",
+    "the texts in the language zh": "中文的文字",
     "what the command variants changes, within which limits, and what it asks":
         "命令 variants 改变什么、在什么范围内、求什么",
     "what varies, what is made least and what is kept, for the command optimize":
@@ -265,6 +298,8 @@ NAMES = {
     "plot": "曲线图与矢量多边形",
     "Diagram": "一幅图",
     "draw": "绘制机构运动简图",
+    "sheet": "绘制图纸",
+    "Sheet": "图纸",
     "Drawing": "机构运动简图",
     "Report": "设计说明书",
     "report": "编写设计说明书",
