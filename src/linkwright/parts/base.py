@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.core.plot_method import Plotted
+from linkwright.core.plot_method import Plotted, Sketched
 from linkwright.errors import Finding, ModelError
 from linkwright.fields.base import Field, GivenByFile, given_by_file
 from linkwright.metrics.quantities import FURTHER, SHOWN
@@ -29,8 +29,6 @@ from linkwright.worked.written import filled, latex, latex_symbol, normal, plain
 
 if TYPE_CHECKING:
     from typing import Self
-
-    from linkwright.plot.drawing.picture import Drawing
 
 
 #: Dimensions that only these results have, with their SI units.
@@ -102,7 +100,7 @@ class Heading:
     folder: Path = field(default=Path(), repr=False, compare=False)
 
 
-class Problem(Heading, ABC):
+class Problem(Heading, Sketched, ABC):
     """One calculation as the file or the code gave it; subclasses are frozen dataclasses in SI units.
 
     ``kind`` is its name in files, ``fields`` the keys of its file beside the heading: its own attributes.
@@ -132,15 +130,6 @@ class Problem(Heading, ABC):
             return self.told
         found = {key: _as_told(getattr(self, key, None), each) for key, each in self.fields.items()}
         return {key: value for key, value in found.items() if value not in EMPTY}
-
-    def sketch(self, language: str = "en") -> Drawing | None:
-        """The sketch of what is given, with supports, loads and dimensions; None where its kind has none.
-
-        Raises LinkwrightError where it cannot be drawn.
-        """
-        from linkwright.plot.sketches.base import sketch
-
-        return sketch(self, language)
 
     def require(self) -> None:
         """Raises ModelError where anything is wrong."""
