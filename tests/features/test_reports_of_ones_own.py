@@ -214,11 +214,15 @@ def test_calculations_have_own_chapters_covers_and_sources(tmp_path: Path, pictu
     titles = ["1 Requirements", "2 Belt one", "3 Belt two", "Of the second", "4 References", "5 Thanks"]
     places = [shown.index(each) for each in titles]
     assert places == sorted(places)
-    last = text_of(lw.report([str(first), str(second)], sections=["references", "calculations"]).content(".html"))
+    last = text_of(
+        lw.report([str(first), str(second)], sections=["references", "calculations"]).content(".html")
+    )
     assert last.index("1 References") < last.index("2 Belt one") and "Own words" not in last
     first.write_text(f"{BELT}  sections: [{{title: a, text: '![x](none.png)'}}]\n", encoding="utf-8")
     with faulty("wrong-picture", "report.sections.0.text"):
         lw.report(str(first))
+    code, findings = checked(first)
+    assert code == 1 and [each.key for each in findings] == ["report.sections.0.text"]
 
 
 COVER = {"school": "Example University", "class": "ME 23-1", "student_number": 2023, "adviser": "Zhang",

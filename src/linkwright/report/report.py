@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from os import PathLike
@@ -211,9 +212,9 @@ def _cases(
     return found
 
 
-def _beside(folder: str | Path, file: str) -> Path:
+def _beside(folder: str | Path, file: str) -> str:
     """Where pictures lie: a folder that is named, else that of the file."""
-    return Path(folder) if folder or not file or file.startswith(GALLERY) else Path(file).parent
+    return str(folder) if folder or file.startswith(GALLERY) else os.path.dirname(file)
 
 
 def _loaded(source: str, language: str) -> Mechanism:
