@@ -91,13 +91,12 @@ def fault(code: str, key: str, **values: object) -> Finding:
 
 @dataclass(frozen=True, kw_only=True)
 class Heading:
-    """What a file says about its calculation beside the problem: its ``purpose``, the settings of its ``report``, all
-    that is ``told`` in it as plain data, for the given data of the report; and the ``folder`` in which it lies."""
+    """What a file says about its calculation beside the problem: its ``purpose``, the settings of its ``report``, and
+    all that is ``told`` in it as plain data, for the given data of the report."""
 
     purpose: str = field(default="", repr=False)
     report: Mapping[str, Any] = field(default_factory=dict, repr=False)
     told: Mapping[str, Any] = field(default_factory=dict, repr=False, compare=False)
-    folder: Path = field(default=Path(), repr=False, compare=False)
 
 
 class Problem(Heading, Sketched, ABC):

@@ -18,6 +18,7 @@ from linkwright.files.model_file import declared_kind, read_root
 from linkwright.files.node_reader import Place, as_meant
 from linkwright.files.read_model import FORMAT, TASK_KEYS, read_parameters
 from linkwright.files.reader import Reader
+from linkwright.files.report_schema import report_keys
 from linkwright.files.schema import json_schema
 from linkwright.files.source import read_source
 from linkwright.words.sentence import Sentence
@@ -53,7 +54,7 @@ HEADING: Mapping[str, Field] = {
     "source": Text(doc="where it is taken from"),
     "expected": Free(doc="numbers to compare results with; not interpreted"),
     "parameters": Free(doc="named quantities for use in expressions"),
-    "report": Free(doc="title, own text, errata and more for the command report"),
+    "report": Free(doc="title, own text, errata and more for the command report", keys=report_keys),
 }
 #: Keys that say nothing about the problem itself.
 ASIDE = tuple(key for key in HEADING if key != "parameters")
@@ -198,7 +199,7 @@ def _built(
     try:
         problem = replace(
             owner.of_file(own, folder), purpose=values.get("purpose") or "", report=values.get("report") or {},
-            told=told, folder=folder,
+            told=told,
         )  # fmt: skip
         found: Sequence[Finding] = problem.findings()
     except ModelError as error:

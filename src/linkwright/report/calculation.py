@@ -12,7 +12,7 @@ from linkwright.report.given_data import given_data
 from linkwright.report.machine_results import picture
 from linkwright.report.sections.errata import errata_blocks
 from linkwright.report.sections.worked_position import with_numbers
-from linkwright.report.settings import Settings, settings
+from linkwright.report.settings import Settings
 from linkwright.words import Say
 from linkwright.words.sentence import in_language
 from linkwright.words.titles import title_said
@@ -28,26 +28,25 @@ WIDE, TALLEST = 0.7, 75.0
 
 @dataclass(frozen=True)
 class OwnText:
-    """The user's own text at its place in a chapter, with the settings that hold."""
+    """The user's own text at its place in a chapter."""
 
     text: str
-    own: Settings
 
 
-def calculation(problem: Problem, say: Say, language: str) -> Iterator[Block | OwnText]:
-    """The blocks of one calculation, under a heading with its name; raises LinkwrightError where it has no result, or
-    for a ``report`` of its file that makes no sense."""
-    found, own = problem.solve(), settings(problem.report, language, folder=problem.folder)
+def calculation(problem: Problem, own: Settings, say: Say, language: str) -> Iterator[Block | OwnText]:
+    """The blocks of one calculation with the settings of its file, under a heading with its name; raises
+    LinkwrightError where it has no result."""
+    found = problem.solve()
     texts = dict(own.text)
     places = {say(f"report.{key}"): name for key, name in PLACES.items()}
     for block in _chapters(problem, found, own, say, language):
         yield block
         name = places.get(block.text) if isinstance(block, Heading) else None
         if name is not None and name in texts:
-            yield OwnText(texts.pop(name), own)
+            yield OwnText(texts.pop(name))
     for name, text in texts.items():
         yield Heading(say(f"report.title_{name}"), 2)
-        yield OwnText(text, own)
+        yield OwnText(text)
     if own.errata:
         yield Heading(say("report.title_errata"), 2)
         yield from errata_blocks(own.errata, own.source or problem.source, say)

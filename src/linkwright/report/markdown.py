@@ -6,7 +6,6 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import field
 from functools import lru_cache
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from linkwright.core.dataclass import dataclass
@@ -57,7 +56,7 @@ TALLEST = 150.0
 class Beside:
     """What an own text refers to: the folder of its pictures, and sources by the name by which it cites them."""
 
-    folder: Path = Path()
+    folder: str = ""
     sources: Mapping[str, str] = field(default_factory=dict)
 
 

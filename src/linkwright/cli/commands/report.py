@@ -33,11 +33,11 @@ def run(options: argparse.Namespace, session: Session) -> int:
     from linkwright.cli.files import write_whole
     from linkwright.cli.progress import progress
     from linkwright.cli.source import read_model
-    from linkwright.parts.file import kind_of, load
+    from linkwright.parts.file import kind_of
     from linkwright.report.report import report
 
     path = _path(options)
-    machines = [load(file) if kind_of(file) else read_model(file, session)[0] for file in options.files]
+    machines = [file if kind_of(file) else read_model(file, session)[0] for file in options.files]
     sources = [file for file in options.files if not kind_of(file)]
     with progress(session.say, "report.working") as told:
         found = report(
