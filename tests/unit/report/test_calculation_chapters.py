@@ -110,7 +110,7 @@ def test_a_sketch_names_what_is_given(name: str) -> None:
 
 
 def test_own_text_errata_and_title_of_a_calculation(tmp_path: Path) -> None:
-    text = lw.gallery.content("cantilever").decode() + (
+    text = lw.gallery.content("cantilever").decode().partition("report:")[0] + (
         "report:\n  title: Beams\n  author: Li\n  text: {worked: Own words., appendix: At the end.}\n"
         "  errata: [{where: p. 3, printed: '2', right: '3'}]\n  zh: {title: 梁}\n"
     )
