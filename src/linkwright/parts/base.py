@@ -91,12 +91,13 @@ def fault(code: str, key: str, **values: object) -> Finding:
 
 @dataclass(frozen=True, kw_only=True)
 class Heading:
-    """What a file says about its calculation beside the problem: its ``purpose``, the settings of its ``report``, and
-    all that is ``told`` in it as plain data, for the given data of the report."""
+    """What a file says about its calculation beside the problem: its ``purpose``, the settings of its ``report``, all
+    that is given in it (``file_values``) as plain data, for the given data of the report, and ``warnings`` about its words."""
 
     purpose: str = field(default="", repr=False)
     report: Mapping[str, Any] = field(default_factory=dict, repr=False)
-    told: Mapping[str, Any] = field(default_factory=dict, repr=False, compare=False)
+    file_values: Mapping[str, Any] = field(default_factory=dict, repr=False, compare=False)
+    warnings: tuple[Finding, ...] = field(default=(), repr=False, compare=False)
 
 
 class Problem(Heading, Sketched, ABC):
@@ -125,9 +126,9 @@ class Problem(Heading, Sketched, ABC):
 
     def given(self) -> Mapping[str, Any]:
         """What is given as plain data: as the file says it, else the attributes as a file would."""
-        if self.told:
-            return self.told
-        found = {key: _as_told(getattr(self, key, None), each) for key, each in self.fields.items()}
+        if self.file_values:
+            return self.file_values
+        found = {key: _as_given(getattr(self, key, None), each) for key, each in self.fields.items()}
         return {key: value for key, value in found.items() if value not in EMPTY}
 
     def require(self) -> None:
@@ -141,14 +142,14 @@ class Problem(Heading, Sketched, ABC):
 EMPTY: tuple[Any, ...] = (None, {}, [], (), "", False)
 
 
-def _as_told(value: Any, kind: Field | None = None) -> Any:
+def _as_given(value: Any, kind: Field | None = None) -> Any:
     """A value as plain data of a file."""
     own = given_by_file(type(value)) if is_dataclass(value) else {}
     if own:
-        found = {each.key or key: _as_told(getattr(value, key), each) for key, each in own.items()}
+        found = {each.key or key: _as_given(getattr(value, key), each) for key, each in own.items()}
         return {key: each for key, each in found.items() if each not in EMPTY}
     if isinstance(value, Mapping):
-        return {key: _as_told(each) for key, each in value.items()}
+        return {key: _as_given(each) for key, each in value.items()}
     if value is None or kind is None or is_dataclass(value):
         named = getattr(value, "label", None) or getattr(value, "text", None) or getattr(value, "name", None)
         bare = (

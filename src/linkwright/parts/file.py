@@ -195,11 +195,11 @@ def _built(
 ) -> tuple[Problem | None, list[Finding]]:
     own = {key: value for key, value in values.items() if key not in HEADING}
     own |= {"name": values.get("name") or Path(reader.source).stem, "source": values.get("source") or ""}
-    told = {key: value for key, value in reader.free(root).items() if key not in ASIDE}
+    file_values = {key: value for key, value in reader.free(root).items() if key not in ASIDE}
     try:
         problem = replace(
             owner.of_file(own, folder), purpose=values.get("purpose") or "", report=values.get("report") or {},
-            told=told,
+            file_values=file_values, warnings=tuple(reader.findings),
         )  # fmt: skip
         found: Sequence[Finding] = problem.findings()
     except ModelError as error:

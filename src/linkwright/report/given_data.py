@@ -44,8 +44,8 @@ NAMED = (
 
 def given_data(problem: Problem, say: Say) -> Iterator[Block]:
     """A table of single values; of every mapping of names and every list of mappings a table of its own."""
-    told, single, tables = problem.given(), [], []
-    for key, value in told.items():
+    values, single, tables = problem.given(), [], []
+    for key, value in values.items():
         if key in STATED:
             continue
         if key in NAMED and isinstance(value, Mapping) and value:
