@@ -92,12 +92,23 @@ def fault(code: str, key: str, **values: object) -> Finding:
 @dataclass(frozen=True, kw_only=True)
 class Heading:
     """What a file says about its calculation beside the problem: its ``purpose``, the settings of its ``report``, all
-    that is given in it (``file_values``) as plain data, for the given data of the report, and ``warnings`` about its words."""
+    of its values as plain data (``file_values``, for the given data of the report) with the attributes ``as_read``
+    from them, and ``warnings`` about its words."""
 
     purpose: str = field(default="", repr=False)
     report: Mapping[str, Any] = field(default_factory=dict, repr=False)
     file_values: Mapping[str, Any] = field(default_factory=dict, repr=False, compare=False)
+    as_read: tuple[object, ...] = field(default=(), repr=False, compare=False)
     warnings: tuple[Finding, ...] = field(default=(), repr=False, compare=False)
+
+    @property
+    def attributes(self) -> tuple[object, ...]:
+        """The values of the problem itself."""
+        own = (each.name for each in fields(self) if each.name not in HEADING)
+        return tuple(getattr(self, name) for name in own)
+
+
+HEADING = ("name", "source", *(each.name for each in fields(Heading)))
 
 
 class Problem(Heading, Sketched, ABC):
@@ -125,8 +136,8 @@ class Problem(Heading, Sketched, ABC):
         """The result. Raises ModelError with all findings."""
 
     def given(self) -> Mapping[str, Any]:
-        """What is given as plain data: as the file says it, else the attributes as a file would."""
-        if self.file_values:
+        """What is given as plain data: as the file says it, or as one would say what was changed since."""
+        if self.file_values and all(a is b for a, b in zip(self.attributes, self.as_read, strict=True)):
             return self.file_values
         found = {key: _as_given(getattr(self, key, None), each) for key, each in self.fields.items()}
         return {key: value for key, value in found.items() if value not in EMPTY}
@@ -347,13 +358,14 @@ def put(
     *,
     of: Mapping[str, Value] | None = None,
     numbers: str = "",
+    digits: int = 6,
 ) -> None:
     """Adds a result: symbol, formula, the formula with its numbers, and the value (SI) in the shown unit.
 
     ``of``: the values of the names in the formula, which are put in with their units, without these where all have
-    the result's; ``numbers``: a sum of numbers in that unit, where the formula has no names for them.
+    the result's; ``digits`` of them; ``numbers``: a sum in that unit, where the formula has no names for them.
     """
-    found = numbers or (filled(formula, _put_in(of, dimension)) if of else "")
+    found = numbers or (filled(formula, _put_in(of, dimension, digits)) if of else "")
     if plain(found) in (formula, number(value, dimension)):
         found = ""
     step.items.append(
@@ -364,11 +376,11 @@ def put(
     )  # fmt: skip
 
 
-def _put_in(of: Mapping[str, Value], dimension: str) -> dict[str, str]:
+def _put_in(of: Mapping[str, Value], dimension: str, digits: int) -> dict[str, str]:
     """What stands for the names of a formula."""
     given = {normal(key): each if isinstance(each, tuple) else (each, "") for key, each in of.items()}
     bare = all(kind == dimension for _, kind in given.values()) and dimension != "angle"
     return {
-        key: number(each, kind) if bare else shown(each, kind)
+        key: (number if bare else shown)(each, kind, digits)
         for key, (each, kind) in given.items()
     }  # fmt: skip

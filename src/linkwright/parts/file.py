@@ -197,9 +197,10 @@ def _built(
     own |= {"name": values.get("name") or Path(reader.source).stem, "source": values.get("source") or ""}
     file_values = {key: value for key, value in reader.free(root).items() if key not in ASIDE}
     try:
+        problem = owner.of_file(own, folder)
         problem = replace(
-            owner.of_file(own, folder), purpose=values.get("purpose") or "", report=values.get("report") or {},
-            file_values=file_values, warnings=tuple(reader.findings),
+            problem, purpose=values.get("purpose") or "", report=values.get("report") or {},
+            file_values=file_values, as_read=problem.attributes, warnings=tuple(reader.findings),
         )  # fmt: skip
         found: Sequence[Finding] = problem.findings()
     except ModelError as error:
