@@ -96,6 +96,10 @@ MEANINGS: Mapping[str, tuple[str, str]] = {
     "not-connected": ("a link that nothing connects", "构件没有与别的构件相连"),
     "not-finite": ("a number that is not finite", "不是有限的数"),
     "nothing-varies": ("an optimisation without variables", "优化没有变量"),
+    "old-key": (
+        "a key that has another name now; the file is read all the same",
+        "键已改名，文件照常读取",
+    ),
     "one-point": ("a link with a single joint", "只有一个运动副的构件"),
     "quantity": ("no quantity", "不是物理量"),
     "range": ("a number outside of what is allowed", "数超出允许的范围"),

@@ -125,8 +125,8 @@ def test_points_lines_and_loads_that_cannot_be(
 
 OLD_WORDS = [
     (system("  P: {size: 3 N, along: [3, 4]}\n"), {"forces.P.size": "magnitude", "forces.P.along": "direction"}),
-    ("format: 1\nkind: rigid_body\nsupports: {A: {at: [0 m, 0 m], holds: [x, y]}, B: {at: [1 m, 0 m], along: [0, 1]}}\n"
-     "forces: {F: [0 N, -2 N]}\ncouples: {C: [0 N·m, 0 N·m, 1 N·m]}\n",
+    ("format: 1\nkind: rigid_body\nsupports: {A: {at: [0 m, 0 m], holds: [x, y]}, "
+     "B: {at: [1 m, 0 m], along: [0, 1]}}\nforces: {F: [0 N, -2 N]}\ncouples: {C: [0 N·m, 0 N·m, 1 N·m]}\n",
      {"supports.B.along": "direction", "forces": "loads", "couples": "loads"}),
     ("format: 1\nkind: vibration\nmasses: {a: 2 kg·m²}\nsprings: {s: {between: [ground, a], stiffness: 2 N·m/rad}}\n",
      {"masses": "inertias"}),

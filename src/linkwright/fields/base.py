@@ -36,7 +36,8 @@ Schema = dict[str, Any]
 @dataclass(frozen=True, kw_only=True)
 class Field(ABC):
     """One key of a table. ``key`` is its name in the file where it differs from the attribute's, ``old`` a name that
-    it had in files of the same format, which is read with a warning; likewise a key that another one has ``replaced``.
+    it had in files of the same format, which is read with a warning; likewise a key that another one
+    has ``replaced``.
     """
 
     required: bool = False

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from linkwright.parts.statics.belt import Belt as Belt
     from linkwright.parts.statics.body import RigidBody as RigidBody
     from linkwright.parts.statics.body import Support as Support
+    from linkwright.parts.statics.forces import Along as Along
     from linkwright.parts.statics.forces import Force as Force
     from linkwright.parts.statics.forces import ForceSystem as ForceSystem
     from linkwright.parts.statics.rotor import BalancingPlane as BalancingPlane

@@ -195,10 +195,13 @@ def _built(
 ) -> tuple[Problem | None, list[Finding]]:
     own = {key: value for key, value in values.items() if key not in HEADING}
     own |= {"name": values.get("name") or Path(reader.source).stem, "source": values.get("source") or ""}
-    told = {key: value for key, value in reader.free(root).items() if key not in ASIDE}
-    heading = {"purpose": values.get("purpose") or "", "report": values.get("report") or {}, "told": told}
+    file_values = {key: value for key, value in reader.free(root).items() if key not in ASIDE}
     try:
-        problem = replace(owner.of_file(own, folder), **heading)
+        problem = owner.of_file(own, folder)
+        problem = replace(
+            problem, purpose=values.get("purpose") or "", report=values.get("report") or {},
+            file_values=file_values, as_read=problem.attributes, warnings=tuple(reader.findings),
+        )  # fmt: skip
         found: Sequence[Finding] = problem.findings()
     except ModelError as error:
         problem, found = None, error.findings

@@ -39,6 +39,8 @@ def load_beside(name: str, folder: Path) -> Mechanism:
 class OfMechanism(Problem):
     """A calculation about a mechanism, which its file names."""
 
+    mechanism: Mechanism
+
     @classmethod
     def of_file(cls, values: Mapping[str, Any], folder: Path) -> Self:
         return cls(**{**values, "mechanism": load_beside(values["mechanism"], folder)})

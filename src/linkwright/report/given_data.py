@@ -32,6 +32,8 @@ SYMBOLS: Mapping[str, str] = {
     "cam.velocity": "", "vibration.force": "F",
 }  # fmt: skip
 _VALUE = re.compile(r"([-+−]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*)", re.DOTALL)
+#: Keys that the solution states as formulas.
+STATED = ("minimize", "maximize", "subject_to")
 #: Keys that hold things under names which the user chose.
 NAMED = (
     "supports", "loads", "forces", "couples", "masses", "inertias", "planes", "springs", "dampers", "start", "mounts",
@@ -42,8 +44,10 @@ NAMED = (
 
 def given_data(problem: Problem, say: Say) -> Iterator[Block]:
     """A table of single values; of every mapping of names and every list of mappings a table of its own."""
-    told, single, tables = problem.given(), [], []
-    for key, value in told.items():
+    values, single, tables = problem.given(), [], []
+    for key, value in values.items():
+        if key in STATED:
+            continue
         if key in NAMED and isinstance(value, Mapping) and value:
             tables.append(_by_name(problem.kind, key, value, say))
         elif isinstance(value, Sequence) and value and all(isinstance(each, Mapping) for each in value):

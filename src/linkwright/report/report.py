@@ -133,8 +133,10 @@ def report(
     calculations = [each for each in given if isinstance(each, Calculation)]
     own = (cases or calculations)[0].settings
     entries = chosen(sections, own)
-    names = [case.mechanism.name for case in cases]
-    names = names or [title_said(each.problem.name, language) for each in calculations]
+    names = [
+        each.mechanism.name if isinstance(each, Case) else title_said(each.problem.name, language)
+        for each in given
+    ]
     document = Document(
         own.title or " / ".join(dict.fromkeys(names)),
         speaker(language),

@@ -100,7 +100,7 @@ class Equation:
 class Written:
     """A formula without a result of its own: plain text, of a matrix in several lines, and LaTeX of its sides.
 
-    ``cells``: rows of a table, headings first, which reports print in place of a system that is too wide for a formula.
+    ``cells``: rows of a table, headings first, which reports print in place of a system too wide for a formula.
     """
 
     text: str
@@ -134,7 +134,7 @@ class Step:
         self.items.append(Note(text))
 
     def law(self, text: str, unit: str = "") -> None:
-        """Adds formulas as they are written on a line, several apart by ``;``, with the ``unit`` of what is numbers."""
+        """Adds formulas as they are written on a line, several apart by ``;``; ``unit`` of numbers."""
         for each in text.split("; "):
             *first, last = sides(each)
             last += rf"\quad {upright(unit)}" if unit else ""

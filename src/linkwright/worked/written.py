@@ -1,7 +1,7 @@
 """Formulas as they are written on a line, ``√(Rx² + Ry²)``, read and set as LaTeX, and filled with numbers.
 
-Names: a letter with its index behind it (``Rx``, ``ρw``, ``T1``, ``m_b``), words upright; ``·`` and ``×`` multiply, what
-stands before ``/`` since the last product sign of a quotient is its numerator, one factor behind it the denominator.
+Names: a letter with its index behind it (``Rx``, ``ρw``, ``T1``, ``m_b``), words upright; ``·`` and ``×`` multiply,
+what stands before ``/`` since the last quotient is its numerator, one factor behind it the denominator.
 """
 
 from __future__ import annotations
@@ -19,7 +19,6 @@ _KNOWN = ("cos", "sin", "tan", "arctan", "ln", "exp", "min", "max")
 _ACCENTS = {"\u0304": "bar", "\u0305": "bar", "\u0307": "dot", "\u0308": "ddot"}
 _RAISED = dict(zip("⁰¹²³⁴⁵⁶⁷⁸⁹⁻ⁿᵀ", "0123456789-nT", strict=True))
 _RELATIONS = {
-    "∧": r",\quad ",
     "=": "=",
     "≤": r"\le ",
     "≥": r"\ge ",
@@ -43,6 +42,13 @@ _TOKEN = re.compile(
 )
 
 
+#: Greek letters by their names, as expressions of files have them.
+_GREEK = dict(
+    zip(
+        ("alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "kappa", "lambda", "mu", "nu", "xi",
+         "rho", "sigma", "tau", "phi", "psi", "omega", "pi"), "αβγδεζηθκλμνξρστφψωπ", strict=True,
+    )
+)  # fmt: skip
 #: Characters of words that are no symbols.
 _WIDE = re.compile(r"[\u2e80-\u9fff\uf900-\ufaff]")
 
@@ -54,18 +60,21 @@ def filled(text: str, values: Mapping[str, str]) -> str:
         return ""
     parts, at = [], 0
     spaced = normal(text)
-    for token in tokens:
+    for before, token, behind in zip(["", *tokens[:-1]], tokens, [*tokens[1:], ""], strict=True):
         found = spaced.index(token, at)
         parts.append(spaced[at:found])
-        parts.append(_factor(values[token]) if token in values else token)
+        tight = behind[:1] in _RAISED or behind == "^" or before == "/"
+        parts.append(_factor(values[token], tight=tight) if token in values else token)
         at = found + len(token)
+    parts.append(spaced[at:])
     return "".join(parts)
 
 
-def _factor(value: str) -> str:
-    """A number as a factor: in brackets where it is negative, as one sign where it has a unit."""
+def _factor(value: str, *, tight: bool) -> str:
+    """A number as a factor: as one sign where it has a unit; in brackets where it is negative, or has a unit and is
+    ``tight``: raised to a power, or what something is divided by."""
     whole = f"{OPEN}{value}{CLOSE}" if " " in value else value
-    return f"({whole})" if value.startswith(("-", "−")) else whole
+    return f"({whole})" if value.startswith(("-", "−")) or (tight and whole != value) else whole
 
 
 def of_file(text: str) -> str:
@@ -283,6 +292,8 @@ def name(text: str) -> str:
     """A name as a symbol: its letter with accents, primes and index; several Greek letters as a product."""
     if "." in text:
         owner, _, what = text.rpartition(".")
+        if len(what) > 3:
+            return upright(text)
         mark = "," if len(owner) > 2 and what[1:] else ""
         return rf"{what[0]}_{{{upright(owner + mark + what[1:])}}}"
     if _WIDE.search(text):
@@ -300,6 +311,7 @@ def name(text: str) -> str:
         if letters.isupper() and letters.isascii() and not rest:
             return letters
         letters, rest = letters[0], letters[1:] + rest
+    letters = _GREEK.get(letters, letters)
     found = letters if len(letters) == 1 else upright(letters)
     for mark in re.findall(r"[\u0300-\u030f]", stem[0]):
         found = rf"\{_ACCENTS.get(mark, 'bar')}{{{found}}}"

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from functools import cached_property
 from itertools import pairwise
 from typing import Any, ClassVar
@@ -17,7 +16,6 @@ from linkwright.core.search import first_largest
 from linkwright.errors import Finding
 from linkwright.fields.base import Quantities, Quantity, Schema, Word, given, quantity_schema
 from linkwright.parts.base import (
-    ROUNDING,
     Block,
     Problem,
     Result,
@@ -29,6 +27,7 @@ from linkwright.parts.base import (
     shown,
     signed,
 )
+from linkwright.parts.beams.balance import balance_laws, line_moment, polynomial_text, rounded
 from linkwright.parts.beams.elastic import ElasticLine, Hold, Point, Spread, free_motions, solve_line
 from linkwright.parts.beams.materials import MATERIAL, Material
 from linkwright.parts.beams.sections import Section, section_field
@@ -381,7 +380,7 @@ class BeamLine(Result):
         degree = unknown - 2 - len(self.beam.hinges)
         step.say(say("beam.determinate" if degree <= 0 else "beam.indeterminate", degree=degree))
         points, spreads = self.beam._loads()
-        self._balance_laws(step, points, spreads)
+        balance_laws(step, self.beam.supports, self.beam.length, points, spreads)
         for name, (force, couple) in self.reactions.items():
             if force or self.beam.supports[name].kind != "guided":
                 put(step, f"{name}.F", "", force, "force")
@@ -390,43 +389,15 @@ class BeamLine(Result):
         step.say(say("beam.proof"))
         forces = [f for f, _ in self.reactions.values()] + [p.force for p in points]
         forces += [(s.first + s.last) / 2 * (s.end - s.start) for s in spreads]
-        put(step, "ΣF", "", _rounded(forces), "force", numbers=signed(forces, "force"))
+        put(step, "ΣF", "", rounded(forces), "force", numbers=signed(forces, "force"))
         moments = [
             c + f * s.at
             for (f, c), s in zip(self.reactions.values(), self.beam.supports.values(), strict=True)
         ]
         moments += [p.couple + p.force * p.x for p in points]
-        moments += [_line_moment(s) for s in spreads]
-        put(step, "ΣM(0)", "", _rounded(moments), "torque", numbers=signed(moments, "torque"))
+        moments += [line_moment(s) for s in spreads]
+        put(step, "ΣM(0)", "", rounded(moments), "torque", numbers=signed(moments, "torque"))
         return step
-
-    def _balance_laws(self, step: Step, points: list[Point], spreads: list[Spread]) -> None:
-        """ΣF = 0 and ΣM = 0 about the first support, the reactions as unknowns."""
-        supports = self.beam.supports.items()
-        about = next(iter(self.beam.supports.values())).at
-        forces = [(1.0, f"{name}.F") for name, each in supports if each.kind != "guided"]
-        moments = [
-            (each.at - about, f"{name}.F")
-            for name, each in supports
-            if each.kind != "guided" and abs(each.at - about) > ROUNDING * self.beam.length
-        ]
-        moments += [
-            (1.0, f"{name}.M")
-            for name, each in supports
-            if each.hold.slope or each.torsional_stiffness
-        ]  # fmt: skip
-        known = [p.force for p in points] + [(s.first + s.last) / 2 * (s.end - s.start) for s in spreads]
-        turning = [p.couple + p.force * (p.x - about) for p in points]
-        turning += [_line_moment(s) - about * (s.first + s.last) / 2 * (s.end - s.start) for s in spreads]
-        for name, unknown, given in (("ΣF", forces, known), ("ΣM", moments, turning)):
-            left = " ".join(
-                f"{'+' if c > 0 else '−'} {'' if abs(c) == 1.0 else f'{abs(c):.6g}·'}{each}"
-                for c, each in unknown
-            ).removeprefix("+ ")
-            rest = signed(given)
-            rest = "" if rest == "0" else f" − {rest[1:]}" if rest[0] == "−" else f" + {rest}"
-            if left:
-                step.law(f"{name} = {left}{rest} = 0")
 
     def _segment_step(self, say: Say) -> Step:
         """The polynomials of every segment."""
@@ -476,30 +447,6 @@ class BeamLine(Result):
             }
             put(step, "W_min", "M_max·S/Re", self.needed_modulus, "section_modulus", of=of)
         return step
-
-
-def polynomial_text(coefficients: Sequence[float] | Floats, largest: float, length: float) -> str:
-    """A polynomial in ξ, terms that are nothing but rounding left out."""
-    text = ""
-    for power, c in enumerate(coefficients):
-        if abs(c) * length**power <= 1e-12 * largest or c == 0.0:
-            continue
-        mark = (" − " if c < 0 else " + ") if text else ("−" if c < 0 else "")
-        unknown = "" if power == 0 else "·ξ" if power == 1 else f"·ξ{'²³⁴⁵'[power - 2]}"
-        text += f"{mark}{abs(c):.6g}{unknown}"
-    return text or "0"
-
-
-def _line_moment(spread: Spread) -> float:
-    """Moment of a line load about x = 0."""
-    a, b = spread.start, spread.end
-    rate = (spread.last - spread.first) / (b - a)
-    return (spread.first - rate * a) * (b * b - a * a) / 2 + rate * (b**3 - a**3) / 3
-
-
-def _rounded(parts: Sequence[float]) -> float:
-    total = math.fsum(parts)
-    return 0.0 if abs(total) < 1e-9 * max((abs(p) for p in parts), default=0.0) else total
 
 
 def _first_largest(found: Iterable[tuple[float, float]]) -> tuple[float, float]:

@@ -19,7 +19,7 @@ from linkwright.kinetostatics.self_check import LIMIT
 from linkwright.mechanism.mechanism import Link, Mechanism
 from linkwright.parts.base import Block, Result, Row, Value, fault, put, shown
 from linkwright.parts.beams.axis import LinkAxis, SpreadMass
-from linkwright.parts.beams.beam import polynomial_text
+from linkwright.parts.beams.balance import polynomial_text
 from linkwright.parts.beams.materials import MATERIAL, Material
 from linkwright.parts.beams.sections import Section, require_modulus, section_field
 from linkwright.parts.fields import Listed, Whole

@@ -18,9 +18,9 @@ class Balance:
     """A (r, n), B (r,) and X (n,) of A·X = B: every moving link's ΣFx, ΣFy (N) and ΣM (N·m) about its first joint.
 
     ``names``: of the unknowns, ``Cx`` the force of the joint C along x, ``M`` its couple, ``N`` the force across a
-    guide, of pins with several links ``bar_2.Cx``; ``on``: the links on which they act, with the opposite on the frame
-    or the joint's other link; ``rows``: of the equations; ``units`` of the unknowns. X are the numbers of the reaction
-    solver, which take no part in A and B.
+    guide, of pins with several links ``bar_2.Cx``; ``on``: the links on which they act, with the opposite on the
+    frame or the joint's other link; ``rows``: of the equations; ``units`` of the unknowns. X are the numbers of the
+    reaction solver, which take no part in A and B.
     """
 
     names: tuple[str, ...]
@@ -66,7 +66,8 @@ def structure_balance(forces: Forces, index: int = 0) -> Balance | None:
         b[3 * k + 2] = -(moment - about[0] * force[1] + about[1] * force[0])
     rows = tuple(f"{link} {sum_}" for link in links for sum_ in ("ΣFx", "ΣFy", "ΣM"))
     return Balance(
-        tuple(each.name for each in unknowns), tuple(each.on[0][0] for each in unknowns), rows, tuple(each.unit for each in unknowns), _tidy(a), _tidy(b),
+        tuple(each.name for each in unknowns), tuple(each.on[0][0] for each in unknowns), rows,
+        tuple(each.unit for each in unknowns), _tidy(a), _tidy(b),
         np.array([each.value for each in unknowns]),
     )  # fmt: skip
 

@@ -135,7 +135,7 @@ class RigidBody(Problem):
 
     def _key(self, name: str) -> str:
         """Where the file has a force: among its loads, or under the key that it had before."""
-        return f"{'loads' if name in (self.told.get('loads') or {}) else 'forces'}.{name}"
+        return f"{'loads' if name in (self.file_values.get('loads') or {}) else 'forces'}.{name}"
 
     @property
     def planar(self) -> bool:
@@ -253,7 +253,7 @@ class Reactions(Result):
 
     @property
     def matrix(self) -> tuple[Floats, Floats]:
-        """A and B of A·X = B, N and N·m: rows are the sums of forces and moments about the origin, X the reactions."""
+        """A and B of A·X = B, N and N·m: rows are ΣF and, about the origin, ΣM; X are the reactions."""
         state = _Balance(self.body)
         about = [name[1] == "M" for name in _sums(self.body)]
         rows = np.where(about, state.scale, 1.0)

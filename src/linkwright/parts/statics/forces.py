@@ -109,8 +109,8 @@ class Line:
 class Force(Line):
     """A force: its components ``force`` (2 or 3) N, or its ``size`` N ``along`` a direction; ``at`` (2 or 3) m.
 
-    The direction may be given by two points of the line of action, from ``start`` to ``end``. A force with a direction
-    alone has an unknown magnitude, which equilibrium gives.
+    The direction may be given by two points of the line of action, from ``start`` to ``end``. A force with a
+    direction alone has an unknown magnitude, which equilibrium gives.
     """
 
     force: tuple[float, ...] = given(Components("force", doc="components"), ())
@@ -209,8 +209,8 @@ def direction_angles(vector: Floats) -> Floats:
 class ForceSystem(Problem):
     """Forces (N) at points (m) and couples (N·m); moments are taken ``about`` a point (m).
 
-    ``components`` of forces along lines, ``angles`` between two forces. Forces of unknown magnitude, through one point
-    with all others, are those that hold this point in equilibrium.
+    ``components`` of forces along lines, ``angles`` between two forces. Forces of unknown magnitude, through one
+    point with all others, are those that hold this point in equilibrium.
     """
 
     kind: ClassVar[str] = "forces"

@@ -376,7 +376,7 @@ class Statistics(Result):
         return "(x̄ − L)/(3·σ)" if own.upper is None else "min(U − x̄, x̄ − L)/(3·σ)"
 
     def _scales(self, fitting: Fitting) -> list[Scale]:
-        """Units of the coefficients of a regression, of those of its samples: that of y, then y's per each column's."""
+        """Units of the coefficients of a regression by those of its samples: of y, then of y over each column."""
         y, xs = self.scale(fitting.y), [self.scale(name) for name in fitting.on]
         powers = [(xs[0], p) for p in range(1, fitting.degree + 1)] if len(xs) == 1 else [(x, 1) for x in xs]
         kinds = self.problem.dimensions_of(fitting)[1:]
@@ -472,8 +472,8 @@ class Statistics(Result):
             step = Step(str(len(found) + 1), say("statistics.capability", name=name))
             mark = "C" if c.within else "P"
             if c.cp is not None:
-                put(step, f"{mark}p", "(U − L)/(6·σ)", c.cp, of=self._limits_of(name))
-            put(step, f"{mark}pk", self._nearest(name), c.cpk, of=self._limits_of(name))
+                put(step, f"{mark}p", "(U − L)/(6·σ)", c.cp, of=self._limits_of(name), digits=8)
+            put(step, f"{mark}pk", self._nearest(name), c.cpk, of=self._limits_of(name), digits=8)
             found.append(step)
         return found
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Sequence
+from itertools import pairwise
 from typing import TypeVar
 
 import numpy as np
@@ -100,7 +101,7 @@ class Paper:
 
     def chain(self, places: Sequence[tuple[Vec, float]], say: Callable[[float], str], offset: float) -> None:
         """A chain of dimensions between places (on the paper, and as numbers) that follow each other."""
-        for (first, one), (last, other) in zip(places, places[1:], strict=False):
+        for (first, one), (last, other) in pairwise(places):
             self.dimension(first, last, say(abs(other - one)), offset)
 
     def drawing(self, title: str) -> Drawing:

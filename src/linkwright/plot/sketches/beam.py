@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from functools import partial
-
 import numpy as np
 
 from linkwright.parts.base import shown
@@ -86,8 +84,8 @@ def _line_load(paper: Paper, name: str, load: BeamLoad, beam: Beam, scale: float
     paper.line(np.stack([x, top], axis=1), "lw-load-thin")
     for x_k, q_k, top_k in zip(x.tolist(), q.tolist(), top.tolist(), strict=True):
         if abs(top_k + HALF + 2.0) > 8.0:
-            down = ((x_k, top_k), (x_k, -HALF)), ((x_k, -HALF), (x_k, top_k))
-            paper.arrow(*down[0 if q_k < 0 else 1], "lw-load")
+            start, end = (top_k, -HALF) if q_k < 0 else (-HALF, top_k)
+            paper.arrow((x_k, start), (x_k, end), "lw-load")
     sizes = [shown(abs(each), "line_load") for each in (first, last)]
     text = f"{name} = {sizes[0]}" if first == last else f"{name} = {sizes[0]} … {sizes[1]}"
     middle = (float(x.mean()), float(top.min()))
@@ -104,10 +102,9 @@ def _dimensions(paper: Paper, beam: Beam, scale: float) -> None:
         )
     ordered = sorted(places)
     kept = [x for i, x in enumerate(ordered) if i == 0 or x - ordered[i - 1] > 1e-9 * beam.length]
-    text = partial(_length)
-    paper.chain([((x * scale, ROWS[0]), x) for x in kept], text, 0.0)
+    paper.chain([((x * scale, ROWS[0]), x) for x in kept], _length, 0.0)
     if len(kept) > 2:
-        paper.dimension((0.0, ROWS[1]), (WIDE, ROWS[1]), text(beam.length))
+        paper.dimension((0.0, ROWS[1]), (WIDE, ROWS[1]), _length(beam.length))
     for x in kept:
         paper.line([(x * scale, 34.0), (x * scale, ROWS[0] + 5.0)], "lw-dimension")
 

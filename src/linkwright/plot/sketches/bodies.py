@@ -42,11 +42,11 @@ def draw_body(body: RigidBody, language: str) -> Drawing:
         sense = 1 if spatial(couple)[2] >= 0 else -1
         paper.put("moment", at=vec(at), turning=sense, radius=24.0, style="lw-load")
         text = f"{name} = {shown(float(np.linalg.norm(couple)), 'torque')}"
-        paper.name(text, at + (0.0, -26.0), style="lw-load-name")
+        paper.name(text, at + np.array([0.0, -26.0]), style="lw-load-name")
     if body.planar:
         _dimensions(paper, np.array([*held.values(), *loaded.values()])[:, :2], scale)
     else:
-        axes(paper, view, corners.min(axis=0) - (AXIS, -AXIS))
+        axes(paper, view, corners.min(axis=0) - np.array([AXIS, -AXIS]))
     return paper.drawing(body.name)
 
 

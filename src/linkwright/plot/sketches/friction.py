@@ -49,7 +49,7 @@ def draw_belt(belt: Belt, language: str) -> Drawing:
         paper.name(f"M = {shown(belt.torque, 'torque')}", (26.0, 6.0), style="lw-load-name")
     if belt.radius is not None:
         edge = RADIUS * np.array([math.cos(0.75), math.sin(0.75)])
-        paper.line([(0.0, 0.0), edge], "lw-dimension")
+        paper.line([np.zeros(2), edge], "lw-dimension")
         paper.name(f"r = {shown(belt.radius, 'length')}", edge, 0.6 * edge, style="lw-value")
     if belt.groove is not None:
         paper.name(f"α = {direction_text(belt.groove)}", (-RADIUS, 0.6 * RADIUS), style="lw-value")

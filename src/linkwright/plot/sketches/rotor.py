@@ -23,7 +23,7 @@ def draw_rotor(rotor: Rotor, language: str) -> Drawing:
     )
     scale = RADIUS / largest
     _along_the_shaft(paper, rotor, scale)
-    places = [each.at for each in (*rotor.masses.values(), *rotor.planes.values())]
+    places = [each.at for each in rotor.masses.values()] + [each.at for each in rotor.planes.values()]
     low, span = min(places), (max(places) - min(places)) or 1.0
     left = RADIUS + GAP
 

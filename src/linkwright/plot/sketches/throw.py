@@ -24,7 +24,7 @@ def draw_particle(particle: Particle, language: str) -> Drawing:
     start, way = np.array([0.0, -high]), np.array([math.cos(angle), -math.sin(angle)])
     paper.arrow(start, start + ARROW * way, "lw-load")
     paper.name(f"v = {shown(particle.speed or 0.0, 'velocity')}", start + ARROW * way, style="lw-load-name")
-    paper.line([start, start + (LEVEL, 0.0)], "lw-axis")
+    paper.line([start, start + np.array([LEVEL, 0.0])], "lw-axis")
     if abs(angle) > 1e-6:
         paper.put("dimension_arc", at=(0.0, -high), radius=56.0, first=0.0, sweep=-angle)
     middle = start + 62.0 * np.array([math.cos(0.5 * angle), -math.sin(0.5 * angle)])
@@ -39,6 +39,6 @@ def draw_particle(particle: Particle, language: str) -> Drawing:
         drag = "b·v" if particle.linear else "k·v²"
         paper.name(drag, start - 0.45 * ARROW * way, style="lw-force-name")
     far = np.array([0.8 * GROUND - 40.0, -78.0])
-    paper.arrow(far, far + (0.0, 46.0), "lw-load")
-    paper.name("g", far + (0.0, 24.0), style="lw-load-name")
+    paper.arrow(far, far + np.array([0.0, 46.0]), "lw-load")
+    paper.name("g", far + np.array([0.0, 24.0]), style="lw-load-name")
     return paper.drawing(particle.name)

@@ -1,6 +1,8 @@
 """What the keys of calculations are called in the given data of a report."""
 
 WORDS = {
+    "program_from": "lower bound",
+    "program_to": "upper bound",
     "about": "point of moments",
     "absorber": "absorber",
     "acceleration": "acceleration",

@@ -1,6 +1,8 @@
 """报告中已知数据各项的名称。"""
 
 WORDS = {
+    "program_from": "下界",
+    "program_to": "上界",
     "about": "矩心",
     "absorber": "吸振器",
     "acceleration": "加速度",
