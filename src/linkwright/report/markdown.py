@@ -300,7 +300,7 @@ class _Reader:
             if name in self.beside.sources:
                 found.append(cited(self.beside.sources[name]))
             else:
-                self.wrong("no_source", "no-source", name=name, hint=offered(name, self.beside.sources))
+                self.wrong("no_source", code="no-source", name=name, hint=offered(name, self.beside.sources))
                 found.append(literal(f"[@{name}]"))
         return ", ".join(found)
 

@@ -190,3 +190,50 @@ def test_typst_stays_typst() -> None:
 def test_signs_that_mark_texts_here_are_taken_out_of_a_users_text() -> None:
     found = one("a\ue010b\ue014c")
     assert isinstance(found, Paragraph) and plain(found.text) == "abc"
+
+
+EVERYTHING = """\
+- ```
+  code first
+  ```
+- a
+  1. b
+     - c
+- $$ d $$ (in-a-list)
+
+> | a |
+> |---|
+> | 1 |
+>
+> Table: In a quotation {#quoted}
+
+```yaml Listing {#listing}
+k: [1]
+```
+
+1) own number
+2) [[in-a-list]], [[quoted]], [[listing]]
+"""
+
+
+def test_numbers_within_lists_and_quotations_are_those_of_all_three_forms() -> None:
+    """Word's writer passes the same blocks in the same order as the numbers are counted."""
+    pytest.importorskip("typst")
+    docx = pytest.importorskip("docx")
+    import io
+    import re
+    from html import unescape
+
+    from linkwright.report.document import Document
+    from linkwright.report.typst_pages import compiled
+    from linkwright.report.word_pages import word
+    from linkwright.words import speaker
+
+    document = Document("T", speaker("en"), blocks=[Heading("A"), *read(EVERYTHING)[0]])
+    wanted = "equation (1.1), Table 1.1, Listing 1.1"
+    page = unescape(re.sub("<[^>]*>", "", compiled(document, "html").decode()))
+    assert wanted in page
+    lines = [each.text for each in docx.Document(io.BytesIO(word(document))).paragraphs]
+    assert wanted in lines and "\t(1.1)" in lines
+    for caption in ("Table 1.1  In a quotation", "Listing 1.1  Listing"):
+        assert caption in lines
