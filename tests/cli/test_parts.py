@@ -107,3 +107,14 @@ def test_structures_of_model_files() -> None:
     assert reactions["support on roller Fy"]["value"] == pytest.approx(1500)
     worked = shown("statics", "gallery:two_bars_equilibrium", "--worked")
     assert len(worked.splitlines()) > 20 and {"A", "B"} <= set(re.findall(r"\b[A-Z]\b", worked))
+
+
+def test_a_file_with_old_words_is_solved_and_told_the_new_ones(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "old.yaml"
+    path.write_text("format: 1\nkind: forces\nforces: {P: {size: 5 N, along: [3, 4]}}\n", encoding="utf-8")
+    assert main(["statics", str(path), "--json"]) == 0
+    told = capsys.readouterr()
+    assert json.loads(told.out)["resultant"]["Rx"]["value"] == pytest.approx(3.0)
+    assert "magnitude" in told.err and "direction" in told.err

@@ -42,8 +42,8 @@ STAGE = {package: number for number, packages in enumerate(STAGES) for package i
 FRONT = STAGE["report"]
 NOTEBOOK = "linkwright.plot.drawing.draw"
 PLOT = "linkwright.plot.plot"
-LEADS_ON = {  # what methods import when they are called: structure(), plot(), and the drawing that notebooks show
-    "core/plot_method.py": {PLOT},
+LEADS_ON = {  # what methods import when they are called: structure(), plot(), sketch(), drawings of notebooks
+    "core/plot_method.py": {PLOT, "linkwright.plot.sketches.base"},
     "mechanism/mechanism.py": {"linkwright.structure", NOTEBOOK},
     "kinematics/motion.py": {NOTEBOOK},
     "kinetostatics/forces.py": {NOTEBOOK},

@@ -221,6 +221,8 @@ def test_calculations_have_own_chapters_covers_and_sources(tmp_path: Path, pictu
     first.write_text(f"{BELT}  sections: [{{title: a, text: '![x](none.png)'}}]\n", encoding="utf-8")
     with faulty("wrong-picture", "report.sections.0.text"):
         lw.report(str(first))
+    code, findings = checked(first)
+    assert code == 1 and [each.key for each in findings] == ["report.sections.0.text"]
 
 
 COVER = {"school": "Example University", "class": "ME 23-1", "student_number": 2023, "adviser": "Zhang",

@@ -41,7 +41,9 @@ def test_both_languages_name_the_same() -> None:
 
 
 def test_every_file_of_the_gallery_is_there() -> None:
-    files = {each for rows in tables("en").values() for row in rows for each in re.findall(r"gallery:(\w+)", row)}
+    files = {
+        each for rows in tables("en").values() for row in rows for each in re.findall(r"gallery:(\w+)", row)
+    }
     known = {*lw.gallery_names(), *(each.removeprefix("gallery:") for each in lw.part_names())}
     assert files - known <= {"function_of_three_pairs"}
     assert len(files) > 20

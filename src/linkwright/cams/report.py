@@ -11,7 +11,7 @@ import numpy as np
 from linkwright.core.search import first_largest
 from linkwright.laws.program import MotionProgram
 from linkwright.laws.smoothest import FoundProgram
-from linkwright.parts.base import Block, Row, number, put, shown
+from linkwright.parts.base import Block, Row, Value, number, put, shown
 from linkwright.words import Say, language_of
 from linkwright.words.sentence import in_language
 from linkwright.worked.page import Step
@@ -208,7 +208,7 @@ def steps(design: CamDesign, say: Say) -> list[Step]:
     cam, follower = design.cam, design.cam.follower
     first = Step("1", say("cams.step_start"))
     base = cam.base_radius or 0.0
-    prime = base + follower.roller_radius
+    of: dict[str, Value]
     if cam.barrel_radius is not None:
         first.law("x = R·φ; y = s(φ)")
         put(first, "R", "", cam.barrel_radius, "length")
@@ -216,16 +216,17 @@ def steps(design: CamDesign, say: Say) -> list[Step]:
         first.law("H(θ) = r_b + s" if not follower.oscillating else "H(θ) = c·sin(ψ₀ + s) − f")
         put(first, "r_b", "", base, "length")
     elif follower.oscillating:
-        put(
-            first,
-            "ψ₀",
-            "arccos((c² + l² − (r_b + r_r)²)/(2·c·l))",
-            follower.start_angle(base) or 0.0,
-            "angle",
-        )
+        of = {
+            "c": (follower.pivot_distance or 0.0, "length"), "l": (follower.arm or 0.0, "length"),
+            "r_b": (base, "length"), "r_r": (follower.roller_radius, "length"),
+        }  # fmt: skip
+        formula = "arccos((c² + l² − (r_b + r_r)²)/(2·c·l))"
+        put(first, "ψ₀", formula, follower.start_angle(base) or 0.0, "angle", of=of)
     else:
-        numbers = f"√({number(prime, 'length')}² − {number(follower.offset, 'length')}²)"
-        put(first, "d", "√((r_b + r_r)² − e²)", follower.start_height(base) or 0.0, "length", numbers=numbers)
+        of = {
+            "r_b": (base, "length"), "r_r": (follower.roller_radius, "length"), "e": (follower.offset, "length"),
+        }  # fmt: skip
+        put(first, "d", "√((r_b + r_r)² − e²)", follower.start_height(base) or 0.0, "length", of=of)
     second = Step("2", say("cams.step_angle"))
     steepest = sorted((design.pressure_angle_rise, design.pressure_angle_fall), key=lambda each: each.place)
     extreme = steepest[first_largest(np.abs([each.value for each in steepest]))]

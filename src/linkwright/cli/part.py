@@ -73,6 +73,8 @@ def read(source: str, command: str, session: Session) -> Problem:
     if kind in COMMANDS and COMMANDS[kind] != command:
         raise UsageError("part.other_command", kind=kind, command=COMMANDS[kind], file=source)
     problem = load(source)
+    for each in problem.warnings:
+        session.tell(session.finding(each))
     if source.startswith(GALLERY) and not session.json:
         title = title_said(problem.name, session.language)
         if title != problem.name:  # a copy finds again what the problem has found of itself

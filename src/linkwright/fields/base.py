@@ -298,13 +298,17 @@ class Word(Field):
 
 @dataclass(frozen=True)
 class Free(Field):
-    """A free mapping that is kept and not interpreted."""
+    """A free mapping that is kept and not interpreted; ``keys``: schemas of those that a command reads."""
+
+    keys: Callable[[], Mapping[str, Schema]] | None = None
 
     def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
         return None if reader.mapping(node, place) is None else reader.free(node)
 
     def shape(self) -> Schema:
-        return {"type": "object"}
+        if self.keys is None:
+            return {"type": "object"}
+        return {"type": "object", "properties": dict(self.keys()), "additionalProperties": False}
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.core.plot_method import Plotted
+from linkwright.core.plot_method import Plotted, Sketched
 from linkwright.errors import Finding, ModelError
 from linkwright.fields.base import Field, GivenByFile, given_by_file
 from linkwright.metrics.quantities import SHOWN
@@ -29,8 +29,6 @@ from linkwright.worked.written import filled, latex, latex_symbol, normal, plain
 
 if TYPE_CHECKING:
     from typing import Self
-
-    from linkwright.plot.drawing.picture import Drawing
 
 
 #: Dimensions that only these results have, with their SI units.
@@ -94,15 +92,26 @@ def fault(code: str, key: str, **values: object) -> Finding:
 @dataclass(frozen=True, kw_only=True)
 class Heading:
     """What a file says about its calculation beside the problem: its ``purpose``, the settings of its ``report``, all
-    that is ``told`` in it as plain data, for the given data of the report; and the ``folder`` in which it lies."""
+    of its values as plain data (``file_values``, for the given data of the report) with the attributes ``as_read``
+    from them, and ``warnings`` about its words."""
 
     purpose: str = field(default="", repr=False)
     report: Mapping[str, Any] = field(default_factory=dict, repr=False)
-    told: Mapping[str, Any] = field(default_factory=dict, repr=False, compare=False)
-    folder: Path = field(default=Path(), repr=False, compare=False)
+    file_values: Mapping[str, Any] = field(default_factory=dict, repr=False, compare=False)
+    as_read: tuple[object, ...] = field(default=(), repr=False, compare=False)
+    warnings: tuple[Finding, ...] = field(default=(), repr=False, compare=False)
+
+    @property
+    def attributes(self) -> tuple[object, ...]:
+        """The values of the problem itself."""
+        own = (each.name for each in fields(self) if each.name not in HEADING)
+        return tuple(getattr(self, name) for name in own)
 
 
-class Problem(Heading, ABC):
+HEADING = ("name", "source", *(each.name for each in fields(Heading)))
+
+
+class Problem(Heading, Sketched, ABC):
     """One calculation as the file or the code gave it; subclasses are frozen dataclasses in SI units.
 
     ``kind`` is its name in files, ``fields`` the keys of its file beside the heading: its own attributes.
@@ -127,20 +136,11 @@ class Problem(Heading, ABC):
         """The result. Raises ModelError with all findings."""
 
     def given(self) -> Mapping[str, Any]:
-        """What is given as plain data: as the file says it, else the attributes as a file would."""
-        if self.told:
-            return self.told
-        found = {key: _as_told(getattr(self, key, None), each) for key, each in self.fields.items()}
+        """What is given as plain data: as the file says it, or as one would say what was changed since."""
+        if self.file_values and all(a is b for a, b in zip(self.attributes, self.as_read, strict=True)):
+            return self.file_values
+        found = {key: _as_given(getattr(self, key, None), each) for key, each in self.fields.items()}
         return {key: value for key, value in found.items() if value not in EMPTY}
-
-    def sketch(self, language: str = "en") -> Drawing | None:
-        """The sketch of what is given, with supports, loads and dimensions; None where its kind has none.
-
-        Raises LinkwrightError where it cannot be drawn.
-        """
-        from linkwright.plot.sketches.base import sketch
-
-        return sketch(self, language)
 
     def require(self) -> None:
         """Raises ModelError where anything is wrong."""
@@ -153,14 +153,14 @@ class Problem(Heading, ABC):
 EMPTY: tuple[Any, ...] = (None, {}, [], (), "", False)
 
 
-def _as_told(value: Any, kind: Field | None = None) -> Any:
+def _as_given(value: Any, kind: Field | None = None) -> Any:
     """A value as plain data of a file."""
     own = given_by_file(type(value)) if is_dataclass(value) else {}
     if own:
-        found = {each.key or key: _as_told(getattr(value, key), each) for key, each in own.items()}
+        found = {each.key or key: _as_given(getattr(value, key), each) for key, each in own.items()}
         return {key: each for key, each in found.items() if each not in EMPTY}
     if isinstance(value, Mapping):
-        return {key: _as_told(each) for key, each in value.items()}
+        return {key: _as_given(each) for key, each in value.items()}
     if value is None or kind is None or is_dataclass(value):
         named = getattr(value, "label", None) or getattr(value, "text", None) or getattr(value, "name", None)
         bare = (
@@ -358,13 +358,14 @@ def put(
     *,
     of: Mapping[str, Value] | None = None,
     numbers: str = "",
+    digits: int = 6,
 ) -> None:
     """Adds a result: symbol, formula, the formula with its numbers, and the value (SI) in the shown unit.
 
     ``of``: the values of the names in the formula, which are put in with their units, without these where all have
-    the result's; ``numbers``: a sum of numbers in that unit, where the formula has no names for them.
+    the result's; ``digits`` of them; ``numbers``: a sum in that unit, where the formula has no names for them.
     """
-    found = numbers or (filled(formula, _put_in(of, dimension)) if of else "")
+    found = numbers or (filled(formula, _put_in(of, dimension, digits)) if of else "")
     if plain(found) in (formula, number(value, dimension)):
         found = ""
     step.items.append(
@@ -375,11 +376,11 @@ def put(
     )  # fmt: skip
 
 
-def _put_in(of: Mapping[str, Value], dimension: str) -> dict[str, str]:
+def _put_in(of: Mapping[str, Value], dimension: str, digits: int) -> dict[str, str]:
     """What stands for the names of a formula."""
     given = {normal(key): each if isinstance(each, tuple) else (each, "") for key, each in of.items()}
     bare = all(kind == dimension for _, kind in given.values()) and dimension != "angle"
     return {
-        key: number(each, kind) if bare else shown(each, kind)
+        key: (number if bare else shown)(each, kind, digits)
         for key, (each, kind) in given.items()
     }  # fmt: skip

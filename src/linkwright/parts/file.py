@@ -19,6 +19,7 @@ from linkwright.files.model_file import declared_kind, read_root
 from linkwright.files.node_reader import Place, as_meant
 from linkwright.files.read_model import FORMAT, TASK_KEYS, read_parameters
 from linkwright.files.reader import Reader
+from linkwright.files.report_schema import report_keys
 from linkwright.files.schema import json_schema
 from linkwright.files.source import read_source
 from linkwright.words.sentence import Sentence
@@ -54,7 +55,7 @@ HEADING: Mapping[str, Field] = {
     "source": Text(doc="where it is taken from"),
     "expected": Free(doc="numbers to compare results with; not interpreted"),
     "parameters": Free(doc="named quantities for use in expressions"),
-    "report": Free(doc="title, own text, errata and more for the command report"),
+    "report": Free(doc="title, own text, errata and more for the command report", keys=report_keys),
     "sheet": SHEET_SECTION,
 }
 #: Keys that say nothing about the problem itself.
@@ -204,11 +205,12 @@ def _built(
 ) -> tuple[Problem | None, list[Finding]]:
     own = {key: value for key, value in values.items() if key not in HEADING}
     own |= {"name": values.get("name") or Path(reader.source).stem, "source": values.get("source") or ""}
-    told = {key: value for key, value in reader.free(root).items() if key not in ASIDE}
+    file_values = {key: value for key, value in reader.free(root).items() if key not in ASIDE}
     try:
+        problem = owner.of_file(own, folder)
         problem = replace(
-            owner.of_file(own, folder), purpose=values.get("purpose") or "", report=values.get("report") or {},
-            told=told, folder=folder,
+            problem, purpose=values.get("purpose") or "", report=values.get("report") or {},
+            file_values=file_values, as_read=problem.attributes, warnings=tuple(reader.findings),
         )  # fmt: skip
         found: Sequence[Finding] = problem.findings()
     except ModelError as error:

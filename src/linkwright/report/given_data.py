@@ -11,7 +11,7 @@ from linkwright.errors import LinkwrightError
 from linkwright.parts.base import Problem
 from linkwright.report.document import Block, Table, literal
 from linkwright.words import Say
-from linkwright.worked.written import latex_symbol
+from linkwright.worked.written import latex, latex_symbol
 
 #: Symbols of single values, by key, or by kind and key where a kind has another one.
 SYMBOLS: Mapping[str, str] = {
@@ -44,8 +44,8 @@ NAMED = (
 
 def given_data(problem: Problem, say: Say) -> Iterator[Block]:
     """A table of single values; of every mapping of names and every list of mappings a table of its own."""
-    told, single, tables = problem.given(), [], []
-    for key, value in told.items():
+    values, single, tables = problem.given(), [], []
+    for key, value in values.items():
         if key in STATED:
             continue
         if key in NAMED and isinstance(value, Mapping) and value:
@@ -147,7 +147,9 @@ def _split(value: Any, say: Say) -> tuple[str, str]:
     found = _VALUE.fullmatch(text)
     if found is None:
         return literal(text), ""
-    number, unit = found[1].replace("-", "−"), found[2].strip()
+    power = "e" in found[1].lower()
+    number = f"${latex(found[1].lower())}$" if power else found[1].replace("-", "−")
+    unit = found[2].strip()
     if unit:
         try:
             units.unit(units.tidy(unit))

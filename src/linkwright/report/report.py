@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from os import PathLike
@@ -135,8 +136,7 @@ def report(
     calculations = [each for each in given if isinstance(each, Calculation)]
     own = (cases or calculations)[0].settings
     entries = chosen(sections, own)
-    names = [case.mechanism.name for case in cases]
-    names = names or [each.title(language) for each in calculations]
+    names = [each.mechanism.name if isinstance(each, Case) else each.title(language) for each in given]
     document = Document(
         own.title or " / ".join(dict.fromkeys(names)),
         speaker(language),
@@ -219,9 +219,9 @@ def _cases(
     return found
 
 
-def _beside(folder: str | Path, file: str) -> Path:
+def _beside(folder: str | Path, file: str) -> str:
     """Where pictures lie: a folder that is named, else that of the file."""
-    return Path(folder) if folder or not file or file.startswith(GALLERY) else Path(file).parent
+    return str(folder) if folder or file.startswith(GALLERY) else os.path.dirname(file)
 
 
 def _loaded(source: str, language: str) -> Mechanism:

@@ -49,6 +49,8 @@ CHINESE = (
 )  # fmt: skip
 #: Families with the small pictures that people write among words.
 PICTURES = ("Noto Color Emoji", "Segoe UI Emoji", "Apple Color Emoji", "Twemoji", "Noto Emoji", "Symbola")
+#: Weight from which on a face is bold.
+BOLD = 600
 #: Width of a line of formulas, em; and of a formula's left side beyond which its right side begins a new line.
 LINE, LEFT = 41.0, 9.0
 #: Formulas of up to this estimated width fit for certain; wider ones are measured and made smaller if they must be.
@@ -105,7 +107,7 @@ def without_glyph(document: Document) -> str:
 
 
 @lru_cache(maxsize=512)
-def _printed(text: str, families: tuple[str, ...], folders: tuple[Any, ...] = ()) -> bool:
+def _printed(text: str, families: tuple[str, ...], folders: tuple[str, ...] = ()) -> bool:
     """Whether Typst finds a glyph for every character; PDF/A is the form that it refuses without one."""
     import typst as program
 
@@ -153,22 +155,32 @@ def aligned_by(marks: str) -> str:
     return "by-" + marks.translate(str.maketrans("<>^", "lrc"))
 
 
-def _folders() -> tuple[Any, ...]:
+def _folders() -> tuple[str, ...]:
     """Folders of the fonts that are given."""
     return tuple(dict.fromkeys(str(file.parent) for file in given_fonts()))
 
 
 @lru_cache(maxsize=8)
-def _families(folders: tuple[Any, ...] = ()) -> frozenset[str]:
+def _families(folders: tuple[str, ...] = ()) -> dict[str, int]:
+    """Families that are there, with the weight of their boldest face."""
     import typst as program
 
-    return frozenset(program.Fonts(font_paths=list(folders)).families())
+    found: dict[str, int] = {}
+    for font in program.Fonts(font_paths=list(folders)).fonts():
+        found[font.family] = max(found.get(font.family, 0), font.weight)
+    return found
+
+
+def without_bold() -> bool:
+    """Whether Chinese characters have no bold face: they are then made bold by a line around them."""
+    known = _families(_folders())
+    return any(known[name] < BOLD for name in [name for name in CHINESE if name in known][:1])
 
 
 def fonts(language: str) -> tuple[str, ...]:
     """Families for texts, those that are there; Chinese ones for every language, since names may be Chinese."""
     known = _families(_folders())
-    given = known - _families() if given_fonts() else frozenset()
+    given = known.keys() - _families().keys() if given_fonts() else set[str]()
     chinese = tuple(name for found in (given, known - given) for name in CHINESE if name in found)
     chinese = (*chinese, *sorted(given - {*CHINESE}))
     if language == "zh" and not chinese:
@@ -200,6 +212,7 @@ class _Writer:
             mathematics=_listed((MATHEMATICS, *families)),
             monospaced=_listed((MONOSPACED, *families)),
             language=quoted(document.language),
+            thin=str(without_bold()).lower(),
         )
         if document.cover is not None:
             title = self._cover(document.cover)

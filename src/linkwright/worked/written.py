@@ -60,18 +60,21 @@ def filled(text: str, values: Mapping[str, str]) -> str:
         return ""
     parts, at = [], 0
     spaced = normal(text)
-    for token in tokens:
+    for before, token, behind in zip(["", *tokens[:-1]], tokens, [*tokens[1:], ""], strict=True):
         found = spaced.index(token, at)
         parts.append(spaced[at:found])
-        parts.append(_factor(values[token]) if token in values else token)
+        tight = behind[:1] in _RAISED or behind == "^" or before == "/"
+        parts.append(_factor(values[token], tight=tight) if token in values else token)
         at = found + len(token)
+    parts.append(spaced[at:])
     return "".join(parts)
 
 
-def _factor(value: str) -> str:
-    """A number as a factor: in brackets where it is negative, as one sign where it has a unit."""
+def _factor(value: str, *, tight: bool) -> str:
+    """A number as a factor: as one sign where it has a unit; in brackets where it is negative, or has a unit and is
+    ``tight``: raised to a power, or what something is divided by."""
     whole = f"{OPEN}{value}{CLOSE}" if " " in value else value
-    return f"({whole})" if value.startswith(("-", "−")) else whole
+    return f"({whole})" if value.startswith(("-", "−")) or (tight and whole != value) else whole
 
 
 def of_file(text: str) -> str:

@@ -134,7 +134,7 @@ def test_pictures_have_a_caption_a_width_and_a_label(tmp_path: Path) -> None:
     Image.new("RGB", (400, 100), "white").save(tmp_path / "photo one.png")
     Image.new("RGB", (40, 1000), "white").save(tmp_path / "b.jpg")
     (tmp_path / "c.svg").write_text(SKETCH, encoding="utf-8")
-    beside = Beside(tmp_path)
+    beside = Beside(str(tmp_path))
     found = one("![A *white* one](photo%20one.png){#w width=40%}", beside)
     assert isinstance(found, Figure)
     assert (plain(found.caption), found.label, found.pictures[0][1]) == ("A white one", "w", 0.4)
@@ -150,7 +150,7 @@ def test_a_photograph_that_lies_on_its_side_is_turned_upright(tmp_path: Path) ->
     exif = Image.Exif()
     exif[0x0112] = 6
     Image.new("RGB", (80, 40), "white").save(tmp_path / "a.jpg", exif=exif)
-    found = one("![](a.jpg)", Beside(tmp_path))
+    found = one("![](a.jpg)", Beside(str(tmp_path)))
     assert (
         isinstance(found, Figure)
         and '<svg xmlns="http://www.w3.org/2000/svg" width="40" height="80"' in (found.pictures[0][0])
@@ -177,7 +177,7 @@ def test_what_is_wrong_is_told_and_printed_as_it_is_written(text: str, code: str
     (tmp_path / "text.png").write_text("no picture", encoding="utf-8")
     (tmp_path / "bad.svg").write_text("<svg><g></svg>", encoding="utf-8")
     (tmp_path / "c.svg").write_text(SKETCH, encoding="utf-8")
-    (block,), faults = read(text, Beside(tmp_path))
+    (block,), faults = read(text, Beside(str(tmp_path)))
     assert len(faults) == 1 and code in faults[0]
     shown = block.rows or block.head if isinstance(block, Table) else getattr(block, "text", "")
     assert plain("".join(shown)) if isinstance(shown, tuple) else plain(shown)
@@ -190,3 +190,50 @@ def test_typst_stays_typst() -> None:
 def test_signs_that_mark_texts_here_are_taken_out_of_a_users_text() -> None:
     found = one("a\ue010b\ue014c")
     assert isinstance(found, Paragraph) and plain(found.text) == "abc"
+
+
+EVERYTHING = """\
+- ```
+  code first
+  ```
+- a
+  1. b
+     - c
+- $$ d $$ (in-a-list)
+
+> | a |
+> |---|
+> | 1 |
+>
+> Table: In a quotation {#quoted}
+
+```yaml Listing {#listing}
+k: [1]
+```
+
+1) own number
+2) [[in-a-list]], [[quoted]], [[listing]]
+"""
+
+
+def test_numbers_within_lists_and_quotations_are_those_of_all_three_forms() -> None:
+    """Word's writer passes the same blocks in the same order as the numbers are counted."""
+    pytest.importorskip("typst")
+    docx = pytest.importorskip("docx")
+    import io
+    import re
+    from html import unescape
+
+    from linkwright.report.document import Document
+    from linkwright.report.typst_pages import compiled
+    from linkwright.report.word_pages import word
+    from linkwright.words import speaker
+
+    document = Document("T", speaker("en"), blocks=[Heading("A"), *read(EVERYTHING)[0]])
+    wanted = "equation (1.1), Table 1.1, Listing 1.1"
+    page = unescape(re.sub("<[^>]*>", "", compiled(document, "html").decode()))
+    assert wanted in page
+    lines = [each.text for each in docx.Document(io.BytesIO(word(document))).paragraphs]
+    assert wanted in lines and "\t(1.1)" in lines
+    for caption in ("Table 1.1  In a quotation", "Listing 1.1  Listing"):
+        assert caption in lines

@@ -135,7 +135,7 @@ class RigidBody(Problem):
 
     def _key(self, name: str) -> str:
         """Where the file has a force: among its loads, or under the key that it had before."""
-        return f"{'loads' if name in (self.told.get('loads') or {}) else 'forces'}.{name}"
+        return f"{'loads' if name in (self.file_values.get('loads') or {}) else 'forces'}.{name}"
 
     @property
     def planar(self) -> bool:

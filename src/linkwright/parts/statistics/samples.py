@@ -472,8 +472,8 @@ class Statistics(Result):
             step = Step(str(len(found) + 1), say("statistics.capability", name=name))
             mark = "C" if c.within else "P"
             if c.cp is not None:
-                put(step, f"{mark}p", "(U − L)/(6·σ)", c.cp, of=self._limits_of(name))
-            put(step, f"{mark}pk", self._nearest(name), c.cpk, of=self._limits_of(name))
+                put(step, f"{mark}p", "(U − L)/(6·σ)", c.cp, of=self._limits_of(name), digits=8)
+            put(step, f"{mark}pk", self._nearest(name), c.cpk, of=self._limits_of(name), digits=8)
             found.append(step)
         return found
 

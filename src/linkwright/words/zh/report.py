@@ -6,7 +6,8 @@ WORDS = {
 为一台机器编写设计说明书（PDF、HTML 或 Word）：题目与数据、机构运动简图、
 结构分析、分析方法、一个位置的完整计算及矢量多边形、一个循环的数据表、
 曲线、运动副反力、两种方法求得的平衡力矩、设计指标、飞轮、附录、参考文献。
-给出几个文件时加以比较。模型文件的 report 一节可设定标题、自己的文字、各节顺序等。""",
+给出几个文件时加以比较。模型文件的 report 一节可设定标题、封面、自己的章与文字、
+参考文献、各节顺序等。""",
     "examples": """\
 linkwright report gallery:swing_conveyor --lang zh
 linkwright report crusher.yaml --to docx --lang zh
@@ -14,7 +15,7 @@ linkwright report a.yaml b.yaml --output comparison.pdf
 linkwright report crusher.yaml --sections task structure worked tables""",
     "files_help": "模型文件，或 gallery:名称；给出几个时加以比较",
     "to_help": "pdf、html 或 docx（默认按 --output，否则为 pdf）",
-    "sections_help": "所需各节，按顺序写出，可选：{names}",
+    "sections_help": "所需各节，按顺序写出，可选：{names}；也可写自己一章的标题；rest：其余各节",
     "position_help": '完整计算的位置的输入值："60 deg"（默认：循环的六分之一处）',
     "positions_help": '数据表的位置：个数（默认 24），或列表 "0..-360 deg:15 deg"、"0 deg, 60 deg, limits"',
     "output_help": "输出文件（默认用模型的名称）",

@@ -1,6 +1,8 @@
 """Calculations as chapters of a report: their parts and order, given data, formulas, sketches, own text."""
 
+import math
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -8,7 +10,7 @@ from tests.contract.calculations import problem, solved
 from tests.every import every
 
 import linkwright as lw
-from linkwright import parts
+from linkwright import parts, units
 from linkwright.parts.base import Row
 from linkwright.plot.sketches.base import SKETCHES
 from linkwright.report import report
@@ -79,6 +81,46 @@ def test_every_formula_of_a_calculation_can_be_printed(name: str) -> None:
                         formula(text)
 
 
+UNIT = r"[A-Za-zµ%]+[²³⁴]?(?:[·/](?!cos|sin|tan|arc)[A-Za-z]+[²³⁴]?)*"
+NAMES_OF = {
+    name: getattr(math, name.replace("arc", "a"))
+    for name in ("cos", "sin", "tan", "arctan", "arccos", "atan2")
+}
+NAMES_OF |= {"sqrt": math.sqrt, "exp": math.exp, "abs": abs, "min": min, "max": max, "pi": math.pi}
+
+
+def reckoned(text: str) -> float:
+    """What the numbers put into a formula amount to, units in SI, angles in radians."""
+
+    def si(found: re.Match[str]) -> str:
+        return f"({float(found[1])!r}*{units.unit(units.tidy(found[2]))[0]!r})"
+
+    text = text.replace("−", "-").replace("π", "pi").replace("Σ ", "")
+    text = re.sub(r"(\d[\d.]*(?:e[+-]?\d+)?)°", lambda f: repr(math.radians(float(f[1]))), text)
+    text = re.sub(rf"(\d[\d.]*(?:e[+-]?\d+)?) ({UNIT})", si, text)
+    text = re.sub(r"√(\d[\d.]*)", r"sqrt(\1)", text.replace("√(", "sqrt("))
+    text = re.sub(r"\b(cos|sin|tan|arctan|arccos) (-?[\d.e+-]+|\([^()]*\))", r"\1(\2)", text)
+    text = re.sub(r"\be\^\(", "exp(", text)
+    text = re.sub(r"\|([^|]*)\|", r"abs(\1)", text)
+    for sign, power in zip("²³⁴", "234", strict=True):
+        text = text.replace(sign, f"**{power}")
+    return float(eval(text.replace("·", "*").replace("^", "**"), {"__builtins__": {}}, NAMES_OF))
+
+
+@pytest.mark.rotating
+@pytest.mark.parametrize("name", NAMES)
+def test_numbers_put_in_give_the_result(name: str) -> None:
+    """Reckoned again from the printed text: in SI where units stand there, else in the unit of the result."""
+    for step in every(solved(name).steps(speaker("en"))):
+        for item in step.equations:
+            if not item.numbers or item.symbol.startswith("|∂y"):
+                continue
+            found, shown = reckoned(item.numbers), float(item.result)
+            largest = max(abs(float(each)) for each in re.findall(r"\d[\d.]*(?:e[+-]?\d+)?", item.numbers))
+            in_si = found == pytest.approx(item.value, rel=1e-4)
+            assert in_si or found == pytest.approx(shown, rel=1e-4, abs=1e-5 * largest), item.numbers
+
+
 @pytest.mark.rotating
 @pytest.mark.parametrize("name", NAMES)
 def test_every_chapter_is_complete_in_both_languages(name: str) -> None:
@@ -88,9 +130,16 @@ def test_every_chapter_is_complete_in_both_languages(name: str) -> None:
         assert say("report.given_data", language) in headings(found, 2)
 
 
+def test_given_data_follow_what_is_changed_in_code() -> None:
+    found = replace(problem("band_brake"), friction=0.4)
+    assert problem("band_brake").given()["friction"] == 0.3 and found.given()["friction"] == 0.4
+    renamed = replace(problem("band_brake"), name="another")
+    assert renamed.given() == problem("band_brake").given()
+
+
 def test_every_kind_with_supports_or_loads_has_a_sketch() -> None:
-    drawn = {problem(name).kind for name in NAMES if problem(name).kind in SKETCHES}
-    assert drawn == {
+    kinds = {re.findall(r"(?m)^kind: (\w+)", lw.gallery.content(name).decode())[0] for name in NAMES}
+    assert {kind for kind in kinds if kind in SKETCHES} == {
         "beam", "forces", "rigid_body", "belt", "wedge", "rotor", "vibration", "follower", "mounts", "link_bending",
         "throw", "tolerance", "trajectory",
     }  # fmt: skip
@@ -110,7 +159,7 @@ def test_a_sketch_names_what_is_given(name: str) -> None:
 
 
 def test_own_text_errata_and_title_of_a_calculation(tmp_path: Path) -> None:
-    text = lw.gallery.content("cantilever").decode() + (
+    text = lw.gallery.content("cantilever").decode().partition("report:")[0] + (
         "report:\n  title: Beams\n  author: Li\n  text: {worked: Own words., appendix: At the end.}\n"
         "  errata: [{where: p. 3, printed: '2', right: '3'}]\n  zh: {title: 梁}\n"
     )
@@ -186,6 +235,8 @@ def test_numbers_are_put_in_for_names_alone() -> None:
     assert unmarked(found) == "3000 N·m/(-2 mm³) + M0"
     assert latex(found).startswith(r"\frac{3000\,\mathrm{N·m}}{-2\,\mathrm{mm³}}")
     assert filled("a + b", {"c": "1"}) == ""
+    assert unmarked(filled("m·v² + a", {"m": "2 kg", "v": "3 m/s"})) == "2 kg·(3 m/s)² + a"
+    assert filled("x² + e²", {"x": "-3", "e": "4"}) == "(-3)² + 4²"
     assert sides("a = b = c") == ("a", "b", "c")
 
 
