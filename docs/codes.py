@@ -85,6 +85,7 @@ MEANINGS: Mapping[str, tuple[str, str]] = {
     ),
     "no-number": ("a number that the machine does not have", "机构没有的量"),
     "no-section": ("no section of a report", "报告没有这一节"),
+    "no-source": ("no source that texts could cite", "没有文中引用的参考文献"),
     "no-start": ("a number that the machine has no value of at the start", "起始方案没有这个量的值"),
     "no-tolerance": ("a robust optimisation without tolerances", "稳健优化没有给公差"),
     "not-a-file": ("no file that can be read to its end", "不是可以读完的文件"),
@@ -102,6 +103,7 @@ MEANINGS: Mapping[str, tuple[str, str]] = {
     "reference": ("a name that does not fit where it stands", "名称不适合所在的位置"),
     "singular": ("a group that is close to a singular position all the time", "杆组始终接近奇异位置"),
     "size": ("a file that is too large", "文件过大"),
+    "source-twice": ("a name that two sources have", "两条参考文献同名"),
     "syntax": ("not readable as YAML", "不能作为 YAML 读取"),
     "tab": ("a tab in the indentation", "缩进中有制表符"),
     "table": ("a table whose rows do not fit", "数表的行不合要求"),
@@ -119,6 +121,7 @@ MEANINGS: Mapping[str, tuple[str, str]] = {
     "unused": ("what nothing refers to", "没有用到的内容"),
     "version": ("a format that this version does not read", "本版本不能读取的格式"),
     "wrong-dimension": ("a quantity of another kind than needed", "物理量的种类不对"),
+    "wrong-picture": ("no picture, or one that cannot be read", "没有图片，或无法读取"),
 }
 #: What the areas of the codes of errors are about.
 AREAS: Mapping[str, tuple[str, str]] = {

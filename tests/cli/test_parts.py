@@ -30,7 +30,7 @@ def test_numbers_of_the_table() -> None:
 @pytest.mark.parametrize("language", ["en", "zh"])
 def test_worked_text_has_the_same_formulas_in_both_languages(language: str) -> None:
     worked = shown("beam", "gallery:cantilever", "--worked", "--lang", language)
-    assert "M(ξ) = −3000 + 2000·ξ N·m" in worked and "w = -0.84375 mm" in worked
+    assert "M(ξ) = −3000 + 2000·ξ N·m" in worked and "w_max = -0.84375 mm" in worked
 
 
 def test_curves_data_and_picture_in_files(tmp_path: Path) -> None:

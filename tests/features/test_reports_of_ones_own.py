@@ -70,6 +70,11 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="module")
+def picture(folder: Path) -> Path:
+    return folder / "photo.png"
+
+
+@pytest.fixture(scope="module")
 def made(folder: Path) -> lw.Report:
     return lw.report(machine(OWN), folder=folder)
 
@@ -177,12 +182,47 @@ def test_chapters_of_several_machines_stand_where_they_belong() -> None:
     assert places == sorted(places)
 
 
-@pytest.mark.rotating
-def test_a_calculation_alone_has_its_chapters_behind_and_before() -> None:
-    shown = text_of(
-        lw.report(["gallery:crank_rocker", "gallery:simple_beam"], sections=["structure"]).content(".html")
+BELT = """
+format: 1
+kind: belt
+name: Belt one
+friction: 0.3
+wrap: 180 deg
+torque: 150 N·m
+radius: 100 mm
+report:
+"""
+
+
+def test_calculations_have_own_chapters_covers_and_sources(tmp_path: Path, picture: Path) -> None:
+    first, second = tmp_path / "a.yaml", tmp_path / "b.yaml"
+    shutil.copy(picture, tmp_path / "photo.png")
+    first.write_text(
+        f"""{BELT}
+  title: Beams
+  cover: {{school: Example University, logo: photo.png}}
+  references: [{{key: g, text: Gere}}]
+  sections: [{{title: Requirements, text: 'See [@g]. ![A beam](photo.png)'}}, rest, {{title: Thanks, text: All.}}]
+""",
+        encoding="utf-8",
     )
-    assert shown.index("1 Structure") < shown.index("2 Simple beam")
+    own = "  sections: [{title: Of the second, text: 'Own words.'}]\n"
+    second.write_text(BELT.replace("one", "two") + own, encoding="utf-8")
+    found = lw.report([str(first), str(second)])
+    shown = text_of(found.content(".html"))
+    assert not found.missing and "Example University" in shown and "See [1]" in shown
+    titles = ["1 Requirements", "2 Belt one", "3 Belt two", "Of the second", "4 References", "5 Thanks"]
+    places = [shown.index(each) for each in titles]
+    assert places == sorted(places)
+    last = text_of(
+        lw.report([str(first), str(second)], sections=["references", "calculations"]).content(".html")
+    )
+    assert last.index("1 References") < last.index("2 Belt one") and "Own words" not in last
+    first.write_text(f"{BELT}  sections: [{{title: a, text: '![x](none.png)'}}]\n", encoding="utf-8")
+    with faulty("wrong-picture", "report.sections.0.text"):
+        lw.report(str(first))
+    code, findings = checked(first)
+    assert code == 1 and [each.key for each in findings] == ["report.sections.0.text"]
 
 
 COVER = {"school": "Example University", "class": "ME 23-1", "student_number": 2023, "adviser": "Zhang",

@@ -1,6 +1,7 @@
 """Force systems, bodies, belts and wedges against closed forms; printed numbers are compared in test_published."""
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -30,6 +31,110 @@ def test_two_bars_as_structure() -> None:
     assert found.reaction("A", "bar_1") == pytest.approx([250 - a_y, a_y], abs=1e-9)
     assert found.reaction("B", "bar_2") == pytest.approx([a_y - 250, 300 - a_y], abs=1e-9)
     assert found.reaction("C", "bar_2") == pytest.approx([250 - a_y, a_y - 200], abs=1e-9)
+
+
+def printed_system(worked: str) -> tuple[np.ndarray, np.ndarray, dict[str, float]]:
+    """A, B and the unknowns by name of A·X = B, and the reactions below it, as a worked text prints them."""
+    lines = [line for line in worked.splitlines() if re.search(r"Σ[FM]\w*: .*\[.*\].*\[", line)]
+    parts_of = [re.findall(r"\[([^\]]*)\]", line) for line in lines]
+    a = np.array([[float(c) for c in row[0].split()] for row in parts_of])
+    names = [row[1].strip() for row in parts_of if row[1].strip()]
+    b = np.array([float(row[-1]) for row in parts_of])
+    found = np.linalg.solve(a, b)
+    return a, b, dict(zip(names, found, strict=True))
+
+
+@pytest.mark.parametrize("name", ["two_bars_equilibrium", "truss"])
+def test_the_printed_matrix_gives_the_printed_reactions(name: str) -> None:
+    """Solved from the text alone, to the digits that it prints."""
+    found = parts.equilibrium(lw.load(f"gallery:{name}"))
+    worked = found.worked()
+    _, _, solved_by_hand = printed_system(worked)
+    assert len(solved_by_hand) == (6 if name == "two_bars_equilibrium" else 12)
+    for unknown, value in solved_by_hand.items():
+        printed = re.findall(rf"(?m)^ +{re.escape(unknown)} +(?:\[|=) ?(-?[\d.e+-]+) N", worked)
+        assert float(printed[-1]) == pytest.approx(value, abs=0.02)
+
+
+def test_matrix_of_the_lectures_two_bars() -> None:
+    """The 6 × 6 system of moments about A and B, put together by hand from lengths and angles."""
+    c1, s1 = 2 * math.cos(math.radians(30)), 2 * math.sin(math.radians(30))
+    by_hand = np.array([
+        [1, 0, 0, 0, -1, 0], [0, 1, 0, 0, 0, -1], [0, 0, 0, 0, s1, -c1],
+        [0, 0, 1, 0, 1, 0], [0, 0, 0, 1, 0, 1], [0, 0, 0, 0, -1, -1],
+    ])  # fmt: skip
+    balance = parts.equilibrium(lw.load("gallery:two_bars_equilibrium")).balance
+    assert balance is not None and balance.names == ("Ax", "Ay", "Bx", "By", "Cx", "Cy")
+    assert balance.on == ("bar_1", "bar_1", "bar_2", "bar_2", "bar_2", "bar_2")
+    assert balance.a == pytest.approx(by_hand, abs=1e-12)
+    assert balance.b == pytest.approx([0, 200, 200 * c1 / 2, 0, 100, -50], abs=1e-9)
+    assert np.linalg.solve(balance.a, balance.b) == pytest.approx(balance.x, abs=1e-9)
+
+
+STRUCTURES = [name for name in lw.gallery.names() if not lw.load(f"gallery:{name}").drivers]
+AT_REST = (
+    "shaper_quick_return",
+    "swing_conveyor",
+    "jaw_crusher_sixbar",
+    "scotch_yoke",
+    "excavator",
+    "oldham_coupling",
+)
+
+
+@pytest.mark.parametrize("name", [*STRUCTURES, *AT_REST])
+def test_the_matrix_gives_what_the_solver_of_mechanisms_found(name: str) -> None:
+    balance = parts.equilibrium(lw.load(f"gallery:{name}")).balance
+    assert balance is not None and balance.a.shape == (len(balance.rows), len(balance.names))
+    size = max(float(np.abs(balance.x).max()), 1.0)
+    assert np.linalg.solve(balance.a, balance.b) == pytest.approx(balance.x, abs=1e-9 * size)
+
+
+def test_gears_have_no_matrix_form() -> None:
+    assert parts.equilibrium(lw.load("gallery:external_gear_pair")).balance is None
+
+
+def test_a_hook_on_two_bars() -> None:
+    found = solved("hook_on_two_bars")
+    assert found.magnitudes["S2"] == pytest.approx(-500 * math.sqrt(2), rel=1e-12)
+    assert found.magnitudes["S1"] == pytest.approx(500, rel=1e-12)
+
+
+def test_three_ropes_in_space() -> None:
+    assert list(solved("mast_ropes").magnitudes.values()) == pytest.approx([300, 300, 260], rel=1e-12)
+
+
+@pytest.mark.parametrize("space", [2, 3])
+def test_points_are_in_equilibrium_with_what_is_found(space: int) -> None:
+    """Sums of all forces, for random directions and loads; A·X = B likewise."""
+    rng = np.random.default_rng(space)
+    for _ in range(20):
+        forces = {f"S{k}": parts.Force(along=tuple(rng.normal(size=space))) for k in range(space)}
+        forces["W"] = parts.Force(force=tuple(rng.normal(size=space)))
+        found = parts.ForceSystem(forces).solve()
+        assert sum(found.vectors.values()) == pytest.approx(np.zeros(3), abs=1e-9)
+        a, b = found.matrix
+        assert a.shape == (space, space)
+        assert a @ list(found.magnitudes.values()) == pytest.approx(b, abs=1e-9)
+
+
+def test_dot_products() -> None:
+    """F·e with e = (2, 3, 6)/7; the angle by its cosine; across it by Pythagoras."""
+    data = solved("force_components").data()
+    pole = data["component pole"]
+    assert pole["along"]["value"] == pytest.approx(310, rel=1e-12)
+    force = np.array([140.0, 210.0, 210.0])
+    assert pole["across"]["value"] == pytest.approx(math.sqrt(force @ force - 310**2), rel=1e-12)
+    angle = data["angles"]["between: F, P"]["value"]
+    assert math.cos(angle) == pytest.approx(force @ (2, -1, 2) / (3 * np.linalg.norm(force)), rel=1e-12)
+
+
+def test_a_rigid_body_as_a_linear_system() -> None:
+    """By hand: x and y at A, the rope's 30°, moments about A."""
+    a, b = solved("bracket").matrix
+    h = math.sqrt(3) / 2
+    assert a == pytest.approx(np.array([[1, 0, -h], [0, 1, 0.5], [0, 0, 1.5]]), abs=1e-12)
+    assert b == pytest.approx([0, 600, 900])
 
 
 def test_bracket() -> None:

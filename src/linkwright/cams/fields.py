@@ -117,6 +117,16 @@ class CamElasticity:
     damping_ratio: float = given(Quantity("dimensionless", minimum=0.0, doc="damping ratio, 0"), 0.0)
 
 
+@dataclass(frozen=True)
+class FollowerMass(LiftQuantity):
+    """The mass of a follower; the moment of inertia of an oscillating one, as files had it before, is a warning."""
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
+        if lift_of(given) == "angle":
+            reader.old_key(node, place, "mass", "inertia")
+        return super().read(reader, node, place, given)
+
+
 CAM_FIELDS: Mapping[str, Field] = {
     "follower": Table.of(Follower, required=True, doc="what rides on the cam"),
     "program": ProgramField(lift_of, "angle", doc="segments over one turn, one after the other"),
@@ -127,7 +137,8 @@ CAM_FIELDS: Mapping[str, Field] = {
     "barrel_radius": Quantity("length", above=0.0, doc="radius of the cylinder of a barrel cam"),
     "conjugate": Table.of(CamConjugate, doc="the second cam of a pair"),
     "speed": Quantity("angular_velocity", minimum=0.0, doc="speed of the cam"),
-    "mass": LiftQuantity("mass", "inertia", minimum=0.0, doc="mass (inertia) of what the follower moves"),
+    "mass": FollowerMass("mass", "inertia", minimum=0.0, doc="mass of what the follower moves"),
+    "inertia": Quantity("inertia", minimum=0.0, doc="moment of inertia of what an oscillating follower moves"),
     "load": LiftQuantity("force", "torque", doc="constant load that presses the follower on the cam"),
     "spring": WithLift.of(CamSpring, doc="the follower's spring; {} chooses it"),
     "width": Quantity("length", above=0.0, doc="width of the contact"),
@@ -141,17 +152,19 @@ CAM_FIELDS: Mapping[str, Field] = {
 
 def program_of(values: Mapping[str, Any]) -> dict[str, Any]:
     """What a :class:`Cam` takes, from a file's values."""
-    own = set(CAM_FIELDS) - {"program", "find", "turn", "speed", "mass", "load", "spring"} | {
+    own = set(CAM_FIELDS) - {"program", "find", "turn", "speed", "mass", "inertia", "load", "spring"} | {
         "name",
         "source",
     }
     found = {key: value for key, value in values.items() if key in own and value is not None}
+    if values.get("inertia") is not None and (lift_of(values) != "angle" or values.get("mass") is not None):
+        raise ModelError([fault("cams.inertia_or_mass", "inertia")])
     found["program"] = _program(values)
     found["turn"] = -1.0 if values.get("turn") == "clockwise" else 1.0
     found["spring_wanted"] = values.get("spring") is not None
     found["loading"] = CamLoading(
         values.get("speed") or 0.0,
-        values.get("mass") or 0.0,
+        values.get("inertia") or values.get("mass") or 0.0,
         values.get("load") or 0.0,
         values.get("spring") or CamSpring(),
     )

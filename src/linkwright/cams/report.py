@@ -210,13 +210,19 @@ def steps(design: CamDesign, say: Say) -> list[Step]:
     base = cam.base_radius or 0.0
     prime = base + follower.roller_radius
     if cam.barrel_radius is not None:
-        first.say("  x = R·φ,  y = s(φ)")
+        first.law("x = R·φ; y = s(φ)")
         put(first, "R", "", cam.barrel_radius, "length")
     elif follower.kind == "flat":
-        first.say("  H(θ) = r_b + s" if not follower.oscillating else "  H(θ) = c·sin(ψ₀ + s) − f")
+        first.law("H(θ) = r_b + s" if not follower.oscillating else "H(θ) = c·sin(ψ₀ + s) − f")
         put(first, "r_b", "", base, "length")
     elif follower.oscillating:
-        put(first, "ψ₀", "arccos((c² + l² − (r_b + r_r)²)/(2cl))", follower.start_angle(base) or 0.0, "angle")
+        put(
+            first,
+            "ψ₀",
+            "arccos((c² + l² − (r_b + r_r)²)/(2·c·l))",
+            follower.start_angle(base) or 0.0,
+            "angle",
+        )
     else:
         numbers = f"√({number(prime, 'length')}² − {number(follower.offset, 'length')}²)"
         put(first, "d", "√((r_b + r_r)² − e²)", follower.start_height(base) or 0.0, "length", numbers=numbers)
@@ -233,7 +239,7 @@ def steps(design: CamDesign, say: Say) -> list[Step]:
     if not design.loaded:
         return [first, second, third]
     fourth = Step("4", say("cams.step_force"))
-    fourth.say(f"  F = m·ω²·s″ + F₀ + k·s + F_l,  {_normal_force(design)},  T = F·s′")
+    fourth.law(f"F = m·ω²·s″ + F₀ + k·s + F_l; {_normal_force(design)}; T = F·s′")
     put(fourth, "N_max", "", design.extreme_force("max").value, "force")
     put(fourth, "T_max", "", design.extreme_torque("max").value, "torque")
     return [first, second, third, fourth]

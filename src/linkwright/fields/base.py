@@ -35,11 +35,15 @@ Schema = dict[str, Any]
 
 @dataclass(frozen=True, kw_only=True)
 class Field(ABC):
-    """One key of a table. ``key`` is its name in the file where it differs from the attribute's."""
+    """One key of a table. ``key`` is its name in the file where it differs from the attribute's, ``old`` a name that
+    it had in files of the same format, which is read with a warning; likewise a key that another one has ``replaced``.
+    """
 
     required: bool = False
     doc: str = ""
     key: str = ""
+    old: str = ""
+    replaced: str = ""
 
     @abstractmethod
     def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
@@ -293,13 +297,17 @@ class Word(Field):
 
 @dataclass(frozen=True)
 class Free(Field):
-    """A free mapping that is kept and not interpreted."""
+    """A free mapping that is kept and not interpreted; ``keys``: schemas of those that a command reads."""
+
+    keys: Callable[[], Mapping[str, Schema]] | None = None
 
     def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
         return None if reader.mapping(node, place) is None else reader.free(node)
 
     def shape(self) -> Schema:
-        return {"type": "object"}
+        if self.keys is None:
+            return {"type": "object"}
+        return {"type": "object", "properties": dict(self.keys()), "additionalProperties": False}
 
 
 @dataclass(frozen=True)

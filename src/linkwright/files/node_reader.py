@@ -249,6 +249,8 @@ class PlainReader:
     ) -> tuple[MappingNode, dict[str, Any]]:
         """The mapping with keys that are nearly known in the place of those, and its values."""
         keys = {each.key or name: name for name, each in fields.items()}
+        mapping = self._renamed(mapping, place, {each.old: key for key, name in keys.items()
+                                                 if (each := fields[name]).old})  # fmt: skip
         meant = self._in_place_of(mapping, place, {key: fields[name] for key, name in keys.items()})
         mapping, split = self.unknown_keys(mapping, place, list(keys), meant)
         found: dict[str, Any] = {}
@@ -260,8 +262,27 @@ class PlainReader:
                 self.finding(mapping, place.child(key), "missing_key", "missing-key", remedy, key_=key)
             elif value is not None:
                 reader = cast("Reader", self)
+                if each.replaced:
+                    self.old_key(value, place.child(key), key, each.replaced)
                 found[name] = None if key in split else each.read(reader, value, place.child(key), found)
         return mapping, found
+
+    def _renamed(self, mapping: MappingNode, place: Place, old: Mapping[str, str]) -> MappingNode:
+        """The mapping with new keys in the place of ``old`` ones, each of which is a warning."""
+        present = {entry.key.text for entry in mapping.entries}
+        if old.keys().isdisjoint(present):
+            return mapping
+        entries = list(mapping.entries)
+        for index, entry in enumerate(entries):
+            new = old.get(entry.key.text)
+            if new is not None and new not in present:
+                self.old_key(entry.key, place.child(entry.key.text), entry.key.text, new)
+                entries[index] = Entry(replace(entry.key, text=new), entry.value)
+        return replace(mapping, entries=entries)
+
+    def old_key(self, node: Node, place: Place, key: str, new: str) -> None:
+        """A warning for a key that files of this format had before, with the one that took its place."""
+        self.finding(node, place, "old_key", "old-key", severity="warning", key_=key, new=new)
 
     def _in_place_of(
         self, mapping: MappingNode, place: Place, fields: Mapping[str, Field]

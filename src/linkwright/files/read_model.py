@@ -22,6 +22,7 @@ from linkwright.files.read_drivers import read_cycle, read_drivers, scan_input
 from linkwright.files.read_joints import read_joints, scan_joints
 from linkwright.files.read_links import legible, read_drawing, read_frame, read_links, scan_points
 from linkwright.files.reader import Reader
+from linkwright.files.report_schema import report_keys
 from linkwright.loads.base import Load, read_load
 from linkwright.mechanism.drawing import Drawing
 from linkwright.mechanism.mechanism import GRAVITY, Mechanism
@@ -37,7 +38,9 @@ HEADER: Mapping[str, Field] = {
     "source": WordedText(doc="where it is taken from"),
     "expected": Free(doc="numbers to compare results with; not interpreted"),
     "synthesis": Free(doc="a task with its demands for the command synthesize"),
-    "report": Free(doc="title, own text, order of sections and more for the command report"),
+    "report": Free(
+        doc="title, own text, order of sections and more for the command report", keys=report_keys
+    ),
     "course": Free(doc="what the command variants changes, within which limits, and what it asks"),
     "optimize": Free(doc="what varies, what is made least and what is kept, for the command optimize"),
     "gravity": GRAVITY,

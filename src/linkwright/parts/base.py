@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Container, Mapping, Sequence
-from dataclasses import fields
+from dataclasses import field, fields, is_dataclass, replace
 from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -18,13 +18,14 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.plot_method import Plotted
 from linkwright.errors import Finding, ModelError
-from linkwright.fields.base import GivenByFile
+from linkwright.fields.base import Field, GivenByFile, given_by_file
 from linkwright.metrics.quantities import FURTHER, SHOWN
 from linkwright.units import SI_UNITS, Dimension, si_symbol
 from linkwright.words import Say, speaker
 from linkwright.words.characters import aligned
 from linkwright.words.sentence import Sentence
 from linkwright.worked.page import Equation, Step
+from linkwright.worked.written import filled, latex, latex_symbol, normal, plain
 
 if TYPE_CHECKING:
     from typing import Self
@@ -39,6 +40,7 @@ OWN: Mapping[str, str] = {
     "power_of_drag": "kg/m",
     "length_per_angle_cubed": "m/rad³",
     "per_angle_squared": "1/rad²",
+    "distance": "m",
 }
 #: Units of display with the factor from SI, where they differ from SI.
 UNITS: Mapping[str, tuple[str, float]] = {
@@ -49,6 +51,10 @@ UNITS: Mapping[str, tuple[str, float]] = {
     "section_modulus": ("mm³", 1e9),
     "second_moment_of_area": ("mm⁴", 1e12),
 }
+
+
+#: Beside the largest of its kind anything below this share is nothing but rounding.
+ROUNDING = 1e-12
 
 
 def si_unit(dimension: str) -> str:
@@ -83,7 +89,17 @@ def fault(code: str, key: str, **values: object) -> Finding:
     return Finding("error", "", key, message, remedy, code.partition(".")[2])
 
 
-class Problem(ABC):
+@dataclass(frozen=True, kw_only=True)
+class Heading:
+    """What a file says about its calculation beside the problem: its ``purpose``, the settings of its ``report``, and
+    all that is ``told`` in it as plain data, for the given data of the report."""
+
+    purpose: str = field(default="", repr=False)
+    report: Mapping[str, Any] = field(default_factory=dict, repr=False)
+    told: Mapping[str, Any] = field(default_factory=dict, repr=False, compare=False)
+
+
+class Problem(Heading, ABC):
     """One calculation as the file or the code gave it; subclasses are frozen dataclasses in SI units.
 
     ``kind`` is its name in files, ``fields`` the keys of its file beside the heading: its own attributes.
@@ -107,11 +123,39 @@ class Problem(ABC):
     def solve(self) -> Result:
         """The result. Raises ModelError with all findings."""
 
+    def given(self) -> Mapping[str, Any]:
+        """What is given as plain data: as the file says it, else the attributes as a file would."""
+        if self.told:
+            return self.told
+        found = {key: _as_told(getattr(self, key, None), each) for key, each in self.fields.items()}
+        return {key: value for key, value in found.items() if value not in EMPTY}
+
     def require(self) -> None:
         """Raises ModelError where anything is wrong."""
         found = self.findings()
         if found:
             raise ModelError(found)
+
+
+#: What a file leaves out.
+EMPTY: tuple[Any, ...] = (None, {}, [], (), "", False)
+
+
+def _as_told(value: Any, kind: Field | None = None) -> Any:
+    """A value as plain data of a file."""
+    own = given_by_file(type(value)) if is_dataclass(value) else {}
+    if own:
+        found = {each.key or key: _as_told(getattr(value, key), each) for key, each in own.items()}
+        return {key: each for key, each in found.items() if each not in EMPTY}
+    if isinstance(value, Mapping):
+        return {key: _as_told(each) for key, each in value.items()}
+    if value is None or kind is None or is_dataclass(value):
+        named = getattr(value, "label", None) or getattr(value, "text", None) or getattr(value, "name", None)
+        bare = (
+            {each.name: getattr(value, each.name) for each in fields(value)} if is_dataclass(value) else value
+        )
+        return named or bare
+    return kind.written(value)
 
 
 @dataclass(frozen=True)
@@ -137,7 +181,7 @@ class Row:
     """One number of a result: its key, value (SI) and dimension; ``label`` where it is not the key's word.
 
     An interval goes from ``value`` to ``end``; ``scale`` is the unit of a number without dimension; ``text`` is what
-    tables show in place of number and unit.
+    tables show in place of number and unit; a ``remainder`` is what a balance leaves, itself nothing but rounding.
     """
 
     key: str
@@ -148,6 +192,7 @@ class Row:
     scale: Scale | None = None
     end: float | None = None
     text: str = ""
+    remainder: bool = False
 
     def cells(self, area: str, say: Say, digits: int = 6) -> list[str]:
         """Label, number with so many digits, unit and note."""
@@ -160,6 +205,15 @@ class Row:
             return [label, " … ".join(f"{end / size:.{digits}g}" for end in ends), self.scale.unit, self.note]
         shown = " … ".join(number(end, self.dimension, digits) for end in ends)
         return [label, shown, unit(self.dimension), self.note]
+
+    def tidy(self, rounding: float) -> Row:
+        """The row with values below a limit as zero; a plain number, or a ``remainder``, stays."""
+        if not self.dimension or self.remainder or self.text:
+            return self
+        value, end = (
+            0.0 if each is not None and abs(each) <= rounding else each for each in (self.value, self.end)
+        )
+        return replace(self, value=value, end=end)
 
     def data(self) -> dict[str, Any]:
         """Value or both ends, SI, with their unit, and the note; what is no number with the text that says why."""
@@ -204,11 +258,41 @@ class Result(Plotted, ABC):
         """Curves by name with unit, SI; empty where there are none."""
         return {}
 
+    def tidy_blocks(self, say: Say) -> list[Block]:
+        """The numbers, those that are rounding beside the largest of their dimension as zero; remainders as found."""
+        blocks = self.blocks(say)
+        largest: dict[str, float] = {}
+        for row in (row for block in blocks for row in block.rows):
+            for value in (row.value, *([] if row.end is None else [row.end])):
+                if not math.isnan(value):
+                    largest[row.dimension] = max(largest.get(row.dimension, 0.0), abs(value))
+        return [
+            replace(block, rows=[row.tidy(ROUNDING * largest.get(row.dimension, 0.0)) for row in block.rows])
+            for block in blocks
+        ]
+
+    def tidy_steps(self, say: Say) -> list[Step]:
+        """The worked solution, its results rounded to zero likewise, unit by unit."""
+        steps = self.steps(say)
+        largest: dict[str, float] = {}
+        for each in (item for step in steps for item in step.equations):
+            largest[each.unit] = max(largest.get(each.unit, 0.0), abs(each.value))
+        for step in steps:
+            step.items[:] = [
+                replace(item, result="0")
+                if isinstance(item, Equation)
+                and item.unit
+                and abs(item.value) <= ROUNDING * largest[item.unit]
+                else item
+                for item in step.items
+            ]
+        return steps
+
     def text(self, language: str = "en", digits: int = 6) -> str:
         """The numbers as a table in words of the language (``en``, ``zh``)."""
         say = speaker(language)
         lines = [self.title]
-        for block in self.blocks(say):
+        for block in self.tidy_blocks(say):
             lines += ["", *([block.title] if block.title else [])]
             rows = [row.cells(self.area, say, digits) for row in block.rows]
             lines += [f"  {line}" for line in aligned(rows, "<><<")]
@@ -231,7 +315,7 @@ class Result(Plotted, ABC):
         """The worked solution as plain text."""
         from linkwright.worked.text import page
 
-        return page((self.title,), self.steps(speaker(language)))
+        return page((self.title,), self.tidy_steps(speaker(language)))
 
     def __repr__(self) -> str:
         return self.text()
@@ -242,11 +326,49 @@ def unused(key: str, taken: Container[str]) -> str:
     return next(each for n in count(1) if (each := f"{key} ({n})" if n > 1 else key) not in taken)
 
 
+def signed(parts: Sequence[float], dimension: str = "") -> str:
+    """Numbers as a sum, ``40 − 110``, what is zero or rounding beside the largest left out."""
+    largest = max((abs(part) for part in parts), default=0.0)
+    kept = [float(part) for part in parts if abs(part) > ROUNDING * largest]
+    text = " ".join(f"{'−' if part < 0 else '+'} {number(abs(part), dimension)}" for part in kept)
+    return f"−{text[2:]}" if text.startswith("−") else text.removeprefix("+ ") or "0"
+
+
+#: A value of a formula's name: SI with its dimension, or a plain number.
+Value = float | tuple[float, str]
+
+
 def put(
-    step: Step, symbol: str, formula: str, value: float, dimension: str = "", *, numbers: str = ""
+    step: Step,
+    symbol: str,
+    formula: str,
+    value: float,
+    dimension: str = "",
+    *,
+    of: Mapping[str, Value] | None = None,
+    numbers: str = "",
 ) -> None:
-    """Adds a result: symbol, formula, the formula with its numbers, and the value (SI) in the shown unit."""
-    shown = number(value, dimension)
+    """Adds a result: symbol, formula, the formula with its numbers, and the value (SI) in the shown unit.
+
+    ``of``: the values of the names in the formula, which are put in with their units, without these where all have
+    the result's; ``numbers``: a sum of numbers in that unit, where the formula has no names for them.
+    """
+    found = numbers or (filled(formula, _put_in(of, dimension)) if of else "")
+    if plain(found) in (formula, number(value, dimension)):
+        found = ""
     step.items.append(
-        Equation(symbol, symbol, formula, formula, numbers, numbers, shown, unit(dimension), value)
-    )
+        Equation(
+            symbol, latex_symbol(symbol), formula, latex(formula) if formula else "", plain(found),
+            latex(found) if found else "", number(value, dimension), unit(dimension), value,
+        )
+    )  # fmt: skip
+
+
+def _put_in(of: Mapping[str, Value], dimension: str) -> dict[str, str]:
+    """What stands for the names of a formula."""
+    given = {normal(key): each if isinstance(each, tuple) else (each, "") for key, each in of.items()}
+    bare = all(kind == dimension for _, kind in given.values()) and dimension != "angle"
+    return {
+        key: number(each, kind) if bare else shown(each, kind)
+        for key, (each, kind) in given.items()
+    }  # fmt: skip

@@ -18,6 +18,7 @@ from linkwright.files.model_file import declared_kind, read_root
 from linkwright.files.node_reader import Place, as_meant
 from linkwright.files.read_model import FORMAT, TASK_KEYS, read_parameters
 from linkwright.files.reader import Reader
+from linkwright.files.report_schema import report_keys
 from linkwright.files.schema import json_schema
 from linkwright.files.source import read_source
 from linkwright.words.sentence import Sentence
@@ -53,7 +54,10 @@ HEADING: Mapping[str, Field] = {
     "source": Text(doc="where it is taken from"),
     "expected": Free(doc="numbers to compare results with; not interpreted"),
     "parameters": Free(doc="named quantities for use in expressions"),
+    "report": Free(doc="title, own text, errata and more for the command report", keys=report_keys),
 }
+#: Keys that say nothing about the problem itself.
+ASIDE = tuple(key for key in HEADING if key != "parameters")
 
 
 def load(source: str | Path) -> Problem:
@@ -191,8 +195,10 @@ def _built(
 ) -> tuple[Problem | None, list[Finding]]:
     own = {key: value for key, value in values.items() if key not in HEADING}
     own |= {"name": values.get("name") or Path(reader.source).stem, "source": values.get("source") or ""}
+    told = {key: value for key, value in reader.free(root).items() if key not in ASIDE}
+    heading = {"purpose": values.get("purpose") or "", "report": values.get("report") or {}, "told": told}
     try:
-        problem = owner.of_file(own, folder)
+        problem = replace(owner.of_file(own, folder), **heading)
         found: Sequence[Finding] = problem.findings()
     except ModelError as error:
         problem, found = None, error.findings

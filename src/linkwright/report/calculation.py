@@ -1,48 +1,143 @@
-"""The report of a calculation of machine parts, a cam among them: data, numbers, the way to them, pictures."""
+"""A calculation of machine parts as a chapter of a report: purpose, given data, sketch, the worked way, results."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
+from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError
 from linkwright.parts.base import Problem, Result
 from linkwright.report.document import Block, Figure, Heading, Paragraph, Table, literal, symbols
+from linkwright.report.given_data import given_data
 from linkwright.report.machine_results import picture
+from linkwright.report.sections.errata import errata_blocks
+from linkwright.report.sections.worked_position import with_numbers
+from linkwright.report.settings import Settings
 from linkwright.words import Say
-from linkwright.worked.page import Equation, Note, Step
+from linkwright.words.sentence import in_language
+from linkwright.words.titles import title_said
+from linkwright.worked.written import latex
+
+#: Sections of machines' reports whose own text stands behind a heading of a calculation, by the heading's key.
+PLACES: Mapping[str, str] = {
+    "purpose_of_calculation": "task", "sketch": "drawing", "way": "worked",
+}  # fmt: skip
+#: Share of the page's width of a sketch, and its greatest height, mm.
+WIDE, TALLEST = 0.8, 90.0
 
 
-def calculation(problem: Problem, say: Say, language: str) -> Iterator[Block]:
-    """The blocks of one calculation, under a heading with its name; raises LinkwrightError where it has no result."""
+@dataclass(frozen=True)
+class OwnText:
+    """The user's own text at its place in a chapter."""
+
+    text: str
+
+
+def calculation(problem: Problem, own: Settings, say: Say, language: str) -> Iterator[Block | OwnText]:
+    """The blocks of one calculation with the settings of its file, under a heading with its name; raises
+    LinkwrightError where it has no result."""
     found = problem.solve()
-    yield Heading(literal(found.title), 1)
-    if problem.source:
-        yield Paragraph(say("report.source", source=literal(problem.source)))
+    texts = dict(own.text)
+    places = {say(f"report.{key}"): name for key, name in PLACES.items()}
+    for block in _chapters(problem, found, own, say, language):
+        yield block
+        name = places.get(block.text) if isinstance(block, Heading) else None
+        if name is not None and name in texts:
+            yield OwnText(texts.pop(name))
+    for name, text in texts.items():
+        yield Heading(say(f"report.title_{name}"), 2)
+        yield OwnText(text)
+    if own.errata:
+        yield Heading(say("report.title_errata"), 2)
+        yield from errata_blocks(own.errata, own.source or problem.source, say)
+
+
+def _chapters(problem: Problem, found: Result, own: Settings, say: Say, language: str) -> Iterator[Block]:
+    """Heading, purpose, given data, sketch, solution and results."""
+    yield Heading(literal(title_said(found.title, language)), 1)
+    purpose, source = (
+        in_language(each, language) for each in (own.purpose or problem.purpose, own.source or problem.source)
+    )
+    if purpose or source:
+        yield Heading(say("report.purpose_of_calculation"), 2)
+        if purpose:
+            yield Paragraph(literal(purpose))
+        if source:
+            yield Paragraph(say("report.source", source=literal(source)))
+    data = list(given_data(problem, say))
+    if data:
+        yield Heading(say("report.given_data"), 2)
+        yield from data
+    yield from _sketch(problem, say, language)
     yield from numbers_and_way(found, say, language, 2)
 
 
 def numbers_and_way(found: Result, say: Say, language: str, level: int) -> Iterator[Block]:
-    """Pictures, numbers and the way to them, under headings of a level."""
-    yield from _pictures(found, say, language)
+    """The worked way, the numbers, and diagrams of them, under headings of a level."""
+    yield Heading(say("report.way"), level)
+    for step in found.tidy_steps(say):
+        yield Heading(symbols(step.title), level + 1)
+        yield from with_numbers(step)
     yield Heading(say("report.results"), level)
-    for block in found.blocks(say):
-        cells = [row.cells(found.area, say) for row in block.rows]
-        head = tuple(say(f"report.{key}") for key in ("name", "value", "unit", "remark"))
+    yield from _results(found, say)
+    yield from _pictures(found, say, language)
+
+
+def _results(found: Result, say: Say) -> Iterator[Block]:
+    head = tuple(say(f"report.{key}") for key in ("name", "value", "unit", "remark"))
+    for block in found.tidy_blocks(say):
+        rows = [row.cells(found.area, say) for row in block.rows]
+        remarked = any(row[3] for row in rows)
+        cells = tuple((_label(row[0]), *map(literal, row[1 : 4 if remarked else 3])) for row in rows)
         if cells:
-            yield Table(literal(block.title), head, tuple(tuple(map(literal, row)) for row in cells), "<><<")
+            width = 4 if remarked else 3
+            yield Table(literal(block.title or say("report.results")), head[:width], cells, "<><<"[:width])
         for remark in block.remarks:
             yield Paragraph(literal(str(remark)))
-    yield Heading(say("report.way"), level)
-    for step in found.steps(say):
-        yield Heading(literal(step.title), level + 1)
-        yield from _lines(step)
+
+
+def _label(text: str) -> str:
+    """A label of a table: a symbol as a formula, words as they are."""
+    bare = text.strip()
+    short = len(bare) <= 4 or "." in bare or "_" in bare
+    if (
+        short
+        and bare.isprintable()
+        and " " not in bare
+        and not any(c > "\u2e7f" for c in bare)
+        and not bare.islower()
+        and any(c.isalpha() for c in bare)
+    ):
+        try:
+            return f"${latex(bare)}$"
+        except LinkwrightError:
+            pass
+    return symbols(text)
+
+
+def _sketch(problem: Problem, say: Say, language: str) -> Iterator[Block]:
+    """The sketch of what is calculated, where its kind has one."""
+    from linkwright.plot.sketches.base import sketch
+
+    try:
+        drawn = sketch(problem, language)
+    except LinkwrightError as error:
+        yield Paragraph(literal(error.say(language)), "missing")
+        return
+    if drawn is not None:
+        yield Heading(say("report.sketch"), 2)
+        yield Figure(
+            say("report.sketch_of", name=literal(title_said(problem.name, language))),
+            ((drawn.svg, WIDE),),
+            tallest=TALLEST,
+        )
 
 
 def _pictures(found: Result, say: Say, language: str) -> Iterator[Block]:
     """Its own drawing, where it has one, and its diagrams."""
     draw = getattr(found, "draw", None)
     if draw is not None:
-        yield Figure(literal(found.title), ((draw(language=language).svg, 0.5),))
+        yield Figure(literal(title_said(found.title, language)), ((draw(language=language).svg, 0.5),))
     from linkwright.plot.diagrams.base import RESULT_DIAGRAMS
 
     for kind in sorted(RESULT_DIAGRAMS, key=lambda each: not RESULT_DIAGRAMS[each].usual):
@@ -54,17 +149,6 @@ def _pictures(found: Result, say: Say, language: str) -> Iterator[Block]:
             if RESULT_DIAGRAMS[kind].usual:
                 yield Paragraph(literal(error.say(language)), "missing")
             continue
-        yield Figure(f"{literal(found.title)}: {say(f'plot.kind.{kind}')}", ((svg, 0.75),))
-
-
-def _lines(step: Step) -> Iterator[Block]:
-    """Sentences and equations of a step; calculations write their formulas as plain text."""
-    for item in step.items:
-        if isinstance(item, Note):
-            yield Paragraph(symbols(item.text.strip()))
-        elif isinstance(item, Equation):
-            unit = item.unit if item.unit in ("", "°") else f" {item.unit}"
-            sides = [item.symbol, item.formula, item.numbers, f"{item.result}{unit}"]
-            yield Paragraph(symbols(" = ".join(side for side in sides if side)))
-        else:
-            yield Paragraph(symbols(item.text))
+        yield Figure(
+            f"{literal(title_said(found.title, language))}: {say(f'plot.kind.{kind}')}", ((svg, 0.75),)
+        )

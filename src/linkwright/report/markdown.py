@@ -6,7 +6,6 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import field
 from functools import lru_cache
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from linkwright.core.dataclass import dataclass
@@ -57,7 +56,7 @@ TALLEST = 150.0
 class Beside:
     """What an own text refers to: the folder of its pictures, and sources by the name by which it cites them."""
 
-    folder: Path = Path()
+    folder: str = ""
     sources: Mapping[str, str] = field(default_factory=dict)
 
 
@@ -301,7 +300,7 @@ class _Reader:
             if name in self.beside.sources:
                 found.append(cited(self.beside.sources[name]))
             else:
-                self.wrong("no_source", "no-source", name=name, hint=offered(name, self.beside.sources))
+                self.wrong("no_source", code="no-source", name=name, hint=offered(name, self.beside.sources))
                 found.append(literal(f"[@{name}]"))
         return ", ".join(found)
 

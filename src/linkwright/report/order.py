@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
+from linkwright.parts.base import Problem
 from linkwright.registry import listed
 from linkwright.report.machine_results import Case
 from linkwright.report.section import SECTIONS, Section, section_names
@@ -17,15 +18,23 @@ SOURCES = "references"
 
 
 @dataclass(frozen=True)
+class Calculation:
+    """A calculation with the settings of its file."""
+
+    problem: Problem
+    settings: Settings
+
+
+@dataclass(frozen=True)
 class Part:
-    """What comes next: a section of ``cases``, an own chapter, the heading of a machine (``name``), or the
-    calculations (none of these); ``own``: the settings that hold; ``within``: the machine of several whose part it
-    is."""
+    """What comes next: a section of ``cases``, an own chapter, a calculation, or the heading of a machine (``name``);
+    ``own``: the settings that hold; ``within``: the machine or calculation of several whose part it is."""
 
     own: Settings
     cases: tuple[Case, ...] = ()
     section: Section | None = None
     chapter: Chapter | None = None
+    calculation: Problem | None = None
     name: str = ""
     within: str = ""
 
@@ -33,11 +42,9 @@ class Part:
 Entry = str | Chapter
 
 
-def chosen(names: Iterable[str], own: Settings, *, calculations: bool) -> list[Entry]:
+def chosen(names: Iterable[str], own: Settings) -> list[Entry]:
     """Sections and own chapters in order: those that are named, chapters by their title, else what the file says,
-    else all; ``calculations`` behind the last section before the references, unless they are named.
-
-    Raises RequestError for a name that does not exist, the nearest offered.
+    else all. Raises RequestError for a name that does not exist, the nearest offered.
     """
     asked: list[Entry] = list(names)
     if asked:
@@ -47,11 +54,7 @@ def chosen(names: Iterable[str], own: Settings, *, calculations: bool) -> list[E
             if name not in known:
                 raise RequestError("report.no_section", name=name, hint=listed(str(name), known))
         asked = [titles.get(str(name), name) for name in asked]
-    found = _with_rest(asked or list(own.sections) or [REST])
-    if calculations and CALCULATIONS not in found:
-        places = (i for i, each in enumerate(found, 1) if isinstance(each, str) and each != SOURCES)
-        found.insert(max(places, default=len(found)), CALCULATIONS)
-    return found
+    return _with_rest(asked or list(own.sections) or [REST])
 
 
 def _with_rest(entries: list[Entry]) -> list[Entry]:
@@ -63,29 +66,66 @@ def _with_rest(entries: list[Entry]) -> list[Entry]:
     return found
 
 
-def parts(cases: Sequence[Case], entries: Sequence[Entry], own: Settings, *, asked: bool) -> Iterator[Part]:
+def parts(
+    given: Sequence[Case | Calculation], entries: Sequence[Entry], own: Settings, *, asked: bool
+) -> Iterator[Part]:
     """What a report holds, in its order. Sections of machines that follow each other make a part for each machine.
 
-    Own chapters of the first file that stand between two such sections belong to the first machine; its others are
-    of the whole report. The chapters of further files stand in the parts of their machines, unless sections were
-    ``asked`` for by name.
+    Calculations stand where ``calculations`` is named, else once in their places between the parts of the machines.
+    Own chapters of the first file that stand between two sections of machines belong to the first machine; its others
+    are of the whole report. The chapters of further files stand in the parts of their machines and behind their
+    calculations, unless sections were ``asked`` for by name.
     """
-    groups = list(_groups(entries))
-    last = max((i for i, group in enumerate(groups) if len(group) > 1 or _of_machine(group[0])), default=-1)
-    first = next((i for i, group in enumerate(groups) if _of_machine(group[0])), -1)
+    cases = tuple(each for each in given if isinstance(each, Case))
+    groups = list(_groups(_with_calculations(entries, given)))
+    machines = [i for i, group in enumerate(groups) if _of_machine(group[0])]
+    between = bool(cases) and CALCULATIONS not in entries
     for number, group in enumerate(groups):
         head = group[0]
-        if _of_machine(head):
-            for place, case in enumerate(cases):
-                name = case.mechanism.name if len(cases) > 1 else ""
-                if name:
-                    yield Part(case.settings, name=name)
-                others = [] if asked else case.settings.sections
-                held = group if place == 0 else _of_other(others, group, number == first, number == last)
-                for each in held:
-                    yield _part(case.settings, (case,), each, name)
-        elif isinstance(head, Chapter) or head in (CALCULATIONS, SOURCES) or cases:
-            yield _part(own, tuple(cases), head)
+        if head == CALCULATIONS:
+            for each in given:
+                yield from _calculated(each, own, asked) if isinstance(each, Calculation) else ()
+        elif not _of_machine(head):
+            yield from (
+                [_part(own, cases, head)] if isinstance(head, Chapter) or cases or head == SOURCES else ()
+            )
+        else:
+            for each in given if between and number == machines[0] else cases:
+                if isinstance(each, Calculation):
+                    yield from _calculated(each, own, asked)
+                    continue
+                held = group
+                if each is not cases[0]:
+                    others = [] if asked else each.settings.sections
+                    held = list(_of_other(others, group, number == machines[0], number == machines[-1]))
+                yield from _of_case(each, held, several=len(given) > 1)
+
+
+def _with_calculations(entries: Sequence[Entry], given: Sequence[Case | Calculation]) -> list[Entry]:
+    """Entries with a place for calculations where no part of a machine has one: before the references."""
+    found = list(entries)
+    interleaved = any(isinstance(each, Case) for each in given) and any(map(_of_machine, entries))
+    if CALCULATIONS not in found and not interleaved:
+        places = (i for i, each in enumerate(found, 1) if isinstance(each, str) and each != SOURCES)
+        found.insert(max(places, default=0), CALCULATIONS)
+    return found
+
+
+def _of_case(case: Case, entries: Sequence[Entry], *, several: bool) -> Iterator[Part]:
+    """The part of a machine, under its name where there are several."""
+    name = case.mechanism.name if several else ""
+    if name:
+        yield Part(case.settings, name=name)
+    for each in entries:
+        yield _part(case.settings, (case,), each, name)
+
+
+def _calculated(each: Calculation, own: Settings, asked: bool) -> Iterator[Part]:
+    """A calculation, and the chapters of its file behind it, where these are not those of the report."""
+    yield Part(each.settings, calculation=each.problem)
+    for chapter in each.settings.sections if each.settings is not own and not asked else ():
+        if isinstance(chapter, Chapter):
+            yield Part(each.settings, chapter=chapter, within=each.problem.name)
 
 
 def _of_machine(entry: Entry) -> bool:
@@ -132,4 +172,4 @@ def _of_other(own: Sequence[Entry], group: Sequence[Entry], first: bool, last: b
 def _part(own: Settings, cases: tuple[Case, ...], entry: Entry, within: str = "") -> Part:
     if isinstance(entry, Chapter):
         return Part(own, cases, chapter=entry, within=within)
-    return Part(own, cases) if entry == CALCULATIONS else Part(own, cases, SECTIONS[entry], within=within)
+    return Part(own, cases, SECTIONS[entry], within=within)

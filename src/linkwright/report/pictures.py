@@ -28,17 +28,17 @@ class Picture:
     share: float
 
 
-def picture_of(name: str, folder: Path) -> Picture:
+def picture_of(name: str, folder: str) -> Picture:
     """The picture of a file that lies beside the model; raises LinkwrightError where it is none."""
-    path = folder / unquote(name)
+    path = Path(folder, unquote(name))
     if path.suffix.lower() not in FORMS:
         raise LinkwrightError("report.picture_form", name=name, endings=tuple(FORMS))
     try:
         about = path.stat()
     except (OSError, ValueError):
-        raise LinkwrightError("report.no_picture", name=name, folder=folder.resolve()) from None
+        raise LinkwrightError("report.no_picture", name=name, folder=Path(folder).resolve()) from None
     if not path.is_file():
-        raise LinkwrightError("report.no_picture", name=name, folder=folder.resolve())
+        raise LinkwrightError("report.no_picture", name=name, folder=Path(folder).resolve())
     if about.st_size > LARGEST:
         raise LinkwrightError("report.large_picture", name=name, most=LARGEST // 1_000_000)
     return _read(path, name, about.st_mtime_ns, about.st_size)

@@ -2,53 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+import os
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
-from itertools import chain
 from os import PathLike
 from pathlib import Path
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import require
 from linkwright.core.progress import Progress, current_progress, reporting
-from linkwright.errors import LinkwrightError, RequestError, about, require_language
+from linkwright.errors import RequestError, about, require_language
 from linkwright.files.model_file import load
 from linkwright.files.source import GALLERY
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.parts.base import Problem
+from linkwright.report.assembly import add_part, note_dangling
 from linkwright.report.cover import cover
-from linkwright.report.document import (
-    NUMBERED,
-    Block,
-    Document,
-    Heading,
-    Paragraph,
-    Source,
-    Sources,
-    Table,
-    changed,
-    fitted,
-    literal,
-    plain,
-    spans,
-    texts,
-    walk,
-    with_prefix,
-)
-from linkwright.report.machine_results import Case, Missing
-from linkwright.report.markdown import own_text, own_words
-from linkwright.report.numbers import typeset
-from linkwright.report.order import Part, chosen, parts
-from linkwright.report.section import Section
-from linkwright.report.sections.references import own_sources
-from linkwright.report.settings import Chapter, Settings, settings, worked_place
+from linkwright.report.document import Document, Source, walk
+from linkwright.report.machine_results import Case
+from linkwright.report.order import Calculation, chosen, parts
+from linkwright.report.settings import settings, worked_place
 from linkwright.whole_files import refuse_target, write_whole
 from linkwright.words import speaker
-from linkwright.words.sentence import Sentence, in_language
+from linkwright.words.sentence import Sentence
 from linkwright.words.titles import title_said
 
-#: Characters across a page in a table.
-WIDEST = 108
 ENDINGS = (".pdf", ".html", ".docx", ".typ")
 
 
@@ -112,6 +90,8 @@ class Report:
 
 
 Machine = Mechanism | Problem | str | Path
+#: A model or its file, or a calculation with its file.
+Given = Mechanism | str | tuple[Problem, str]
 
 
 def report(
@@ -148,11 +128,13 @@ def report(
         LinkwrightError: an unknown section or language, a model that cannot be read, settings that make no sense.
     """
     require_language(language)
-    given, problems = _told_apart(machines)
-    cases = _cases(given, sources, language, position, positions, folder)
-    own = cases[0].settings if cases else settings({})
-    entries = chosen(sections, own, calculations=bool(problems))
-    names = [case.mechanism.name for case in cases] or [problem.name for problem in problems]
+    given = _cases(_read(machines), sources, language, position, positions, folder)
+    cases = [each for each in given if isinstance(each, Case)]
+    calculations = [each for each in given if isinstance(each, Calculation)]
+    own = (cases or calculations)[0].settings
+    entries = chosen(sections, own)
+    names = [case.mechanism.name for case in cases]
+    names = names or [title_said(each.problem.name, language) for each in calculations]
     document = Document(
         own.title or " / ".join(dict.fromkeys(names)),
         speaker(language),
@@ -160,69 +142,59 @@ def report(
         tuple(filter(None, (own.course, own.author, own.date))),
     )
     document.cover = cover(own, document)
-    ordered = list(parts(cases, entries, own, asked=bool(sections)))
+    ordered = list(parts(given, entries, own, asked=bool(sections)))
     progress = progress or current_progress()
     for done, part in enumerate(ordered):
         if progress is not None:
             progress(done, len(ordered))
         with reporting(None):
-            _add_part(document, part, problems, asked=bool(sections))
-    _tell_what_leads_nowhere(document)
+            add_part(document, part, asked=bool(sections))
+    note_dangling(document)
     return Report(document)
 
 
-def _told_apart(machines: Machine | Sequence[Machine]) -> tuple[list[Mechanism | str], list[Problem]]:
-    """Mechanisms (or their files) and calculations."""
+def _read(machines: Machine | Sequence[Machine]) -> list[Given]:
+    """Mechanisms (or their files) and calculations, with the file of one that is read here."""
     from linkwright.parts.file import kind_of
     from linkwright.parts.file import load as load_calculation
 
     given = list(machines) if isinstance(machines, Iterable) and not isinstance(machines, str) else [machines]
     if not given:
         raise RequestError("report.no_machine")
-    found: list[Mechanism | str] = []
-    problems = []
+    found: list[Given] = []
     for each in given:
         require(each, Mechanism, Problem, str, PathLike)
         if isinstance(each, Problem):
-            problems.append(each)
+            found.append((each, ""))
         elif isinstance(each, Mechanism):
             found.append(each)
-        elif kind_of(str(each)) is not None:
-            problems.append(load_calculation(str(each)))
         else:
-            found.append(str(each))
-    return found, problems
-
-
-def _add_calculation(document: Document, problem: Problem) -> None:
-    """Adds a calculation; one without a result says why."""
-    from linkwright.report.calculation import calculation
-
-    try:
-        for block in calculation(problem, document.say, document.language):
-            document.blocks += _parts_of(block, document)
-    except LinkwrightError as error:
-        sentence = error.say(document.language)
-        document.blocks.append(Heading(literal(problem.name), 1))
-        document.blocks.append(
-            Paragraph(document.say("report.left_out", sentence=literal(sentence)), "missing")
-        )
-        document.missing.append(document.say("cli.about", name=problem.name, cause=sentence))
+            calculated = kind_of(str(each)) is not None
+            found.append((load_calculation(str(each)), str(each)) if calculated else str(each))
+    return found
 
 
 def _cases(
-    given: list[Mechanism | str],
+    given: Sequence[Given],
     sources: Sequence[str],
     language: str,
     position: str,
     positions: int | None,
     folder: str | Path,
-) -> list[Case]:
-    found = []
-    for index, each in enumerate(given):
+) -> list[Case | Calculation]:
+    """Machines and calculations with their settings; machines of one name are numbered."""
+    found: list[Case | Calculation] = []
+    files = iter(sources)
+    for each in given:
+        if isinstance(each, tuple):
+            problem, file = each
+            found.append(
+                Calculation(problem, settings(problem.report, language, None, _beside(folder, file)))
+            )
+            continue
         mechanism = each if isinstance(each, Mechanism) else _loaded(str(each), language)
         mechanism = mechanism.said_in(language)
-        source = sources[index] if index < len(sources) else "" if isinstance(each, Mechanism) else str(each)
+        source = next(files, "" if isinstance(each, Mechanism) else str(each))
         own = dict(mechanism.report)
         with about("position"):
             worked_place(mechanism, position)
@@ -230,13 +202,19 @@ def _cases(
             own["position"] = position
         if positions is not None:
             own["positions"] = positions
-        beside = Path(folder or ("" if source.startswith(GALLERY) else Path(source).parent))
-        found.append(Case(mechanism, settings(own, language, mechanism, beside), language, source))
-    names = [case.mechanism.name for case in found]
-    for number, case in enumerate(found, 1):
+        held = settings(own, language, mechanism, _beside(folder, source))
+        found.append(Case(mechanism, held, language, source))
+    cases = [each for each in found if isinstance(each, Case)]
+    names = [case.mechanism.name for case in cases]
+    for number, case in enumerate(cases, 1):
         if names.count(case.mechanism.name) > 1:
             case.mechanism = replace(case.mechanism, name=f"{case.mechanism.name} ({number})")
     return found
+
+
+def _beside(folder: str | Path, file: str) -> str:
+    """Where pictures lie: a folder that is named, else that of the file."""
+    return str(folder) if folder or file.startswith(GALLERY) else os.path.dirname(file)
 
 
 def _loaded(source: str, language: str) -> Mechanism:
@@ -245,115 +223,3 @@ def _loaded(source: str, language: str) -> Mechanism:
     if not source.startswith(GALLERY):
         return mechanism
     return replace(mechanism, name=title_said(mechanism.name, language))
-
-
-def _add_part(document: Document, part: Part, problems: Sequence[Problem], *, asked: bool) -> None:
-    """Adds what comes next; ``asked``: whether sections were named for this report."""
-    if part.section is not None:
-        _add(document, part, part.section, asked=asked)
-    elif part.chapter is not None:
-        _add_chapter(document, part, part.chapter)
-    elif part.name:
-        document.blocks.append(Heading(literal(part.name), 1))
-    else:
-        for problem in problems:
-            _add_calculation(document, problem)
-
-
-def _add_chapter(document: Document, part: Part, chapter: Chapter) -> None:
-    """Adds an own chapter, within the part of a machine where it belongs to one of several."""
-    shift, prefix = (1, f"{part.within}: ") if part.within else (0, "")
-    heading = Heading(own_words(chapter.title), 1, chapter.label)
-    for block in chain([heading], _own(chapter.text, part.own, document, prefix + chapter.title)):
-        document.blocks += [
-            new for each in _parts_of(block, document) for new in _placed(each, shift, prefix)
-        ]
-
-
-def _add(document: Document, within: Part, part: Section, *, asked: bool) -> None:
-    """Adds a section; what it cannot show becomes a paragraph that says why, and one without content nothing."""
-    say, cases = document.say, within.cases
-    shift, prefix = (1, f"{within.within}: ") if within.within else (0, "")
-    title = say(f"report.title_{part.name}")
-    found: list[Block] = []
-    text = within.own.text.get(part.name, "")
-    own = _own(text, within.own, document, prefix + title) if text else ()
-    try:
-        for block in chain(own, part.blocks(cases) if cases else own_sources(within.own)):
-            if isinstance(block, Paragraph) and block.kind == "missing":
-                _miss(document, prefix + title, plain(block.text))
-            found += [new for each in _parts_of(block, document) for new in _placed(each, shift, prefix)]
-    except LinkwrightError as error:
-        named = asked or part.name in within.own.sections
-        if named or not (part.optional and isinstance(error, Missing)):
-            sentence = error.say(document.language)
-            found.append(Paragraph(say("report.left_out", sentence=literal(sentence)), "missing"))
-            _miss(document, prefix + title, sentence)
-    except Exception as error:
-        sentence = say("report.unexpected", kind=type(error).__name__, message=" ".join(str(error).split()))
-        found.append(Paragraph(literal(sentence), "missing"))
-        _miss(document, prefix + title, sentence)
-        document.broken = True
-    if found:
-        document.blocks += [Heading(title, 1 + shift), *found]
-
-
-def _miss(document: Document, title: str, sentence: str) -> None:
-    """Notes what a chapter lacks, once."""
-    told = document.say("cli.about", name=title, cause=sentence)
-    if told not in document.missing:
-        document.missing.append(told)
-
-
-def _parts_of(block: Block, document: Document) -> Iterator[Block]:
-    """A block; of a table that is too wide for a page its parts, of lists and quotations likewise."""
-
-    def parted(each: Block) -> Iterator[Block]:
-        if not isinstance(each, Table):
-            yield each
-            return
-        rows = tuple(tuple(typeset(cell) for cell in row) for row in each.rows)
-        first, *rest = fitted(replace(each, rows=rows), WIDEST)
-        yield first
-        for part in rest:
-            caption = document.say("report.continued", caption=each.caption) if each.caption else ""
-            yield replace(part, caption=caption)
-
-    yield from changed(block, parted)
-
-
-def _own(text: str, own: Settings, document: Document, title: str) -> Iterator[Block]:
-    """The blocks of own text; behind one that cannot be printed as it was meant stands why."""
-    for block, faults in own_text(text, beside=own.beside):
-        yield block
-        for fault in faults:
-            sentence = in_language(fault.sentence, document.language)
-            _miss(document, title, sentence)
-            yield Paragraph(literal(sentence), "missing")
-
-
-def _placed(block: Block, shift: int, prefix: str) -> Iterator[Block]:
-    """A block of one of several machines: its headings one level down, its labels the machine's own."""
-
-    def own(each: Block) -> Iterator[Block]:
-        if isinstance(each, Heading):
-            each = replace(each, level=min(each.level + shift, 4))
-        if prefix and isinstance(each, (Heading, *NUMBERED)) and each.label:
-            each = replace(each, label=f"{prefix}{each.label}")
-        yield with_prefix(each, prefix) if prefix else each
-
-    yield from changed(block, own)
-
-
-def _tell_what_leads_nowhere(document: Document) -> None:
-    """Notes what texts refer to and is not there: labels of blocks, and the list of sources."""
-    numbers = document.number()
-    parts = [span for block in numbers.blocks for text in texts(block) for span in spans(text)]
-    asked = [span.link[1:] for span in parts if span.link[:1] == "#"]
-    asked += [span.text for span in parts if span.kind == "reference"]
-    for label in dict.fromkeys(asked):
-        if label not in numbers.labels:
-            document.missing.append(Sentence("report.no_label", label=label).say(document.language))
-    listed = any(isinstance(block, Sources) for block in numbers.blocks)
-    if any(span.kind == "source" for span in parts) and not listed:
-        document.missing.append(Sentence("report.no_list_of_sources").say(document.language))

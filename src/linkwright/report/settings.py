@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import field
-from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import amount
@@ -15,10 +14,11 @@ from linkwright.kinematics.names import output_of
 from linkwright.machine.flywheel import FLUCTUATION
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import listed, offered
-from linkwright.report.markdown import Beside, own_text
-from linkwright.report.pictures import picture_of
 from linkwright.words import LANGUAGES
 from linkwright.words.sentence import Sentence
+
+if TYPE_CHECKING:
+    from linkwright.report.markdown import Beside
 
 KEYS = (
     "title", "author", "course", "date", "sections", "position", "positions", "numbered_from", "fluctuation",
@@ -97,11 +97,13 @@ class Settings:
     errata: tuple[Erratum, ...] = ()
     cover: CoverWords | None = None
     references: Mapping[str, str] = field(default_factory=dict)
-    folder: Path = Path()
+    folder: str = ""
 
     @property
     def beside(self) -> Beside:
         """What own texts refer to."""
+        from linkwright.report.markdown import Beside
+
         return Beside(self.folder, self.references)
 
 
@@ -109,7 +111,7 @@ def settings(
     given: Mapping[str, Any],
     language: str = "en",
     mechanism: Mechanism | None = None,
-    folder: str | Path = ".",
+    folder: str = "",
 ) -> Settings:
     """The settings of a file's ``report``, of a ``mechanism`` where what they name can be looked for in it.
 
@@ -118,7 +120,7 @@ def settings(
     What stands under a language's own key (``zh: {title: …}``) goes before the rest in that language. Raises
     ModelError with all findings.
     """
-    reading = _Reading(given, mechanism, Path(folder))
+    reading = _Reading(given, mechanism, folder)
     for each in LANGUAGES:
         if each != language:
             reading.all_of({**given, **reading.mapping(given, each)}, each)
@@ -140,7 +142,7 @@ def worked_place(mechanism: Mechanism, position: str) -> float | None:
 class _Reading:
     """Reads the settings and collects what is wrong with them, each once."""
 
-    def __init__(self, given: Mapping[str, Any], mechanism: Mechanism | None, folder: Path) -> None:
+    def __init__(self, given: Mapping[str, Any], mechanism: Mechanism | None, folder: str) -> None:
         self.given, self.mechanism, self.folder = given, mechanism, folder
         self.findings: dict[Finding, None] = {}
         self.known(given, KEYS, "report")
@@ -154,9 +156,8 @@ class _Reading:
         words = {key: self.text(given[key], places[key]) for key in WORDS if key in given}
         numbered_from = self.text(given.get("numbered_from", ""), "report.numbered_from")
         references = self.references(given, places["references"])
-        beside = Beside(self.folder, references)
         sections = tuple(
-            self.chapter(each, f"{places['sections']}.{i}", beside)
+            self.chapter(each, f"{places['sections']}.{i}", references)
             for i, each in enumerate(self.sequence(given, "sections"))
         )
         self.position(words.get("position", ""), places["position"])
@@ -167,7 +168,7 @@ class _Reading:
             positions=self.count(given["positions"]) if "positions" in given else None,
             numbered_from=numbered_from,
             fluctuation=self.fluctuation(given.get("fluctuation", FLUCTUATION)),
-            text=self.texts(given, places["text"], beside),
+            text=self.texts(given, places["text"], references),
             cover=self.cover(given, places["cover"], words),
             references=references,
             folder=self.folder,
@@ -207,16 +208,18 @@ class _Reading:
         self.wrong(place, "not_a_position" if place.endswith(".position") else "not_a_text")
         return ""
 
-    def texts(self, given: Mapping[str, Any], place: str, beside: Beside) -> dict[str, str]:
+    def texts(self, given: Mapping[str, Any], place: str, sources: Mapping[str, str]) -> dict[str, str]:
         """Own text by the name of a section."""
         found = self.mapping(given, "text")
         for name in found:
             self.section(str(name), f"{place}.{name}")
-        return {str(name): self.own(text, f"{place}.{name}", beside) for name, text in found.items()}
+        return {str(name): self.own(text, f"{place}.{name}", sources) for name, text in found.items()}
 
-    def own(self, value: Any, place: str, beside: Beside) -> str:
+    def own(self, value: Any, place: str, sources: Mapping[str, str]) -> str:
         """An own text; files and sources that it names must be there."""
-        text = self.text(value, place)
+        from linkwright.report.markdown import Beside, own_text
+
+        text, beside = self.text(value, place), Beside(self.folder, sources)
         try:
             faults = [each for _, faults in own_text(text, beside=beside) for each in faults if each.code]
         except LinkwrightError:
@@ -225,7 +228,7 @@ class _Reading:
             self.findings[Finding("error", "", place, fault.sentence, code=fault.code)] = None
         return text
 
-    def chapter(self, each: Any, place: str, beside: Beside) -> str | Chapter:
+    def chapter(self, each: Any, place: str, sources: Mapping[str, str]) -> str | Chapter:
         """A section's name, or an own chapter."""
         if not isinstance(each, Mapping):
             self.section(name := self.text(each, place), place, *BESIDE_SECTIONS)
@@ -235,7 +238,7 @@ class _Reading:
             if key not in each:
                 self.wrong(place, "lacks", "missing-key", name=key)
         title, label = (self.text(each.get(key, ""), f"{place}.{key}") for key in ("title", "label"))
-        return Chapter(title, self.own(each.get("text", ""), f"{place}.text", beside), label)
+        return Chapter(title, self.own(each.get("text", ""), f"{place}.text", sources), label)
 
     def section(self, name: str, place: str, *more: str) -> None:
         from linkwright.report.section import section_names
@@ -292,6 +295,8 @@ class _Reading:
 
     def logo(self, name: str, place: str) -> str:
         """The picture of a cover, SVG."""
+        from linkwright.report.pictures import picture_of
+
         try:
             return picture_of(name, self.folder).svg if name else ""
         except LinkwrightError as error:

@@ -49,6 +49,8 @@ CHINESE = (
 )  # fmt: skip
 #: Families with the small pictures that people write among words.
 PICTURES = ("Noto Color Emoji", "Segoe UI Emoji", "Apple Color Emoji", "Twemoji", "Noto Emoji", "Symbola")
+#: Weight from which on a face is bold.
+BOLD = 600
 #: Width of a line of formulas, em; and of a formula's left side beyond which its right side begins a new line.
 LINE, LEFT = 41.0, 9.0
 #: Formulas of up to this estimated width fit for certain; wider ones are measured and made smaller if they must be.
@@ -154,10 +156,20 @@ def aligned_by(marks: str) -> str:
 
 
 @lru_cache(maxsize=1)
-def _families() -> frozenset[str]:
+def _families() -> dict[str, int]:
+    """Families that are there, with the weight of their boldest face."""
     import typst as program
 
-    return frozenset(program.Fonts().families())
+    found: dict[str, int] = {}
+    for font in program.Fonts().fonts():
+        found[font.family] = max(found.get(font.family, 0), font.weight)
+    return found
+
+
+def without_bold() -> bool:
+    """Whether Chinese characters have no bold face: they are then made bold by a line around them."""
+    known = _families()
+    return any(known[name] < BOLD for name in [name for name in CHINESE if name in known][:1])
 
 
 def fonts(language: str) -> tuple[str, ...]:
@@ -190,6 +202,7 @@ class _Writer:
             mathematics=_listed((MATHEMATICS, *families)),
             monospaced=_listed((MONOSPACED, *families)),
             language=quoted(document.language),
+            thin=str(without_bold()).lower(),
         )
         if document.cover is not None:
             title = self._cover(document.cover)

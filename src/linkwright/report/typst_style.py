@@ -30,8 +30,14 @@ HEAD = """\
   stroke: (x, y) => (top: if y == 0 {{ 0.9pt }} else if y == 1 {{ 0.6pt }} else {{ 0pt }}),
   inset: (x: 4.5pt, y: 3pt))
 #let lw-is-html = sys.inputs.form == "html"
+#let lw-thin = not lw-is-html and {thin}
+#let lw-bold(body) = if not lw-thin {{ body }} else {{
+  show regex("[\\u{{2e80}}-\\u{{9fff}}\\u{{f900}}-\\u{{faff}}\\u{{ff00}}-\\u{{ffef}}]+"): set text(stroke: 0.024em)
+  body }}
+#show strong: lw-bold
+#show heading: lw-bold
 #let lw-title(body) = if lw-is-html {{ html.elem("h1", attrs: (class: "title"))[#body] }} else {{
-  align(center, {{ set par(justify: false); text(19pt, weight: "bold", body) }}) }}
+  align(center, {{ set par(justify: false); text(19pt, weight: "bold", lw-bold(body)) }}) }}
 #let lw-under(body) = if lw-is-html {{ html.elem("p", attrs: (class: "under"))[#body] }} else {{
   align(center, {{ set par(justify: false); body }}) }}
 #let lw-table(columns, align, kind, head, ..cells) = {{
@@ -115,9 +121,9 @@ COVER = """\
       #if logo != none { logo; v(0.3fr) }
       #for each in above { text(16pt, each); linebreak() }
       #v(1fr)
-      #text(28pt, weight: "bold", tracking: 0.12em, kind)
+      #text(28pt, weight: "bold", tracking: 0.12em, lw-bold(kind))
       #v(0.5fr)
-      #text(19pt, weight: "bold", title)
+      #text(19pt, weight: "bold", lw-bold(title))
       #v(1.2fr)
       #set text(13pt)
       #box(width: 78%, grid(columns: (auto, 1fr), column-gutter: 1em, row-gutter: 1.1em,

@@ -470,7 +470,7 @@ class Spread(Result):
             found.append(step)
         for pin in self.study.holes("pressed"):
             step = Step(str(len(found) + 1), say("tolerance.pressed", pin=pin))
-            step.say("  r = c·F/|F|,  Δy(φ) = c·(∂y/∂x·F_x + ∂y/∂y·F_y)/|F|")
+            step.law("r = c·F/|F|; Δy(φ) = c·(∂y/∂x·F_x + ∂y/∂y·F_y)/|F|")
             for text in self.study.of:
                 shift = self.shift(text)
                 if not math.isnan(shift):

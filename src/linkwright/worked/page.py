@@ -10,6 +10,8 @@ from linkwright.errors import SelfCheckError
 from linkwright.worked.digits import digits_needed, error_of, last_place, printed, put_in
 from linkwright.worked.render import latex, plain
 from linkwright.worked.terms import Pair, Term, symbol
+from linkwright.worked.written import plain as shown_plain
+from linkwright.worked.written import sides, upright
 
 #: A result smaller than this (SI) whose formula gives nothing at all is zero but for rounding.
 FADED = 1e-9
@@ -94,7 +96,23 @@ class Equation:
         }
 
 
-Item = Note | Relation | Equation
+@dataclass(frozen=True)
+class Written:
+    """A formula without a result of its own: plain text, of a matrix in several lines, and LaTeX of its sides.
+
+    ``cells``: rows of a table, headings first, which reports print in place of a system that is too wide for a formula.
+    """
+
+    text: str
+    latex_sides: tuple[str, ...]
+    cells: tuple[tuple[str, ...], ...] = ()
+
+    def data(self) -> dict[str, object]:
+        """Plain data."""
+        return {"relation": self.text, "latex": " = ".join(self.latex_sides)}
+
+
+Item = Note | Relation | Equation | Written
 
 
 @dataclass
@@ -114,6 +132,13 @@ class Step:
     def say(self, text: str) -> None:
         """Adds a sentence."""
         self.items.append(Note(text))
+
+    def law(self, text: str, unit: str = "") -> None:
+        """Adds formulas as they are written on a line, several apart by ``;``, with the ``unit`` of what is numbers."""
+        for each in text.split("; "):
+            *first, last = sides(each)
+            last += rf"\quad {upright(unit)}" if unit else ""
+            self.items.append(Written(f"{shown_plain(each.strip())} {unit}".rstrip(), (*first, last)))
 
     def relate(self, left: Term, right: Term) -> None:
         """Adds an equation that is solved further below."""

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from unicodedata import east_asian_width
 
 from linkwright.words.characters import cells
-from linkwright.worked.page import Equation, Note, Relation, Step
+from linkwright.worked.page import Equation, Note, Relation, Step, Written
 
 WIDTH = 100
 
@@ -32,6 +32,8 @@ def _step(step: Step) -> Iterator[str]:
             yield from wrapped(item.text)
         elif isinstance(item, Relation):
             yield from _long("    ", item.text, "    ")
+        elif isinstance(item, Written):
+            yield from (f"    {line}".rstrip() for line in item.text.splitlines())
         else:
             yield from _equation(item, margin)
         previous_note = isinstance(item, Note)

@@ -134,7 +134,7 @@ def test_pictures_have_a_caption_a_width_and_a_label(tmp_path: Path) -> None:
     Image.new("RGB", (400, 100), "white").save(tmp_path / "photo one.png")
     Image.new("RGB", (40, 1000), "white").save(tmp_path / "b.jpg")
     (tmp_path / "c.svg").write_text(SKETCH, encoding="utf-8")
-    beside = Beside(tmp_path)
+    beside = Beside(str(tmp_path))
     found = one("![A *white* one](photo%20one.png){#w width=40%}", beside)
     assert isinstance(found, Figure)
     assert (plain(found.caption), found.label, found.pictures[0][1]) == ("A white one", "w", 0.4)
@@ -150,7 +150,7 @@ def test_a_photograph_that_lies_on_its_side_is_turned_upright(tmp_path: Path) ->
     exif = Image.Exif()
     exif[0x0112] = 6
     Image.new("RGB", (80, 40), "white").save(tmp_path / "a.jpg", exif=exif)
-    found = one("![](a.jpg)", Beside(tmp_path))
+    found = one("![](a.jpg)", Beside(str(tmp_path)))
     assert (
         isinstance(found, Figure)
         and '<svg xmlns="http://www.w3.org/2000/svg" width="40" height="80"' in (found.pictures[0][0])
@@ -177,7 +177,7 @@ def test_what_is_wrong_is_told_and_printed_as_it_is_written(text: str, code: str
     (tmp_path / "text.png").write_text("no picture", encoding="utf-8")
     (tmp_path / "bad.svg").write_text("<svg><g></svg>", encoding="utf-8")
     (tmp_path / "c.svg").write_text(SKETCH, encoding="utf-8")
-    (block,), faults = read(text, Beside(tmp_path))
+    (block,), faults = read(text, Beside(str(tmp_path)))
     assert len(faults) == 1 and code in faults[0]
     shown = block.rows or block.head if isinstance(block, Table) else getattr(block, "text", "")
     assert plain("".join(shown)) if isinstance(shown, tuple) else plain(shown)

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable, Iterator, Sequence
+import os
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
-from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from linkwright import gallery
 from linkwright.cli.parser import Options
@@ -155,9 +155,15 @@ def _of_cams(name: str, mechanism: Mechanism) -> list[Finding]:
 
 
 def _of_calculation(name: str) -> tuple[list[Finding], dict[str, object]]:
-    from linkwright.parts.file import check, kind_of
+    from linkwright.parts.file import check, kind_of, load
 
-    return check(name), {"kind": kind_of(name)}
+    found = check(name)
+    if all(each.severity != "error" for each in found):
+        try:
+            _report(name, load(name).report, None)
+        except ModelError as error:
+            found += [replace(each, where=name) for each in error.findings]
+    return found, {"kind": kind_of(name)}
 
 
 def _task(text: str, name: str) -> tuple[list[Finding], str] | None:
@@ -259,7 +265,7 @@ def _of_settings(name: str, mechanism: Mechanism, *, moves: bool) -> list[Findin
     found = list[Finding]()
     reading: dict[str, Callable[[Mechanism], None]]
     reading = {
-        "report": partial(_report, name),
+        "report": lambda each: _report(name, each.report, each),
         "course": _course,
         "optimize": partial(_optimize, moves=moves),
     }
@@ -274,10 +280,10 @@ def _of_settings(name: str, mechanism: Mechanism, *, moves: bool) -> list[Findin
     return found
 
 
-def _report(name: str, mechanism: Mechanism) -> None:
+def _report(name: str, given: Mapping[str, Any], mechanism: Mechanism | None) -> None:
     from linkwright.report.settings import settings
 
-    settings(mechanism.report, mechanism=mechanism, folder=Path(name).parent)
+    settings(given, mechanism=mechanism, folder=os.path.dirname(name))
 
 
 def _course(mechanism: Mechanism) -> None:

@@ -12,9 +12,9 @@ from linkwright.cli.session import Session
 FORMS = ("pdf", "html", "docx")
 #: Names of the sections in their usual order.
 SECTIONS = (
-    "task", "drawing", "structure", "flow", "method", "worked", "tables", "curves", "reactions", "free_bodies",
-    "gears", "cams", "torque", "limits", "flywheel", "synthesis", "errata", "comparison", "conclusion", "appendix",
-    "references",
+    "task", "drawing", "structure", "flow", "method", "worked", "tables", "curves", "reactions", "balance",
+    "free_bodies", "gears", "cams", "torque", "limits", "flywheel", "synthesis", "errata", "comparison",
+    "conclusion", "appendix", "references",
 )  # fmt: skip
 
 
@@ -34,11 +34,11 @@ def run(options: argparse.Namespace, session: Session) -> int:
     from linkwright.cli.files import write_whole
     from linkwright.cli.progress import progress
     from linkwright.cli.source import read_model
-    from linkwright.parts.file import kind_of, load
+    from linkwright.parts.file import kind_of
     from linkwright.report.report import report
 
     path = _path(options)
-    machines = [load(file) if kind_of(file) else read_model(file, session)[0] for file in options.files]
+    machines = [file if kind_of(file) else read_model(file, session)[0] for file in options.files]
     sources = [file for file in options.files if not kind_of(file)]
     with progress(session.say, "report.working") as told:
         found = report(

@@ -16,7 +16,19 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.search import first_largest
 from linkwright.errors import Finding
 from linkwright.fields.base import Quantities, Quantity, Schema, Word, given, quantity_schema
-from linkwright.parts.base import Block, Problem, Result, Row, fault, number, put, shown
+from linkwright.parts.base import (
+    ROUNDING,
+    Block,
+    Problem,
+    Result,
+    Row,
+    Value,
+    fault,
+    number,
+    put,
+    shown,
+    signed,
+)
 from linkwright.parts.beams.elastic import ElasticLine, Hold, Point, Spread, free_motions, solve_line
 from linkwright.parts.beams.materials import MATERIAL, Material
 from linkwright.parts.beams.sections import Section, section_field
@@ -368,53 +380,101 @@ class BeamLine(Result):
         unknown = sum(h.deflection + h.slope for h in (s.hold for s in self.beam.supports.values()))
         degree = unknown - 2 - len(self.beam.hinges)
         step.say(say("beam.determinate" if degree <= 0 else "beam.indeterminate", degree=degree))
+        points, spreads = self.beam._loads()
+        self._balance_laws(step, points, spreads)
         for name, (force, couple) in self.reactions.items():
             if force or self.beam.supports[name].kind != "guided":
                 put(step, f"{name}.F", "", force, "force")
             if couple:
                 put(step, f"{name}.M", "", couple, "torque")
-        points, spreads = self.beam._loads()
+        step.say(say("beam.proof"))
         forces = [f for f, _ in self.reactions.values()] + [p.force for p in points]
         forces += [(s.first + s.last) / 2 * (s.end - s.start) for s in spreads]
-        put(step, "ΣF", "", _rounded(forces), "force", numbers=_sum(forces, "force"))
+        put(step, "ΣF", "", _rounded(forces), "force", numbers=signed(forces, "force"))
         moments = [
             c + f * s.at
             for (f, c), s in zip(self.reactions.values(), self.beam.supports.values(), strict=True)
         ]
         moments += [p.couple + p.force * p.x for p in points]
         moments += [_line_moment(s) for s in spreads]
-        put(step, "ΣM(0)", "", _rounded(moments), "torque", numbers=_sum(moments, "torque"))
+        put(step, "ΣM(0)", "", _rounded(moments), "torque", numbers=signed(moments, "torque"))
         return step
+
+    def _balance_laws(self, step: Step, points: list[Point], spreads: list[Spread]) -> None:
+        """ΣF = 0 and ΣM = 0 about the first support, the reactions as unknowns."""
+        supports = self.beam.supports.items()
+        about = next(iter(self.beam.supports.values())).at
+        forces = [(1.0, f"{name}.F") for name, each in supports if each.kind != "guided"]
+        moments = [
+            (each.at - about, f"{name}.F")
+            for name, each in supports
+            if each.kind != "guided" and abs(each.at - about) > ROUNDING * self.beam.length
+        ]
+        moments += [
+            (1.0, f"{name}.M")
+            for name, each in supports
+            if each.hold.slope or each.torsional_stiffness
+        ]  # fmt: skip
+        known = [p.force for p in points] + [(s.first + s.last) / 2 * (s.end - s.start) for s in spreads]
+        turning = [p.couple + p.force * (p.x - about) for p in points]
+        turning += [_line_moment(s) - about * (s.first + s.last) / 2 * (s.end - s.start) for s in spreads]
+        for name, unknown, given in (("ΣF", forces, known), ("ΣM", moments, turning)):
+            left = " ".join(
+                f"{'+' if c > 0 else '−'} {'' if abs(c) == 1.0 else f'{abs(c):.6g}·'}{each}"
+                for c, each in unknown
+            ).removeprefix("+ ")
+            rest = signed(given)
+            rest = "" if rest == "0" else f" − {rest[1:]}" if rest[0] == "−" else f" + {rest}"
+            if left:
+                step.law(f"{name} = {left}{rest} = 0")
 
     def _segment_step(self, say: Say) -> Step:
         """The polynomials of every segment."""
         step = Step("2", say("beam.step_segments"))
+        largest = {quantity: self._largest_coefficient(quantity) for quantity in QUANTITIES}
         for segment in self.line.segments:
             step.say(say("beam.segment", start=shown(segment.start, "length"), end=shown(segment.end, "length"),
                          rigidity=number(segment.rigidity)))  # fmt: skip
             for symbol, quantity, unit in (("V", "shear", "N"), ("M", "moment", "N·m"), ("θ", "slope", "rad"),
                                            ("w", "deflection", "m")):  # fmt: skip
                 polynomial = getattr(segment, quantity).coef
-                largest = np.abs(
-                    polynomial * (segment.end - segment.start) ** np.arange(len(polynomial))
-                ).max()
-                step.say(
-                    f"  {symbol}(ξ) = {polynomial_text(polynomial, largest, segment.end - segment.start)} {unit}"
-                )
+                text = polynomial_text(polynomial, largest[quantity], segment.end - segment.start)
+                step.law(f"{symbol}(ξ) = {text}", unit)
         return step
+
+    def _largest_coefficient(self, quantity: str) -> float:
+        """The largest term of a quantity's polynomials over the beam, beside which the others are rounding or not."""
+        return max(
+            float(np.abs(p.coef * (each.end - each.start) ** np.arange(len(p.coef))).max())
+            for each in self.line.segments
+            for p in [getattr(each, quantity)]
+        )
 
     def _extreme_step(self, say: Say) -> Step:
         step = Step("3", say("beam.extremes"))
         for symbol, quantity, zero in (("V", "shear", "q"), ("M", "moment", "V"), ("w", "deflection", "θ")):
             x, value = self.largest(quantity)
             step.say(say("beam.extreme_at", symbol=symbol, zero=zero, x=shown(x, "length")))
-            put(step, f"{symbol}", "", value, DIMENSIONS[quantity])
-        if self.stress is not None:
-            put(step, "σ", "|M|/W", self.stress[1], "pressure")
-        if self.safety is not None:
-            put(step, "S", "Re/σ", self.safety)
+            put(step, f"{symbol}_max", "", value, DIMENSIONS[quantity])
+        strength, safety = self.beam.material.strength or 0.0, self.beam.safety or 1.0
+        if self.stress is not None and self.stress[1]:
+            x, stress = self.stress
+            moment = max((float(self.moment(x, side)[0]) for side in ("left", "right")), key=abs)
+            of: dict[str, Value] = {
+                "M": (abs(moment), "torque"),
+                "W": (abs(moment) / stress, "section_modulus"),
+            }
+            put(step, "σ", "M/W", stress, "pressure", of=of)
+        if self.safety is not None and self.stress is not None:
+            of = {"Re": (strength, "pressure"), "σ": (self.stress[1], "pressure")}
+            put(step, "S", "Re/σ", self.safety, of=of)
         if self.needed_modulus is not None:
-            put(step, "W", "|M|·S/Re", self.needed_modulus, "section_modulus")
+            of = {
+                "M_max": (abs(self.largest("moment")[1]), "torque"),
+                "S": safety,
+                "Re": (strength, "pressure"),
+            }
+            put(step, "W_min", "M_max·S/Re", self.needed_modulus, "section_modulus", of=of)
         return step
 
 
@@ -435,12 +495,6 @@ def _line_moment(spread: Spread) -> float:
     a, b = spread.start, spread.end
     rate = (spread.last - spread.first) / (b - a)
     return (spread.first - rate * a) * (b * b - a * a) / 2 + rate * (b**3 - a**3) / 3
-
-
-def _sum(parts: Sequence[float], dimension: str) -> str:
-    kept = [part for part in parts if part]
-    texts = [f"{'−' if p < 0 else '+'} {number(abs(p), dimension)}" for p in kept]
-    return " ".join(texts).removeprefix("+ ") or "0"
 
 
 def _rounded(parts: Sequence[float]) -> float:

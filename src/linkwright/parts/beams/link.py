@@ -17,7 +17,7 @@ from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.kinetostatics.link_balance import applied_rows
 from linkwright.kinetostatics.self_check import LIMIT
 from linkwright.mechanism.mechanism import Link, Mechanism
-from linkwright.parts.base import Block, Result, Row, fault, put, shown
+from linkwright.parts.base import Block, Result, Row, Value, fault, put, shown
 from linkwright.parts.beams.axis import LinkAxis, SpreadMass
 from linkwright.parts.beams.beam import polynomial_text
 from linkwright.parts.beams.materials import MATERIAL, Material
@@ -370,7 +370,7 @@ class LinkStress(Result):
             ]
         size = np.hypot(self.deflection[:, :, 0], self.deflection[:, :, 1])
         rows.append(self._row("largest_deflection", size, "length", say))
-        rows.append(Row("closure", self.closure, "force"))
+        rows.append(Row("closure", self.closure, "force", remainder=True))
         return [Block("cycle", say("beam.cycle"), rows, self._remarks(say))]
 
     def _row(self, key: str, values: Floats, dimension: str, say: Say) -> Row:
@@ -404,19 +404,28 @@ class LinkStress(Result):
         density = np.asarray(self.mass.density.coef, dtype=float)
         largest = np.abs(density * (b - a) ** np.arange(len(density))).max()
         text = polynomial_text(density, largest, b - a).replace("ξ", "s")
-        step.say(f"{say('beam.link_density')} {text} kg/m")
+        step.say(say("beam.link_density"))
+        step.law(f"ρ(s) = {text}", "kg/m")
         step.say(say("beam.link_forces"))
         for each in self.point_forces:
             where, (x, y) = shown(float(each.place[i]), "length"), each.force[i].tolist()
             values = f"({shown(x, 'force')}, {shown(y, 'force')})"
-            step.say(f"  {each.name}, s = {where}: {values}, {shown(float(each.couple[i]), 'torque')}")
+            step.say(f"{each.name}, s = {where}: {values}, {shown(float(each.couple[i]), 'torque')}")
         cut = Step("2", say("beam.link_cut"))
         put(cut, "s", "", float(self.stations[k]), "length")
         put(cut, "V", "Σ F + ∫ q ds", float(self.shear[i, k]), "force")
         put(cut, "M", "Σ F·(s − s_k) − Σ C + ∫∫ q ds²", float(self.moment[i, k]), "torque")
         put(cut, "N", "−Σ F − ∫ p ds", float(self.normal[i, k]), "force")
-        put(cut, "σ", "|N|/A + |M|/W", float(self.stress[i, k]), "pressure")
+        section, strength = self.problem.section, self.problem.material.strength or 0.0
+        of: dict[str, Value] = {
+            "N": (abs(float(self.normal[i, k])), "force"), "A": (section.area or 0.0, "area"),
+            "M": (abs(float(self.moment[i, k])), "torque"), "W": (section.modulus or 0.0, "section_modulus"),
+        }  # fmt: skip
+        put(cut, "σ", "|N|/A + |M|/W", float(self.stress[i, k]), "pressure", of=of)
         if self.safety is not None and self.needed_modulus is not None:
-            put(cut, "S", "Re/σ", self.safety)
-            put(cut, "W", "|M|·S/Re", self.needed_modulus, "section_modulus")
+            of = {"Re": (strength, "pressure"), "σ": (float(self.stress.max()), "pressure")}
+            put(cut, "S", "Re/σ", self.safety, of=of)
+            of = {"M_max": (float(np.abs(self.moment).max()), "torque"), "S": self.problem.safety,
+                  "Re": (strength, "pressure")}  # fmt: skip
+            put(cut, "W_min", "M_max·S/Re", self.needed_modulus, "section_modulus", of=of)
         return [step, cut]

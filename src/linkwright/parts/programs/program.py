@@ -13,7 +13,7 @@ from linkwright import units
 from linkwright.core import expressions
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.errors import Finding, ModelError, QuantityError
+from linkwright.errors import Finding, LinkwrightError, ModelError, QuantityError
 from linkwright.fields.base import Field, Place, Reader, given
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar
@@ -44,7 +44,8 @@ from linkwright.parts.programs.nonlinear import (
 from linkwright.parts.programs.problem import Model, Variable
 from linkwright.words import Say
 from linkwright.words.sentence import Sentence
-from linkwright.worked.page import Step
+from linkwright.worked.page import Step, Written
+from linkwright.worked.written import filled, measured, of_file, plain, sides, upright
 
 #: A constraint is active within this share of the size of its sides.
 ACTIVE = 1e-6
@@ -384,8 +385,10 @@ class Optimum(Result):
                     unit_of(_limit_kind(c)),
                     unit_of(self.program.model.objective.dimension),
                 )
-                gain = f"{price * size / factor:+.6g} {own}".rstrip()
-                lines.append(say("program.price", name=c.name, unit=unit or "1", price=gain))
+                gain = f"{abs(price) * size / factor:.6g} {own}".rstrip()
+                best = say("program.minimum" if self.program.minimize else "program.maximum")
+                key = "program.price_rises" if price > 0 else "program.price_falls"
+                lines.append(say(key, name=c.name, step=f"1 {unit}".rstrip(), best=best, price=gain))
         return tuple(lines)
 
     def _allowed(self, name: str, variable: Variable) -> str:
@@ -404,21 +407,42 @@ class Optimum(Result):
             )
         return f"{text} ∈ ℤ" if variable.integer else text
 
+    @staticmethod
+    def _law(
+        step: Step, text: str, name: str = "", values: Mapping[str, str] | None = None, result: str = ""
+    ) -> None:
+        """A formula of the file: as it is written in texts, set in reports; with numbers and a result."""
+        formula = of_file(text)
+        parts = [formula, *filter(None, [filled(formula.partition(" = ")[2], values) if values else ""])]
+        parts += [measured(result)] if result else []
+        shown_text = " = ".join([text, *(plain(part) for part in parts[1:])])
+        label = f"{name}:  " if name else ""
+        try:
+            set_sides = tuple(each for part in parts for each in sides(part))
+        except LinkwrightError:
+            step.say(label + shown_text)
+            return
+        first = f"{upright(name)}:\\quad {set_sides[0]}" if name else set_sides[0]
+        step.items.append(Written(label + shown_text, (first, *set_sides[1:])))
+
     def steps(self, say: Say) -> list[Step]:
         task, found, test = (Step(str(i + 1), say(f"program.step_{i + 1}")) for i in range(3))
         objective = self.program.model.objective
-        task.say(f"  {'min' if self.program.minimize else 'max'}  {objective.text}")
+        self._law(task, f"{'min' if self.program.minimize else 'max'} f = {objective.text}")
         for c in self.program.subject_to:
-            task.say(f"  {c.name}:  {c.text}")
+            self._law(task, c.text, c.name)
         for name, v in self.program.variables.items():
-            task.say(f"  {self._allowed(name, v)}")
+            self._law(task, self._allowed(name, v))
         found.say(self._method(say))
         for name, value in self.x.items():
-            found.say(f"  {name} = {self.program.shown(name, value)}")
-        found.say(f"  f = {objective.text} = {in_unit(self.value, objective.dimension)}")
+            found.law(f"{name} = {measured(self.program.shown(name, value))}")
+        values = {name: self.program.shown(name, value) for name, value in self.x.items()}
+        self._law(
+            found, f"f = {objective.text}", values=values, result=in_unit(self.value, objective.dimension)
+        )
         for c in self.program.subject_to:
             row = self._limit_row(c, say)
-            test.say(f"  {c.name}: {row.text}   {row.note}")
+            test.say(f"{c.name}: {row.text}   {row.note}")
         for line in self._explained(say):
             test.say(line)
         if self.way == "nonlinear":

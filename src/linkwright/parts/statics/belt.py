@@ -11,7 +11,7 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding
 from linkwright.fields.base import Quantity, given
-from linkwright.parts.base import Block, Problem, Result, Row, fault, put
+from linkwright.parts.base import Block, Problem, Result, Row, Value, fault, put
 from linkwright.words import Say
 from linkwright.worked.page import Step
 
@@ -124,12 +124,47 @@ class BeltTensions(Result):
 
     def steps(self, say: Say) -> list[Step]:
         belt, step = self.belt, Step("1", say("statics.belt_step"))
+        mu = "μ" if belt.groove is None else "μ'"
         if belt.groove is not None:
-            put(step, "μ'", "μ/sin(α/2)", belt.effective_friction)
-        put(step, "e^(μθ)", "", belt.ratio)
+            given: dict[str, Value] = {"μ": belt.friction, "α": (belt.groove, "angle")}
+            put(step, "μ'", "μ/sin(α/2)", belt.effective_friction, of=given)
+        grip = f"e^({mu}·θ)"
+        put(step, "q", grip, belt.ratio, of={mu: belt.effective_friction, "θ": belt.wrap})
+        known: dict[str, Value] = {"q": belt.ratio, "Tc": (belt.centrifugal, "force")}
         if belt.centrifugal:
-            put(step, "Tc", "m·v²", belt.centrifugal, "force")
-        put(step, "T1", "Tc + (T2 − Tc)·e^(μθ)" if belt.centrifugal else "T2·e^(μθ)", self.tight, "force")
-        put(step, "T2", "Tc + (T1 − Tc)/e^(μθ)" if belt.centrifugal else "T1/e^(μθ)", self.slack, "force")
-        put(step, "F", "T1 − T2", self.pull, "force")
+            given = {"m": (belt.mass, "linear_density"), "v": (belt.speed, "velocity")}
+            put(step, "Tc", "m·v²", belt.centrifugal, "force", of=given)
+        self._tensions(step, known)
+        known = {"T1": (self.tight, "force"), "T2": (self.slack, "force")}
+        if belt.torque is None:
+            put(step, "F", "T1 − T2", self.pull, "force", of=known)
+        if belt.radius is not None and belt.torque is None:
+            given = {"F": (self.pull, "force"), "r": (belt.radius, "length")}
+            put(step, "M", "F·r", self.pull * belt.radius, "torque", of=given)
+        if belt.speed:
+            given = {"F": (self.pull, "force"), "v": (belt.speed, "velocity")}
+            put(step, "P", "F·v", self.pull * belt.speed, "power", of=given)
         return [step]
+
+    def _tensions(self, step: Step, known: dict[str, Value]) -> None:
+        """The two tensions from what is given: one of them, or the torque."""
+        belt, flung = self.belt, "Tc + " if self.belt.centrifugal else ""
+        above = ("(", " − Tc)") if flung else ("", "")
+        tight, slack = (self.tight, "force"), (self.slack, "force")
+        if belt.tight is not None:
+            put(
+                step, "T2", f"{flung}{above[0]}T1{above[1]}/q", self.slack, "force", of={**known, "T1": tight}
+            )
+        elif belt.slack is not None:
+            put(
+                step, "T1", f"{flung}{above[0]}T2{above[1]}·q", self.tight, "force", of={**known, "T2": slack}
+            )
+        else:
+            given: dict[str, Value] = {
+                "M": (belt.torque or 0.0, "torque"),
+                "r": (belt.radius or 0.0, "length"),
+            }
+            put(step, "F", "M/r", self.pull, "force", of=given)
+            known["F"] = (self.pull, "force")
+            put(step, "T1", f"{flung}F·q/(q − 1)", self.tight, "force", of=known)
+            put(step, "T2", f"{flung}F/(q − 1)", self.slack, "force", of=known)

@@ -2,27 +2,48 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import field, replace
 from functools import cached_property
-from typing import ClassVar
+from pathlib import Path
+from typing import Any, ClassVar
 
 import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.errors import Finding
-from linkwright.fields.base import Word, given
+from linkwright.errors import Finding, ModelError
+from linkwright.fields.base import GivenByFile, Place, Reader, Word, given, quantity_schema
+from linkwright.fields.nodes import Node
+from linkwright.fields.nodes import Sequence as SequenceNode
 from linkwright.parts.base import Block, Problem, Result, Row, fault, number, put
 from linkwright.parts.fields import Listed, Named, Table
 from linkwright.parts.motions import plain_motions
-from linkwright.parts.statics.forces import COUPLES, FORCES, Components, Force, spatial
+from linkwright.parts.statics.forces import COUPLES, DIRECTION, FORCES, Components, Force, ForceField, spatial
 from linkwright.words import Say
 from linkwright.words.sentence import Sentence
+from linkwright.worked.matrix import Matrices
 from linkwright.worked.page import Step
 
 #: Singular values below this share of the largest count as zero.
 ZERO = 1e-10
 HELD = ("x", "y", "z", "turn_x", "turn_y", "turn_z")
+
+
+@dataclass(frozen=True)
+class Couple(Components):
+    """Three components, or the one about z."""
+
+    def read(
+        self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]
+    ) -> tuple[float, ...] | None:
+        if isinstance(node, SequenceNode):
+            return super().read(reader, node, place, given)
+        value = reader.quantity(node, place, self.dimension)
+        return None if value is None else (value,)
+
+    def shape(self) -> dict[str, object]:
+        return {"anyOf": [super().shape(), quantity_schema(self.dimension)]}
 
 
 @dataclass(frozen=True)
@@ -36,9 +57,7 @@ class Support:
     holds: tuple[str, ...] = given(
         Listed(Word(HELD), "[x, y]", doc="what it holds: x, y, z, turn_x, turn_y, turn_z"), ()
     )
-    along: tuple[float, ...] = given(
-        Components("dimensionless", doc="direction of a rod, rope or roller"), ()
-    )
+    along: tuple[float, ...] = given(replace(DIRECTION, doc="direction of a rod, rope or roller"), ())
 
     def columns(self, scale: float) -> list[tuple[str, Floats]]:
         """Names of its reactions, each with the force and moment (6,) of a unit; moments over ``scale``."""
@@ -56,18 +75,67 @@ class Support:
 
 
 @dataclass(frozen=True)
+class BodyLoad(Force):
+    """A load on a body: a force, or a ``couple`` (N·m; in the plane one number, counter-clockwise)."""
+
+    couple: tuple[float, ...] = given(
+        Couple(
+            "torque", doc="couple: M, counter-clockwise; [Mx, My, Mz] in space", form="[0 N·m, 0 N·m, 5 N·m]"
+        ),
+        (),
+    )
+
+
+LOADS = Named(
+    ForceField(Components("force", form="[0 N, -600 N]"), Table.of(BodyLoad)), "load",
+    doc="loads by name: [Fx, Fy], {magnitude: …, direction: […], at: […]}, {couple: 5 N·m}",
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
 class RigidBody(Problem):
-    """A body under forces (N) and couples (N·m), held by supports."""
+    """A body under forces (N) and couples (N·m), held by supports.
+
+    In files both are ``loads`` by name; ``forces`` and ``couples``, the keys that files had before, are read as well.
+    """
 
     kind: ClassVar[str] = "rigid_body"
+    fields = GivenByFile({
+        "loads": LOADS, "forces": replace(FORCES, replaced="loads"), "couples": replace(COUPLES, replaced="loads"),
+    })  # fmt: skip
     supports: Mapping[str, Support] = given(Named(
         Table.of(Support), "support",
-        doc="supports by name: {at: [0 m, 0 m], holds: [x, y]}, or {at: […], along: [0, 1]}",
+        doc="supports by name: {at: [0 m, 0 m], holds: [x, y]}, or {at: […], direction: [0, 1]}",
     ))  # fmt: skip
-    forces: Mapping[str, Force] = given(FORCES, dict)
-    couples: Mapping[str, tuple[float, ...]] = given(COUPLES, dict)
+    forces: Mapping[str, Force] = field(default_factory=dict)
+    couples: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
     name: str = ""
     source: str = ""
+
+    @classmethod
+    def of_file(cls, values: Mapping[str, Any], folder: Path) -> RigidBody:
+        own = dict(values)
+        loads = own.pop("loads", None) or {}
+        forces, couples = dict(own.pop("forces", None) or {}), dict(own.pop("couples", None) or {})
+        wrong = [
+            fault("statics.load_form", f"loads.{name}")
+            for name, each in loads.items()
+            if isinstance(each, BodyLoad)
+            and each.couple
+            and (each.force or each.size is not None or each.directed)
+        ]
+        if wrong:
+            raise ModelError(wrong)
+        for name, each in loads.items():
+            if isinstance(each, BodyLoad) and each.couple:
+                couples[name] = each.couple if len(each.couple) > 1 else (0.0, 0.0, *each.couple)
+            else:
+                forces[name] = each
+        return cls(**own, forces=forces, couples=couples)
+
+    def _key(self, name: str) -> str:
+        """Where the file has a force: among its loads, or under the key that it had before."""
+        return f"{'loads' if name in (self.told.get('loads') or {}) else 'forces'}.{name}"
 
     @property
     def planar(self) -> bool:
@@ -85,12 +153,14 @@ class RigidBody(Problem):
         )
 
     def findings(self) -> list[Finding]:
-        found = [each for name, one in self.forces.items() for each in one.findings(f"forces.{name}")]
+        found = [each for name, one in self.forces.items() for each in one.findings(self._key(name))]
+        found += [fault("statics.unknown_load", self._key(name)) for name, one in self.forces.items()
+                  if one.unknown and one.directed]  # fmt: skip
         for name, support in self.supports.items():
             if not support.holds and not support.along:
                 found.append(fault("statics.holds_nothing", f"supports.{name}"))
             if support.along and not any(support.along):
-                found.append(fault("statics.no_direction", f"supports.{name}.along"))
+                found.append(fault("statics.no_direction", f"supports.{name}.direction"))
         return found or self._freedoms()
 
     def _freedoms(self) -> list[Finding]:
@@ -181,6 +251,20 @@ class Reactions(Result):
         tidy = np.where(np.abs(found) < 1e-14 * largest, 0.0, found) * moments
         return dict(zip(state.names, tidy.tolist(), strict=True))
 
+    @property
+    def matrix(self) -> tuple[Floats, Floats]:
+        """A and B of A·X = B, N and N·m: rows are the sums of forces and moments about the origin, X the reactions."""
+        state = _Balance(self.body)
+        about = [name[1] == "M" for name in _sums(self.body)]
+        rows = np.where(about, state.scale, 1.0)
+        own = np.where([".M" in name for name in state.names], state.scale, 1.0)
+        return state.columns * rows[:, None] / own, -state.load * rows
+
+    def matrices(self, rows: Sequence[str]) -> Matrices:
+        """The system with the names of its unknowns."""
+        a, b = self.matrix
+        return Matrices(("A", a), (("X", list(self.values)), ("B", b[:, None])), tuple(rows))
+
     def blocks(self, say: Say) -> list[Block]:
         rows = [Row(name, value, _dimension(name), name) for name, value in self.values.items()]
         return [Block("reactions", say("statics.reactions"), rows)]
@@ -188,22 +272,31 @@ class Reactions(Result):
     def steps(self, say: Say) -> list[Step]:
         balance, found = Step("1", say("statics.equations")), Step("2", say("statics.reactions"))
         state = _Balance(self.body)
-        names = ("ΣFx", "ΣFy", "ΣMz") if self.body.planar else ("ΣFx", "ΣFy", "ΣFz", "ΣMx", "ΣMy", "ΣMz")
+        names = _sums(self.body)
         for i, name in enumerate(names):
             arm = state.scale if name[1] == "M" else 1.0
             parts = [
-                (c * (arm if ".M" not in n else state.scale), n)
+                (c * arm / (state.scale if ".M" in n else 1.0), n)
                 for c, n in zip(state.columns[i], state.names, strict=True)
                 if abs(c) > 1e-12
             ]
-            sides = " ".join(f"{'+' if c > 0 else '−'} {number(abs(c), digits=6)}·{n}" for c, n in parts)
-            load = state.load[i] * arm
-            balance.say(
-                f"{name} = {sides.removeprefix('+ ')} {'+' if load >= 0 else '−'} {number(abs(load))} = 0"
+            sides = " ".join(
+                f"{'+' if c > 0 else '−'} {'' if abs(c) == 1.0 else number(abs(c)) + '·'}{n}"
+                for c, n in parts
             )
+            load = state.load[i] * arm
+            rest = "" if not load else f" {'+' if load > 0 else '−'} {number(abs(load))}"
+            balance.law(f"{name} = {sides.removeprefix('+ ') or '0'}{rest} = 0")
+        found.say(say("statics.matrix"))
+        found.items.append(self.matrices(names).written())
         for name, value in self.values.items():
             put(found, name, "", value, _dimension(name))
         return [balance, found]
+
+
+def _sums(body: RigidBody) -> tuple[str, ...]:
+    """Names of the equations of equilibrium."""
+    return ("ΣFx", "ΣFy", "ΣMz") if body.planar else ("ΣFx", "ΣFy", "ΣFz", "ΣMx", "ΣMy", "ΣMz")
 
 
 def _dimension(name: str) -> str:

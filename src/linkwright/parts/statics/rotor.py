@@ -10,7 +10,7 @@ from typing import ClassVar
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding
 from linkwright.fields.base import Quantity, given
-from linkwright.parts.base import Block, Problem, Result, Row, fault, number, put
+from linkwright.parts.base import Block, Problem, Result, Row, Value, fault, put, signed
 from linkwright.parts.fields import Named, Table
 from linkwright.words import Say
 from linkwright.worked.page import Step
@@ -139,19 +139,31 @@ class RotorBalance(Result):
         found = []
         for count, (name, unbalance) in enumerate(self.unbalances.items(), 1):
             step = Step(str(count), say("statics.balancing_plane", name=name))
+            if len(self.unbalances) > 1:
+                step.say(say("statics.share"))
+                step.law("k = (z' − z)/(z' − z0)")
             for mass, each in self.rotor.masses.items():
                 share = self.share(name, each.at) + 0.0  # no -0
-                numbers = f"{each.mass:.6g}·{each.radius:.6g}·{share:.6g}"
-                put(step, f"(m·r)_{mass}", "m·r·(z' − z)/(z' − z0)" if len(self.unbalances) > 1 else "m·r",
-                    each.mass * each.radius * share, "mass_radius", numbers=numbers)  # fmt: skip
-            put(step, "Ux", "Σ (m·r)·cos θ", unbalance.real, "mass_radius")
-            put(step, "Uy", "Σ (m·r)·sin θ", unbalance.imag, "mass_radius")
-            put(step, "U", "√(Ux² + Uy²)", abs(unbalance), "mass_radius")
+                given: dict[str, Value] = {"m": (each.mass, "mass"), "r": (each.radius, "length"), "k": share}
+                put(step, f"(m·r)_{mass}", "m·r·k" if len(self.unbalances) > 1 else "m·r",
+                    each.mass * each.radius * share, "mass_radius", of=given)  # fmt: skip
+            shares = [each.product * self.share(name, each.at) for each in self.rotor.masses.values()]
+            for axis, of, parts in (("x", "cos", [each.real for each in shares]),
+                                    ("y", "sin", [each.imag for each in shares])):  # fmt: skip
+                total = unbalance.real if axis == "x" else unbalance.imag
+                put(step, f"U{axis}", f"Σ m·r·{'k·' if len(self.unbalances) > 1 else ''}{of} θ", total,
+                    "mass_radius", numbers=signed(parts))  # fmt: skip
+            both: dict[str, Value] = {
+                "Ux": (unbalance.real, "mass_radius"),
+                "Uy": (unbalance.imag, "mass_radius"),
+            }
+            put(step, "U", "√(Ux² + Uy²)", abs(unbalance), "mass_radius", of=both)
             radius = self.rotor.planes[name].radius
-            numbers = f"{number(abs(unbalance), 'mass_radius')}/{radius:.6g}"
-            put(step, "m_b", "U/r_b", abs(self.counterweights[name]), "mass", numbers=numbers)
+            given = {"U": (abs(unbalance), "mass_radius"), "r_b": (radius, "length")}
+            put(step, "m_b", "U/r_b", abs(self.counterweights[name]), "mass", of=given)
             if unbalance:
-                put(step, "θ_b", "atan2(−Uy, −Ux)", _angle(self.counterweights[name]), "angle")
+                plain = {"Ux": unbalance.real, "Uy": unbalance.imag}
+                put(step, "θ_b", "atan2(−Uy, −Ux)", _angle(self.counterweights[name]), "angle", of=plain)
             found.append(step)
         return found
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import ClassVar
 
 import numpy as np
@@ -13,11 +14,13 @@ from linkwright.kinematics.constraint_system import ConstraintSystem
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.parts.base import Block, Result, Row, fault
+from linkwright.parts.base import Block, Result, Row, fault, put
+from linkwright.parts.statics.balance import Balance, structure_balance
 from linkwright.parts.statics.body import describe
 from linkwright.structure import StructureError, structure
 from linkwright.words import Say, language_of
 from linkwright.words.sentence import Sentence
+from linkwright.worked.matrix import Matrices
 from linkwright.worked.page import Step
 
 #: Starts of the search for a position, and the gap below which the joints close.
@@ -117,7 +120,34 @@ class StructureForces(Result):
         gap = float(self.forces.balance_residual.max())
         return [Block("reactions", say("statics.reactions"), rows, (say("statics.gap", gap=f"{gap:.1e}"),))]
 
+    @cached_property
+    def balance(self) -> Balance | None:
+        """The equations of equilibrium as A·X = B with the names of rows and unknowns; None where a pair other than
+        pin, guide and weld takes part."""
+        return structure_balance(self.forces)
+
     def steps(self, say: Say) -> list[Step]:
         from linkwright.worked.solution import worked
 
-        return list(worked(self.forces, language=language_of(say)).steps)
+        found = list(worked(self.forces, language=language_of(say)).steps)
+        last = max(int(step.number.partition(".")[0]) for step in found)
+        return [*found, balance_step(self.balance, str(last + 1), say)]
+
+
+def balance_step(balance: Balance | None, number: str, say: Say) -> Step:
+    """The equations of equilibrium as a step: A·X = B, and X."""
+    step = Step(number, say("statics.matrix_step"))
+    if balance is None:
+        step.say(say("statics.matrix_none"))
+        return step
+    links = dict.fromkeys(row.rpartition(" ")[0] for row in balance.rows)
+    step.say(say("statics.matrix_order", links=", ".join(links)))
+    acting = ", ".join(f"{name} → {link}" for name, link in zip(balance.names, balance.on, strict=True))
+    step.say(say("statics.matrix_of", names=acting))
+    matrices = Matrices(
+        ("A", balance.a), (("X", list(balance.names)), ("B", balance.b[:, None])), balance.rows
+    )
+    step.items.append(matrices.written())
+    for name, unit, value in zip(balance.names, balance.units, balance.x.tolist(), strict=True):
+        put(step, name, "", value, "force" if unit == "N" else "torque")
+    return step

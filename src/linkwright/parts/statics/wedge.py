@@ -11,7 +11,7 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding
 from linkwright.fields.base import Quantity, given
-from linkwright.parts.base import Block, Problem, Result, Row, fault, put
+from linkwright.parts.base import Block, Problem, Result, Row, Value, fault, put
 from linkwright.words import Say
 from linkwright.worked.page import Step
 
@@ -52,10 +52,14 @@ class Wedge(Problem):
         negative, and where α < ρ the wedge that is pulled out takes the load to the other side of its guide, whose
         friction holds the load as well: R = Q cos ρw/cos(|α - ρ| - ρw).
         """
-        slope, floor, wall = (sense * angle for angle in self.friction_angles)
+        slope, floor, _ = (sense * angle for angle in self.friction_angles)
+        return self.between(sense, load) * math.sin(self.angle + slope + floor) / math.cos(floor)
+
+    def between(self, sense: int = 1, load: float | None = None) -> float:
+        """Force R on the slope between wedge and load (N), as in :meth:`push`."""
+        slope, _, wall = (sense * angle for angle in self.friction_angles)
         wall = math.copysign(wall, sense * (self.angle + slope))
-        between = (self.load if load is None else load) * math.cos(wall) / math.cos(self.angle + slope + wall)
-        return between * math.sin(self.angle + slope + floor) / math.cos(floor)
+        return (self.load if load is None else load) * math.cos(wall) / math.cos(self.angle + slope + wall)
 
     def findings(self) -> list[Finding]:
         if self.angle >= math.pi / 2:
@@ -120,10 +124,18 @@ class WedgeForces(Result):
 
     def steps(self, say: Say) -> list[Step]:
         step = Step("1", say("statics.wedge_step"))
-        for name, angle in zip(("ρ", "ρf", "ρw"), self.wedge.friction_angles, strict=True):
-            put(step, name, "arctan μ", angle, "angle")
-        put(step, "P↑", "Q·cos ρw/cos(α + ρ + ρw)·sin(α + ρ + ρf)/cos ρf", self.raising, "force")
-        put(step, "P↓", "Q·cos ρw/cos(|α − ρ| − ρw)·sin(α − ρ − ρf)/cos ρf", self.lowering, "force")
-        put(step, "η", "Q·tan α/P↑", self.efficiency)
+        known: dict[str, Value] = {"Q": (self.wedge.load, "force"), "α": (self.wedge.angle, "angle")}
+        for index, angle in zip(("", "f", "w"), self.wedge.friction_angles, strict=True):
+            put(step, f"ρ{index}", f"arctan μ{index}", angle, "angle", of={f"μ{index}": math.tan(angle)})
+            known[f"ρ{index}"] = (angle, "angle")
+        step.say(say("statics.wedge_raising"))
+        put(step, "R", "Q·cos ρw/cos(α + ρ + ρw)", self.wedge.between(1), "force", of=known)
+        raised: dict[str, Value] = {**known, "R": (self.wedge.between(1), "force")}
+        put(step, "P_up", "R·sin(α + ρ + ρf)/cos ρf", self.raising, "force", of=raised)
+        step.say(say("statics.wedge_lowering"))
+        put(step, "R", "Q·cos ρw/cos(|α − ρ| − ρw)", self.wedge.between(-1), "force", of=known)
+        sunk: dict[str, Value] = {**known, "R": (self.wedge.between(-1), "force")}
+        put(step, "P_down", "R·sin(α − ρ − ρf)/cos ρf", self.lowering, "force", of=sunk)
+        put(step, "η", "Q·tan α/P_up", self.efficiency, of={**known, "P_up": (self.raising, "force")})
         step.say(say("statics.locks" if self.locks else "statics.runs_back"))
         return [step]

@@ -21,6 +21,7 @@ from linkwright.parts.base import (
     Result,
     Row,
     Scale,
+    Value,
     fault,
     in_si,
     number,
@@ -44,6 +45,7 @@ from linkwright.parts.statistics.describe import (
 from linkwright.parts.statistics.hypotheses import AGAINST, TESTS, TOGETHER, Outcome
 from linkwright.words import Say
 from linkwright.worked.page import Step
+from linkwright.worked.written import measured
 
 #: A probability below this one is not told apart from nothing.
 TINY = 1e-12
@@ -356,6 +358,30 @@ class Statistics(Result):
             rows += [Row("skewness", d.skewness), Row("kurtosis", d.kurtosis)]
         return Block(f"sample.{name}", say("statistics.sample", name=name), rows)
 
+    def _measured(self, name: str, value: float) -> str:
+        """A value of a sample in its own unit, as one sign of a formula."""
+        return measured(f"{self._in_unit(name, value)} {self.scale(name).unit}".rstrip())
+
+    def _limits_of(self, name: str) -> dict[str, Value]:
+        """Limits, mean and deviation of a capability, in the unit of the sample."""
+        own, c, factor = self.problem.capability[name], self.capabilities[name], self.scale(name).factor
+        given = {"U": own.upper, "L": own.lower, "x̄": self.descriptions[name].mean, "σ": c.deviation}
+        return {key: value / factor for key, value in given.items() if value is not None}
+
+    def _nearest(self, name: str) -> str:
+        """Formula of the capability towards the nearer limit."""
+        own = self.problem.capability[name]
+        if own.lower is None:
+            return "(U − x̄)/(3·σ)"
+        return "(x̄ − L)/(3·σ)" if own.upper is None else "min(U − x̄, x̄ − L)/(3·σ)"
+
+    def _scales(self, fitting: Fitting) -> list[Scale]:
+        """Units of the coefficients of a regression, of those of its samples: that of y, then y's per each column's."""
+        y, xs = self.scale(fitting.y), [self.scale(name) for name in fitting.on]
+        powers = [(xs[0], p) for p in range(1, fitting.degree + 1)] if len(xs) == 1 else [(x, 1) for x in xs]
+        kinds = self.problem.dimensions_of(fitting)[1:]
+        return [y, *(_over(y, x, power, in_si(kind)) for (x, power), kind in zip(powers, kinds, strict=True))]
+
     def _interval(self, name: str, ends: tuple[float, float]) -> str:
         unit = self.scale(name).unit
         return f"{self._in_unit(name, ends[0])} … {self._in_unit(name, ends[1])} {unit}".rstrip()
@@ -389,16 +415,15 @@ class Statistics(Result):
 
     def _regressed(self, name: str, say: Say) -> Block:
         r, rows = self.regressions[name], []
-        kinds = self.problem.dimensions_of(self.problem.regressions[name])
-        for i, (term, kind) in enumerate(zip(r.terms, kinds, strict=True)):
-            note = say("statistics.coefficient", error=number(float(r.errors[i])), low=number(float(r.low[i])),
-                       high=number(float(r.high[i])), p=_probability(float(r.p[i])))  # fmt: skip
-            rows.append(Row(f"b_{term}", float(r.coefficients[i]), "", f"b({term})", note, in_si(kind)))
-        rows += [Row("determination", r.determination), Row("residual", r.deviation, scale=in_si(kinds[0]))]
+        scales = self._scales(self.problem.regressions[name])
+        for i, (term, scale) in enumerate(zip(r.terms, scales, strict=True)):
+            error, low, high = (number(float(each[i]) / scale.factor) for each in (r.errors, r.low, r.high))
+            p = _probability(float(r.p[i]))
+            note = say("statistics.coefficient", error=error, low=low, high=high, p=p)
+            rows.append(Row(f"b_{term}", float(r.coefficients[i]), "", f"b({term})", note, scale))
+        rows += [Row("determination", r.determination), Row("residual", r.deviation, scale=scales[0])]
         y = self.problem.regressions[name].y
-        return Block(
-            f"regression.{name}", say("statistics.regression", name=name, y=y), rows, (say("statistics.si"),)
-        )
+        return Block(f"regression.{name}", say("statistics.regression", name=name, y=y), rows)
 
     def _capable(self, name: str, say: Say) -> Block:
         c, rows = self.capabilities[name], []
@@ -415,19 +440,19 @@ class Statistics(Result):
         found: list[Step] = []
         for name, d in self.descriptions.items():
             step = Step(str(len(found) + 1), say("statistics.sample", name=name))
-            unit = f" {self.scale(name).unit}".rstrip()
-            step.say(f"  n = {d.count},  x̄ = Σx/n = {self._in_unit(name, d.mean)}{unit}")
+            step.law(f"n = {d.count}")
+            step.law(f"x̄ = Σ x/n = {self._measured(name, d.mean)}")
             if d.count > 1:
-                step.say(f"  s = √(Σ(x − x̄)²/(n − 1)) = {self._in_unit(name, d.deviation)}{unit}")
+                step.law(f"s = √(Σ (x − x̄)²/(n − 1)) = {self._measured(name, d.deviation)}")
                 ends = mean_interval(self.problem.values(name), self.problem.confidence)
-                step.say(f"  x̄ ± t·s/√n: {self._interval(name, ends)}")
+                step.law(f"x̄ ± t·s/√(n) = {measured(self._interval(name, ends))}")
             found.append(step)
         for name, outcome in self.tests.items():
             step = Step(
                 str(len(found) + 1), f"{name}: {say(f'statistics.h_{self.problem.tests[name].kind}')}"
             )
             put(step, outcome.symbol, outcome.formula, outcome.statistic)
-            step.say(f"  p {_probability(outcome.p)}")
+            step.law(f"p {_probability(outcome.p)}")
             step.say(self._test_rows(name, say)[1].note)
             found.append(step)
         for name, r in self.regressions.items():
@@ -435,17 +460,20 @@ class Statistics(Result):
                 str(len(found) + 1),
                 say("statistics.regression", name=name, y=self.problem.regressions[name].y),
             )
-            step.say("  b = (FᵀF)⁻¹·Fᵀ·y,  s² = Σe²/(n − p)")
-            for term, value in zip(r.terms, r.coefficients, strict=True):
-                put(step, f"b({term})", "", float(value))
-            put(step, "R²", "1 − Σe²/Σ(y − ȳ)²", r.determination)
+            step.law("b = (Fᵀ·F)⁻¹·Fᵀ·y; s² = Σ e²/(n − p)")
+            scales = self._scales(self.problem.regressions[name])
+            for term, value, scale in zip(r.terms, r.coefficients, scales, strict=True):
+                value, text = float(value) / scale.factor, scale.unit
+                symbol = "b_0" if term == "1" else f"b_{term.replace('^', '')}"
+                step.law(f"{symbol} = {measured(f'{value:.6g} {text}'.rstrip())}")
+            put(step, "R²", "1 − Σ e²/Σ (y − ȳ)²", r.determination)
             found.append(step)
         for name, c in self.capabilities.items():
             step = Step(str(len(found) + 1), say("statistics.capability", name=name))
             mark = "C" if c.within else "P"
             if c.cp is not None:
-                put(step, f"{mark}p", "(U − L)/(6σ)", c.cp)
-            put(step, f"{mark}pk", "min(U − x̄, x̄ − L)/(3σ)", c.cpk)
+                put(step, f"{mark}p", "(U − L)/(6·σ)", c.cp, of=self._limits_of(name))
+            put(step, f"{mark}pk", self._nearest(name), c.cpk, of=self._limits_of(name))
             found.append(step)
         return found
 
@@ -453,6 +481,15 @@ class Statistics(Result):
 def _probability(p: float) -> str:
     """``= 0.0123``, or ``< 1e-12`` of what is smaller than its rounding."""
     return f"= {number(p, digits=3)}" if p >= TINY else f"< {TINY:g}"
+
+
+def _over(y: Scale, x: Scale, power: int, si: Scale) -> Scale:
+    """The unit of y over a power of that of x: ``N/mm``, ``N/mm²``."""
+    if not x.unit:
+        return Scale(y.unit, y.factor / x.factor**power, si.si)
+    raised = x.unit + ("" if power == 1 else "⁰¹²³⁴⁵⁶⁷⁸⁹"[power] if power < 10 else f"^{power}")
+    below = f"({x.unit}){raised[len(x.unit) :]}" if set(x.unit) & set("·/") else raised
+    return Scale(f"{y.unit or '1'}/{below}", y.factor / x.factor**power, si.si)
 
 
 def _in_units(parameter: str, value: float, factor: float) -> float:

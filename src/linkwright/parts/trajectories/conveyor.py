@@ -15,7 +15,7 @@ from linkwright.fields.base import Quantity, Text, given
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.parts.base import PERCENT, Block, Result, Row, fault, put, shown
+from linkwright.parts.base import PERCENT, Block, Result, Row, Value, fault, put, shown
 from linkwright.parts.fields import Whole
 from linkwright.parts.mechanism_field import MECHANISM, OfMechanism
 from linkwright.parts.trajectories.transport import FLIGHT, MODES, Transported, Trough, transport
@@ -189,20 +189,25 @@ class Transport(Result):
             Step("1", say("trajectory.law")),
             Step("2", say("trajectory.phases")),
         )
-        law.say("  N/m = a_n − g_n,  f = a_t − g_t")
-        law.say(f"  {say('trajectory.rest')}: |f| ≤ μ·N/m;  {say('trajectory.slide')}: s̈ = −f ∓ μ'·N/m")
+        law.say(say("trajectory.per_mass"))
+        law.law("n = a_n − g_n; f = a_t − g_t")
+        law.say(f"{say('trajectory.rest')}:")
+        law.law("|f| ≤ μ·n")
+        law.say(f"{say('trajectory.slide')}:")
+        law.law("s̈ = −f ∓ μ'·n")
         put(law, "g_n", "", trough.gravity[1], "acceleration")
         put(law, "Γ", "max(−a_n)/|g_n|", self.throw_number)
         if math.isfinite(self.needed_friction):
-            put(law, "μ", "max |f|/(N/m)", self.needed_friction)
+            put(law, "μ_min", "max(|f|/n)", self.needed_friction)
         for phase in self.motion.phases[:24]:
             word = say(f"trajectory.{phase.mode}")
             ends = " … ".join(
                 shown(self._input(time), self._input_kind, 5) for time in (phase.start, phase.end)
             )
-            found.say(f"  {ends}: {word}")
+            found.say(f"{ends}: {word}")
         put(found, "Δs", "", self.motion.displacement, "length")
-        put(found, "v", "Δs/T", self.speed, "velocity")
+        of: dict[str, Value] = {"Δs": (self.motion.displacement, "length"), "T": (trough.period, "time")}
+        put(found, "v", "Δs/T", self.speed, "velocity", of=of)
         if any(phase.mode == FLIGHT for phase in self.motion.phases):
             found.say(say("trajectory.blow"))
         return [law, found]

@@ -16,7 +16,7 @@ from linkwright.errors import Finding, LinkwrightError, ModelError
 from linkwright.fields.base import GivenByFile, Quantity, Text, given
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.parts.base import Block, Problem, Result, Row, fault, put
+from linkwright.parts.base import Block, Problem, Result, Row, Value, fault, put
 from linkwright.parts.mechanism_field import load_beside
 from linkwright.words import Say
 from linkwright.worked.page import Step
@@ -250,8 +250,8 @@ class Flight(Result):
         speed, angle = self.impact
         rows = [
             Row("speed", self.particle.speed or 0.0, "velocity"), Row("angle", self.particle.angle or 0.0, "angle"),
-            Row("duration", self.duration, "time"), Row("distance", self.range, "length"),
-            Row("top", self.top, "length"), Row("impact_speed", speed, "velocity"),
+            Row("duration", self.duration, "time"), Row("distance", self.range, "distance"),
+            Row("top", self.top, "distance"), Row("impact_speed", speed, "velocity"),
             Row("impact_angle", angle, "angle"),
         ]  # fmt: skip
         return [Block("flight", "", rows)]
@@ -259,16 +259,34 @@ class Flight(Result):
     def steps(self, say: Say) -> list[Step]:
         p, step = self.particle, Step("1", say("trajectory.step"))
         if p.quadratic:
-            step.say("  m·v' = −m·g·e_y − k·|v|·v")
-            put(step, "v∞", "√(m·g/k)", math.sqrt(p.mass * p.gravity / p.quadratic), "velocity")
+            step.law("m·v̇_x = −k·v·v_x; m·v̇_y = −m·g − k·v·v_y; v = √(v_x² + v_y²)")
+            of: dict[str, Value] = {
+                "m": (p.mass, "mass"), "g": (p.gravity, "acceleration"), "k": (p.quadratic, "linear_density"),
+            }  # fmt: skip
+            put(step, "v∞", "√(m·g/k)", math.sqrt(p.mass * p.gravity / p.quadratic), "velocity", of=of)
         elif p.linear:
-            step.say("  m·v' = −m·g·e_y − b·v;  y = h + (v_y + g·τ)·τ·(1 − e^(−t/τ)) − g·τ·t,  τ = m/b")
+            step.law("m·v̇_x = −b·v_x; m·v̇_y = −m·g − b·v_y")
+            step.law("x = v_x·τ·(1 − e^(−t/τ)); y = h + (v_y + g·τ)·τ·(1 − e^(−t/τ)) − g·τ·t")
+            put(
+                step,
+                "τ",
+                "m/b",
+                p.mass / p.linear,
+                "time",
+                of={"m": (p.mass, "mass"), "b": (p.linear, "damping")},
+            )
         else:
-            step.say("  x = v_x·t,  y = h + v_y·t − g·t²/2")
-        put(step, "v_x", "v·cos α", self.first[0], "velocity")
-        put(step, "v_y", "v·sin α", self.first[1], "velocity")
+            step.law("x = v_x·t; y = h + v_y·t − g·t²/2")
+        of = {"v": (p.speed or 0.0, "velocity"), "α": (p.angle or 0.0, "angle")}
+        put(step, "v_x", "v·cos α", self.first[0], "velocity", of=of)
+        put(step, "v_y", "v·sin α", self.first[1], "velocity", of=of)
         free = not (p.linear or p.quadratic)
-        put(step, "T", "(v_y + √(v_y² + 2·g·h))/g" if free else "", self.duration, "time")
-        put(step, "x(T)", "v_x·T" if free else "", self.range, "length")
-        put(step, "y_max", "h + v_y²/(2g)" if free and self.first[1] > 0 else "", self.top, "length")
+        of = {
+            "v_x": (self.first[0], "velocity"), "v_y": (self.first[1], "velocity"), "h": (p.height, "distance"),
+            "g": (p.gravity, "acceleration"), "T": (self.duration, "time"),
+        }  # fmt: skip
+        put(step, "T", "(v_y + √(v_y² + 2·g·h))/g" if free else "", self.duration, "time", of=of)
+        put(step, "x(T)", "v_x·T" if free else "", self.range, "distance", of=of)
+        top = "h + v_y²/(2·g)" if free and self.first[1] > 0 else ""
+        put(step, "y_max", top, self.top, "distance", of=of)
         return [step]

@@ -21,7 +21,7 @@ from linkwright.laws.base import MOTION_LAWS, MotionLaw
 from linkwright.laws.fitting import motion_law
 from linkwright.laws.program_fields import LawField
 from linkwright.laws.residual import residual
-from linkwright.parts.base import Block, Problem, Result, Row, fault, number, put
+from linkwright.parts.base import Block, Problem, Result, Row, Value, fault, number, put
 from linkwright.parts.vibration.linear import Linear, largest_between
 from linkwright.words import Say
 from linkwright.worked.page import Step
@@ -190,11 +190,13 @@ class FollowerVibration(Result):
 
     def steps(self, say: Say) -> list[Step]:
         step = Step("1", say("vibration.step_follower"))
-        step.say(f"  s(u) = h·({self.problem.said}), u = t/T")
-        step.say("  z = x − s,  z̈ + 2ζω·ż + ω²·z = −s̈")
-        put(step, "ω", "√(k/m)", self.frequency, "angular_velocity")
-        put(step, "n", "ω·T/(2π)", self.ratio)
-        put(step, "A", "|∫ s̈·e^(iωt) dt|/ω", float(self.residual()[0]), "length")
+        step.say(say("vibration.law_of_rise", law=self.problem.said))
+        step.law("z = x − s; z̈ + 2·ζ·ω·ż + ω²·z = −s̈")
+        of: dict[str, Value] = {"k": (self.problem.stiffness, "stiffness"), "m": (self.problem.mass, "mass")}
+        put(step, "ω", "√(k/m)", self.frequency, "angular_velocity", of=of)
+        of = {"ω": (self.frequency, "angular_velocity"), "T": (self.problem.rise_time, "time")}
+        put(step, "n", "ω·T/(2·π)", self.ratio, of=of)
+        put(step, "A", "|∫ s̈·e^(i·ω·t) dt|/ω", float(self.residual()[0]), "length")
         quiet = self._quiet()
         if quiet:
             step.say(say("vibration.quiet", ratios=", ".join(number(n, digits=4) for n in quiet)))

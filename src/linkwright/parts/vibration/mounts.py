@@ -15,7 +15,7 @@ from linkwright.errors import Finding, LinkwrightError, ModelError
 from linkwright.fields.base import Quantities, Quantity, given
 from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.parts.base import Block, Result, Row, fault, number, put, shown
+from linkwright.parts.base import Block, Result, Row, Value, fault, number, put, shown
 from linkwright.parts.fields import Named, Table, Whole
 from linkwright.parts.mechanism_field import MECHANISM, OfMechanism
 from linkwright.parts.vibration.linear import largest_between
@@ -297,18 +297,24 @@ class Shaken(Result):
 
     def steps(self, say: Say) -> list[Step]:
         own, each = Step("1", say("vibration.step_mounts")), Step("2", say("vibration.harmonics"))
-        put(own, "ω", "2π/T", self.speed, "angular_velocity")
+        put(own, "ω", "2·π/T", self.speed, "angular_velocity", of={"T": (2 * math.pi / self.speed, "time")})
+        if self.problem.mounts:
+            own.law("det(K − ω²·M) = 0")
         ways = ["1", "2", "3"] if self.problem.mounts else list(self.axes)
         for i, way in enumerate(ways):
-            formula = "det(K − ω²·M) = 0" if self.problem.mounts else f"√(K{way}/m)"
-            put(own, f"ω{way}", formula, float(self.frequencies[i]), "angular_velocity")
+            of: dict[str, Value] = {
+                f"k{way}": (float(np.diag(self.problem.stiffness)[i]), "stiffness"),
+                "m": (self.problem.mass, "mass"),
+            }
+            formula = "" if self.problem.mounts else f"√(k{way}/m)"
+            put(own, f"ω{way}", formula, float(self.frequencies[i]), "angular_velocity", of=of)
         for i, way in enumerate(ways):
             speeds = ", ".join(
                 number(60 * float(self.frequencies[i]) / (2 * math.pi) / k, digits=4)
                 for k in self.listed()[:4]
             )
             own.say(say("vibration.critical", axis=way, speeds=speeds))
-        each.say("  X_k = (K − M·(kω)² + i·kω·C)⁻¹·F_k,  G_k = (K + i·kω·C)·X_k")
+        each.law("X_k = (K − k²·ω²·M + i·k·ω·C)⁻¹·F_k; G_k = (K + i·k·ω·C)·X_k")
         for k in self.listed():
             for i, axis in enumerate(self.axes):
                 (_, kind), (_, way), _ = TITLES[axis]

@@ -14,8 +14,9 @@ import numpy as np
 from linkwright.core.arrays import Complexes, Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, ModelError
-from linkwright.fields.base import GivenByFile, Quantity, Text, given
-from linkwright.parts.base import Block, Problem, Result, Row, fault, number, put
+from linkwright.fields.base import GivenByFile, Place, Quantity, Reader, Text, given
+from linkwright.fields.nodes import Node
+from linkwright.parts.base import Block, Problem, Result, Row, Value, fault, number, put
 from linkwright.parts.fields import AnyQuantity, Listed, Named, Table
 from linkwright.parts.vibration.excitation import (
     EXCITATION,
@@ -29,6 +30,7 @@ from linkwright.parts.vibration.excitation import (
 from linkwright.parts.vibration.linear import Linear, largest_between, tuned
 from linkwright.units import DIMENSIONS, SMALLEST
 from linkwright.words import Say
+from linkwright.worked.matrix import Matrices
 from linkwright.worked.page import Step
 
 GROUND = "ground"
@@ -81,6 +83,17 @@ START = {
 
 
 @dataclass(frozen=True)
+class MassesField(Named):
+    """Masses by name; moments of inertia among them, as files had them before, are a warning."""
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
+        found = super().read(reader, node, place, given)
+        if any(each is not None and each[1] == DIMENSIONS["inertia"] for each in (found or {}).values()):
+            reader.old_key(node, place, "masses", "inertias")
+        return found
+
+
+@dataclass(frozen=True)
 class VibratingSystem(Problem):
     """Masses (kg; or discs with inertias, kg·m², ``turning``) by name, springs and dampers between them.
 
@@ -93,9 +106,11 @@ class VibratingSystem(Problem):
             "on": Text(required=True, doc="the mass that is to be quieted"),
             "mass": Quantity("mass", required=True, above=0.0, doc="mass of the absorber"),
         }, doc="adds the best damped absorber: {on: body, mass: 5 kg}"),
+        "inertias": Named(AnyQuantity(("inertia",)), "disc", doc="discs on shafts, in place of masses: moments of "
+                          "inertia (kg·m²) by name"),
     })  # fmt: skip
     masses: Mapping[str, float] = given(
-        Named(AnyQuantity(either("mass")), "mass", doc="masses (kg) or inertias (kg·m²) by name")
+        MassesField(AnyQuantity(either("mass")), "mass", doc="masses (kg) by name"), dict
     )
     springs: Mapping[str, Tie] = given(
         Named(SPRING, "spring", doc="springs by name: {between: [ground, body], stiffness: 20 kN/m}"), dict
@@ -119,8 +134,10 @@ class VibratingSystem(Problem):
     @classmethod
     def of_file(cls, values: Mapping[str, Any], folder: Path) -> VibratingSystem:
         given = dict(values)
+        discs = given.pop("inertias", None) or {}
+        given["masses"] = {**(given.get("masses") or {}), **discs}
         turning = any(kind == DIMENSIONS["inertia"] for _, kind in given["masses"].values())
-        wrong = _mixed(given, turning)
+        wrong = _mixed(given, dict.fromkeys(discs, "inertias"), turning)
         if wrong:
             raise ModelError(wrong)
         given["masses"] = {name: value for name, (value, _) in given["masses"].items()}
@@ -233,10 +250,10 @@ class VibratingSystem(Problem):
         return Vibration(self)
 
 
-def _mixed(given: Mapping[str, Any], turning: bool) -> list[Finding]:
+def _mixed(given: Mapping[str, Any], where: Mapping[str, str], turning: bool) -> list[Finding]:
     """Findings where straight and turning motion, or wrong units, come together."""
     kinds = TURNING if turning else STRAIGHT
-    values = {f"masses.{n}": (kind, "mass") for n, (_, kind) in given["masses"].items()}
+    values = {f"{where.get(n, 'masses')}.{n}": (kind, "mass") for n, (_, kind) in given["masses"].items()}
     for what, key in (("springs", "stiffness"), ("dampers", "damping")):
         values |= {f"{what}.{n}.{key}": (t["rate"][1], key) for n, t in given.get(what, {}).items()}
     for name, start in given.get("start", {}).items():
@@ -431,6 +448,15 @@ class Vibration(Result):
             rows.append(Row(f"{name}.largest", value, length, say("vibration.largest", name=name), note))
         return Block("response", say("vibration.response"), rows)
 
+    def _single(self) -> dict[str, Value]:
+        """Stiffness, mass and damping of a system of one mass."""
+        words = TURNING if self.system.turning else STRAIGHT
+        return {
+            "k": (float(self.linear.stiffness[0, 0]), words["stiffness"]),
+            "m": (float(self.linear.mass[0, 0]), words["mass"]),
+            "c": (float(self.linear.damping[0, 0]), words["damping"]),
+        }
+
     def steps(self, say: Say) -> list[Step]:
         matrices, modes = Step("1", say("vibration.step_matrices")), Step("2", say("vibration.step_modes"))
         matrices.say(say("vibration.order", names=", ".join(self.system.masses)))
@@ -439,25 +465,25 @@ class Vibration(Result):
             ("C", self.linear.damping),
             ("K", self.linear.stiffness),
         ):
-            for row in matrix:
-                matrices.say(f"  {symbol} = [ {'  '.join(number(float(c)) for c in row)} ]")
+            if symbol != "C" or matrix.any():
+                matrices.items.append(Matrices((symbol, matrix)).written())
+        one = len(self.frequencies) == 1
         modes.say(say("vibration.characteristic"))
+        modes.law("det(K − ω²·M) = 0")
+        of = self._single() if one else {}
         for i, own in enumerate(self.frequencies):
-            put(
-                modes,
-                f"ω{i + 1}",
-                "√(k/m)" if len(self.frequencies) == 1 else "",
-                float(own),
-                "angular_velocity",
-            )
-            put(modes, f"f{i + 1}", f"ω{i + 1}/(2π)", own / (2 * math.pi), "frequency")
+            put(modes, f"ω{i + 1}", "√(k/m)" if one else "", float(own), "angular_velocity", of=of)
+            put(modes, f"f{i + 1}", f"ω{i + 1}/(2·π)", own / (2 * math.pi), "frequency",
+                of={f"ω{i + 1}": (float(own), "angular_velocity")})  # fmt: skip
             if self.linear.damping.any():
-                one = len(self.frequencies) == 1
-                put(modes, f"ζ{i + 1}", "c/(2√(k·m))" if one else "−Re λ/|λ|", float(self.damping_ratios[i]))
+                put(modes, f"ζ{i + 1}", "c/(2·√(k·m))" if one else "", float(self.damping_ratios[i]), of=of)
+        if not one:
+            for i in range(len(self.frequencies)):
+                modes.items.append(Matrices((f"φ{i + 1}", self.shapes[:, i : i + 1])).written())
         found = [matrices, modes]
         if self.harmonic:
             forced = Step("3", say("vibration.step_forced"))
-            forced.say("  (K − ω²M + iωC)·X = F")
+            forced.law("(K − ω²·M + i·ω·C)·X = F")
             for row in self._forced(say).rows:
                 put(
                     forced,
@@ -469,7 +495,7 @@ class Vibration(Result):
             found.append(forced)
         if self.in_time:
             timed = Step(str(len(found) + 1), say("vibration.response"))
-            timed.say("  M·ẍ + C·ẋ + K·x = F(t)")
+            timed.law("M·ẍ + C·ẋ + K·x = F(t)")
             for row in self._timed(say).rows:
                 put(timed, row.label, "", float(row.value), row.dimension)
             found.append(timed)

@@ -11,6 +11,7 @@ from linkwright.parts.base import shown
 from linkwright.parts.statics.belt import BeltTensions
 from linkwright.parts.statics.body import HELD, Reactions
 from linkwright.parts.statics.forces import Resultant, spatial
+from linkwright.parts.statics.point import PointEquilibrium
 from linkwright.parts.statics.rotor import RotorBalance
 from linkwright.parts.statics.structure import StructureForces
 from linkwright.parts.statics.wedge import WedgeForces
@@ -43,6 +44,25 @@ def draw_resultant(result: Resultant, request: Request) -> Figure:
             )
             place = place + vector[[a, b]]
         arrow(one, np.zeros(2), whole, COLOURS[1], "R", middle=-_side(vectors, whole, a, b))
+        one.set_xlabel(f"F{'xyz'[a]} (N)")
+        one.set_ylabel(f"F{'xyz'[b]} (N)")
+    fitted(figure, axes, request)
+    return figure
+
+
+@result_diagram("closed_polygon", PointEquilibrium)
+def draw_closed_polygon(result: PointEquilibrium, request: Request) -> Figure:
+    """All forces of a point in equilibrium head to tail: they close; those that were sought in another colour."""
+    vectors = result.vectors
+    spread = any(vector[2] for vector in vectors.values())
+    planes = [(0, 1), (0, 2)] if spread else [(0, 1)]
+    figure, axes = plane(result.title, request, len(planes))
+    for one, (a, b) in zip(axes, planes, strict=True):
+        corners = np.cumsum([np.zeros(2), *(vector[[a, b]] for vector in vectors.values())], axis=0)
+        for start, (name, vector) in zip(corners, vectors.items(), strict=False):
+            colour = COLOURS[1] if name in result.magnitudes else COLOURS[0]
+            side = _outside(start, vector[[a, b]], 2.0 * corners[:-1].mean(axis=0))
+            arrow(one, start, vector[[a, b]], colour, name, middle=side)
         one.set_xlabel(f"F{'xyz'[a]} (N)")
         one.set_ylabel(f"F{'xyz'[b]} (N)")
     fitted(figure, axes, request)

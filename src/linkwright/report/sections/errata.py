@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from linkwright.report.document import Block, Paragraph, Table, literal
 from linkwright.report.machine_results import Case, Missing
 from linkwright.report.section import section
+from linkwright.report.settings import Erratum
+from linkwright.words import Say
 
 
 @section("errata", 13.0, optional=True)
@@ -15,7 +17,12 @@ def blocks(case: Case) -> Iterator[Block]:
     say, found = case.say, case.settings.errata
     if not found:
         raise Missing("report.no_errata")
-    yield Paragraph(say("report.errata_text", source=literal(case.origin or "–")))
+    yield from errata_blocks(found, case.origin, say)
+
+
+def errata_blocks(found: Sequence[Erratum], source: str, say: Say) -> Iterator[Block]:
+    """The mistakes of a source as a table."""
+    yield Paragraph(say("report.errata_text", source=literal(source or "–")))
     head = tuple(say(f"report.{key}") for key in ("where", "printed", "right", "why"))
     rows = tuple(tuple(map(literal, (e.where, e.printed, e.right, e.why))) for e in found)
     yield Table(say("report.errata_table"), head, rows, "<<<<", "errata")

@@ -8,12 +8,13 @@ from linkwright.errors import LinkwrightError
 from linkwright.kinetostatics.forces import Forces
 from linkwright.plot.diagrams.force_polygon import link_forces
 from linkwright.plot.svg.render import natural_size
-from linkwright.report.document import Block, Figure, Formula, Heading, Paragraph, literal, symbols
+from linkwright.report.document import Block, Figure, Formula, Heading, Paragraph, Table, literal, symbols
 from linkwright.report.machine_results import Case
 from linkwright.report.section import section
 from linkwright.report.sections.method import side_by_side
-from linkwright.worked.page import Equation, Note, Relation, Step
+from linkwright.worked.page import Equation, Note, Relation, Step, Written
 from linkwright.worked.solution import Worked
+from linkwright.worked.written import latex_symbol, upright
 
 #: A point, the width of the text and the tallest polygon, mm.
 POINT, TEXT, TALLEST = 25.4 / 72.0, 170.0, 225.0
@@ -56,12 +57,23 @@ def with_numbers(step: Step) -> Iterator[Block]:
         given = []
         if isinstance(item, Note):
             yield Paragraph(symbols(item.text))
-        elif isinstance(item, Relation):
+        elif isinstance(item, Written) and item.cells:
+            yield _system(item)
+        elif isinstance(item, Relation | Written):
             yield Formula(item.latex_sides, number=False)
         else:
             sides = [item.latex_symbol, item.latex_formula, item.latex_numbers, _result(item)]
             yield Formula(tuple(side for side in sides if side))
     yield from side_by_side(given)
+
+
+def _system(item: Written) -> Table:
+    """A system of equations that is too wide for a formula, as a table."""
+    head, *rows = item.cells
+    names = tuple(f"${latex_symbol(each)}$" if each else "" for each in head)
+    return Table(
+        r"$A\,X=B$", names, tuple((literal(row[0]), *row[1:]) for row in rows), "<" + ">" * (len(head) - 1)
+    )
 
 
 def _result(item: Equation) -> str:
@@ -70,7 +82,7 @@ def _result(item: Equation) -> str:
     number = rf"{base}\cdot 10^{{{power}}}" if e else base
     if item.unit == "°":
         return number + r"^\circ"
-    return rf"{number}\,\mathrm{{{item.unit}}}" if item.unit else number
+    return rf"{number}\,{upright(item.unit)}" if item.unit else number
 
 
 def _polygons(case: Case) -> Iterator[Block]:

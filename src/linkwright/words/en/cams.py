@@ -104,4 +104,6 @@ WORDS = {
     "angles increasing",
     "compensation_zone": "the zone with what lies beyond it on both sides is not within the angles given, "
     "or nearly a whole turn; give a smaller zone",
+    "inertia_or_mass": "both a mass and a moment of inertia, or the moment of inertia of a translating follower",
+    "inertia_or_mass_remedy": "give mass: for a translating follower, inertia: for an oscillating one",
 }

@@ -1,6 +1,8 @@
 """Findings about model files."""
 
 WORDS = {
+    "old_key": 'the key "{key_}" has a new name: {new}',
+    "old_key_do": "write {new}: instead; files of this format with the old name go on being read",
     "kind_lacks": 'a joint of the kind "{kind}" does not supply "{what}", which is needed here; add the '
     "method to its class",
     "plain_stroke_part": "a part of a stroke",

@@ -78,4 +78,7 @@ WORDS = {
     "frame": "frame",
     "max": "max",
     "min": "min",
+    "disc": "disc",
+    "direction": "direction",
+    "angle": "angle",
 }

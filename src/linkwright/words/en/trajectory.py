@@ -27,6 +27,7 @@ its load: rest, sliding forward and back, throw, and the mean speed of transport
     "irregular": "The motion does not repeat from cycle to cycle; the mean is that of many cycles.",
     "stays": "The load stays at rest on the trough.",
     "law": "Forces on the load, per mass",
+    "per_mass": "Per mass of the load: normal force n, friction f that rest would need.",
     "blow": "The load lands without bouncing; the blow of landing rubs as a force of its size would.",
     "start": "the throw has no start",
     "start_remedy": "give speed and angle, or a mechanism with point and at",

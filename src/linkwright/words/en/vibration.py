@@ -30,6 +30,7 @@ leaves behind in a follower; and what a mechanism's shaking force does on mounts
     "left_over": "largest difference after the rise",
     "residual": "residual amplitude without damping",
     "residual_share": "its share of the lift",
+    "law_of_rise": "Rise s(u) = h·f(u) with u = t/T; law f: {law}.",
     "step_follower": "A mass driven through a spring",
     "quiet": "hardly any vibration is left at n = {ratios}",
     "own": "natural frequency along {axis}",

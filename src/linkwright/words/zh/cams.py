@@ -91,4 +91,6 @@ WORDS = {
     "drawn_barrel": "展开图，R = {radius} mm，φ = {angle}°",
     "compensation_points": "转角与所需升程不符：二者数目应相同，至少十二个，转角递增",
     "compensation_zone": "工作区及其两侧的延伸不在所给转角之内，或接近一整转；请给较小的工作区",
+    "inertia_or_mass": "同时给了质量与转动惯量，或对直动从动件给了转动惯量",
+    "inertia_or_mass_remedy": "直动从动件请给 mass:，摆动从动件请给 inertia:",
 }

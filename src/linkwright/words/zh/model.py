@@ -1,6 +1,8 @@
 """对模型文件的意见。"""
 
 WORDS = {
+    "old_key": '键 "{key_}" 已改名为 {new}',
+    "old_key_do": "请改写为 {new}:；本格式中使用旧名的文件仍可读取",
     "kind_lacks": "“{kind}”类运动副没有提供此处需要的“{what}”；请在其类中补上该方法",
     "plain_stroke_part": "行程的一部分",
     "no_stroke_part": "“{text}”不是行程的一部分",

@@ -78,4 +78,7 @@ WORDS = {
     "frame": "机架",
     "max": "最大",
     "min": "最小",
+    "disc": "圆盘",
+    "direction": "方向",
+    "angle": "夹角",
 }

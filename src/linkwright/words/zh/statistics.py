@@ -41,7 +41,6 @@ WORDS = {
     "coefficient": "± {error}；{low} … {high}；p {p}",
     "determination": "决定系数 R²",
     "residual": "残差标准差 s",
-    "si": "系数以 SI 单位表示。",
     "capability": "{name} 的过程能力",
     "outside": "超出规格限的比例",
     "within": "σ 取自子组内（Cp、Cpk）；超限比例按正态过程计算。",

@@ -29,6 +29,7 @@ WORDS = {
     "left_over": "升程后的最大偏差",
     "residual": "无阻尼残余振幅",
     "residual_share": "占升程的比例",
+    "law_of_rise": "升程 s(u) = h·f(u)，u = t/T；运动规律 f：{law}。",
     "step_follower": "通过弹簧驱动的质量",
     "quiet": "在 n = {ratios} 处几乎没有残余振动",
     "own": "{axis} 方向固有频率",

@@ -1,0 +1,119 @@
+"""Rigid bodies on their supports, and the drawings of mechanisms that a calculation is about."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from linkwright.core.arrays import Floats
+from linkwright.parts.base import shown
+from linkwright.parts.mechanism_field import OfMechanism
+from linkwright.parts.statics.body import RigidBody, Support
+from linkwright.parts.statics.forces import spatial
+from linkwright.plot.drawing.picture import Drawing
+from linkwright.plot.sketches.base import Paper, roller_support, scale_of, sketched
+from linkwright.plot.sketches.forces import AXIS, ISOMETRIC, LONGEST, SHORTEST, axes
+from linkwright.plot.symbols.base import Vec, vec
+
+#: Length of a rod or rope to the ground; room for the body.
+ROD, ROOM = 62.0, 340.0
+
+
+@sketched("rigid_body")
+def draw_body(body: RigidBody, language: str) -> Drawing:
+    """The body as the hull of its points, supports, loads to one scale, in the plane with dimensions."""
+    view = np.array([(1.0, 0.0), (0.0, -1.0), (0.0, 0.0)]) if body.planar else ISOMETRIC
+    held = {name: spatial(each.at) for name, each in body.supports.items()}
+    loaded = {name: each.place for name, each in body.forces.items()}
+    places = np.array([*held.values(), *loaded.values()]) @ view
+    scale = scale_of([places], ROOM, ROOM)
+    paper, corners = Paper(), scale * places
+    _hull(paper, corners)
+    for name, support in body.supports.items():
+        _support(paper, name, support, scale * (held[name] @ view), view, body.planar, corners.mean(axis=0))
+    largest = max((float(np.linalg.norm(each.vector)) for each in body.forces.values()), default=1.0) or 1.0
+    for name, force in body.forces.items():
+        at, size = scale * (loaded[name] @ view), float(np.linalg.norm(force.vector))
+        length = max(0.6 * LONGEST * size / largest, SHORTEST)
+        start = at - length * (force.unit @ view)
+        paper.arrow(start, at, "lw-load")
+        paper.name(f"{name} = {shown(size, 'force')}", start, style="lw-load-name")
+    for name, couple in body.couples.items():
+        at = corners.mean(axis=0)
+        sense = 1 if spatial(couple)[2] >= 0 else -1
+        paper.put("moment", at=vec(at), turning=sense, radius=24.0, style="lw-load")
+        text = f"{name} = {shown(float(np.linalg.norm(couple)), 'torque')}"
+        paper.name(text, at + (0.0, -26.0), style="lw-load-name")
+    if body.planar:
+        _dimensions(paper, np.array([*held.values(), *loaded.values()])[:, :2], scale)
+    else:
+        axes(paper, view, corners.min(axis=0) - (AXIS, -AXIS))
+    return paper.drawing(body.name)
+
+
+def _hull(paper: Paper, corners: Floats) -> None:
+    """The body: a bar along points on one line, a plate over others."""
+    centred = corners - corners.mean(axis=0)
+    flat = np.linalg.svd(centred)[1]
+    if len(corners) < 3 or len(flat) < 2 or flat[1] <= 1e-6 * (flat[0] or 1.0):
+        along = np.linalg.svd(centred)[2][0]
+        order = np.argsort(centred @ along)
+        paper.put("bar", through=corners[order])
+    else:
+        paper.put("plate", corners=corners)
+
+
+def _support(
+    paper: Paper, name: str, support: Support, at: Floats, view: Floats, planar: bool, middle: Floats
+) -> None:
+    place, holds = vec(at), set(support.holds)
+    if planar and {"x", "y"} <= holds:
+        toward: Vec = (-1.0, 0.0) if "turn_z" in holds and at[0] <= middle[0] else (1.0, 0.0)
+        if "turn_z" in holds:
+            paper.put("wall", at=place, toward=toward, size=26.0)
+        else:
+            paper.put("fixed_pivot", at=place, toward=(0.0, 1.0))
+            paper.put("pin", at=place)
+    elif planar and holds & {"x", "y"}:
+        roller_support(
+            paper, place, (0.0, 1.0) if "y" in holds else (-1.0 if at[0] <= middle[0] else 1.0, 0.0)
+        )
+    else:
+        for word in sorted(holds):
+            _held(paper, word, at, view)
+    if support.along:
+        way = spatial(support.along) @ view
+        way = way / (np.linalg.norm(way) or 1.0)
+        if way @ (at - middle) < -1e-9 and not planar:
+            way = -way
+        end = at + ROD * way
+        paper.line([at, end], "lw-strand")
+        paper.put("wall", at=vec(end), toward=vec(way), size=12.0)
+        paper.put("pin", at=place)
+    paper.name(name, at, clearance=12.0)
+
+
+def _held(paper: Paper, word: str, at: Floats, view: Floats) -> None:
+    """A reaction of a support in space: an arrow along its axis, a bent one for a moment."""
+    way = view["xyz".index(word[-1])]
+    if word.startswith("turn"):
+        paper.put("moment", at=vec(at + 0.8 * SHORTEST * way), radius=9.0, style="lw-force")
+    else:
+        paper.arrow(at - 0.8 * SHORTEST * way, at, "lw-force")
+
+
+def _dimensions(paper: Paper, places: Floats, scale: float) -> None:
+    """Distances between the points across below the body, and up beside it."""
+    low = float(max(np.concatenate([line[:, 1] for line in paper.ink]))) + 30.0
+    left = float(min(np.concatenate([line[:, 0] for line in paper.ink]))) - 30.0
+    for axis in (0, 1):
+        ordered = np.unique(np.round(places[:, axis], 9))
+        spots = [((scale * x, low) if axis == 0 else (left, -scale * x), float(x)) for x in ordered.tolist()]
+        paper.chain(spots, lambda value: shown(value, "length", 5), 0.0)
+
+
+@sketched("link_bending", "mounts", "throw", "tolerance")
+def draw_its_mechanism(problem: OfMechanism, language: str) -> Drawing:
+    """The mechanism that the calculation is about."""
+    from linkwright.plot.drawing.draw import draw
+
+    return draw(problem.mechanism, language=language, size=560)
