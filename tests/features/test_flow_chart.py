@@ -25,6 +25,19 @@ CALLS = {
     "excavator": "rrrk bark rrrf",
     "triad": "bark bark barf",
 }
+RUBBING = """
+format: 1
+name: slider-crank with friction
+frame: {points: {O: [0 m, 0 m]}}
+links:
+  crank: {points: [O, A], length: 0.1 m}
+  rod: {points: [A, B], length: 0.3 m, mass: 1 kg}
+  slider: {points: [B], mass: 3 kg}
+joints:
+  O: {kind: revolute, friction: 0.1, pin_radius: 20 mm}
+  guide: {kind: prismatic, guide: frame, through: O, direction: 0 deg, block: slider, at: B, friction: 0.2}
+driver: {turn: crank, about: O, speed: 20 rad/s, start: 50 deg}
+"""
 
 
 class Chart(NamedTuple):
@@ -38,7 +51,12 @@ class Chart(NamedTuple):
 
 def chart(name: str, language: str = "en") -> Chart:
     """The flow chart of a machine, read from its picture."""
-    motion = lw.solve_motion(store.machine(name), steps=24, failures="mark")
+    return chart_of(store.machine(name), language)
+
+
+def chart_of(machine: lw.Mechanism, language: str = "en") -> Chart:
+    """The same of any machine."""
+    motion = lw.solve_motion(machine, steps=24, failures="mark")
     root = ElementTree.fromstring(lw.plot(motion, "flow_chart", language=language, title="").svg())
     texts, boxes, lines, letters = [], [], [], []
     for each in root.iter():
@@ -85,6 +103,14 @@ def test_the_loop_steps_over_the_input() -> None:
 def test_several_drivers_and_laws_go_over_the_time(name: str) -> None:
     texts = [text for text, *_ in chart(name).texts]
     assert any(text.startswith("t = 0") for text in texts)
+
+
+def test_friction_is_a_loop_of_its_own() -> None:
+    found = chart_of(lw.loads(RUBBING))
+    words = " ".join(text for text, *_ in found.texts)
+    assert "Friction settled?" in words
+    assert "friction of O, guide" in words
+    _require_clear(found)
 
 
 def test_a_structure_at_rest_has_no_loop() -> None:

@@ -47,6 +47,7 @@ def test_chapters_that_have_nothing_to_show_are_left_out(name: str) -> None:
         assert sentence.partition(":")[0] not in whole
 
 
+@pytest.mark.rotating
 def test_the_file_that_names_a_chapter_is_told_why_it_is_empty() -> None:
     named = replace(store.machine("crank_rocker"), report={"sections": ["task", "torque"]})
     assert len(lw.report(named).missing) == 1

@@ -181,7 +181,7 @@ def fonts(language: str) -> tuple[str, ...]:
     """Families for texts, those that are there; Chinese ones for every language, since names may be Chinese."""
     known = _families(_folders())
     given = known.keys() - _families().keys() if given_fonts() else set[str]()
-    chinese = tuple(name for found in (given, known - given) for name in CHINESE if name in found)
+    chinese = tuple(name for found in (given, known.keys() - given) for name in CHINESE if name in found)
     chinese = (*chinese, *sorted(given - {*CHINESE}))
     if language == "zh" and not chinese:
         _families.cache_clear()

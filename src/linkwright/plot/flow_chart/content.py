@@ -137,7 +137,7 @@ class _Writer:
             parts.append(say("modes"))
         if mechanism.has_loads:
             parts.append(say("loads"))
-        return Node("data", (say("data", parts=say("and").join(parts)),))
+        return Node("data", (say("data", parts=say("then").join(parts)),))
 
     def _loop(self) -> Node:
         loop, say = self._over, self.say
@@ -278,7 +278,7 @@ class _Writer:
         rubbing = self._rubbing()
         if rubbing:
             parts.append(say("friction", joints=self._listed(rubbing)))
-        yield Node("process", (say("known_forces", parts=say("and").join(parts)),))
+        yield Node("process", (say("known_forces", parts=say("then").join(parts)),))
         for number, group in enumerate(reversed(self.groups)):
             yield self._forces_of(group, FORCES if not number and rubbing else "")
         if rubbing:
@@ -321,7 +321,7 @@ class _Writer:
             parts.append(say("force_results"))
             parts += dict.fromkeys("M_d" if turns else "F_d" for turns in self._efforts())
         key = "print" if mechanism.drivers else "print_rest"
-        return Node("data", (say(key, parts=say("and").join(parts)),))
+        return Node("data", (say(key, parts=say("then").join(parts)),))
 
     def _efforts(self) -> list[bool]:
         joints = self.mechanism.joints

@@ -128,9 +128,10 @@ def _table(body: FreeBody, say: Say, top: float) -> tuple[list[Element], float]:
 
 
 def _moments(found: list[Element], y: float, body: FreeBody, say: Say) -> float:
-    """The sum of all moments about the mass centre."""
+    """The sum of all moments, about the mass centre; of forces through one point there is none."""
     moments = [each.moment(body.centre) for each in body.actions]
-    largest = max(map(abs, moments))
+    arms = [each.size * math.dist(each.place, body.centre) for each in body.actions]
+    largest = max(map(abs, [*moments, *arms]))
     if largest <= 0.0:
         return y
     value = f"{_shown(sum(moments), _places(largest))} N·m"

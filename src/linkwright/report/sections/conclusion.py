@@ -62,9 +62,12 @@ class _Conclusion:
             yield from self._paragraph("changes", self._changes())
 
     def _paragraph(self, key: str, sentences: Iterator[str]) -> Iterator[Block]:
-        joint = " " if self.case.language == "en" else ""
-        if text := joint.join(sentences):
-            yield Paragraph(f"{self.say(key)} {text}")
+        if text := self._joined(*sentences):
+            yield Paragraph(self._joined(self.say(key), text))
+
+    def _joined(self, *sentences: str) -> str:
+        """Sentences of one paragraph; between Chinese ones there is no space."""
+        return self.say("between").join(sentences)
 
     def _rows(self, *metrics: str) -> list[MetricValue]:
         return [row for row in self.case.metrics if row.metric in metrics]
@@ -121,9 +124,9 @@ class _Conclusion:
             return
         count = sum(map(broken, rows))
         if not count:
-            yield Paragraph(f"{say('limits')} {say('all_met', count=len(rows))}")
+            yield Paragraph(self._joined(say("limits"), say("all_met", count=len(rows))))
             return
-        yield Paragraph(f"{say('limits')} {say('not_met', count=len(rows), broken=count)}")
+        yield Paragraph(self._joined(say("limits"), say("not_met", count=len(rows), broken=count)))
         for sentence in self.case.metrics.warnings_in(self.case.language):
             yield Paragraph(literal(sentence), "bullet")
 

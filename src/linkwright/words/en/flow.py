@@ -6,6 +6,7 @@ WORDS = {
     "yes": "yes",
     "no": "no",
     "and": ", ",
+    "then": "; ",
     "data": "Data: {parts}",
     "fixed_points": "fixed points {points}",
     "links": "links 1 to {count}",

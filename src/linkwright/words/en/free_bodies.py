@@ -10,7 +10,7 @@ WORDS = {
     "title": "{number} {link}",
     "direction": "angle",
     "sum": "sum",
-    "moment_sum": "sum of moments about the mass centre: {value}",
+    "moment_sum": "sum of moments: {value}",
     "reaction": "F, M: joint force, couple of a joint",
     "weight": "G: weight",
     "inertia": "F_I = −m·a, M_I = −J·α: inertia",

@@ -6,6 +6,7 @@ WORDS = {
     "yes": "是",
     "no": "否",
     "and": "、",
+    "then": "；",
     "data": "输入：{parts}",
     "fixed_points": "固定点 {points}",
     "links": "{count} 个活动构件",

@@ -10,7 +10,7 @@ WORDS = {
     "title": "{number} {link}",
     "direction": "方向角",
     "sum": "合计",
-    "moment_sum": "对质心的力矩之和：{value}",
+    "moment_sum": "力矩合计：{value}",
     "reaction": "F、M：运动副反力、反力偶矩",
     "weight": "G：重力",
     "inertia": "F_I = −m·a、M_I = −J·α：惯性力、惯性力偶矩",
