@@ -152,6 +152,7 @@ MEANINGS = {
     "last coordinate of the first driver": "第一个原动件的终了坐标",
     "turns of the first driver": "第一个原动件的转数",
     "loads by name": "载荷，按名称",
+    "formulas of places and rates with names of their own": "由位置与变化率组成的公式，各有自己的名称",
     "A viscous damper between two points: tension F = c·dL/dt, in N, positive where it pulls its ends together.":
         "两点之间的粘性阻尼器：拉力 F = c·dL/dt，单位 N，把两端拉近时为正。",
     "its two ends, [link.point, link.point]": "两端，[构件.点, 构件.点]",
@@ -230,6 +231,8 @@ NAMES = {
     "CamConjugate": "共轭凸轮的另一半",
     "CamElasticity": "作为弹簧上一个质量的弹性从动件",
     "CamLimits": "选择基圆时的压力角、曲率半径、接触应力限制",
+    "compensating_cam": "使某个输出在区间内保持不变的凸轮",
+    "CompensatingCam": "装上补偿凸轮的机器，及其升程与补偿前后的变化",
     "compensating_lift": "由两个运动之差求补偿凸轮的升程",
     "Follower": "从动件：滚子、尖底或平底，直动或摆动",
     "CamLoading": "凸轮的转速、质量、工作载荷与宽度",

@@ -6,8 +6,8 @@ import ast
 import math
 import operator
 import re
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Sequence
+from typing import Any, Protocol
 
 from tests.every import every
 
@@ -27,6 +27,9 @@ _FUNCTIONS: dict[str, Callable[..., float]] = {
     "tan": lambda x: math.tan(math.radians(x)),
     "abs": abs,
     "atan2": lambda y, x: math.degrees(math.atan2(y, x)),
+    "arccos": lambda x: math.degrees(math.acos(x)),
+    "arcsin": lambda x: math.degrees(math.asin(x)),
+    "arctan": lambda x: math.degrees(math.atan(x)),
 }
 
 
@@ -61,7 +64,25 @@ def is_printed_zero(result: str) -> bool:
     return re.fullmatch(r"-?0(\.0*)?", result) is not None
 
 
-def reckon_lines(page: lw.Worked) -> list[str]:
+class Line(Protocol):
+    """An equation with its numbers."""
+
+    @property
+    def symbol(self) -> str: ...
+    @property
+    def numbers(self) -> str: ...
+    @property
+    def result(self) -> str: ...
+
+
+class Page(Protocol):
+    """A worked solution, of a machine or of a synthesis."""
+
+    @property
+    def equations(self) -> Sequence[Line]: ...
+
+
+def reckon_lines(page: Page) -> list[str]:
     """Lines that do not come out as printed, of which there are some."""
     wrong = []
     for line in every(line for line in page.equations if line.numbers):

@@ -6,6 +6,8 @@ TYPE_CHECKING = False  # type checkers take it for true
 
 if TYPE_CHECKING:
     from linkwright.cams.cam import Cam as Cam
+    from linkwright.cams.compensating_cam import CompensatingCam as CompensatingCam
+    from linkwright.cams.compensating_cam import compensating_cam as compensating_cam
     from linkwright.cams.compensation import compensating_lift as compensating_lift
     from linkwright.cams.fields import CamConjugate as CamConjugate
     from linkwright.cams.fields import CamElasticity as CamElasticity
@@ -77,6 +79,8 @@ if TYPE_CHECKING:
     from linkwright.plot.drawing.picture import Drawing as Drawing
     from linkwright.report.report import Report as Report
     from linkwright.report.report import report as report
+    from linkwright.sheets.sheet import Sheet as Sheet
+    from linkwright.sheets.sheet import sheet as sheet
     from linkwright.structure import Structure as Structure
     from linkwright.structure import StructureError as StructureError
     from linkwright.structure import structure as structure

@@ -53,6 +53,18 @@ _DIMENSIONS: Mapping[str, tuple[Dimension, str, float]] = {
 }
 DIMENSIONS: Mapping[str, Dimension] = {name: powers for name, (powers, _, _) in _DIMENSIONS.items()}
 SI_UNITS: Mapping[str, str] = {name: unit for name, (_, unit, _) in _DIMENSIONS.items()}
+#: Dimensions of results that nobody gives, with their SI units.
+FURTHER: Mapping[str, str] = {
+    "energy": "J",
+    "areal_velocity": "m²/s",
+    "per_time": "1/s",
+    "per_time_squared": "1/s²",
+    "jerk": "m/s³",
+    "angular_jerk": "rad/s³",
+    "length_per_angle": "m/rad",
+    "angle_per_length": "rad/m",
+    "count": "",
+}
 LARGEST: Mapping[str, float] = {name: largest for name, (_, _, largest) in _DIMENSIONS.items()}
 #: For a quantity of any other dimension.
 LARGEST_OF_ALL = max(LARGEST.values())
@@ -467,6 +479,18 @@ def name_of(kind: Dimension) -> Sentence:
         if dimension == kind:
             return Sentence(f"nouns.a_{name}")
     return Sentence("nouns.in_units", unit=si_symbol(kind))
+
+
+def si_unit(dimension: str) -> str:
+    """SI unit of a dimension; raises KeyError for one that is not known."""
+    return FURTHER[dimension] if dimension in FURTHER else SI_UNITS[dimension]
+
+
+def powers(dimension: str) -> Dimension:
+    """Powers of metre, kilogram, second and radian in a dimension; raises KeyError for one that is not known."""
+    if dimension in DIMENSIONS:
+        return DIMENSIONS[dimension]
+    return unit(FURTHER[dimension])[1] if FURTHER[dimension] else NONE
 
 
 def most(kind: Dimension) -> tuple[float, str]:

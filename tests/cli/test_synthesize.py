@@ -168,3 +168,32 @@ def test_what_is_met_but_for_rounding_has_no_error() -> None:
     table = [row for row in rows(printed) if row[0].isdigit()]
     assert all(row[2:4] == ["0", "0"] for row in every(table, least=2))
     assert not [line for line in printed.splitlines() if any(0 < abs(each) < 1e-9 for each in numbers(line))]
+
+
+def test_the_worked_solution() -> None:
+    """Every formula with its numbers; in data beside the candidates."""
+    printed = shown(*PRESS, "--worked")
+    assert (
+        "397.5/(√((3.55 + 1)² - 0.305²) - √((3.55 - 1)² - 0.305²))" in printed and "= 197.951 mm" in printed
+    )
+    found = data(*PRESS, "--worked")
+    (line,) = [
+        item for step in found["worked"]["steps"] for item in step["items"] if item.get("symbol") == "r"
+    ]
+    assert line["value"] == pytest.approx(197.9511, abs=5e-5)
+    assert found["candidates"][0]["crank [m]"] == pytest.approx(0.1979511, abs=1e-7)
+
+
+def test_a_curve_beside_its_task(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The file that a task names lies beside the task, wherever the program runs."""
+    folder, elsewhere = tmp_path / "task", tmp_path / "elsewhere"
+    folder.mkdir()
+    elsewhere.mkdir()
+    task = folder / "curve.yaml"
+    task.write_text("format: 1\nsynthesis: {task: free_curve, file: letter.csv, joints: 5, seconds: 0.1}\n")
+    monkeypatch.chdir(elsewhere)
+    is_refused(
+        ["synthesize", str(task)], "synthesize.free_curve.file", ends=1, path=str(folder / "letter.csv")
+    )
+    (folder / "letter.csv").write_text("7,7\n7,7\n")
+    is_refused(["synthesize", str(task)], "synthesize.path.one_place", ends=1)

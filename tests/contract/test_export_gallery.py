@@ -95,7 +95,7 @@ def holds_the_sheets(name: str, folder: Path) -> None:
         if all(isinstance(cell.value, int | float | None) for cell in column[1:])
     ]
     for heading, values in every(result(name).columns().items()):
-        size = 1e-12 * float(np.abs(values).max(initial=0.0))
+        size = 1e-12 * float(np.abs(np.nan_to_num(values)).max(initial=0.0))
         alike = (
             len(each) == len(values) and np.allclose(each, values, 1e-12, size, equal_nan=True)
             for each in shown

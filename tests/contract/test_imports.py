@@ -31,6 +31,7 @@ STAGES = (
     ("groups",),
     ("kinematics",),
     ("kinetostatics",),
+    ("dyads",),
     ("metrics", "machine", "worked"),
     ("cycle_programs",),
     ("study", "optimisation", "synthesis", "cams", "gears", "parts", "tolerance"),

@@ -176,11 +176,11 @@ def test_refusals_say_what_there_is(forces: lw.Forces) -> None:
 
 #: Which kinds of diagrams an option is for.
 USERS = {
-    "of": ("angles", "force_polygon", "hodographs", "paths", "reactions", "sva"),
+    "of": ("angles", "force_polygon", "free_bodies", "hodographs", "paths", "reactions", "sva"),
     "joint": ("hodograph", "reactions"),
     "on": ("hodograph", "reactions"),
     "axes": ("hodograph", "reactions"),
-    "at": ("acceleration_polygon", "force_polygon", "velocity_polygon"),
+    "at": ("acceleration_polygon", "force_polygon", "free_bodies", "velocity_polygon"),
     "fluctuation": ("speed",),
 }
 OPTIONS = {"of": "jaw", "joint": "B", "on": "jaw", "axes": "jaw", "at": 1.0, "fluctuation": 0.1}

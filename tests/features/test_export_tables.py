@@ -99,7 +99,7 @@ def test_xlsx_has_a_sheet_per_subject_with_headings(forces: Forces, tmp_path: Pa
     pytest.importorskip("xlsxwriter")
     openpyxl = pytest.importorskip("openpyxl")
     book = openpyxl.load_workbook(export(forces, tmp_path / "a.xlsx"))
-    assert len(book.sheetnames) == 8
+    assert len(book.sheetnames) == 9
     links = book.worksheets[2]
     heads = [cell.value for cell in links[1]]
     (place,) = [k for k, head in enumerate(heads) if re.fullmatch(r"jaw\n.*\n\[rad/s\]", head)]
@@ -114,7 +114,7 @@ def test_xlsx_in_chinese(forces: Forces, tmp_path: Path) -> None:
     pytest.importorskip("xlsxwriter")
     openpyxl = pytest.importorskip("openpyxl")
     book = openpyxl.load_workbook(export(forces, tmp_path / "a.xlsx", language="zh"))
-    assert len(book.sheetnames) == 8 and all("\u4e00" <= name[0] <= "\u9fff" for name in book.sheetnames)
+    assert len(book.sheetnames) == 9 and all("\u4e00" <= name[0] <= "\u9fff" for name in book.sheetnames)
     heads = [cell.value for cell in book.worksheets[2][1]]
     assert [head for head in heads if re.fullmatch(r"jaw\n[\u4e00-\u9fff]+\n\[rad/s\]", head)]
 

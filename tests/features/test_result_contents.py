@@ -56,6 +56,7 @@ BY_HAND = {
     "guide on block.x [N]": -NORMAL * math.sin(TILT),
     "guide on block.y [N]": NORMAL * math.cos(TILT),
     "guide on block.magnitude [N]": NORMAL,
+    "guide on block.direction [rad]": TILT + math.pi / 2,
     "guide on block.couple [N·m]": 0.05 * NORMAL,
     "shaking_force.x [N]": 0.0,
     "shaking_force.y [N]": 0.0,
@@ -67,7 +68,7 @@ BY_HAND = {
 
 def first_row(path: Path) -> dict[str, float]:
     row = next(csv.DictReader(path.read_text(encoding="utf-8").splitlines()))
-    return {name: float(value) for name, value in row.items()}
+    return {name: float(value or math.nan) for name, value in row.items()}
 
 
 def test_every_column_of_a_block_on_an_incline_with_its_unit(tmp_path: Path) -> None:
@@ -94,6 +95,7 @@ def test_a_turning_driver_has_a_torque_and_the_load_its_moment(tmp_path: Path) -
     row = first_row(lw.export(lw.loads(BRAKED), tmp_path / "a.csv", steps=8))
     assert row["driver.effort [N·m]"] == pytest.approx(7.0)
     assert row["brake.moment [N·m]"] == pytest.approx(-7.0)
+    assert row["O on crank.magnitude [N]"] == 0.0 and math.isnan(row["O on crank.direction [rad]"])
     assert not any(name.startswith("O on crank.couple") for name in row)
 
 

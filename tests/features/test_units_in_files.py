@@ -2,9 +2,11 @@
 
 import math
 import re
+from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.cli.commands import data
 from tests.refusals import findings, refused, said
 
 import linkwright as lw
@@ -105,3 +107,71 @@ def test_a_name_with_control_characters_is_a_finding_from_files_and_from_code() 
     said(findings(text), "control-character", "name", shown="U+001B")
     with refused("control-character", lw.ModelError, shown="U+001B"):
         lw.loads(text)
+
+
+ROOTS = """\
+format: 1
+name: roots
+frame: {points: {O: [0 m, 0 m], D: ["sqrt(2) m", "-(1/3) m"]}}
+links:
+  crank: {points: [O, A], length: "1/3 m"}
+  coupler: {points: [A, B], length: sqrt(2) m, mass: 1/3 kg, inertia: "0.01*sqrt(2) kg·m²"}
+  rocker: {points: [D, B], length: "2*sqrt(2)/3 m + 5 mm - 5 mm", also: {P: ["(1 + 2) mm", 3 mm + sqrt(2) m]}}
+assembly: {B: left}
+driver: {turn: crank, about: O, speed: "2*pi rad/s", start: pi/6 rad}
+cycle: {turns: 1}
+loads: {f: {kind: force, on: rocker, at: P, direction: pi/3 rad, magnitude: "100*sqrt(2) N"}}
+report: {position: pi/3 rad, positions: ["pi/3 rad", "2*pi/3 rad", "1/4 s"]}
+"""
+
+
+def test_units_behind_roots_and_quotients_everywhere_in_a_file() -> None:
+    """Exact to the last digit, told only where a quotient could be misread, and written as they were."""
+    text = ROOTS.replace("2*sqrt(2)/3 m + 5 mm - 5 mm", "(2*sqrt(2)/3) m")
+    machine, found = lw.loads(text), findings(text)
+    root = math.sqrt(2.0)
+    expected = {
+        "coupler.length": root, "crank.length": 1.0 / 3.0, "coupler.mass": 1.0 / 3.0, "coupler.inertia": 0.01 * root,
+        "rocker.length": 2.0 * root / 3.0, "driver.speed": 2.0 * math.pi, "driver.start": math.pi / 6.0,
+    }  # fmt: skip
+    for address, value in expected.items():
+        assert machine.dimension(address) == pytest.approx(value, rel=1e-15), address
+    point = machine.links["rocker"].points["P"]
+    assert tuple(point) == pytest.approx((0.003, 0.003 + root), rel=1e-15)
+    assert {each.code for each in found} <= {"read-as"} and len(found) < 8
+    assert not [each for each in found if "sqrt" in each.message or "2*pi rad" in each.message]
+    assert lw.solve_motion(machine, steps=8).ok.any()
+
+
+def test_a_root_with_a_unit_keeps_its_text(tmp_path: Path) -> None:
+    path = tmp_path / "roots.yaml"
+    path.write_text(ROOTS.replace("2*sqrt(2)/3 m + 5 mm - 5 mm", "(2*sqrt(2)/3) m"), "utf-8")
+    document = lw.read_document(path)
+    document.set("coupler.mass", "2 kg")
+    kept = document.text
+    for written in ("length: sqrt(2) m", '"1/3 m"', '"2*pi rad/s"', "3 mm + sqrt(2) m", "start: pi/6 rad"):
+        assert written in kept
+    assert document.mechanism.dimension("coupler.length") == math.sqrt(2.0)
+
+
+def test_roots_with_units_on_the_command_line() -> None:
+    found = data("solve", "gallery:crank_rocker", "--at", "pi/3 rad, sqrt(2) rad, 0..pi/2 rad:pi/4 rad")
+    expected = [math.pi / 3, math.sqrt(2.0), 0.0, math.pi / 4, math.pi / 2]
+    assert found["columns"]["driver [rad]"] == pytest.approx(expected, rel=1e-15, abs=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("text", "code", "values"),
+    [
+        ("sqrt(2) s", "wrong-dimension", {"text": "sqrt(2) s"}),
+        ("sqrt(2) parsec", "expression", {"token": "parsec"}),
+        ("sqrt(2)", "wrong-dimension", {"text": "sqrt(2)"}),
+        ("sqrt(-2) m", "not-finite", {}),
+        ("3 mm + sqrt(2)", "wrong-dimension", {}),
+    ],
+)
+def test_roots_that_are_no_length(text: str, code: str, values: dict[str, object]) -> None:
+    wrong = ROOTS.replace("length: sqrt(2) m", f'length: "{text}"').replace(
+        "2*sqrt(2)/3 m + 5 mm - 5 mm", "1 m"
+    )
+    said(findings(wrong), code, "links.coupler.length", **values)

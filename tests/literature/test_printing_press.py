@@ -11,7 +11,6 @@ from tests import store
 from tests.press_report import PHI
 
 import linkwright as lw
-from linkwright.laws.traced import LiftCurve
 
 #: Slider displacements of the report (m), its driver angles (deg) there.
 SLIDER = (130 + 240 * np.arange(10) / 9) * 1e-3
@@ -48,9 +47,9 @@ def press() -> lw.Mechanism:
 def still(press: lw.Mechanism) -> lw.Motion:
     """The motion with the lower rack at rest, from a model whose cam only dwells."""
     cam = press.joints["compensating_cam"]
-    rest = LiftCurve(np.array([0.0, 2 * math.pi]), np.array([[0.0]]))
-    joints = {**press.joints, "compensating_cam": replace(cam, curve=rest.text)}
-    return lw.solve_motion(replace(press, joints=joints), steps=1440)
+    rest = replace(cam, lifts=(0.0,) * len(cam.lifts))
+    text = lw.dump(replace(press, joints={**press.joints, "compensating_cam": rest}))
+    return lw.solve_motion(lw.loads(text), steps=1440)
 
 
 def test_the_whole_press_has_one_freedom_and_is_solved_group_by_group(press: lw.Mechanism) -> None:
@@ -130,17 +129,3 @@ def test_the_rack_rests_where_the_table_rests() -> None:
     assert [each.kind for each in limits] == ["min", "max", "min", "max"]
     dead = [row.subject for row in lw.metrics(motion) if row.metric == "dead_point"]
     assert len([each for each in dead if each in ("rack_guide max", "rack_guide min")]) == 4
-
-
-@pytest.mark.parametrize("digits", [3, 5, 8])
-def test_a_table_of_few_digits_rests_wherever_it_begins(digits: int) -> None:
-    """Rise, dwell and fall from the cycloidal law, rounded; the table may begin anywhere in the turn."""
-    angles = np.radians(np.arange(0.0, 360.0, 5.0) + 1.0)
-    rise = np.clip(angles / 2.0, 0.0, 1.0) - np.clip((angles - 4.0) / 2.0, 0.0, 1.0)
-    lifts = np.round(rise - np.sin(2 * np.pi * rise) / (2 * np.pi), digits)
-    for shift in range(0, len(angles), 9):
-        rolled = np.roll(lifts, shift)
-        curve = LiftCurve.through(angles.tolist(), rolled.tolist())
-        assert curve.curves(angles)[0] == pytest.approx(rolled, abs=1e-13)
-        still = np.roll((angles > 2.1) & (angles < 3.8), shift)
-        assert not curve.curves(angles[still] + 0.01)[1].any()

@@ -44,6 +44,11 @@ def test_only_what_a_source_prints_is_called_printed(everything: Validation) -> 
     unprinted = ("Cantilever", "Two heavy bars", "Four-bar for three")
     assert all(any(each.case.case.startswith(case) for each in everything.checks) for case in unprinted)
     assert not any(each["case"].startswith(unprinted) for each in printed)
+    press = {
+        each["what"]: each["printed"] for each in printed if each["source"].startswith("平臺印刷機主傳動")
+    }
+    wanted = {"P0": "1.164670", "stroke bed_guide": "795.2122 mm", "follower.angle": "213.0665 deg"}
+    assert wanted.items() <= press.items() and "78.7127 deg" in press.values()
     conveyor = [
         each for each in printed if each["case"] == "Swinging conveyor, six-bar" and each["place"] == "0 deg"
     ]

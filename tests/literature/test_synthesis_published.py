@@ -5,6 +5,7 @@ their points; the sums of squares are the best that independent optimisers agree
 """
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -105,6 +106,50 @@ def test_lecture_case_of_three_pairs_is_exact() -> None:
     assert best.linkage.lengths()["frame"] == pytest.approx(0.05)
     motion = lw.solve_motion(best.mechanism(), steps=8)
     assert np.mod(motion.link("rocker").angle[:3], 2 * np.pi) == pytest.approx(outputs, abs=1e-9)
+
+
+#: The report's normal equations, their solution, and the lengths on a frame of 55 mm: driver, coupler, follower.
+NORMAL = [[8.073707, -4.371522, -8.930703], [-4.371522, 2.793549, 5.000989], [-8.930703, 5.000989, 10]]
+RIGHT, P = (4.730534, -3.495667, -5.482457), (1.164670, -2.953947, 1.969152)
+LENGTHS = (139.4962, 136.6159, 162.4671)
+#: Half a unit of the last digit to which the report prints its pairs, rad.
+HALF = np.radians(5e-5)
+
+
+def of_pairs(phi: np.ndarray, psi: np.ndarray) -> np.ndarray:
+    """Entries of the normal equations, P and lengths (mm) from pairs (rad), by numpy alone."""
+    rows = np.stack([np.cos(psi), np.cos(psi - phi), np.ones_like(phi)], 1)
+    p = np.linalg.lstsq(rows, np.cos(phi), rcond=None)[0]
+    c = -55 * p[1]
+    a = c / p[0]
+    b = math.sqrt(a * a + c * c + 55**2 - 2 * a * 55 * p[2])
+    return np.concatenate([(rows.T @ rows).ravel(), rows.T @ np.cos(phi), p, (a, b, c)])
+
+
+def test_press_normal_equations_as_printed() -> None:
+    """What is worked out is the report's, as closely as its pairs, printed to 1e-4°, determine it."""
+    inputs, outputs = np.radians(PHI), np.radians(PSI)
+    found = lw.function_generation(
+        inputs, outputs, input_zero=0, output_zero=0, frame=0.055, equation_error=True
+    )
+    steps: Any = found.worked().data()["steps"]
+    shown = [item["matrices"] for step in steps for item in step["items"] if "matrices" in item]
+    (normal, _, _, moment), (_, _, solution) = shown[-2:]
+    lengths = {line.symbol: line.value for line in found.worked().equations}
+    ours = np.concatenate(
+        [np.array(each, float).ravel() for each in (normal, moment, solution)]
+        + [np.array([lengths[name] for name in "abc"])]
+    )
+    printed = np.concatenate([np.ravel(NORMAL), RIGHT, P, LENGTHS])
+    both = np.concatenate([inputs, outputs])
+    slopes = np.array(
+        [of_pairs(*np.split(both + step, 2)) - of_pairs(*np.split(both - step, 2))
+         for step in HALF * np.eye(20)]
+    )  # fmt: skip
+    undetermined = 0.5 * np.abs(slopes).sum(0) + 1e-6
+    assert (np.abs(ours - printed) <= undetermined + np.append(np.zeros(15), (5e-5,) * 3)).all()
+    assert ours == pytest.approx(of_pairs(inputs, outputs), abs=1e-6)
+    assert undetermined[:12].max() < 2e-5 and undetermined.max() < 0.02
 
 
 def test_press_double_crank_of_the_report_and_better_ones() -> None:

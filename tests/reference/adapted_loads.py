@@ -97,40 +97,60 @@ class _Course:
             return rate > still, np.full(len(self.time), np.nan)
         if not hasattr(phase, "output") and not self._turning():
             return (self.input >= phase.start) & (self.input <= phase.end), np.full(len(self.time), np.nan)
-        begin, end = (phase.start, phase.end) if not hasattr(phase, "output") else self._limits(phase)
-        way = float(np.sign(self.rate[0])) if hasattr(phase, "output") else float(np.sign(end - begin))
+        if hasattr(phase, "output"):
+            limits = self._limits(phase.output)
+            (begin, first), (end, last) = limits[phase.start], limits[phase.end]
+            way = float(np.sign(self.rate[0]))
+        else:
+            begin, end, way = phase.start, phase.end, float(np.sign(phase.end - phase.start))
         progress = ((self.input - begin) * way % (2 * pi)) / ((end - begin) * way % (2 * pi))
-        return progress <= 1.0, progress
+        if getattr(phase, "part", None) is None:
+            return progress <= 1.0, progress
+        passed = (self.output(phase.output)[0] - first) / (last - first)
+        return (progress <= 1.0) & _within(phase.part, passed), np.full(len(self.time), np.nan)
 
     def _turning(self) -> bool:
         driver = next(iter(self.mechanism.drivers.values()))
         return bool(self.mechanism.joints[driver.joint].kind == "revolute")
 
-    def _limits(self, phase: Any) -> tuple[float, float]:
-        """Inputs at the largest and the smallest angle of a link over one turn of a constant-speed driver."""
+    def _limits(self, output: Any) -> dict[str, tuple[float, float]]:
+        """Input and value of an output's largest and smallest value over one turn of a constant-speed driver."""
         law = next(iter(self.mechanism.drivers.values())).law
         time = np.linspace(0.0, 2 * pi / abs(law.speed), 361)
-        turn = reference_motion(self.mechanism, time)
-        angle, _, _ = turn.angle(phase.output.owner)
+        turn = _Course(self.mechanism, reference_motion(self.mechanism, time), time)
+        values = turn.output(output)[0][:-1]
         found = {}
-        for word, k in (("max", int(np.argmax(angle[:-1]))), ("min", int(np.argmin(angle[:-1])))):
-            found[word] = law.start + law.speed * self._standstill(phase.output.owner, turn, time, k)
-        return found[phase.start], found[phase.end]
+        for word, k in (("max", int(np.argmax(values))), ("min", int(np.argmin(values)))):
+            t = self._standstill(output, turn, k)
+            found[word] = law.start + law.speed * t, self._near(output, turn, k, t)[0]
+        return found
 
-    def _standstill(self, link: str, turn: Motion, time: Array, k: int) -> float:
-        """Time near time[k] at which the link stands still, by bisection of its angular velocity."""
-        step = time[1] - time[0]
-        low, high = time[k] - step, time[k] + step
-        near = turn.q[k]
+    def _standstill(self, output: Any, turn: _Course, k: int) -> float:
+        """Time near time[k] at which the output stands still, by bisection of its rate."""
+        step = turn.time[1] - turn.time[0]
+        low, high = turn.time[k] - step, turn.time[k] + step
         for _ in range(60):
             middle = (low + high) / 2
-            rates = [self._velocity(link, turn, near, time[k], t) for t in (low, middle)]
+            rates = [self._near(output, turn, k, t)[1] for t in (low, middle)]
             low, high = (low, middle) if rates[0] * rates[1] <= 0 else (middle, high)
         return float((low + high) / 2)
 
-    def _velocity(self, link: str, turn: Motion, near: Array, there: float, t: float) -> float:
-        u, ud, udd = driver_values(self.mechanism, np.array([there, t]))
-        return float(turn.system.motion(near, u[0], u[1:], ud[1:], udd[1:]).angle(link)[1][0])
+    def _near(self, output: Any, turn: _Course, k: int, t: float) -> tuple[float, float]:
+        """The output and its rate at a time near time[k]."""
+        u, ud, udd = driver_values(self.mechanism, np.array([turn.time[k], t]))
+        there = turn.motion.system.motion(turn.motion.q[k], u[0], u[1:], ud[1:], udd[1:])
+        value, rate = _Course(self.mechanism, there, np.array([t])).output(output)
+        return float(value[0]), float(rate[0])
+
+
+def _within(part: Any, passed: Array) -> NDArray[np.bool_]:
+    """Where a stroke of which shares are ``passed`` is in a part given by shares."""
+    if not all(amount.share for amount in part.amounts):
+        raise NotImplementedError("parts of a stroke in its own unit")
+    first, last = part.amounts[0].value, part.amounts[-1].value
+    before, after = {"free": (first, 1 - last), "first": (0.0, first), "last": (1 - last, 1.0)}[part.word]
+    inside: NDArray[np.bool_] = (passed >= before) & (passed <= after)
+    return inside
 
 
 def _force(mechanism: Any, load: Any, course: _Course) -> Load:

@@ -13,7 +13,7 @@ from linkwright.laws.polynomial import from_conditions, powers
 
 _TURN = 2 * math.pi
 #: Angle by which the lift is carried on beyond its zone before it leaves it, rad; places of a table.
-_BEYOND, _PLACES = math.radians(8.0), 180
+BEYOND, _PLACES = math.radians(8.0), 180
 
 
 def compensating_lift(
@@ -22,7 +22,7 @@ def compensating_lift(
     zone: tuple[float, float],
     *,
     places: int = _PLACES,
-    beyond: float = _BEYOND,
+    beyond: float = BEYOND,
 ) -> tuple[Floats, Floats]:
     """Angles (k,) of a turn of the cam (rad) and lifts (k,) that are as wanted in the zone and return smoothly.
 

@@ -19,7 +19,6 @@ from linkwright.core.outputs import Output
 from linkwright.errors import RequestError
 from linkwright.kinematics.names import output_meant
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.units import SI_UNITS
 from linkwright.words import Say
 from linkwright.words.characters import GAP, cells, padded
 from linkwright.words.sentence import Sentence
@@ -48,7 +47,7 @@ class Column:
     @classmethod
     def of(cls, output: Output, values: Floats) -> Column:
         """The column of a result."""
-        return cls(output.column, output.place, output.quantity, SI_UNITS[output.dimension], values)
+        return cls(output.column, output.place, output.quantity, output.unit, values)
 
     def in_degrees(self) -> Column:
         """The same with angles in degrees."""

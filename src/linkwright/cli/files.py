@@ -90,7 +90,7 @@ def _cell(value: Any) -> str:
 
 def curve_columns(found: Comparison) -> dict[str, Any]:
     """Curves of a comparison as columns, SI."""
-    from linkwright.metrics.quantities import si_unit
+    from linkwright.units import si_unit
 
     columns: dict[str, Any] = {}
     for overlay in found.curves:
@@ -107,7 +107,7 @@ def curve_columns(found: Comparison) -> dict[str, Any]:
 
 def curve_data(found: Comparison) -> list[dict[str, Any]]:
     """The same as plain data."""
-    from linkwright.metrics.quantities import si_unit
+    from linkwright.units import si_unit
 
     return [
         {

@@ -15,7 +15,8 @@ from linkwright.machine.flywheel import flywheel_inertia, on_faster_shaft, speed
 from linkwright.machine.motor import motor
 from linkwright.machine.speed import SpeedCurve, true_speed
 from linkwright.machine.torque_curve import TorqueCurve
-from linkwright.metrics.quantities import number, shown, shown_unit, si_unit
+from linkwright.metrics.quantities import number, shown, shown_unit
+from linkwright.units import si_unit
 from linkwright.words import Say
 
 if TYPE_CHECKING:

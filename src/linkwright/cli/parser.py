@@ -117,6 +117,10 @@ class Options:
         """Whether files may be replaced."""
         self.flag("--force", words="cli.force_help")
 
+    def fonts(self) -> None:
+        """Fonts beside the system's, for a command that draws; :mod:`linkwright.cli.start` uses them."""
+        self("--fonts", "FILE|FOLDER", nargs="+", default=(), words="draw.fonts_help")
+
     def group(self, title: str) -> Options:
         """Options under a title of their own in the help."""
         return Options(self.place.add_argument_group(self.say(self._key(title))), self.say, self.area)

@@ -28,6 +28,7 @@ def part_arguments(option: Options) -> None:
     option("--digits", "N", type=int, choices=DIGITS, default=6)
     option("--plot", "FILE")
     option("--output", "FILE")
+    option.fonts()
     option.force()
 
 

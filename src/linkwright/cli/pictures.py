@@ -38,7 +38,7 @@ def file_arguments(option: Options) -> None:
     group.force()
     drawn = group.of("draw")
     drawn("--width", "PIXELS", type=whole_number)
-    drawn("--fonts", "FILE", nargs="+", default=())
+    drawn.fonts()
 
 
 def names(words: Sequence[str] | None) -> tuple[str, ...]:
@@ -74,7 +74,7 @@ def refuse_unknown(find: Callable[[str], object], option: str, given: Sequence[s
 
 def cycle(mechanism: Mechanism, steps: int, session: Session) -> Motion:
     """The motion over a cycle; says how many positions are out of reach."""
-    from linkwright.cli.positions import MOST
+    from linkwright.kinematics.position_list import MOST
     from linkwright.kinematics.solve import solve_motion
 
     if steps > MOST:

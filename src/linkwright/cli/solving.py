@@ -7,18 +7,20 @@ from collections.abc import Iterable
 from contextlib import suppress
 from functools import cached_property
 from math import ceil
+from typing import Literal
 
 import numpy as np
 
 from linkwright.cli.errors import UsageError
-from linkwright.cli.positions import MOST, inputs, joined, quantities
+from linkwright.cli.positions import inputs, joined, places
 from linkwright.core.arrays import Floats, Indices, largest
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.errors import Finding, LinkwrightError, RequestError
-from linkwright.kinematics.cycle import rotary, time_span
+from linkwright.kinematics.cycle import time_span
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import output_meant
+from linkwright.kinematics.position_list import MOST
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.kinetostatics.table import results_of
@@ -28,6 +30,7 @@ from linkwright.metrics.cycle_grid import CycleGrid
 from linkwright.plot.force_names import reaction_pairs
 from linkwright.words.sentence import Sentence
 
+Failures = Literal["raise", "mark"]
 #: Steps of the grid on which largest values are sought, at least.
 FINE = 360
 #: Steps that are shown unless others are asked for.
@@ -118,23 +121,28 @@ def _turns(mechanism: Mechanism) -> int:
     return ceil(turns - 1e-9) if turns > MOST_TURNS else 0
 
 
+def chosen_motion(
+    mechanism: Mechanism, options: argparse.Namespace, failures: Failures = "raise"
+) -> Motion | None:
+    """The motion at the positions of ``--at`` or ``--times``, in their order; None where neither is given."""
+    if options.at is not None:
+        return solve_motion(mechanism, at=inputs(joined(options.at), mechanism), failures=failures)
+    if options.times is not None:
+        given = places(joined(options.times), mechanism, "time", "--times")
+        return solve_motion(mechanism, times=given, failures=failures)
+    return None
+
+
 def _motion(mechanism: Mechanism, options: argparse.Namespace) -> tuple[Motion, Indices, int]:
     """The motion, the rows that are shown, and of how many turns these are the first."""
-    failures = "mark" if options.mark else "raise"
-    if options.at is not None:
-        if not mechanism.drivers:
-            raise UsageError("cli.about", name="--at", cause=Sentence("solve.no_input"))
-        given = inputs(joined(options.at), rotary(mechanism))
-        motion = solve_motion(mechanism, at=given, failures=failures)  # type: ignore[arg-type]
-    elif options.times is not None:
-        times = quantities(joined(options.times), "time", "--times")
-        motion = solve_motion(mechanism, times=times, failures=failures)  # type: ignore[arg-type]
-    else:
+    failures: Failures = "mark" if options.mark else "raise"
+    motion = chosen_motion(mechanism, options, failures)
+    if motion is None:
         turns = 0 if options.steps else _turns(mechanism)
         steps = options.steps or ROWS * max(1, turns)
         if steps > MOST:
             raise UsageError("solve.too_many", steps=steps, most=MOST)
         share = -(-FINE // steps)
-        motion = solve_motion(mechanism, steps=steps * share, endpoint=True, failures=failures)  # type: ignore[arg-type]
+        motion = solve_motion(mechanism, steps=steps * share, endpoint=True, failures=failures)
         return motion, np.arange(0, motion.steps, share)[: ROWS + 1 if turns else None], turns
     return motion, np.arange(motion.steps), 0

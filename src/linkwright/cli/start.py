@@ -13,7 +13,7 @@ from linkwright.cli.errors import OutputError, UsageError
 from linkwright.cli.help import command_parser, overview, version
 from linkwright.cli.parser import did_you_mean
 from linkwright.cli.session import Session
-from linkwright.errors import NO_FILE, LinkwrightError, ModelError, RequestError
+from linkwright.errors import NO_FILE, LinkwrightError, ModelError, RequestError, about
 from linkwright.words import LANGUAGES, speaker
 from linkwright.words.sentence import Sentence
 
@@ -92,7 +92,15 @@ def _command(name: str, arguments: list[str], session: Session) -> int:
     if "--help" in arguments or "-h" in arguments:
         session.show_as_is(parser.format_help().rstrip())
         return FINE
-    return commands.command(name).run(parser.read(arguments), session)
+    options = parser.read(arguments)
+    if not getattr(options, "fonts", ()):
+        return commands.command(name).run(options, session)
+    from linkwright.plot.svg.fonts import font_files, more_fonts
+
+    with about("--fonts", UsageError, RequestError):
+        fonts = font_files(options.fonts)
+    with more_fonts(fonts):
+        return commands.command(name).run(options, session)
 
 
 def _split(arguments: Sequence[str]) -> tuple[list[str], str | None, list[str]]:

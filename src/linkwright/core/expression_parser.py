@@ -119,7 +119,7 @@ class Parser:
         if token == "(":
             inner = self._binary(0)
             self._close(column)
-            return inner
+            return self._in_units(inner)
         if token in ("-", "+"):
             _, token, column = self.tokens[self.at]
         what, needed = "ends_early" if kind == "end" else "unexpected", Sentence("model.operand_needed")
@@ -150,13 +150,26 @@ class Parser:
                 raise self._fault("no_sign", place, token=token, name=name)
             error = units.unknown_unit(name)
             raise ExpressionError(error.message, error.remedy, self.text, place, "unknown-unit")
-        factor, dimension = self._unit("rev" if turning else name)
+        factor, dimension = self._units("rev" if turning else name)
+        return Number(value * factor, dimension, column)
+
+    def _in_units(self, node: Node) -> Node:
+        """The node times the unit that stands behind it, as in ``sqrt(2) m`` and ``(1 + 2) mm``."""
+        kind, name, place = self.tokens[self.at]
+        behind = kind == "name" and self.tokens[self.at + 1][1] != "("
+        if not behind or name not in units.UNITS or name in self.variables:
+            return node
+        return Binary("*", node, Number(*self._units(name), place), place)
+
+    def _units(self, name: str) -> tuple[float, units.Dimension]:
+        """The product of units that begins at the present token, consumed."""
+        factor, dimension = self._unit(name)
         while self._joined_unit():
             sign = -1 if self.tokens[self.at][1] == "/" else 1
             self.at += 1
             size, extra = self._unit(self.tokens[self.at][1])
             factor, dimension = factor * size**sign, units.times(dimension, extra, sign)
-        return Number(value * factor, dimension, column)
+        return factor, dimension
 
     def _unit(self, name: str) -> tuple[float, units.Dimension]:
         """The unit at the present token with its power, both consumed."""
@@ -203,7 +216,7 @@ class Parser:
             self.used.add(name)
             return Variable(name, column)
         if name in CONSTANTS:
-            return Number(CONSTANTS[name], units.NONE, column)
+            return self._in_units(Number(CONSTANTS[name], units.NONE, column))
         if name in units.UNITS:
             factor, dimension = units.UNITS[name]
             return Number(factor, dimension, column)
@@ -228,4 +241,4 @@ class Parser:
         if len(arguments) != ARITY[name]:
             needed, given = ARITY[name], len(arguments)
             raise self._fault("argument_count", column, name=name, needed=needed, given=given)
-        return Call(name, tuple(arguments), column)
+        return self._in_units(Call(name, tuple(arguments), column))

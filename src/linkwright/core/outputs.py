@@ -10,7 +10,7 @@ from collections.abc import Iterable
 from functools import lru_cache
 
 from linkwright.core.dataclass import dataclass
-from linkwright.units import SI_UNITS
+from linkwright.units import si_unit
 from linkwright.words.sentence import Sentence
 
 
@@ -23,7 +23,7 @@ class Kind:
     outputs for one that turns; ``row``: before the owner among rows of programs; ``symbol``: LaTeX; ``vector``: has
     components x and y; ``word``: for the user, where it is not the kind's name; ``slid``: dimension for a driver that
     slides; ``form``: how the user asks for it, a ``part`` behind its owner, a
-    ``place`` (the owner with a component), or a ``phrase`` before it.
+    ``place`` (the owner with a component), a ``phrase`` before it, or by its ``owner`` alone.
     """
 
     of: str
@@ -65,6 +65,7 @@ KINDS = {
     "effort": Kind("driver", "torque", "effort", "M", slid="force", form="part"),
     "reaction": Kind("joint", "force", "r", "F", vector=True, form="phrase"),
     "couple": Kind("joint", "torque", "c", "M", form="phrase"),
+    "reaction_direction": Kind("joint", "angle", symbol=r"\beta", word="direction", form="phrase"),
     "heat": Kind("joint", "power", form="phrase"),
     "friction": Kind("joint", "", "friction"),
     "unsupplied": Kind("joint", "", "left"),
@@ -86,12 +87,22 @@ KINDS = {
     "equivalent_inertia": Kind("machine", "inertia", form="phrase"),
     "cosine": Kind("machine", "", form="phrase"),
     "sine": Kind("machine", "", form="phrase"),
+    "named": Kind("motion", "", form="owner"),
+    "named_rate": Kind("motion", "", word="rate", form="part"),
+    "named_second_rate": Kind("motion", "", word="second_rate", form="part"),
 }  # fmt: skip
 _BY_ROW = {kind.row: name for name, kind in KINDS.items() if kind.row}
 _RATES = {
     "position": "velocity", "velocity": "acceleration", "acceleration": "jerk",
     "angle": "angular_velocity", "angular_velocity": "angular_acceleration", "angular_acceleration": "angular_jerk",
     "displacement": "slide_velocity", "slide_velocity": "slide_acceleration", "slide_acceleration": "slide_jerk",
+    "named": "named_rate", "named_rate": "named_second_rate",
+}  # fmt: skip
+#: Dimension of a rate by that of what changes.
+_RATE_DIMENSIONS = {
+    "length": "velocity", "velocity": "acceleration", "angle": "angular_velocity",
+    "angular_velocity": "angular_acceleration", "dimensionless": "per_time", "per_time": "per_time_squared",
+    "area": "areal_velocity",
 }  # fmt: skip
 
 
@@ -99,6 +110,8 @@ _RATES = {
 PLACES = ("position", "angle", "displacement")
 POINT = ("position", "velocity", "acceleration")
 SLIDE = ("displacement", "slide_velocity", "slide_acceleration")
+#: Outputs that a model names itself, and their rates.
+NAMED = ("named", "named_rate", "named_second_rate")
 #: What is zero but for rounding.
 RESIDUALS = ("power_residual", "balance_residual")
 
@@ -124,6 +137,11 @@ def kind_of(name: str) -> str:
     return _BY_ROW.get(name.partition(":")[0].partition(".")[0], "")
 
 
+def rate_dimension(dimension: str) -> str:
+    """Name of the dimension of a rate of what has one; empty where it has no name."""
+    return _RATE_DIMENSIONS.get(dimension, "")
+
+
 def owners_of(kind: str, names: Iterable[str]) -> list[str]:
     """The owners of those rows that hold outputs of a kind."""
     return [Output.of_row(name).owner for name in names if kind_of(name) == kind]
@@ -147,7 +165,8 @@ class Output:
     ``kind``: of ``KINDS``; ``owner``: the point, link, joint, driver, load or group; ``component``: ``x``, ``y``, or
     none for the whole or its size (of loads on a link also ``m``, their moment); ``on``: the link on which a joint's
     force acts, the fact of a group, the second of two points, the order of a harmonic; ``slides``: of a driver,
-    whether it slides; ``written``: how a file says it, where that is not :func:`str`'s own.
+    whether it slides; ``written``: how a file says it, where that is not :func:`str`'s own;
+    ``measured``: the dimension of a formula that the model names.
     """
 
     kind: str
@@ -156,6 +175,7 @@ class Output:
     on: str = ""
     slides: bool = False
     written: str = ""
+    measured: str = ""
 
     @classmethod
     def of_row(cls, row: str) -> Output:
@@ -179,12 +199,18 @@ class Output:
     @property
     def rate(self) -> Output:
         """Its derivative in time; raises KeyError for what has none."""
-        return Output(_RATES[self.kind], self.owner, self.component, self.on, self.slides)
+        measured = self.measured and rate_dimension(self.measured)
+        return Output(_RATES[self.kind], self.owner, self.component, self.on, self.slides, measured=measured)
 
     @property
     def of_motion(self) -> bool:
         """Whether a program of the motion has it, not one of the forces."""
         return KINDS[self.kind].of in ("point", "link", "guide", "group", "motion")
+
+    @property
+    def of_course(self) -> bool:
+        """Whether only the course of a motion gives its value: programs do not count turns from place to place."""
+        return self.kind == "angle" or self.kind in NAMED
 
     @property
     def course(self) -> tuple[Output, Output, Output]:
@@ -195,7 +221,8 @@ class Output:
     def dimension(self) -> str:
         """Name of its dimension; empty where the driver, the joint or the load tells it."""
         kind = KINDS[self.kind]
-        return "torque" if self.component == "m" else kind.slid if self.slides else kind.dimension
+        own = kind.slid if self.slides else self.measured or kind.dimension
+        return "torque" if self.component == "m" else own
 
     @property
     def word(self) -> str:
@@ -207,6 +234,8 @@ class Output:
         """Its name in the user's words, as studies take it: ``jaw.angle``, ``C.x``, ``reaction O5 on jaw``."""
         axis = self.component and f".{self.component}"
         form = KINDS[self.kind].form
+        if form == "owner":
+            return self.owner
         if form in ("part", "place"):
             return f"{self.owner}.{self.word}{axis}" if form == "part" else f"{self.owner}{axis}"
         on = f"on {self.on}" if self.on and KINDS[self.kind].of == "joint" else self.on
@@ -223,7 +252,7 @@ class Output:
     @property
     def quantity(self) -> str:
         """What stands over its column beneath the owner: ``angle``, ``position.x``, ``magnitude`` of a reaction."""
-        if self.kind == "input":
+        if self.kind in ("input", "named"):
             return self.owner
         if self.kind == "reaction" or not self.owner:
             return self.component or ("magnitude" if self.owner else self.word)
@@ -234,7 +263,9 @@ class Output:
         """To what a column belongs: ``jaw``, ``O5 on jaw``, ``shaking_force``; nothing for an input and the time."""
         if not self.owner:
             return self.component and self.word
-        return "" if self.kind == "input" else f"{self.owner} on {self.on}" if self.on else self.owner
+        return (
+            "" if self.kind in ("input", "named") else f"{self.owner} on {self.on}" if self.on else self.owner
+        )
 
     @property
     def column(self) -> str:
@@ -244,7 +275,7 @@ class Output:
     @property
     def unit(self) -> str:
         """Its SI unit."""
-        return SI_UNITS[self.dimension]
+        return si_unit(self.dimension)
 
     @property
     def heading(self) -> str:

@@ -70,7 +70,7 @@ class Traced:
             manner = replace(manner, flipping=frozenset(groups))
         self.solver = MotionSolver(mechanism, manner)
         self.forces = ForceSolver(self.solver, along_input=along_input, rubbing=rubbing)
-        self.named = Named(self.forces, self._middle)
+        self.named = Named(self.forces, self._middle, self._line)
 
     @cached_property
     def nominal(self) -> Motion:
@@ -147,12 +147,9 @@ class Traced:
         counted = self.solver.motion.angles.carried
         known, found = self.nominal.states if counted else {}, {}
         for name in counted:
-            q = next(iter(self.positions.coordinates.values()))[0]
-            whole = max(1.0, np.round(abs(q[-1] - q[0]) / (2.0 * np.pi)))
-            turns = float(np.round(whole * (known[name][-1] - known[name][0]) / (q[-1] - q[0])) / whole)
-            rest = known[name] - turns * q
-            if np.ptp(rest) < 2.0 * CLEAR:
-                found[name] = (0.5 * float(rest.max() + rest.min()), turns)
+            line = _line_near(known[name], next(iter(self.positions.coordinates.values()))[0])
+            if line is not None:
+                found[name] = line
         return found
 
     @property
@@ -185,6 +182,18 @@ class Traced:
             before = logic("and", before, placed.valid)
         return flags
 
+    def _line(self, link: str) -> tuple[float, float]:
+        """The line near which the angle of a link runs: rad where the input is zero, and turns in a turn of it."""
+        rotation, rotary = self.nominal.link(link).angle, next(iter(self.positions.rotary.values()), False)
+        good = np.isfinite(rotation)
+        if not good.any():
+            return 0.0, 0.0
+        q = self.nominal.input[good] if rotary else np.zeros(int(good.sum()))
+        line = _line_near(rotation[good], q)
+        if line is None:
+            raise TurnsThrough("study.turns_unevenly", link=link)
+        return line
+
     def _middle(self, link: str) -> float:
         """The direction that is farthest from where the link never points: the middle of its swing."""
         angle = self.nominal.link(link).angle
@@ -200,6 +209,16 @@ class Traced:
         gaps = np.diff(np.append(around, around[0] + 2 * np.pi))
         widest = int(np.argmax(gaps))
         return float(around[widest] + 0.5 * gaps[widest] - np.pi)
+
+
+def _line_near(rotation: Floats, q: Floats) -> tuple[float, float] | None:
+    """The line near which a rotation (n,) runs over the input (n,), rad where that is zero and turns in a turn of it;
+    None where it is too far from any."""
+    way = float(q[-1] - q[0])
+    whole = max(1.0, np.round(abs(way) / (2.0 * np.pi)))
+    turns = float(np.round(whole * (rotation[-1] - rotation[0]) / way) / whole) if way else 0.0
+    rest = rotation - turns * q
+    return (0.5 * float(rest.max() + rest.min()), turns) if np.ptp(rest) < 2.0 * CLEAR else None
 
 
 def design_table(names: Sequence[str], known: Mapping[str, float], columns: Mapping[str, Floats]) -> Floats:

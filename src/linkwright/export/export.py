@@ -34,8 +34,8 @@ def export(
         result: forces or a motion as they are; a mechanism is solved first, with forces where it has masses or
             loads.
         path: the file; its ending chooses the format.
-        format: ``csv``, ``xlsx``, ``json``, ``parquet``, ``dxf``, ``mjcf``, ``modelica``, ``svg``, ``png``, ``pdf``,
-            where the ending does not say it.
+        format: ``csv``, ``xlsx``, ``json``, ``parquet``, ``dxf``, ``mjcf``, ``modelica``, ``python``,
+            ``svg``, ``png``, ``pdf``, where the ending does not say it.
         force: replace a file that exists.
         steps: positions over the cycle, for a mechanism.
         language: ``en`` or ``zh``, of headings and drawings.

@@ -1,4 +1,4 @@
-"""Results in tables, one per subject: positions, links, points, joints, forces, loads."""
+"""Results in tables, one per subject: positions, links, points, joints, forces, loads, named outputs."""
 
 from __future__ import annotations
 
@@ -9,18 +9,17 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.core.outputs import KINDS
+from linkwright.core.outputs import KINDS, NAMED
 from linkwright.export.results import Results
 from linkwright.kinetostatics.table import results_of
-from linkwright.units import SI_UNITS
 from linkwright.words import say
 
 #: Rates of a coordinate, by the unit of the coordinate.
 UNITS = {"rad": ("rad", "rad/s", "rad/s²"), "m": ("m", "m/s", "m/s²")}
-SUBJECTS = ("positions", "links", "points", "joints", "forces", "loads")
+SUBJECTS = ("positions", "links", "points", "joints", "forces", "loads", "outputs")
 #: The table of outputs by what they belong to, and by their kind; those of guides stand among all joints.
 OF_OWNER = {"motion": "positions", "link": "links", "point": "points", "joint": "forces", "machine": "forces"}
-OF_KIND = {"input": "positions", "effort": "forces"}
+OF_KIND = {"input": "positions", "effort": "forces", **dict.fromkeys(NAMED, "outputs")}
 
 
 @dataclass(frozen=True)
@@ -64,9 +63,9 @@ def tables(results: Results) -> list[Table]:
     for output, values in named.items():
         subject = OF_KIND.get(output.kind) or OF_OWNER.get(KINDS[output.kind].of)
         if subject is not None:
-            of_input = output.kind == "input"
-            owner, quantity = (output.owner, "") if of_input else (output.place, output.quantity)
-            found[subject].append(Column(owner, quantity, SI_UNITS[output.dimension], values))
+            alone = output.kind in ("input", "named")
+            owner, quantity = (output.owner, "") if alone else (output.place, output.quantity)
+            found[subject].append(Column(owner, quantity, output.unit, values))
     found["joints"] += _joints(results)
     found["loads"] += _loads(results)
     return [Table(subject, tuple(columns)) for subject, columns in found.items() if columns]

@@ -21,11 +21,13 @@ from linkwright.files.node_reader import MODES, Place, TooManyFindings
 from linkwright.files.read_drivers import read_cycle, read_drivers, scan_input
 from linkwright.files.read_joints import read_joints, scan_joints
 from linkwright.files.read_links import legible, read_drawing, read_frame, read_links, scan_points
+from linkwright.files.read_outputs import read_outputs
 from linkwright.files.reader import Reader
 from linkwright.files.report_schema import report_keys
 from linkwright.loads.base import Load, read_load
 from linkwright.mechanism.drawing import Drawing
 from linkwright.mechanism.mechanism import GRAVITY, Mechanism
+from linkwright.sheets.fields import FIELD as SHEET_SECTION
 from linkwright.words.sentence import Sentence
 
 FORMAT = 1
@@ -41,12 +43,14 @@ HEADER: Mapping[str, Field] = {
     "report": Free(
         doc="title, own text, order of sections and more for the command report", keys=report_keys
     ),
+    "sheet": SHEET_SECTION,
     "course": Free(doc="what the command variants changes, within which limits, and what it asks"),
     "optimize": Free(doc="what varies, what is made least and what is kept, for the command optimize"),
     "gravity": GRAVITY,
 }
 SECTIONS = (
     *HEADER, "parameters", "frame", "links", "joints", "assembly", "drawing", "driver", "drivers", "cycle", "loads",
+    "outputs",
 )  # fmt: skip
 #: Sections that are kept and not interpreted by what solves.
 KEPT = tuple(name for name, each in HEADER.items() if isinstance(each, Free))
@@ -99,6 +103,7 @@ def _sections(reader: Reader, root: MappingNode, source: str) -> Mechanism:
         drawing=drawn,
         gravity=header.get("gravity") or (0.0, 0.0),
         loads=_loads(reader, root.get("loads")),
+        outputs=read_outputs(reader, root.get("outputs")),
         cycle=read_cycle(reader, root.get("cycle"), drivers),
         parameters=parameters,
         kinds={name: reader.kinds[name] for name in parameters},

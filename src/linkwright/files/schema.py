@@ -33,6 +33,7 @@ def json_schema() -> Schema:
         "drivers": (_named(drivers), "several drivers by name"),
         "cycle": (_cycle(), "what one cycle is (default: one turn of the driver)"),
         "loads": (_named({"oneOf": [load.schema() for load in LOADS.values()]}), "loads by name"),
+        "outputs": (_named({"type": "string"}), "formulas of places and rates with names of their own"),
     }
     properties = {name: each.schema() for name, each in HEADER.items()}
     properties |= {name: {**shape, "description": doc} for name, (shape, doc) in sections.items()}

@@ -55,6 +55,7 @@ def to_data(mechanism: Mechanism) -> Plain:
     data["loads"] = {
         name: _substituted(load.written(), f"loads.{name}", texts) for name, load in mechanism.loads.items()
     }
+    data["outputs"] = {name: each.expression.text for name, each in mechanism.outputs.items()}
     data |= {name: dict(getattr(mechanism, name)) for name in KEPT}
     return {key: value for key, value in data.items() if value not in ({}, [])}
 

@@ -11,7 +11,7 @@ import numpy as np
 from linkwright.core.arrays import Floats, Indices
 from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
-from linkwright.core.outputs import KINDS, SLIDE, Output, row_name
+from linkwright.core.outputs import KINDS, NAMED, SLIDE, Output, row_name
 from linkwright.core.plot_method import Plotted
 from linkwright.core.read_only import FrozenDict, locked
 from linkwright.errors import RequestError
@@ -127,7 +127,8 @@ class LinkMotion:
     def angle(self) -> Floats:
         """Angle of the link's x axis against the frame's, (n,) rad, counter-clockwise positive.
 
-        Continuous over positions that can be reached; the first lies in (-π, π].
+        Continuous over positions that can be reached, in the order of time, and of driven links also over positions
+        that are far apart; the first lies in (-π, π].
         """
         return self._motion.kept(("angle", self.name), self._angle)
 
@@ -139,16 +140,18 @@ class LinkMotion:
         return angles.counts(self.name) if steady else angles.follows(self.name)
 
     def _angle(self) -> Floats:
-        if self.counted:
+        apart = not self._motion.positions.is_way
+        if self.counted or (apart and self._motion.solver.motion.angles.follows(self.name)):
             turned = self._motion.row("turned_angle", self.name)
             known = turned[np.isfinite(turned)]
             first = float(known[0]) if len(known) else 0.0
             return locked(turned - 2.0 * np.pi * np.ceil(first / (2.0 * np.pi) - 0.5))
         raw = np.arctan2(self.direction[:, 1], self.direction[:, 0])
-        good = np.isfinite(raw)
-        if good.all():
-            return locked(_unwrapped(raw))
+        order = self._motion.order
+        good = np.flatnonzero(np.isfinite(raw)) if order is None else order[np.isfinite(raw[order])]
         raw[good] = _unwrapped(raw[good])
+        if order is not None and len(good):
+            raw -= TURN * np.ceil(raw[good.min()] / TURN - 0.5)
         return locked(raw)
 
     @property
@@ -331,7 +334,12 @@ class Motion(Plotted):
         return self.rows.row(row_name(kind, key), self.evaluate)
 
     def read(self, output: Output) -> Floats:
-        """An angle, a displacement, a component of a point's motion, or a rate of these, (n,)."""
+        """An angle, a displacement, a component of a point's motion, an output that the model names, or a rate of
+        these, (n,)."""
+        if output.kind in NAMED:
+            from linkwright.kinematics.output_formulas import named_course
+
+            return self.kept(("named", output.owner), lambda: named_course(self, output.owner))[output.kind]
         if output.kind == "angle":
             return self.link(output.owner).angle
         if KINDS[output.kind].of != "point":

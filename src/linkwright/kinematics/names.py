@@ -11,11 +11,15 @@ from linkwright.core.outputs import KINDS, SLIDE, Output, row_names
 from linkwright.errors import RequestError
 from linkwright.fields.signals import resolve_output
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.mechanism.named_output import named_outputs
 from linkwright.registry import no_such, offered
 from linkwright.words.sentence import Sentence
 
-#: First words of outputs that are phrases, ``transmission_angle B``.
-PHRASES = frozenset({"input_torque", *(name for name, kind in KINDS.items() if kind.form == "phrase")})
+#: Kinds of outputs that are phrases, ``transmission_angle B``, by their first words.
+PHRASES = {
+    "input_torque": "input_torque",
+    **{kind.word or name: name for name, kind in KINDS.items() if kind.form == "phrase"},
+}
 #: Products of an output with the cosine and sine of a multiple of the input, and the multiples.
 HARMONIC, ORDERS = ("cosine", "sine"), tuple(str(order) for order in range(1, 13))
 #: Kinds by what they belong to and the word behind it.
@@ -93,6 +97,8 @@ def output_of(mechanism: Mechanism, text: str) -> Output:
     found = resolve_output(text, links, guides)
     if found is not None:
         return found
+    if text in named_outputs(mechanism.outputs):
+        raise RequestError("motion.no_limits_of_formula", name=text)
     points = [f"{point}.{axis}" for link in links.values() for point in link for axis in "xy"]
     hint = offered(text, [*links, *guides, *points])
     raise RequestError("motion.no_output", text=text, hint=hint)
@@ -104,9 +110,11 @@ def output_meant(mechanism: Mechanism, text: str) -> Output:
 
     Raises RequestError with the nearest known names.
     """
-    words = text.split()
-    if words and words[0] in PHRASES:
-        found = _phrase(mechanism, text, words[0], words[1:])
+    words, named = text.split(), named_outputs(mechanism.outputs)
+    if text in named:
+        found: Output | None = named[text]
+    elif words and words[0] in PHRASES:
+        found = _phrase(mechanism, text, PHRASES[words[0]], words[1:])
     elif len(words) == 3 and words[1] == "on":
         found = _over_column(mechanism, text, *words[::2])
     elif text in mechanism.links or text in mechanism.guides:
@@ -181,14 +189,13 @@ def _phrase(mechanism: Mechanism, text: str, kind: str, rest: list[str]) -> Outp
 
 
 def _over_column(mechanism: Mechanism, text: str, joint: str, place: str) -> Output | None:
-    """``JOINT on LINK``, with ``.magnitude``, ``.x`` or ``.y`` of the force, or ``.couple``."""
+    """``JOINT on LINK``, with ``.magnitude``, ``.x``, ``.y`` or ``.direction`` of the force, or ``.couple``."""
     link, _, part = place.partition(".")
     axis = f".{part}" if part in ("x", "y") else ""
-    if not axis and part not in ("", "magnitude", "couple"):
+    if not axis and part not in ("", "magnitude", "direction", "couple"):
         return None
-    return _at_joint(
-        mechanism, text, "couple" if part == "couple" else "reaction", [joint, "on", link + axis]
-    )
+    kind = {"direction": "reaction_direction", "couple": "couple"}.get(part, "reaction")
+    return _at_joint(mechanism, text, kind, [joint, "on", link + axis])
 
 
 def _at_joint(mechanism: Mechanism, text: str, kind: str, rest: list[str]) -> Output | None:
@@ -216,6 +223,7 @@ def _slides(mechanism: Mechanism, driver: str) -> bool:
 
 def output_names(mechanism: Mechanism) -> Iterator[str]:
     """Names of outputs that a study can ask for, most of them."""
+    yield from named_outputs(mechanism.outputs)
     for driver in mechanism.drivers:
         yield Output("effort", driver).name
     yield from ("input_torque", "power", "shaking_force", "shaking_moment", "closeness")

@@ -43,6 +43,7 @@ def _form(mechanism: Mechanism, numbers: Mapping[str, float]) -> tuple[Form, tup
         *(tuple(map(_plain, each.values())) for each in elements),
         tuple(map(_driver, mechanism.drivers.values())),
         tuple((address, each.text) for address, each in mechanism.expressions.items()),
+        tuple((name, each.expression.text) for name, each in mechanism.outputs.items()),
     )
     along = [name for name, joint in mechanism.joints.items() if getattr(joint, "direction_points", None)]
     return Form(parts), tuple(along)

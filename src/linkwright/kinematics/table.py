@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from linkwright.core.arrays import Floats
 from linkwright.core.outputs import POINT, Output, row_names
 from linkwright.errors import LinkwrightError
+from linkwright.mechanism.named_output import named_outputs
 
 if TYPE_CHECKING:
     import pandas
@@ -28,7 +29,8 @@ def motion_results(motion: Motion) -> dict[Output, Floats]:
         for kind in POINT:
             values = motion.vector(kind, name)
             found |= {Output(kind, name, axis): values[:, k] for k, axis in enumerate("xy")}
-    return found
+    named = named_outputs(motion.mechanism.outputs).values()
+    return found | {each: motion.read(each) for each in named}
 
 
 def columns(found: Mapping[Output, Floats]) -> dict[str, Floats]:

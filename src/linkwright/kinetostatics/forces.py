@@ -112,6 +112,16 @@ class Forces(Plotted):
             np.stack([(e * force).sum(axis=1), e[:, 0] * force[:, 1] - e[:, 1] * force[:, 0]], axis=1)
         )
 
+    def direction(self, joint: str, *, on: str | None = None) -> Floats:
+        """Direction (n,), rad from the x axis of the frame, of the force that a joint exerts on link ``on``.
+
+        Above -π up to π; NaN where there is no force but for rounding. Raises as :meth:`reaction`.
+        """
+        force = self.reaction(joint, on=on)
+        known = np.where(np.abs(force) > self.roundings[:, None], force, 0.0 * force)
+        x, y = known.T + 0.0
+        return locked(np.where((x == 0.0) & (y == 0.0), np.nan, np.arctan2(y, x)))
+
     def couple(self, joint: str, *, on: str | None = None) -> Floats:
         """Couple (n,), N·m, that a guide (about the block's point) or a weld exerts on a link; zero for a pin."""
         link = self._link_at(joint, on)

@@ -2,22 +2,24 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Protocol
+from typing import Literal, Protocol
 
 import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.inputs import Input
-from linkwright.core.outputs import Output
+from linkwright.core.outputs import NAMED, Output
 from linkwright.engine.tangent import Slopes
-from linkwright.engine.trace import Scalar, Value, absolute, atan, minimum, sqrt
+from linkwright.engine.trace import Scalar, Value, absolute, angle, atan, minimum, nearest_turn, select, sqrt
 from linkwright.engine.vector import Vec
 from linkwright.errors import RequestError
 from linkwright.joints.pose import Rotor
 from linkwright.kinematics.names import HARMONIC, canonical, find_point, no_output, output_meant
+from linkwright.kinematics.output_formulas import traced_course
 from linkwright.kinematics.programs import MotionPrograms
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinetostatics.closure import closable, conditioning, half_transmission, transmission
@@ -94,13 +96,17 @@ class Named:
     """Looks outputs up by the user's words, in the programs of one mechanism.
 
     ``middle(link)``: an angle near which a link's angle stays, (rad); asked for links whose angle is wanted.
+    ``line(link)``: the angle where the input is zero and the turns in a turn of it, of the line near which a link's
+    angle runs over the cycle; asked for links whose angle is in the formula of a named output.
     """
 
-    def __init__(self, forces: Traces, middle: Callable[[str], float]) -> None:
+    def __init__(
+        self, forces: Traces, middle: Callable[[str], float], line: Callable[[str], tuple[float, float]]
+    ) -> None:
         self.forces = forces
         self.motion = forces.motion
         self.mechanism: Mechanism = forces.motion.mechanism
-        self.middle = middle
+        self.middle, self.line = middle, line
         self._slopes: Slopes | None = None
 
     def quantity(self, name: str) -> Quantity:
@@ -108,6 +114,8 @@ class Named:
         output = output_meant(self.mechanism, name)
         if output.kind == "angle":
             return self._angle(name, output)
+        if output.kind in NAMED:
+            return Quantity(name, output, output.dimension, self._named(output)[NAMED.index(output.kind)])
         if output.kind in HARMONIC:
             inner = self.quantity(output.owner)
             return Quantity(name, output, inner.dimension, inner.value * self._wave(name, output))
@@ -171,6 +179,36 @@ class Named:
         along, across = e.x * c + e.y * s, e.y * c - e.x * s
         return Quantity(name, output, "angle", across / (1.0 + along), middle)
 
+    def _named(self, output: Output) -> list[Scalar]:
+        """Value and rates of an output that the model names."""
+        return traced_course(self.motion.motion, self.mechanism.outputs[output.owner], self._of_formula)
+
+    def _of_formula(self, output: Output | None, order: int) -> Scalar:
+        """What moves in the formula of a named output, the input for None, or one of its rates."""
+        if output is None:
+            name, given = next(iter(self.motion.motion.drivers.items()))
+            kind: Literal["turn", "slide"] = "slide" if given.turn is None else "turn"
+            return (self.motion.motion.trace.position(Input(kind, name).name), given.rate, given.second)[
+                order
+            ]
+        if output.kind in NAMED:
+            return self._named(output)[NAMED.index(output.kind) + order]
+        if output.kind == "angle" and order == 0:
+            return self._continuous(output.owner)
+        for _ in range(order):
+            output = output.rate
+        found = self._traced(str(output), output)
+        return _component(found, output.component) if isinstance(found, Vec) else found
+
+    def _continuous(self, link: str) -> Scalar:
+        """The angle of a link with its turns over the cycle."""
+        motion, (first, turns) = self.motion.motion, self.line(link)
+        line = first + turns * self._of_formula(None, 0) if turns else first
+        if motion.angles.follows(link):
+            return nearest_turn(motion.angles(link), line)
+        e = motion.poses[link].direction
+        return nearest_turn(angle(e.y, e.x), line)
+
     def _wave(self, name: str, output: Output) -> Scalar:
         """Cosine or sine of a multiple of the first driver's angle, by the addition theorem."""
         first = next(iter(self.mechanism.drivers), None)
@@ -233,6 +271,11 @@ class Named:
         radius = self.motion.motion.dimensions(f"{joint}.pin_radius")
         return force * radius * self.motion.motion.turning(link, other)
 
+    def reaction_direction(self, name: str, output: Output) -> Scalar:
+        """Direction of a joint's force from the x axis, above -π up to π; NaN where there is no force."""
+        force = self.forces.forces.reaction(output.owner, output.on)
+        return select(force.square > 0.0, angle(force.y + 0.0, force.x), math.nan)
+
     def areal_velocity(self, name: str, output: Output) -> Scalar:
         """Area per time that the line from the frame's origin to a point sweeps over, counter-clockwise positive."""
         place, velocity, _ = self.motion.outputs.point(output.owner)
@@ -286,6 +329,7 @@ _FORMULAS: dict[str, Callable[[Named, str, Output], Scalar]] = {
     "conditioning": Named.conditioning,
     "velocity_ratio": Named.velocity_ratio,
     "heat": Named.heat,
+    "reaction_direction": Named.reaction_direction,
     "areal_velocity": Named.areal_velocity,
     "distance": Named.distance,
     "equivalent_inertia": Named.equivalent_inertia,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NoReturn
 
 from linkwright.core.cached_property import cached_property
 from linkwright.core.outputs import SLIDE, Output, row_name, row_names
@@ -48,7 +48,7 @@ def signed_name(name: str) -> str:
     return _SIGNED + name
 
 
-def _no_angle(link: str) -> float:
+def _no_angle(link: str) -> NoReturn:
     raise AssertionError(f"the angle of {link} is continuous in a motion, not in a program")
 
 
@@ -148,7 +148,7 @@ class ForcePrograms:
     @cached_property
     def named(self) -> Named:
         """Outputs in the user's words."""
-        return Named(self, _no_angle)
+        return Named(self, _no_angle, _no_angle)
 
     def _value(self, name: str) -> Scalar:
         if name.startswith(_WORDS):

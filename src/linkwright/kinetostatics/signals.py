@@ -11,16 +11,14 @@ from linkwright.core.arrays import Flags, Floats
 from linkwright.core.cached_property import cached_property
 from linkwright.core.outputs import Output, RelativeAngle
 from linkwright.drivers.base import Law
-from linkwright.kinematics.cycle import CycleError, Positions, over_cycle
+from linkwright.kinematics.cycle import Positions
+from linkwright.kinematics.cycle_angles import CycleAngles
 from linkwright.kinematics.limits import limit_inputs, limit_positions
 from linkwright.kinematics.motion import Motion
-from linkwright.kinematics.solve import MotionRun
 from linkwright.kinetostatics.friction import moving_rate
 from linkwright.loads.signals import Limit, Whole
 from linkwright.mechanism.mechanism import Mechanism
 
-#: Steps of the cycle that anchors angles and brackets limit positions.
-STEPS = 360
 TURN = 2 * np.pi
 
 
@@ -71,20 +69,20 @@ class MotionSignals:
         return None if self.motion.positions.repeated else self._lap(self.motion.positions)
 
     @cached_property
+    def _angles(self) -> CycleAngles:
+        return CycleAngles(self.motion)
+
+    @property
     def cycle(self) -> Motion:
         """The motion over the mechanism's cycle; the motion itself where no cycle is known."""
-        positions = self.motion.positions
-        if (positions.closed or positions.cycle) and self.motion.steps >= STEPS:
-            return self.motion
-        found = self._over(self.mechanism)
-        return self.motion if found is None else found
+        return self._angles.cycle
 
     @cached_property
     def _turned(self) -> Motion:
         """The motion over a cycle that closes, if one can be passed, else over the model's own."""
         if self.cycle.positions.closed or self.mechanism.cycle is None:
             return self.cycle
-        found = self._over(replace(self.mechanism, cycle=None))
+        found = self._angles.over(replace(self.mechanism, cycle=None))
         return found if found is not None and found.positions.closed and found.whole else self.cycle
 
     @cached_property
@@ -96,7 +94,7 @@ class MotionSignals:
         """Value and rate of an output, (n,) each."""
         value, rate, second = (self.motion.read(each) for each in output.course)
         if output.kind == "angle" and self.cycle is not self.motion:
-            value = self._anchored(value, self.cycle.read(output))
+            value = self._angles.of(output.owner)
         return value, self.motion.moving(rate, second, output.dimension)
 
     def rate(self, output: Output | RelativeAngle) -> Floats:
@@ -116,29 +114,15 @@ class MotionSignals:
         first = _between(self.cycle, a, b)
         begin = next(iter(first[np.isfinite(first)]), near)
         first = first + TURN * np.round((near - begin) / TURN)
-        return first if self.cycle is self.motion else self._anchored(_between(self.motion, a, b), first)
+        return (
+            first if self.cycle is self.motion else self._angles.anchored(_between(self.motion, a, b), first)
+        )
 
     def angle_of(self, a: str, b: str, near: float | None) -> Floats:
         """The same; without ``near`` as the motion has it."""
         if near is None:
             return self.output(Output("angle", b))[0]
         return self.angle_between(a, b, near)
-
-    def _anchored(self, angle: Floats, on_cycle: Floats) -> Floats:
-        """The same angle, moved by whole turns next to what it is at that time of the cycle, of which a part may not
-        be reached."""
-        positions = self.cycle.positions
-        time, values, laps, gain = positions.time, on_cycle, np.zeros(len(angle)), 0.0
-        if positions.period is not None:
-            gain = TURN * float(np.nan_to_num(np.round((values[-1] - values[0]) / TURN)))
-            time, values = np.append(time, time[0] + positions.period), np.append(values, values[0] + gain)
-            laps = np.floor((self.time - time[0]) / positions.period)
-        order = np.argsort(time)
-        order = order[np.isfinite(values[order])]
-        if not len(order):
-            return angle
-        there = np.interp(self.time - laps * (positions.period or 0.0), time[order], values[order])
-        return np.asarray(angle + TURN * np.round((there + laps * gain - angle) / TURN))
 
     def _lap(self, positions: Positions) -> tuple[float, float] | None:
         """Period of a closed cycle, s, and what the input goes in it."""
@@ -151,13 +135,6 @@ class MotionSignals:
     def _law(self) -> Law:
         """Of the first driver."""
         return next(iter(self.mechanism.drivers.values())).law
-
-    def _over(self, mechanism: Mechanism) -> Motion | None:
-        try:
-            positions: Positions = over_cycle(mechanism, STEPS)
-        except CycleError:
-            return None
-        return MotionRun(self.motion.solver.for_design(self.motion.design), positions).solve("mark")
 
 
 def _between(motion: Motion, a: str, b: str) -> Floats:

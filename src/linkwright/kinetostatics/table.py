@@ -41,6 +41,7 @@ def force_results(forces: Forces) -> dict[Output, Floats]:
             force = forces.reaction(name, on=link)
             found |= {Output("reaction", name, axis, link): force[:, k] for k, axis in enumerate("xy")}
             found[Output("reaction", name, on=link)] = np.hypot(force[:, 0], force[:, 1])
+            found[Output("reaction_direction", name, on=link)] = forces.direction(name, on=link)
             if joint.couples:
                 found[Output("couple", name, on=link)] = forces.couple(name, on=link)
     found |= {Output("shaking_force", "", axis): forces.shaking_force[:, k] for k, axis in enumerate("xy")}

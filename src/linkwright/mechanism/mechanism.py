@@ -25,6 +25,7 @@ from linkwright.mechanism.geometry import (
     point_addresses,
     second_point_address,
 )
+from linkwright.mechanism.named_output import NamedOutput
 from linkwright.registry import nearest, no_such
 from linkwright.units import LARGEST_OF_ALL, SI_UNITS, Dimension
 from linkwright.words import LANGUAGES
@@ -182,7 +183,7 @@ class Mechanism(Frozen):
     ``frame`` is the fixed link; ``links`` are the moving ones in the file's order. ``joints`` lists the
     implied
     pins in order of first appearance, then the explicit joints. ``kinds`` are the dimensions of the
-    ``parameters``. ``expressions`` maps the address of every
+    ``parameters``; ``outputs`` are formulas of places that have a name. ``expressions`` maps the address of every
     dimension that was given by an expression of ``parameters`` to that expression.
     """
 
@@ -197,6 +198,7 @@ class Mechanism(Frozen):
     drawing: Mapping[str, Vec] = field(default_factory=dict)
     gravity: Vec = (0.0, 0.0)
     loads: Mapping[str, Load] = field(default_factory=dict)
+    outputs: Mapping[str, NamedOutput] = field(default_factory=dict)
     cycle: Cycle | None = None
     parameters: Mapping[str, float] = field(default_factory=dict)
     kinds: Mapping[str, Dimension] = field(default_factory=dict)
@@ -204,6 +206,7 @@ class Mechanism(Frozen):
     expected: Mapping[str, Any] = field(default_factory=dict)
     synthesis: Mapping[str, Any] = field(default_factory=dict)
     report: Mapping[str, Any] = field(default_factory=dict)
+    sheet: Mapping[str, Any] = field(default_factory=dict)
     course: Mapping[str, Any] = field(default_factory=dict)
     optimize: Mapping[str, Any] = field(default_factory=dict)
 

@@ -171,7 +171,7 @@ class Analysis:
             if summary.kind in strokes.WAYS:
                 output = strokes.signal_of(summary)
                 self._strokes.setdefault(summary)
-            if summary.kind not in true_speed.KINDS and self._meant(output).kind != "angle":
+            if summary.kind not in true_speed.KINDS and not self._meant(output).of_course:
                 self._words[words_name(output)] = None
 
     def ask_rows(self, names: Iterable[str]) -> None:
@@ -182,7 +182,7 @@ class Analysis:
         """An output in words (see ``kinetostatics.named``) as a function of motion or forces, (n,)."""
         kept = self._words
         meant = self._meant(output)
-        if meant.kind == "angle":
+        if meant.of_course:
             return lambda each: (each.motion if isinstance(each, Forces) else each).read(meant)
 
         def read(solved: Motion | Forces) -> Floats:
@@ -291,7 +291,7 @@ class Analysis:
         those of all that were asked for."""
         name = words_name(output)
         if name not in self._met:
-            if self._meant(output).kind == "angle" or self.grid is None:
+            if self._meant(output).of_course or self.grid is None:
                 return None
             missing = tuple(each for each in {**self._words, name: None} if each not in self._met)
             columns = self._summaries(self.grid, missing)

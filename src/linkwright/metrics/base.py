@@ -16,8 +16,9 @@ from linkwright.engine.trace import Scalar
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis, Extreme, Result
 from linkwright.metrics.quantities import number as in_unit
-from linkwright.metrics.quantities import shown, shown_unit, si_unit
+from linkwright.metrics.quantities import shown, shown_unit
 from linkwright.registry import Registry
+from linkwright.units import si_unit
 from linkwright.words import has, say
 from linkwright.words.sentence import in_words
 

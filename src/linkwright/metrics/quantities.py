@@ -5,35 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 
-from linkwright.units import DIMENSIONS, NONE, SI_UNITS, Dimension, unit
+from linkwright.units import si_unit
 
-#: Dimensions that only design numbers have, with their SI units.
-FURTHER: Mapping[str, str] = {
-    "energy": "J",
-    "areal_velocity": "m²/s",
-    "jerk": "m/s³",
-    "angular_jerk": "rad/s³",
-    "length_per_angle": "m/rad",
-    "angle_per_length": "rad/m",
-    "count": "",
-}
 #: Units in which tables show a dimension, with the factor from SI.
 SHOWN: Mapping[str, tuple[str, float]] = {"angle": ("°", 180 / math.pi), "length": ("mm", 1e3)}
 
 #: Sizes, SI, below which an angle and a length of a machine are rounding.
 NOTHING: Mapping[str, float] = {"angle": 1e-9, "length": 1e-15}
-
-
-def si_unit(dimension: str) -> str:
-    """SI unit of a dimension; raises KeyError for one that is not known."""
-    return FURTHER[dimension] if dimension in FURTHER else SI_UNITS[dimension]
-
-
-def powers(dimension: str) -> Dimension:
-    """Powers of metre, kilogram, second and radian in a dimension; raises KeyError for one that is not known."""
-    if dimension in DIMENSIONS:
-        return DIMENSIONS[dimension]
-    return unit(FURTHER[dimension])[1] if FURTHER[dimension] else NONE
 
 
 def shown_unit(dimension: str) -> str:

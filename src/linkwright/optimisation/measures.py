@@ -22,7 +22,6 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.base import Number
 from linkwright.metrics.evaluate import unloaded
 from linkwright.metrics.outputs import mechanism_outputs, usual_output
-from linkwright.metrics.quantities import powers
 from linkwright.metrics.summary import is_summary, one, wanted
 from linkwright.optimisation.paths import PathErrors
 from linkwright.optimisation.problem import Problem
@@ -32,6 +31,7 @@ from linkwright.study.criteria import criterion
 from linkwright.study.design_numbers import Numbers, side_by_side
 from linkwright.study.finished_parts import identity, surrounding
 from linkwright.study.varied_dimensions import refuse_moved_positions
+from linkwright.units import powers
 
 #: Designs that a worker of a cluster takes at a time where they go one by one.
 FEW = 4

@@ -19,8 +19,8 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.plot_method import Plotted, Sketched
 from linkwright.errors import Finding, ModelError
 from linkwright.fields.base import Field, GivenByFile, given_by_file
-from linkwright.metrics.quantities import FURTHER, SHOWN
-from linkwright.units import SI_UNITS, Dimension, si_symbol
+from linkwright.metrics.quantities import SHOWN
+from linkwright.units import FURTHER, SI_UNITS, Dimension, si_symbol
 from linkwright.words import Say, speaker
 from linkwright.words.characters import aligned
 from linkwright.words.sentence import Sentence

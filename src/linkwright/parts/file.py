@@ -21,6 +21,7 @@ from linkwright.files.reader import Reader
 from linkwright.files.report_schema import report_keys
 from linkwright.files.schema import json_schema
 from linkwright.files.source import read_source
+from linkwright.sheets.fields import FIELD as SHEET_SECTION
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
@@ -55,6 +56,7 @@ HEADING: Mapping[str, Field] = {
     "expected": Free(doc="numbers to compare results with; not interpreted"),
     "parameters": Free(doc="named quantities for use in expressions"),
     "report": Free(doc="title, own text, errata and more for the command report", keys=report_keys),
+    "sheet": SHEET_SECTION,
 }
 #: Keys that say nothing about the problem itself.
 ASIDE = tuple(key for key in HEADING if key != "parameters")
@@ -107,6 +109,14 @@ def kind_of(source: str | Path) -> str | None:
     """The kind that a file declares, None where it declares none; raises ModelError for no such file."""
     text, name, _ = _text(source)
     return declared_kind(read_root(text, name)[0])
+
+
+def sheet_section(source: str | Path) -> Mapping[str, Any]:
+    """The section ``sheet`` of a file; empty where it has none."""
+    text, name, _ = _text(source)
+    root, _ = read_root(text, name)
+    node = root.get("sheet") if isinstance(root, MappingNode) else None
+    return cast("Mapping[str, Any]", Reader(name).free(node)) if isinstance(node, MappingNode) else {}
 
 
 def problem_class(kind: str) -> type[Problem]:

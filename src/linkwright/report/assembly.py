@@ -24,12 +24,14 @@ from linkwright.report.document import (
     texts,
     with_prefix,
 )
+from linkwright.report.machine_results import Missing
 from linkwright.report.markdown import own_text, own_words
 from linkwright.report.numbers import typeset
 from linkwright.report.order import Part
 from linkwright.report.section import Section
 from linkwright.report.sections.references import own_sources
 from linkwright.report.settings import Chapter, Settings
+from linkwright.synthesis.task_file import TaskFile
 from linkwright.words.sentence import Sentence, in_language
 from linkwright.words.titles import title_said
 
@@ -59,13 +61,21 @@ def _add_chapter(document: Document, part: Part, chapter: Chapter) -> None:
         ]
 
 
-def _add_calculation(document: Document, part: Part, problem: Problem) -> None:
-    """Adds a calculation, its own chapters behind it; one without a result says why."""
+def _add_calculation(document: Document, part: Part, problem: Problem | TaskFile) -> None:
+    """Adds a calculation, or a task of synthesis, its own chapters behind it; one without a result says why."""
     from linkwright.report.calculation import OwnText, calculation
+    from linkwright.report.sections.synthesis import task_chapter
 
     name = title_said(problem.name, document.language)
+    say, language = document.say, document.language
     try:
-        for block in calculation(problem, part.own, document.say, document.language):
+        for block in (
+            task_chapter(problem, part.own, say, language)
+            if isinstance(problem, TaskFile)
+            else calculation(problem, part.own, say, language)
+        ):
+            if isinstance(block, Paragraph) and block.kind == "missing":
+                _miss(document, name, plain(block.text))
             found = _own(block.text, part.own, document, name) if isinstance(block, OwnText) else (block,)
             document.blocks += (new for each in found for new in _parts_of(each, document))
     except LinkwrightError as error:
@@ -91,11 +101,11 @@ def _add(document: Document, within: Part, part: Section, *, asked: bool) -> Non
                 _miss(document, prefix + title, plain(block.text))
             found += [new for each in _parts_of(block, document) for new in _placed(each, shift, prefix)]
     except LinkwrightError as error:
-        if part.optional and not asked and not text:
-            return
-        sentence = error.say(document.language)
-        found.append(Paragraph(say("report.left_out", sentence=literal(sentence)), "missing"))
-        _miss(document, prefix + title, sentence)
+        named = asked or part.name in within.own.sections
+        if named or not (part.optional and isinstance(error, Missing)):
+            sentence = error.say(document.language)
+            found.append(Paragraph(say("report.left_out", sentence=literal(sentence)), "missing"))
+            _miss(document, prefix + title, sentence)
     except Exception as error:
         sentence = say("report.unexpected", kind=type(error).__name__, message=" ".join(str(error).split()))
         found.append(Paragraph(literal(sentence), "missing"))

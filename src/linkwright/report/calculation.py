@@ -23,7 +23,7 @@ PLACES: Mapping[str, str] = {
     "purpose_of_calculation": "task", "sketch": "drawing", "way": "worked",
 }  # fmt: skip
 #: Share of the page's width of a sketch, and its greatest height, mm.
-WIDE, TALLEST = 0.7, 75.0
+WIDE, TALLEST = 0.8, 90.0
 
 
 @dataclass(frozen=True)
@@ -100,8 +100,14 @@ def _label(text: str) -> str:
     """A label of a table: a symbol as a formula, words as they are."""
     bare = text.strip()
     short = len(bare) <= 4 or "." in bare or "_" in bare
-    words = " " in bare or bare.islower() or not any(c.isalpha() and c < "\u2e80" for c in bare)
-    if short and not words:
+    if (
+        short
+        and bare.isprintable()
+        and " " not in bare
+        and not any(c > "\u2e7f" for c in bare)
+        and not bare.islower()
+        and any(c.isalpha() for c in bare)
+    ):
         try:
             return f"${latex(bare)}$"
         except LinkwrightError:
@@ -111,8 +117,10 @@ def _label(text: str) -> str:
 
 def _sketch(problem: Problem, say: Say, language: str) -> Iterator[Block]:
     """The sketch of what is calculated, where its kind has one."""
+    from linkwright.plot.sketches.base import sketch
+
     try:
-        drawn = problem.sketch(language)
+        drawn = sketch(problem, language)
     except LinkwrightError as error:
         yield Paragraph(literal(error.say(language)), "missing")
         return

@@ -8,15 +8,19 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.core.outputs import Output
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.cycle import at_inputs
 from linkwright.kinematics.limits import LimitPosition
 from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.position_list import PositionList
 from linkwright.kinematics.solve import solve_motion, with_times
 from linkwright.kinetostatics.forces import Forces, solve_forces
+from linkwright.kinetostatics.table import results_of
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.report.numbers import Heads
+from linkwright.report.numbers import Heads, without_rounding
 from linkwright.report.settings import Settings, worked_place
 from linkwright.structure.group import Structure
 from linkwright.words import Say, speaker
@@ -37,12 +41,16 @@ class Missing(LinkwrightError):
 
 @dataclass(frozen=True)
 class Numbered:
-    """Positions of the tables, numbered from 1: a motion that passes them, and where in it they are."""
+    """Positions of the tables, numbered from 1: a motion that passes them, and where in it they are.
+
+    ``listed``: they are those that the file lists, in its order.
+    """
 
     motion: Motion
     rows: tuple[int, ...]
     start: LimitPosition | None
     output: str
+    listed: bool = False
 
 
 class Case:
@@ -51,6 +59,8 @@ class Case:
     def __init__(self, mechanism: Mechanism, settings: Settings, language: str, source: str = "") -> None:
         self.mechanism, self.settings, self.language, self.source = mechanism, settings, language, source
         self.say: Say = speaker(language)
+        #: Why the numbered positions do not begin at the limit position that the file names.
+        self.unnumbered = ""
         #: Design numbers that the report shows.
         self.used: dict[str, None] = {}
 
@@ -76,7 +86,7 @@ class Case:
         """The whole cycle; positions that are not reached are marked."""
         found = solve_motion(self.mechanism, steps=STEPS, failures="mark")
         if not found.ok.any():
-            raise Missing(found.outcomes[0].sentence)
+            raise LinkwrightError(found.outcomes[0].sentence)
         return found
 
     @cached_property
@@ -116,7 +126,7 @@ class Case:
 
     def input_text(self, value: float) -> str:
         """An input as the tables print it, without its unit."""
-        return f"{np.degrees(value):.2f}" if self.rotary else f"{1e3 * value:.2f}"
+        return f"{(np.degrees(value) if self.rotary else 1e3 * value) + 0.0:.2f}"
 
     @property
     def input_unit(self) -> str:
@@ -145,7 +155,7 @@ class Case:
         if self.mechanism.drivers:
             motion, (index,) = with_times(motion, [self.moment])
         if not motion.ok[index]:
-            raise Missing(motion.outcomes[index].sentence)
+            raise LinkwrightError(motion.outcomes[index].sentence)
         return (solve_forces(motion) if self.mechanism.has_loads else motion), index
 
     @property
@@ -189,11 +199,15 @@ class Case:
     # numbered positions -------------------------------------------------------------------------
     @cached_property
     def numbered(self) -> Numbered:
-        """Equally spaced positions from a limit position of the output on (else from the start)."""
-        motion = self.motion
+        """Equally spaced positions from a limit position of the output on (else from the start), or those that are
+        listed."""
+        motion, asked = self.motion, self.settings.positions
         if not self.mechanism.drivers:
             return Numbered(motion, (0,), None, "")
-        count = self.settings.positions or self._usual
+        if isinstance(asked, PositionList):
+            found = asked.solved(self.mechanism, self.settings.numbered_from.partition(" ")[0])
+            return Numbered(found, tuple(range(found.steps)), None, "", listed=True)
+        count = asked or self._usual
         output, limit = self._first_limit()
         period = motion.positions.period
         if period is None:
@@ -212,23 +226,26 @@ class Case:
         turns = abs(law.constant_speed or 0.0) * (self.motion.positions.period or 0.0) / (48.0 * np.pi)
         return 25 if law.rotary and turns > 0.5 and abs(turns - round(turns)) < 1e-9 else 24
 
-    def inputs_of(self, numbered: Numbered) -> list[str]:
-        """The input at every numbered position, as tables print it."""
-        if not self.mechanism.drivers:
-            return ["–"]
-        return [self.input_text(float(value)) for value in numbered.motion.input[list(numbered.rows)]]
+    @cached_property
+    def varying(self) -> frozenset[Output]:
+        """Results that change over the cycle, or from one numbered position to another."""
+        found = without_rounding(results_of(self.motion, self.forces if self.mechanism.has_loads else None))
+        forces = self.numbered_forces if self.mechanism.has_loads else None
+        chosen = without_rounding(results_of(self.numbered.motion, forces))
+        return frozenset(each for each in found if varies(found[each]) or varies(chosen[each]))
 
     def _first_limit(self) -> tuple[str, LimitPosition | None]:
-        """The output that the positions are numbered by, and its limit position."""
-        from linkwright.plot.drawing.positions import limits_of
+        """The output that the positions are numbered by, and its limit position; none where it reverses nowhere."""
+        from linkwright.kinematics.output_limits import limits_of
 
         chosen = self.settings.numbered_from
         name, _, kind = chosen.partition(" ")
         try:
             limits = limits_of(self.motion, name or None)
-        except LinkwrightError:
+        except LinkwrightError as error:
             if chosen:
-                raise
+                reason = self.told(error)
+                self.unnumbered = self.say("report.not_numbered_from", text=chosen, reason=reason)
             return "", None
         wanted = kind or "min"
         found = [each for each in limits if each.kind == wanted] or list(limits)
@@ -272,6 +289,12 @@ class Case:
     def sentence(self, text: str) -> str:
         """A sentence in the report's language."""
         return in_language(text, self.language)
+
+
+def varies(values: Floats) -> bool:
+    """Whether a result changes over the positions."""
+    known = values[np.isfinite(values)]
+    return bool(len(known)) and float(np.ptp(known)) > 1e-12 * max(float(np.abs(known).max()), 1e-300)
 
 
 def picture(diagram: Diagram) -> str:

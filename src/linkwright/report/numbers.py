@@ -14,7 +14,6 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.quantities import SHOWN
 from linkwright.plot.force_names import link_numbers
 from linkwright.report.document import literal
-from linkwright.units import SI_UNITS
 from linkwright.words import Say
 from linkwright.worked.symbols import tex
 
@@ -41,7 +40,7 @@ class Heads:
 
     def head(self, output: Output) -> tuple[str, float]:
         """Head of a column of results in the unit of tables, and the factor from SI."""
-        shown, factor = SHOWN.get(output.dimension, (SI_UNITS[output.dimension], 1.0))
+        shown, factor = SHOWN.get(output.dimension, (output.unit, 1.0))
         symbol = self.symbol(output)
         quantity = f"${symbol}$" if symbol else literal(output.column)
         return f"{quantity}\u00a0/\u00a0{shown.replace('/', f'/{JOINER}')}", factor

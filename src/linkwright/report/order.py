@@ -11,6 +11,8 @@ from linkwright.registry import listed
 from linkwright.report.machine_results import Case
 from linkwright.report.section import SECTIONS, Section, section_names
 from linkwright.report.settings import BESIDE_SECTIONS, Chapter, Settings
+from linkwright.synthesis.task_file import TaskFile
+from linkwright.words.titles import title_said
 
 REST, CALCULATIONS = BESIDE_SECTIONS
 #: The section that reports on calculations alone have, too.
@@ -19,10 +21,14 @@ SOURCES = "references"
 
 @dataclass(frozen=True)
 class Calculation:
-    """A calculation with the settings of its file."""
+    """A calculation, or a task of synthesis that stands alone, with the settings of its file."""
 
-    problem: Problem
+    problem: Problem | TaskFile
     settings: Settings
+
+    def title(self, language: str) -> str:
+        """Its name in a language."""
+        return title_said(self.problem.name, language)
 
 
 @dataclass(frozen=True)
@@ -34,7 +40,7 @@ class Part:
     cases: tuple[Case, ...] = ()
     section: Section | None = None
     chapter: Chapter | None = None
-    calculation: Problem | None = None
+    calculation: Problem | TaskFile | None = None
     name: str = ""
     within: str = ""
 

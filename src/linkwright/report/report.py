@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from os import PathLike
 from pathlib import Path
@@ -22,6 +22,7 @@ from linkwright.report.document import Document, Source, walk
 from linkwright.report.machine_results import Case
 from linkwright.report.order import Calculation, chosen, parts
 from linkwright.report.settings import settings, worked_place
+from linkwright.synthesis.task_file import TaskFile, task_file
 from linkwright.whole_files import refuse_target, write_whole
 from linkwright.words import speaker
 from linkwright.words.sentence import Sentence
@@ -90,8 +91,8 @@ class Report:
 
 
 Machine = Mechanism | Problem | str | Path
-#: A model or its file, or a calculation with its file.
-Given = Mechanism | str | tuple[Problem, str]
+#: A model or its file, a calculation with its file, or a file that holds a task of synthesis alone.
+Given = Mechanism | str | tuple[Problem, str] | TaskFile
 
 
 def report(
@@ -101,22 +102,24 @@ def report(
     sections: Sequence[str] = (),
     language: str = "en",
     position: str = "",
-    positions: int | None = None,
+    positions: int | str | Sequence[str] | Mapping[str, object] | None = None,
     folder: str | Path = "",
     progress: Progress | None = None,
 ) -> Report:
     """The report of a machine, or of several with their comparison; and of calculations, cams among them.
 
     Args:
-        machines: mechanisms, calculations of machine parts, paths or gallery names.
+        machines: mechanisms, calculations of machine parts, paths or gallery names; also of files that hold a task of
+            synthesis alone.
         sources: the files of mechanisms that are given themselves, for what is read from files (tasks of synthesis).
         sections: names of sections and titles of own chapters in the order wanted; empty: what the first file says,
             else all that apply.
         language: ``en`` or ``zh``.
         position: input of the worked position, such as ``"60 deg"``; else what the file says, else a sixth of the
             cycle.
-        positions: numbered positions of the tables, else what the file says, else 24, or 25 where the
-            input would be the same in all of them.
+        positions: of the tables: so many, numbered from a limit position, or those listed in their order
+            (``"0..-360 deg:15 deg"``, ``["0 deg", "60 deg", "limits"]``, ``{"from": "0 deg", "step": "-15 deg",
+            "count": 25}``); else what the file says, else 24, or 25 where the input would be the same in all of them.
         folder: where pictures of own texts are looked for; empty: beside the file of each machine.
         progress: is told how many sections are done, and of how many.
 
@@ -128,15 +131,12 @@ def report(
         LinkwrightError: an unknown section or language, a model that cannot be read, settings that make no sense.
     """
     require_language(language)
-    given = _cases(_read(machines), sources, language, position, positions, folder)
+    given = _cases(_read(machines, language), sources, language, position, positions, folder)
     cases = [each for each in given if isinstance(each, Case)]
     calculations = [each for each in given if isinstance(each, Calculation)]
     own = (cases or calculations)[0].settings
     entries = chosen(sections, own)
-    names = [
-        each.mechanism.name if isinstance(each, Case) else title_said(each.problem.name, language)
-        for each in given
-    ]
+    names = [each.mechanism.name if isinstance(each, Case) else each.title(language) for each in given]
     document = Document(
         own.title or " / ".join(dict.fromkeys(names)),
         speaker(language),
@@ -155,8 +155,8 @@ def report(
     return Report(document)
 
 
-def _read(machines: Machine | Sequence[Machine]) -> list[Given]:
-    """Mechanisms (or their files) and calculations, with the file of one that is read here."""
+def _read(machines: Machine | Sequence[Machine], language: str) -> list[Given]:
+    """Mechanisms (or their files), calculations with the file of one that is read here, and tasks of synthesis."""
     from linkwright.parts.file import kind_of
     from linkwright.parts.file import load as load_calculation
 
@@ -170,6 +170,8 @@ def _read(machines: Machine | Sequence[Machine]) -> list[Given]:
             found.append((each, ""))
         elif isinstance(each, Mechanism):
             found.append(each)
+        elif (task := task_file(each)) is not None:
+            found.append(task.said_in(language))
         else:
             calculated = kind_of(str(each)) is not None
             found.append((load_calculation(str(each)), str(each)) if calculated else str(each))
@@ -181,7 +183,7 @@ def _cases(
     sources: Sequence[str],
     language: str,
     position: str,
-    positions: int | None,
+    positions: object,
     folder: str | Path,
 ) -> list[Case | Calculation]:
     """Machines and calculations with their settings; machines of one name are numbered."""
@@ -193,6 +195,9 @@ def _cases(
             found.append(
                 Calculation(problem, settings(problem.report, language, None, _beside(folder, file)))
             )
+            continue
+        if isinstance(each, TaskFile):
+            found.append(Calculation(each, settings(each.report, language, None, _beside(folder, each.file))))
             continue
         mechanism = each if isinstance(each, Mechanism) else _loaded(str(each), language)
         mechanism = mechanism.said_in(language)

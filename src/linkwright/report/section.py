@@ -18,8 +18,9 @@ from linkwright.report.machine_results import Case
 @dataclass(frozen=True)
 class Section:
     """One section; ``rank``: where it stands unless the user orders them; ``optional``: left out without a word where
-    it has nothing to show, unless it is asked for by name; ``common``: about all machines of a report together;
-    ``blocks``: of one machine, or of all, raise Missing, or another LinkwrightError, where there are none."""
+    it has nothing to show (raises Missing), unless it is asked for by name; ``common``: about all machines of a
+    report together; ``blocks``: of one machine, or of all, raise Missing, or another LinkwrightError, where there are
+    none."""
 
     name: str
     rank: float

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import field
 from typing import TYPE_CHECKING, Any
@@ -11,6 +12,7 @@ from linkwright.core.expressions import amount
 from linkwright.errors import Finding, LinkwrightError, ModelError, QuantityError, RequestError
 from linkwright.files.write import flow
 from linkwright.kinematics.names import output_of
+from linkwright.kinematics.position_list import PositionList, known_outputs, of_value
 from linkwright.machine.flywheel import FLUCTUATION
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import listed, offered
@@ -76,10 +78,11 @@ class CoverWords:
 @dataclass(frozen=True)
 class Settings:
     """``sections`` and own chapters in the order wanted (empty: all sections); ``position`` of the worked solution;
-    ``positions`` in the tables (None: as many as show the cycle), numbered from ``numbered_from`` (``"rocker min"``);
-    ``fluctuation`` δ of the flywheel; ``text``: own text by section, Markdown, or Typst after a first line ``typst``;
-    ``purpose`` and ``source`` instead of the model's; ``cover``: of its own page, None without one; ``references``:
-    own sources by the name by which texts cite them; ``folder``: where pictures lie.
+    ``positions`` in the tables (those that are listed, or so many, numbered from ``numbered_from``, ``"rocker min"``;
+    None: as many as show the cycle); ``fluctuation`` δ of the flywheel; ``text``: own text by section, Markdown, or
+    Typst after a first line ``typst``; ``purpose`` and ``source`` instead of the model's; ``cover``: of its own page,
+    None without one; ``references``: own sources by the name by which texts cite them; ``folder``: where pictures
+    lie.
     """
 
     title: str = ""
@@ -90,7 +93,7 @@ class Settings:
     source: str = ""
     sections: tuple[str | Chapter, ...] = ()
     position: str = ""
-    positions: int | None = None
+    positions: int | PositionList | None = None
     numbered_from: str = ""
     fluctuation: float = FLUCTUATION
     text: Mapping[str, str] = field(default_factory=dict)
@@ -165,7 +168,7 @@ class _Reading:
         return Settings(
             **words,
             sections=sections,
-            positions=self.count(given["positions"]) if "positions" in given else None,
+            positions=self.positions(given["positions"]) if "positions" in given else None,
             numbered_from=numbered_from,
             fluctuation=self.fluctuation(given.get("fluctuation", FLUCTUATION)),
             text=self.texts(given, places["text"], references),
@@ -321,12 +324,33 @@ class _Reading:
                 place = "report.numbered_from"
                 self.findings[Finding("error", "", place, error.sentence, code=error.code)] = None
 
-    def count(self, value: Any) -> int | None:
+    def positions(self, value: Any) -> int | PositionList | None:
+        """So many positions, or those that are listed."""
         text = str(value).strip()
         if text.isdecimal() and 2 <= int(text) <= MOST:
             return int(text)
-        self.wrong("report.positions", "bad_positions", text=flow(value), most=MOST)
-        return None
+        if re.fullmatch(r"[-+]?[\d.]+", text) or isinstance(value, bool) or value is None:
+            self.wrong("report.positions", "bad_positions", text=flow(value), most=MOST)
+            return None
+        try:
+            listed = of_value(value, self.dimensions)
+            if self.mechanism is not None:
+                known_outputs(self.mechanism, listed)
+        except LinkwrightError as error:
+            remedy = error.remedy if isinstance(error, QuantityError) else ""
+            said = error.message if isinstance(error, QuantityError) else error.sentence
+            self.findings[Finding("error", "", "report.positions", said, remedy, error.code)] = None
+            return None
+        return listed
+
+    @property
+    def dimensions(self) -> tuple[str, ...]:
+        """What positions may be given as: the first driver's coordinate where its speed is constant, or times."""
+        if self.mechanism is None:
+            return ("angle", "length", "time")
+        law = next((each.law for each in self.mechanism.drivers.values()), None)
+        constant = law is None or law.constant_speed is not None
+        return (self.mechanism.across, "time") if constant else ("time",)
 
     def fluctuation(self, value: Any) -> float:
         try:

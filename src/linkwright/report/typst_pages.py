@@ -10,8 +10,8 @@ from typing import Any
 from unicodedata import category
 
 from linkwright.errors import LinkwrightError
+from linkwright.plot.svg.fonts import check_fonts, given_fonts
 from linkwright.plot.svg.render import natural_size
-from linkwright.plot.svg.text import check_fonts
 from linkwright.report.document import (
     Block,
     Code,
@@ -85,7 +85,7 @@ def compiled(document: Document, form: str) -> bytes:
     given: Any = form
     try:
         found, warnings = program.compile_with_warnings(
-            text.encode(), sys_inputs={**pictures, "form": form}, format=given
+            text.encode(), sys_inputs={**pictures, "form": form}, format=given, font_paths=[*_folders()]
         )
     except program.TypstError as error:
         raise LinkwrightError("report.typst_says", sentence=str(error)) from None
@@ -101,13 +101,13 @@ def without_glyph(document: Document) -> str:
     text, pictures = pages(document)
     rare = {c for c in chain(text, *pictures.values()) if not c.isascii() and category(c) not in _NO_INK}
     families = fonts(document.language)
-    if _printed("".join(sorted(rare)), families):
+    if _printed("".join(sorted(rare)), families, _folders()):
         return ""
-    return "".join(c for c in sorted(rare) if not _printed(c, families))
+    return "".join(c for c in sorted(rare) if not _printed(c, families, _folders()))
 
 
 @lru_cache(maxsize=512)
-def _printed(text: str, families: tuple[str, ...]) -> bool:
+def _printed(text: str, families: tuple[str, ...], folders: tuple[Any, ...] = ()) -> bool:
     """Whether Typst finds a glyph for every character; PDF/A is the form that it refuses without one."""
     import typst as program
 
@@ -116,7 +116,7 @@ def _printed(text: str, families: tuple[str, ...]) -> bool:
         f"#set text(font: {_listed(families)})\n#{quoted(text)}"
     )
     try:
-        program.compile(source.encode(), format="pdf", pdf_standards="a-2b")
+        program.compile(source.encode(), format="pdf", pdf_standards="a-2b", font_paths=[*folders])
     except program.TypstError as error:
         return _NO_GLYPH not in str(error)
     return True
@@ -155,28 +155,38 @@ def aligned_by(marks: str) -> str:
     return "by-" + marks.translate(str.maketrans("<>^", "lrc"))
 
 
-@lru_cache(maxsize=1)
-def _families() -> dict[str, int]:
+def _folders() -> tuple[Any, ...]:
+    """Folders of the fonts that are given."""
+    return tuple(dict.fromkeys(str(file.parent) for file in given_fonts()))
+
+
+@lru_cache(maxsize=8)
+def _families(folders: tuple[Any, ...] = ()) -> dict[str, int]:
     """Families that are there, with the weight of their boldest face."""
     import typst as program
 
     found: dict[str, int] = {}
-    for font in program.Fonts().fonts():
+    for font in program.Fonts(font_paths=list(folders)).fonts():
         found[font.family] = max(found.get(font.family, 0), font.weight)
     return found
 
 
 def without_bold() -> bool:
     """Whether Chinese characters have no bold face: they are then made bold by a line around them."""
-    known = _families()
+    known = _families(_folders())
     return any(known[name] < BOLD for name in [name for name in CHINESE if name in known][:1])
 
 
 def fonts(language: str) -> tuple[str, ...]:
     """Families for texts, those that are there; Chinese ones for every language, since names may be Chinese."""
-    known = _families()
-    chinese = tuple(name for name in CHINESE if name in known)
+    known = _families(_folders())
+    given = known.keys() - _families().keys() if given_fonts() else set[str]()
+    chinese = tuple(name for found in (given, known.keys() - given) for name in CHINESE if name in found)
+    chinese = (*chinese, *sorted(given - {*CHINESE}))
     if language == "zh" and not chinese:
+        _families.cache_clear()
+        known = _families(_folders())
+        chinese = tuple(name for name in CHINESE if name in known)
         check_fonts("中", ())
     latin, pictures = (tuple(name for name in each if name in known) for each in (LATIN, PICTURES))
     return (*latin, *chinese, *pictures)

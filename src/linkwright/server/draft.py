@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
-from linkwright import units
+from linkwright.core.expressions import amount
 from linkwright.core.json_data import Plain
 from linkwright.errors import LinkwrightError, QuantityError
 from linkwright.fields.nodes import Mapping as MappingNode
@@ -182,8 +182,8 @@ def _load(load: MappingNode) -> Plain:
     """A load as it is drawn: its words, the link and point that it acts on, its direction in space (rad)."""
     angle, components = None, texts(load.get("components"))
     with suppress(QuantityError, ValueError):
-        x, y = (units.parse(each, "force") for each in components) if components else (0.0, 0.0)
-        angle = math.atan2(y, x) if components else units.parse(word(load, "direction"), "angle")
+        x, y = (amount(each, "force") for each in components) if components else (0.0, 0.0)
+        angle = math.atan2(y, x) if components else amount(word(load, "direction"), "angle")
     ends = texts(load.get("between")) or texts(load.get("links"))
     size = (
         " ".join(filter(None, (word(load, key) for key in ("magnitude", "stiffness", "damping"))))
@@ -247,7 +247,7 @@ def _places(node: Node | None) -> dict[str, list[float]]:
     found = {}
     for name, place in node if isinstance(node, MappingNode) else ():
         try:
-            found[name] = [units.parse(text, "length") for text in texts(place)]
+            found[name] = [amount(text, "length") for text in texts(place)]
         except QuantityError:
             continue
     return {name: place for name, place in found.items() if len(place) == 2}

@@ -7,7 +7,7 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from linkwright import units
+from linkwright.core.expressions import amount
 from linkwright.core.json_data import Plain
 from linkwright.errors import LinkwrightError, QuantityError
 from linkwright.fields.nodes import Mapping as MappingNode
@@ -118,7 +118,7 @@ def _guide_of(draft: Draft, block: str) -> tuple[str, MappingNode | None]:
 
 def _direction(guide: MappingNode) -> complex | None:
     try:
-        return cmath.exp(1j * units.parse(word(guide, "direction"), "angle"))
+        return cmath.exp(1j * amount(word(guide, "direction"), "angle"))
     except QuantityError:
         return None
 
@@ -145,12 +145,12 @@ def _drawn_angle(shown: Plain, link: str) -> float:
 def _lift(text: str, arm: float) -> str:
     """A lift as it is written; a length turned into the angle of a follower's ``arm`` (0: it is guided)."""
     if not arm:
-        units.parse(text, "length")
+        amount(text, "length")
         return text
     try:
-        units.parse(text, "angle")
+        amount(text, "angle")
     except QuantityError:
-        share = units.parse(text, "length") / (2 * arm)
+        share = amount(text, "length") / (2 * arm)
         if not 0 < share < 1:
             raise LinkwrightError("studio.long_lift", lift=text, arm=_length(arm)) from None
         return f"{number(round(math.degrees(2 * math.asin(share)), 1))} deg"

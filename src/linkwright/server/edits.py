@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 from contextlib import suppress
 from typing import Any
 
-from linkwright import units
+from linkwright.core.expressions import amount
 from linkwright.errors import LinkwrightError, QuantityError
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar
@@ -141,7 +141,7 @@ def _mass(draft: Draft, action: Mapping[str, Any]) -> str:
     """A mass, with the moment of inertia of an even bar between the link's first two points; one that the file has
     already stays, unless it is that of the mass before."""
     name, text = request.name(action, "link"), request.text(action, "mass").strip()
-    mass = units.parse(text, "mass")
+    mass = amount(text, "mass")
     if mass < 0:
         raise LinkwrightError("studio.negative_mass", text=text)
     before = draft.link(name)
@@ -166,7 +166,7 @@ def _alike(a: float, b: float) -> bool:
 def _quantity(node: Node | None, dimension: str) -> float | None:
     if isinstance(node, Scalar):
         with suppress(QuantityError):
-            return units.parse(node.text, dimension)
+            return amount(node.text, dimension)
     return None
 
 
@@ -174,7 +174,7 @@ def _load(draft: Draft, action: Mapping[str, Any]) -> str:
     """A force at a point of a link, in a direction fixed in space."""
     link, at = request.name(action, "link"), request.name(action, "at")
     text = request.text(action, "force").strip()
-    units.parse(text, "force")
+    amount(text, "force")
     if at not in draft.shown()["links"].get(link, []):
         raise LinkwrightError("studio.no_point_on", name=at, link=link)
     angle = f"{number(round(request.number(action, 'angle'), 3))} deg"

@@ -17,11 +17,11 @@ from linkwright.errors import LinkwrightError, RequestError, with_remedy
 from linkwright.kinematics.outcome import PositionError
 from linkwright.machine.flywheel import FLUCTUATION
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.metrics.quantities import si_unit
 from linkwright.registry import offered
 from linkwright.study.alternatives import Alternative, alternatives
 from linkwright.study.criteria import USUAL, Criterion, Measured, criteria, numbers_of
 from linkwright.study.overlay import Overlay, overlays
+from linkwright.units import si_unit
 from linkwright.words import speaker
 from linkwright.words.sentence import Sentence
 

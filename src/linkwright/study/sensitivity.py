@@ -251,9 +251,10 @@ class _Derivation:
         )
 
     def _curve(self, name: str) -> Floats:
-        """Values of an output; an angle as the motion gives it, continuous over the positions."""
+        """Values of an output; an angle and what has one in its formula as the motion gives it, continuous over the
+        positions."""
         quantity = self.quantities[name]
-        if quantity.output.kind == "angle":
+        if quantity.output.of_course:
             return self.traced.nominal.read(quantity.output)
         return quantity.shown(self.work.values(name))
 

@@ -26,7 +26,6 @@ from linkwright.machine.flywheel import FLUCTUATION, flywheel_inertia
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.evaluate import unloaded
 from linkwright.metrics.outputs import usual_output
-from linkwright.metrics.quantities import si_unit
 from linkwright.metrics.summary import is_summary
 from linkwright.registry import offered
 from linkwright.study.alternatives import Alternative, output_of_machine
@@ -39,6 +38,7 @@ from linkwright.study.finished_parts import identity, once
 from linkwright.study.ranges import Range
 from linkwright.study.sampling import grid, sobol
 from linkwright.study.varied_dimensions import varied_ranges
+from linkwright.units import si_unit
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:

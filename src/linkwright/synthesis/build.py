@@ -72,24 +72,32 @@ def working_span(facts: Assessment, index: int, base: float) -> tuple[float, flo
 def candidate(
     linkage: Linkage, facts: Assessment, index: int, error: float, *,
     worst: float = 0.0, curve: NDArray[np.generic] | None = None, values: Mapping[str, float] | None = None,
+    positions: Mapping[str, Complexes] | None = None,
 ) -> Candidate:  # fmt: skip
     """A candidate from one row of an assessment."""
     return Candidate(
         linkage, float(error), TYPES[int(facts.kind[index])], facts.defects(index), bool(facts.turns[index]),
         float(facts.transmission[index]), float(facts.ratio[index]), float(worst), curve, values or {},
+        positions or {},
     )  # fmt: skip
 
 
 def four_bar_candidate(
     o1: complex, a: Complexes, b: Complexes, o2: complex, facts: Assessment, index: int, error: float, *,
     p: complex | None = None, worst: float = 0.0, curve: NDArray[np.generic] | None = None,
-    values: Mapping[str, float] | None = None,
+    values: Mapping[str, float] | None = None, path: Complexes | None = None,
 ) -> Candidate:  # fmt: skip
-    """A candidate from pivots and the positions (n,) of its moving pins; the first position is the pose."""
+    """A candidate from pivots and the positions (n,) of its moving pins; the first position is the pose.
+
+    ``path``: the positions (n,) of the coupler point, where it has one.
+    """
     span = working_span(facts, index, cmath.phase(o2 - o1))
     kind = TYPES[int(facts.kind[index])]
     linkage = four_bar(o1, complex(a[0]), complex(b[0]), o2, p, kind=kind, span=span)
-    return candidate(linkage, facts, index, error, worst=worst, curve=curve, values=values)
+    positions = {"A": a, "B": b} | ({} if path is None else {"P": path})
+    return candidate(
+        linkage, facts, index, error, worst=worst, curve=curve, values=values, positions=positions
+    )
 
 
 def path_of_four_bar(o1: complex, a: complex, b: complex, o2: complex, p: complex) -> Complexes:

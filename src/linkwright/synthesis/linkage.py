@@ -10,11 +10,11 @@ from dataclasses import field, replace
 from itertools import combinations
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.expressions import amount
 from linkwright.core.given import real
 from linkwright.errors import about
 from linkwright.files.model_file import loads
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.units import parse
 
 #: Digits of lengths and angles in a model file: rounding below every demand, short enough to read.
 DIGITS = 12
@@ -108,7 +108,7 @@ def input_speed(given: str | float) -> str:
     """A speed as a number and a unit with a space between; raises RequestError for anything else."""
     text = given if isinstance(given, str) else f"{real('speed', given)!r} rad/s"
     with about("speed"):
-        parse(text, "angular_velocity")
+        amount(text, "angular_velocity")
     return re.sub(r"^\s*([-+]?[\d.]+(?:[eE][-+]?\d+)?)\s*", r"\1 ", text)
 
 
@@ -144,7 +144,7 @@ def _lines(linkage: Linkage, name: str, purpose: str, source: str, speed: str) -
 def _driver(linkage: Linkage, speed: str) -> list[str]:
     link, about = linkage.driver
     first, last = linkage.span or (linkage.start, linkage.start)
-    if parse(speed, "angular_velocity") < 0:
+    if amount(speed, "angular_velocity") < 0:
         first, last = last, first
     law = f"{{turn: {link}, about: {about}, speed: {speed}, start: {_angle(first)}}}"
     if linkage.second is not None:
@@ -165,7 +165,7 @@ def _times(speed: str, ratio: float) -> str:
     try:
         return f"{_digits(float(number) * ratio)} {unit}"
     except ValueError:
-        return f"{parse(speed, 'angular_velocity') * ratio!r} rad/s"
+        return f"{amount(speed, 'angular_velocity') * ratio!r} rad/s"
 
 
 def _phase(linkage: Linkage, link: str, about: str) -> float:

@@ -44,9 +44,14 @@ def report(found: Synthesis, language: str, width: int | None) -> list[str]:
             )
             lines.append(tell("synthesize.values", values=values))
     if found.counts:
-        counts = between.join(f"{name_said(name, tell)} {value}" for name, value in found.counts.items())
-        lines += ["", tell("synthesize.counts", counts=counts)]
+        lines += ["", counts_said(found, tell)]
     return lines + [in_language(sentence, language) for sentence in found.notes]
+
+
+def counts_said(found: Synthesis, tell: Say) -> str:
+    """How many solutions of which sort were found."""
+    counts = (f"{name_said(name, tell)} {value}" for name, value in found.counts.items())
+    return tell("synthesize.counts", counts=tell("finding.comma").join(counts))
 
 
 def purpose(found: Synthesis, each: Candidate, language: str) -> str:
@@ -60,7 +65,7 @@ def purpose(found: Synthesis, each: Candidate, language: str) -> str:
     return tell(
         "synthesize.purpose",
         task=name_said(found.task, tell).replace("_", " "),
-        error=_errors(each)[0],
+        error=error_texts(each)[0],
         transmission=f"{degrees(each.transmission_angle):.4g} deg",
         defects=defects,
     )
@@ -76,7 +81,7 @@ def _row(number: int, each: Candidate, extent: float, tell: Say) -> list[str]:
     return [
         str(number),
         tell(f"synthesize.type.{each.grashof_type}"),
-        *_errors(each),
+        *error_texts(each),
         defects_text(each, tell),
         tell("synthesize.turns" if each.turns else "synthesize.swings"),
         f"{degrees(each.transmission_angle):.2f}°",
@@ -91,7 +96,7 @@ def _longest(longest: float, extent: float) -> str:
     return f"{length} ({longest / extent:.3g}×)" if extent else length
 
 
-def _errors(each: Candidate) -> tuple[str, str]:
+def error_texts(each: Candidate) -> tuple[str, str]:
     """Error and worst deviation; zero where both are but rounding of the linkage's size."""
     least = ROUNDING * min(1.0, max(each.linkage.lengths().values()))
     exact = each.error <= least and each.worst <= least

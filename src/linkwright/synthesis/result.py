@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import field
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +21,9 @@ from linkwright.synthesis.linkage import Linkage
 from linkwright.synthesis.merit import merit
 from linkwright.whole_files import refuse_target, write_whole
 from linkwright.words.sentence import Sentence
+
+if TYPE_CHECKING:
+    from linkwright.synthesis.steps.solution import WorkedSynthesis
 
 #: Share of its size within which a linkage does what another one does.
 SAME = 0.01
@@ -42,6 +45,8 @@ class Candidate:
         link_ratio: longest to shortest link.
         curve: what it does, for the picture: complex (m,) for a path, or (2, m) input and output of a function.
         values: further numbers by name, SI.
+        positions: moving points (n,), m, at the n demanded positions.
+        deviations: what is off there (n,), in the unit of the target; empty: not measured.
     """
 
     linkage: Linkage
@@ -54,6 +59,8 @@ class Candidate:
     worst: float = 0.0
     curve: NDArray[Any] | None = field(default=None, repr=False)
     values: Mapping[str, float] = field(default_factory=dict)
+    positions: Mapping[str, Complexes] = field(default_factory=dict, repr=False)
+    deviations: Floats = field(default_factory=lambda: np.empty(0), repr=False)
 
     def __repr__(self) -> str:
         lengths = ", ".join(f"{name} {length:.6g}" for name, length in self.linkage.lengths().items())
@@ -93,6 +100,10 @@ class Candidate:
         }
 
 
+class Derivation:
+    """What a solver used on its way; one dataclass per way."""
+
+
 @dataclass(frozen=True, eq=False)
 class Synthesis(Plotted):
     """The candidates of a task, best first: without defects before others, then by error, then by merit (``merit``).
@@ -106,6 +117,7 @@ class Synthesis(Plotted):
         notes: sentences that belong to the result.
         curves: further curves for the picture by name (circle- and centre-point curves).
         extent: largest distance between two demanded places, m; 0: no length is demanded.
+        derivation: what the solver used on its way to the first candidate, for ``worked``.
     """
 
     task: str
@@ -116,6 +128,7 @@ class Synthesis(Plotted):
     notes: tuple[Sentence, ...] = ()
     curves: Mapping[str, Complexes] = field(default_factory=dict)
     extent: float = 0.0
+    derivation: Derivation | None = field(default=None, repr=False)
 
     def __repr__(self) -> str:
         best = f", the best {self.best!r}" if self.candidates else ""
@@ -143,6 +156,13 @@ class Synthesis(Plotted):
         from linkwright.synthesis.report import report
 
         return "\n".join(report(self, language, width))
+
+    def worked(self, language: str = "en") -> WorkedSynthesis:
+        """The way to the first candidate as a textbook prints it: given values, equations with their numbers, check,
+        and the choice among the candidates."""
+        from linkwright.synthesis.steps.solution import worked
+
+        return worked(self, language)
 
     def data(self) -> dict[str, Any]:
         """Plain data, SI."""

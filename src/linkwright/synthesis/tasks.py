@@ -23,13 +23,15 @@ from linkwright.files.model_file import read_nodes
 from linkwright.files.node_reader import Place
 from linkwright.files.read_model import TASK_KEYS
 from linkwright.files.reader import Reader
-from linkwright.files.source import read_source
+from linkwright.files.source import GALLERY, read_source
 from linkwright.registry import listed, nearest
 from linkwright.synthesis.result import Synthesis, note, refuse
 from linkwright.words.sentence import Sentence
 
 #: The line that gives the unit of bare numbers in lists, by their dimension.
 UNIT_KEYS = {"length": "unit: mm", "angle": "angle_unit: deg"}
+#: The folder in which the program runs.
+HERE = Path()
 #: Forms of values: dimensions of the entries, and how deep the list is.
 SHAPES: Mapping[str, tuple[tuple[str, ...], int]] = {
     "length": (("length",), 0),
@@ -126,8 +128,8 @@ def synthesize(task: str | Path, **demands: Any) -> Synthesis:
 
 def synthesize_file(source: str | Path) -> Synthesis:
     """Runs the section ``synthesis`` of a file; raises ModelError, SynthesisError."""
-    text, name = read_source(source)
-    return synthesize_text(text, name)
+    task, demands = asked_of(source)
+    return synthesize(task, **demands)
 
 
 def synthesize_text(text: str, name: str = "<text>") -> Synthesis:
@@ -136,8 +138,18 @@ def synthesize_text(text: str, name: str = "<text>") -> Synthesis:
     return synthesize(task, **demands)
 
 
-def asked_in(text: str, name: str) -> tuple[str, dict[str, Any]]:
-    """Task and demands (SI) of the section ``synthesis`` of a text; raises ModelError."""
+def asked_of(source: str | Path) -> tuple[str, dict[str, Any]]:
+    """Task and demands (SI) of the section ``synthesis`` of a file; raises ModelError."""
+    text, name = read_source(source)
+    beside = Path() if str(source).startswith(GALLERY) else Path(source).parent
+    return asked_in(text, name, beside)
+
+
+def asked_in(text: str, name: str, folder: Path = HERE) -> tuple[str, dict[str, Any]]:
+    """Task and demands (SI) of the section ``synthesis`` of a text; raises ModelError.
+
+    ``folder``: where files lie that the demands name.
+    """
     root, findings = read_nodes(text, name)
     section = root.get("synthesis") if isinstance(root, MappingNode) else None
     kind = root.get("kind") if isinstance(root, MappingNode) else None
@@ -147,7 +159,7 @@ def asked_in(text: str, name: str) -> tuple[str, dict[str, Any]]:
     if findings or not isinstance(section, MappingNode):
         place = f"{name}:1:1"
         raise ModelError(findings or [Finding("error", place, "", note("task.section"), "", "missing")])
-    return read_section(section, name)
+    return read_section(section, name, folder)
 
 
 def check_text(text: str, name: str) -> tuple[list[Finding], str] | None:
@@ -183,9 +195,9 @@ def check_section(section: Node | None, name: str) -> tuple[list[Finding], str]:
     return own.findings, task
 
 
-def read_section(section: MappingNode, name: str) -> tuple[str, dict[str, Any]]:
+def read_section(section: MappingNode, name: str, folder: Path = HERE) -> tuple[str, dict[str, Any]]:
     """Task and demands (SI) of a section; raises ModelError with all findings."""
-    reader = _Reader(name)
+    reader = _Reader(name, folder)
     given = section.get("task")
     task = given.text if isinstance(given, Scalar) else ""
     known = tasks()
@@ -217,8 +229,8 @@ def read_section(section: MappingNode, name: str) -> tuple[str, dict[str, Any]]:
 class _Reader:
     """Values of a section; collects every finding."""
 
-    def __init__(self, name: str) -> None:
-        self.name = name
+    def __init__(self, name: str, folder: Path = HERE) -> None:
+        self.name, self.folder = name, folder
         self.findings: list[Finding] = []
         self.units: dict[str, str] = {}
         self.bare: set[tuple[str, str]] = set()
@@ -246,7 +258,7 @@ class _Reader:
             return self._word(node, key, form)
         if form == "file":
             named = self._word(node, key, form)
-            return None if named is None else str(Path(self.name).parent / named)
+            return None if named is None else str(self.folder / named)
         dimensions, depth = SHAPES[form]
         found = self._nested(node, key, form, dimensions, depth)
         if form == "count" and isinstance(found, float):

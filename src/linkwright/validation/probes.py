@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-import math
+import csv
 from collections.abc import Callable, Mapping
 from functools import lru_cache, partial
+from importlib.resources import files
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -16,26 +18,24 @@ from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.kinetostatics.table import results_of
 from linkwright.units import parse
 
+_DATA = Path(str(files(__package__) / "data"))
 Find = Callable[[str], float]
 Probe = Callable[[Mapping[str, Any]], Find]
 
 
 def machine(given: Mapping[str, Any]) -> Find:
-    """Results of a gallery model at one input (``at``, ``input``), time, or at rest, by the names of its columns."""
-    mechanism = load(f"gallery:{given['model']}")
+    """Results of a model at one input (``at``, ``input``), time, or at rest, by the names of its columns."""
+    mechanism = load(_source(given))
     if "time" in given:
         motion = solve_motion(mechanism, times=[parse(given["time"], "time")])
     elif at := given.get("at", given.get("input")):
-        motion = solve_motion(mechanism, at=[parse(at, "angle")])
+        motion = solve_motion(mechanism, at=[parse(at, mechanism.across)])
     else:
         motion = solve_motion(mechanism)
     forces = _forces(motion)
     values = {output.column: column[0] for output, column in results_of(motion, forces).items()}
 
     def find(what: str) -> float:
-        if what.endswith(".direction"):
-            base = what.removesuffix(".direction")
-            return math.atan2(values[f"{base}.y"], values[f"{base}.x"])
         if what == "input_torque" and forces is not None:
             return float(forces.input_torque[0])
         if what in values:
@@ -48,6 +48,11 @@ def machine(given: Mapping[str, Any]) -> Find:
     return find
 
 
+def _source(given: Mapping[str, Any]) -> str:
+    """Where the gallery's ``model`` stands, or a ``file`` among the data."""
+    return f"gallery:{given['model']}" if "model" in given else str(_DATA / given["file"])
+
+
 def _forces(motion: Any) -> Forces | None:
     return solve_forces(motion) if motion.mechanism.has_loads else None
 
@@ -56,7 +61,7 @@ def limits(given: Mapping[str, Any]) -> Find:
     """Input and angle of a link's limit positions: ``jaw max input``."""
     from linkwright.kinematics.limits import limit_positions
 
-    motion = _motion(given["model"], 360)
+    motion = _motion(_source(given), 360)
 
     def find(what: str) -> float:
         link, kind, value = what.split()
@@ -67,15 +72,15 @@ def limits(given: Mapping[str, Any]) -> Find:
 
 
 @lru_cache(maxsize=8)
-def _motion(model: str, steps: int) -> Any:
-    return solve_motion(load(f"gallery:{model}"), steps=steps)
+def _motion(source: str, steps: int) -> Any:
+    return solve_motion(load(source), steps=steps)
 
 
 def metrics(given: Mapping[str, Any]) -> Find:
     """Design numbers: ``stroke``, or ``stroke guide`` with its subject."""
     from linkwright.metrics import metrics as table_of
 
-    motion = _motion(given["model"], 90)
+    motion = _motion(_source(given), 90)
 
     def find(what: str) -> float:
         name, _, subject = what.partition(" ")
@@ -193,6 +198,21 @@ def function(given: Mapping[str, Any]) -> Find:
     return best.linkage.lengths().__getitem__
 
 
+def double_crank(given: Mapping[str, Any]) -> Find:
+    """Lengths of the double crank of least squares in Freudenstein's equation, and the coefficients of
+    cos φ = P0 cos ψ + P1 cos(ψ - φ) + P2, through the pairs of a table."""
+    from linkwright.synthesis.function_generation.generate import function_generation
+
+    rows = list(csv.DictReader((_DATA / given["table"]).read_text("utf-8").splitlines()))
+    pairs = (np.radians([float(row[given[name]]) for row in rows]) for name in ("inputs", "outputs"))
+    frame = parse(given["frame"], "length")
+    best = function_generation(*pairs, input_zero=0, output_zero=0, frame=frame, equation_error=True).best
+    a, b, c, d = (best.linkage.lengths()[name] for name in ("input", "coupler", "output", "frame"))
+    values = {"driving crank": a, "coupler": b, "follower": c}
+    values |= {"P0": c / a, "P1": -c / d, "P2": (a * a + c * c + d * d - b * b) / (2.0 * a * d)}
+    return values.__getitem__
+
+
 def slider_crank(given: Mapping[str, Any]) -> Find:
     """Lengths of a slider-crank from stroke and ratios."""
     from linkwright.synthesis.requirements.slider_crank import slider_crank_from_ratios
@@ -229,6 +249,6 @@ PROBES: Mapping[str, Probe] = {
     each.__name__: each
     for each in (
         machine, limits, metrics, structure, gear_pair, involute, areas, torque, calculation, path, function,
-        slider_crank, motion_law, regression,
+        double_crank, slider_crank, motion_law, regression,
     )
 }  # fmt: skip

@@ -4,13 +4,9 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import owners_of
-from linkwright.engine.numpy_backend import NumpyProgram
-from linkwright.engine.program import Program
-from linkwright.engine.trace import Scalar
+from linkwright.kinetostatics.applied_wrenches import AppliedWrench, applied_wrenches
 from linkwright.kinetostatics.forces import Forces
 from linkwright.worked.load_formulas import LoadFormulas
 from linkwright.worked.page import Step
@@ -41,6 +37,7 @@ class KnownForces:
         self.book = book
         self.formulas = LoadFormulas(book)
         self.on: dict[str, list[Known]] = {name: [] for name in book.mechanism.links}
+        self._found: list[AppliedWrench] = []
 
     def steps(self, number: int) -> list[Step]:
         """The steps that find them."""
@@ -84,8 +81,10 @@ class KnownForces:
         return [symbol(f"g_{c}", f"g_{c}", value) if value else ZERO for c, value in named]
 
     def _loads(self, step: Step) -> None:
-        for name, link, values in self._wrenches():
-            fx, fy, px, py, torque = values
+        self._found = applied_wrenches(self.forces, self.book.index)
+        for each in self._found:
+            name, link, torque = each.name, each.link, each.torque
+            (fx, fy), (px, py) = each.force, each.place
             label = self._label(name, link)
             if not (fx or fy or torque):
                 if link in self.on:
@@ -174,7 +173,7 @@ class KnownForces:
     def _label(self, name: str, link: str) -> str:
         if joint := self._rubbing(name):
             return f"f{joint}{self.book.numbers[link]}"
-        several = sum(1 for other, each, _ in self._found if other == name and each in self.on) > 1
+        several = sum(1 for each in self._found if each.name == name and each.link in self.on) > 1
         return f"{name}{self.book.numbers[link]}" if several else name
 
     def _spot(self, link: str, place: complex) -> Spot | None:
@@ -184,29 +183,3 @@ class KnownForces:
             if abs(complex(spot.place.x.value, spot.place.y.value) - place) < 1e-12 * max(1.0, abs(place)):
                 return spot
         return None
-
-    def _wrenches(self) -> list[tuple[str, str, tuple[float, ...]]]:
-        """Name, link and numbers (force, place, torque) of everything that acts on links."""
-        traced = self.forces.solver.forces.wrenches
-        outputs: dict[str, Scalar] = {}
-        order = [(name, i, w) for name, group in traced.items() for i, w in enumerate(group)]
-        for name, i, w in order:
-            parts = (w.force.x, w.force.y, w.place.x, w.place.y, w.torque)
-            outputs |= {f"{name}#{i}#{j}": part for j, part in enumerate(parts)}
-        self._found: list[tuple[str, str, tuple[float, ...]]] = []
-        if outputs:
-            rows = self._evaluate(outputs)
-            for k, (name, _, w) in enumerate(order):
-                self._found.append((name, w.link, tuple(float(v) for v in rows[5 * k : 5 * k + 5])))
-        return self._found
-
-    def _evaluate(self, outputs: dict[str, Scalar]) -> list[float]:
-        motion = self.forces.motion
-        program = NumpyProgram(Program.of(motion.solver.motion.trace, outputs))
-        inner = program.program
-        parameters = [motion.design.parameters[name] for name in inner.parameters]
-        given = {name: self.forces.fields[name] for name in inner.fields}
-        positions, states = motion.positions, motion.states
-        arrays = {**positions.arrays, **motion.modes}
-        values = np.asarray(program.run(parameters, arrays, given, states or None, length=positions.count))
-        return [float(row[self.book.index]) for row in values]

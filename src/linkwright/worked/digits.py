@@ -87,6 +87,11 @@ def error_of(term: Term) -> float:
             size = values[0] ** 2 + values[1] ** 2
             turn = abs(values[0]) * errors[1] + abs(values[1]) * errors[0]
             return math.degrees(turn / size) if size else math.inf
+        case "arccos" | "arcsin":
+            across = 1.0 - values[0] ** 2
+            return math.degrees(errors[0] / math.sqrt(across)) if across > 0.0 else math.inf
+        case "arctan":
+            return math.degrees(errors[0] / (1.0 + values[0] ** 2))
     return math.radians(errors[0])
 
 

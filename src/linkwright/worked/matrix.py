@@ -8,7 +8,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.words.characters import cells
+from linkwright.words.characters import aligned, cells, padded
 from linkwright.worked.page import Written
 from linkwright.worked.written import latex_symbol, number
 
@@ -16,6 +16,62 @@ from linkwright.worked.written import latex_symbol, number
 WIDEST = 7
 #: An entry below this share of the largest is nothing but rounding.
 ROUNDING = 1e-12
+
+
+@dataclass(frozen=True)
+class Matrix:
+    """Entries of a matrix in rows, each as plain text and as LaTeX."""
+
+    rows: tuple[tuple[tuple[str, str], ...], ...]
+
+    @classmethod
+    def of(cls, matrix: Floats | Sequence[str]) -> Matrix:
+        """Of numbers (m, n), or of names (a column); numbers that are rounding beside the largest are zero."""
+        texts = _texts(matrix)
+        return cls(tuple(tuple((text, _entry(text)) for text in row) for row in texts))
+
+    @property
+    def lines(self) -> list[str]:
+        """Its rows in plain text, in brackets that go over all of them."""
+        inside = aligned([[text for text, _ in row] for row in self.rows], ">" * len(self.rows[0]))
+        if len(inside) == 1:
+            return [f"[{inside[0]}]"]
+        marks = ["⎡⎤", *["⎢⎥"] * (len(inside) - 2), "⎣⎦"]
+        width = max(map(cells, inside))
+        return [
+            f"{mark[0]} {padded(line, width)} {mark[1]}" for mark, line in zip(marks, inside, strict=True)
+        ]
+
+    @property
+    def latex(self) -> str:
+        """As LaTeX."""
+        rows = r" \\ ".join(" & ".join(tex for _, tex in row) for row in self.rows)
+        return rf"\begin{{bmatrix}} {rows} \end{{bmatrix}}"
+
+
+def side_by_side(
+    parts: Sequence[Matrix | str], rows: Sequence[str] = (), table: Sequence[tuple[str, ...]] = ()
+) -> Written:
+    """An equation of matrices and the signs between them (``=``, a symbol, or empty for a product), the signs halfway
+    up; ``rows``: names before the lines; ``table``: what reports print where a matrix is too wide."""
+    blocks = [part.lines if isinstance(part, Matrix) else [part or "·"] for part in parts]
+    high = max(map(len, blocks))
+    if rows:
+        blocks.insert(0, [f"{name}:" for name in rows])
+    columns = []
+    for block in blocks:
+        above = (high - len(block)) // 2
+        filled = [""] * above + block + [""] * (high - len(block) - above)
+        width = max(map(cells, block))
+        columns.append([padded(line, width) for line in filled])
+    sides = [""]
+    for part in parts:
+        if part == "=":
+            sides.append("")
+        else:
+            sides[-1] += part.latex if isinstance(part, Matrix) else latex_symbol(part) if part else ""
+    text = "\n".join(" ".join(row).rstrip() for row in zip(*columns, strict=True))
+    return Written(text, tuple(sides), tuple(table))
 
 
 @dataclass(frozen=True)
@@ -28,25 +84,16 @@ class Matrices:
 
     def written(self) -> Written:
         """One matrix as ``K = [ … ]``; several as ``A·X = B``, the last one behind the equal sign."""
-        parts = [self.first, *self.rest]
-        columns = [_texts(matrix) for _, matrix in parts]
-        head = [symbol for symbol, _ in parts]
-        if len(parts) == 1:
-            return Written(
-                _joined(columns, [f"{head[0]} ="], self.rows), (latex_symbol(head[0]), _latex(columns[0]))
-            )
-        left = "".join(_latex(each) for each in columns[:-1])
-        if len(columns) == 3 and len(columns[0][0]) > WIDEST:
-            return Written(
-                _joined(columns, ["", "", "="], self.rows), (left, _latex(columns[-1])), self._cells(columns)
-            )
-        return Written(
-            _joined(columns, ["", *[""] * (len(parts) - 2), "="], self.rows), (left, _latex(columns[-1]))
-        )
+        own = [Matrix.of(matrix) for _, matrix in (self.first, *self.rest)]
+        if not self.rest:
+            return side_by_side([self.first[0], "=", own[0]], self.rows)
+        parts: list[Matrix | str] = [*own[:-1], "=", own[-1]]
+        wide = len(own) == 3 and len(own[0].rows[0]) > WIDEST
+        return side_by_side(parts, self.rows, self._cells(own) if wide else ())
 
-    def _cells(self, columns: Sequence[list[list[str]]]) -> tuple[tuple[str, ...], ...]:
+    def _cells(self, own: Sequence[Matrix]) -> tuple[tuple[str, ...], ...]:
         """A·X = B as rows of a table: names of the unknowns over the columns of A, then B; zeros left out."""
-        a, x, b = columns
+        a, x, b = ([[text for text, _ in row] for row in each.rows] for each in own)
         head = ("", *(each[0] for each in x), self.rest[-1][0])
         body = (
             (name, *("" if each == "0" else each for each in row), *right)
@@ -66,26 +113,7 @@ def _texts(matrix: Floats | Sequence[str]) -> list[list[str]]:
     ]
 
 
-def _latex(texts: list[list[str]]) -> str:
-    rows = r" \\ ".join(" & ".join(_entry(each) for each in row) for row in texts)
-    return rf"\begin{{bmatrix}} {rows} \end{{bmatrix}}"
-
-
 def _entry(text: str) -> str:
     sign = "-" if text.startswith("-") else ""
     bare = text.removeprefix("-")
     return sign + number(bare) if bare[:1].isdigit() else latex_symbol(text)
-
-
-def _joined(blocks: list[list[list[str]]], heads: list[str], rows: tuple[str, ...]) -> str:
-    """All matrices line by line, columns right under each other, signs between them on the middle line."""
-    count = max(len(block) for block in blocks)
-    middle = (count - 1) // 2
-    lines = [f"{name}:".ljust(max(map(cells, rows)) + 2) for name in rows] or [""] * count
-    for head, block in zip(heads, blocks, strict=True):
-        wide = [max(cells(row[i]) for row in block) for i in range(len(block[0]))]
-        for k in range(count):
-            sign = (head if k == middle else " " * cells(head)) if head else ""
-            inside = "  ".join(" " * (w - cells(t)) + t for t, w in zip(block[k], wide, strict=True))
-            lines[k] += f"{sign + ' ' if head else ''}[ {inside} ] "
-    return "\n".join(line.rstrip() for line in lines)

@@ -1,4 +1,4 @@
-"""What a worked solution is made of: steps with sentences, equations and relations."""
+"""What a worked solution is made of: steps with sentences, equations, relations, matrices and tables."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from dataclasses import field, replace
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.errors import SelfCheckError
+from linkwright.words.characters import aligned
 from linkwright.worked.digits import digits_needed, error_of, last_place, printed, put_in
 from linkwright.worked.render import latex, plain
 from linkwright.worked.terms import Pair, Term, symbol
@@ -112,7 +113,26 @@ class Written:
         return {"relation": self.text, "latex": " = ".join(self.latex_sides)}
 
 
-Item = Note | Relation | Equation | Written
+@dataclass(frozen=True)
+class Tabulated:
+    """A table: ``head`` and ``rows`` as plain text, ``align`` with ``<`` or ``>`` per column."""
+
+    title: str
+    head: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+    align: str
+
+    @property
+    def text(self) -> str:
+        """In plain text, its title above."""
+        return "\n".join([self.title, *aligned([self.head, *self.rows], self.align)])
+
+    def data(self) -> dict[str, object]:
+        """Plain data."""
+        return {"table": self.title, "head": list(self.head), "rows": [list(row) for row in self.rows]}
+
+
+Item = Note | Relation | Equation | Written | Tabulated
 
 
 @dataclass

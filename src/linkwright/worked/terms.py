@@ -19,7 +19,8 @@ Function = Callable[["Term", list[float]], float]
 class Term:
     """A symbol, a number, or an operation on terms; angles are counted in degrees.
 
-    ``op``: symbol, number, sum (with ``signs``), product, quotient, square, root, size, cos, sin, tan, atan2.
+    ``op``: symbol, number, sum (with ``signs``), product, quotient, square, root, size, cos, sin, tan, atan2,
+    arccos, arcsin, arctan.
     """
 
     op: str
@@ -114,6 +115,9 @@ APPLY: dict[str, Function] = {
     "tan": lambda _, v: math.tan(math.radians(v[0])),
     "size": lambda _, v: abs(v[0]),
     "atan2": lambda _, v: math.degrees(math.atan2(v[0], v[1])),
+    "arccos": lambda _, v: math.degrees(math.acos(v[0])),
+    "arcsin": lambda _, v: math.degrees(math.asin(v[0])),
+    "arctan": lambda _, v: math.degrees(math.atan(v[0])),
 }
 
 
@@ -178,6 +182,21 @@ def tangent(angle: Term) -> Term:
 def direction(y: Term, x: Term) -> Term:
     """Angle of the vector (x, y), degrees, -180 to 180."""
     return Term("atan2", (y, x))
+
+
+def arccosine(term: Term) -> Term:
+    """Angle of a cosine, degrees, 0 to 180."""
+    return Term("arccos", (term,))
+
+
+def arcsine(term: Term) -> Term:
+    """Angle of a sine, degrees, -90 to 90."""
+    return ZERO if term.is_zero else Term("arcsin", (term,))
+
+
+def arctangent(term: Term) -> Term:
+    """Angle of a tangent, degrees, -90 to 90."""
+    return ZERO if term.is_zero else Term("arctan", (term,))
 
 
 def total(terms: list[Term]) -> Term:

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from unicodedata import east_asian_width
 
 from linkwright.words.characters import cells
-from linkwright.worked.page import Equation, Note, Relation, Step, Written
+from linkwright.worked.page import Equation, Note, Relation, Step, Tabulated, Written
 
 WIDTH = 100
 
@@ -18,7 +18,7 @@ def page(heading: Iterable[str], steps: Iterable[Step]) -> str:
     for step in steps:
         title = f"{step.number}  {step.title}"
         lines += ["", title, ("=" if "." not in step.number else "-") * cells(title), *_step(step)]
-    return "\n".join(lines)
+    return "\n".join(line for i, line in enumerate(lines) if line or i == 0 or lines[i - 1])
 
 
 def _step(step: Step) -> Iterator[str]:
@@ -32,8 +32,9 @@ def _step(step: Step) -> Iterator[str]:
             yield from wrapped(item.text)
         elif isinstance(item, Relation):
             yield from _long("    ", item.text, "    ")
-        elif isinstance(item, Written):
-            yield from (f"    {line}".rstrip() for line in item.text.splitlines())
+        elif isinstance(item, Written | Tabulated):
+            lines = [f"    {line}".rstrip() for line in item.text.splitlines()]
+            yield from ["", *lines, ""] if len(lines) > 1 else lines
         else:
             yield from _equation(item, margin)
         previous_note = isinstance(item, Note)

@@ -50,7 +50,7 @@ def solved(text: str, steps: int, times: Floats | None = None) -> Solved:
         lw.solve_motion(mechanism, steps=steps) if times is None else lw.solve_motion(mechanism, times=times)
     )
     programs = force_programs(motion_programs(mechanism, AS_IT_IS))
-    return Solved(motion, lw.solve_forces(motion), Named(programs, lambda link: 0.4))
+    return Solved(motion, lw.solve_forces(motion), Named(programs, lambda link: 0.4, lambda link: (0.4, 0.0)))
 
 
 @pytest.fixture(scope="module")
@@ -194,7 +194,9 @@ def test_conditioning_is_the_determinant_of_the_cuts_rates(name: str) -> None:
     """Each column by turning or pushing all that hangs from one joint a little, and looking how far the cuts open."""
     motion = store.motion(name, 7)
     group = next(each for each in motion.structure.groups if len(each.cuts) > 1)
-    named = Named(force_programs(motion_programs(motion.mechanism, AS_IT_IS)), lambda link: 0.0)
+    named = Named(
+        force_programs(motion_programs(motion.mechanism, AS_IT_IS)), lambda link: 0.0, lambda link: (0.0, 0.0)
+    )
     case = Solved(motion, lw.solve_forces(motion), named)
     for cut in every(group.cuts, least=2):
         assert not cut.slides

@@ -69,6 +69,8 @@ def test_the_regular_face_of_a_collection_that_was_installed_after_the_list(
     package: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
     """Of fonts that matplotlib has not listed: by name, upright and not bold, without its complaints."""
+    from fontTools.ttLib import TTFont
+
     family = {"NotoSansCJK": "Noto Sans CJK SC", "wqy-microhei": "WenQuanYi Micro Hei"}[package]
     faces = [family, family.replace("CJK", "Mono CJK") if "CJK" in family else f"{family} Mono"]
     for style in ("Bold", "Regular") if package == "NotoSansCJK" else ("Regular",):
@@ -77,11 +79,11 @@ def test_the_regular_face_of_a_collection_that_was_installed_after_the_list(
     stale.__dict__.update(font_manager.fontManager.__dict__)
     stale.ttflist = [font for font in font_manager.fontManager.ttflist if font.name == "DejaVu Sans"]
     monkeypatch.setattr(font_manager, "fontManager", stale)
-    monkeypatch.setattr("linkwright.plot.svg.text.system_fonts", lambda: tuple(sorted(tmp_path.iterdir())))
-    picture.chinese_font.cache_clear()
-    try:
-        assert picture.chinese_font() == family
-        found = Path(stale.findfont(font_manager.FontProperties(family=[family])))
-        assert found.name == f"{package}-Regular.ttc" and not caplog.records
-    finally:
-        picture.chinese_font.cache_clear()
+    monkeypatch.setattr(
+        "linkwright.plot.diagrams.picture.installed_chinese", lambda: tuple(sorted(tmp_path.iterdir()))
+    )
+    chosen = picture.chinese_font()
+    assert chosen is not None
+    found = stale.findfont(font_manager.FontProperties(family=[chosen]))
+    assert Path(found).name == f"{package}-Regular.ttc" and not caplog.records
+    assert TTFont(found, fontNumber=getattr(found, "face_index", 0))["name"].getDebugName(1) == family

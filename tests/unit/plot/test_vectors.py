@@ -1,7 +1,5 @@
 """Values of legends: round, and with the prefix that fits; fonts that cannot write Chinese."""
 
-from pathlib import Path
-
 import pytest
 from tests import store
 from tests.refusals import refused
@@ -29,7 +27,7 @@ def test_legend_value_is_round_and_fits(largest: float) -> None:
 
 def test_chinese_needs_a_font(monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("resvg_py")
-    monkeypatch.setattr("linkwright.plot.svg.text.system_fonts", lambda: (Path("DejaVuSans.ttf"),))
+    monkeypatch.setattr("linkwright.plot.svg.fonts.installed_chinese", lambda: ())
     drawing = lw.draw(store.motion("jaw_crusher_sixbar", 72), velocities=("B",), language="zh")
     with refused("picture.no_chinese_font", RequestError):
         drawing.png()

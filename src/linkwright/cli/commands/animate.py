@@ -71,9 +71,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
         language=session.language,
     )
     with progress(session.say, "animate.drawing") as report:
-        path = animation.save(
-            options.output, width=options.width or WIDTH, fonts=options.fonts, progress=report, force=True
-        )
+        path = animation.save(options.output, width=options.width or WIDTH, progress=report, force=True)
     told(path, options, session)
     return int(not motion.whole)
 

@@ -260,12 +260,13 @@ def _of_friction(name: str, mechanism: Mechanism) -> list[Finding]:
 
 
 def _of_settings(name: str, mechanism: Mechanism, *, moves: bool) -> list[Finding]:
-    """What is wrong with the sections that only some commands read: report, course and optimize, the last one's
+    """What is wrong with sections that only some commands read: report, sheet, course and optimize, the last one's
     numbers where the machine ``moves``."""
     found = list[Finding]()
     reading: dict[str, Callable[[Mechanism], None]]
     reading = {
         "report": lambda each: _report(name, each.report, each),
+        "sheet": _sheet,
         "course": _course,
         "optimize": partial(_optimize, moves=moves),
     }
@@ -284,6 +285,12 @@ def _report(name: str, given: Mapping[str, Any], mechanism: Mechanism | None) ->
     from linkwright.report.settings import settings
 
     settings(given, mechanism=mechanism, folder=os.path.dirname(name))
+
+
+def _sheet(mechanism: Mechanism) -> None:
+    from linkwright.sheets.settings import check
+
+    check(mechanism)
 
 
 def _course(mechanism: Mechanism) -> None:

@@ -28,6 +28,7 @@ def arguments(option: Options) -> None:
     option("--output", "FILE")
     option("--curves", "FILE")
     option("--plot", "FILE")
+    option.fonts()
     option.force()
 
 

@@ -20,7 +20,6 @@ from linkwright.cli.pictures import (
     vector_arguments,
 )
 from linkwright.cli.session import Session
-from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.kinematics.motion import Motion
@@ -63,7 +62,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     drawing = draw(
         motion,
         at=_inputs(mechanism, options.at),
-        time=_time(options.time),
+        time=_time(mechanism, options.time),
         overlay=options.overlay or (),
         paths=names(options.paths),
         velocities=names_or_all(options.velocities),
@@ -79,7 +78,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     )
     for note in drawing.notes:
         session.tell(note)
-    told(drawing.save(options.output, fonts=options.fonts, width=options.width, force=True), options, session)
+    told(drawing.save(options.output, width=options.width, force=True), options, session)
     return 0
 
 
@@ -88,22 +87,19 @@ def _inputs(mechanism: Mechanism, text: str | None) -> dict[str, float] | None:
     if text is None:
         return None
     from linkwright.cli.positions import inputs
-    from linkwright.kinematics.cycle import rotary
 
-    if not mechanism.drivers:
-        raise UsageError("cli.about", name="--at", cause=Sentence("solve.no_input"))
-    given = inputs(text, rotary(mechanism))
+    given = inputs(text, mechanism)
     if any(len(values) > 1 for values in given.values()):
         raise UsageError("draw.one_position", option="--at", text=text)
     return {name: values[0] for name, values in given.items()}
 
 
-def _time(text: str | None) -> float | None:
+def _time(mechanism: Mechanism, text: str | None) -> float | None:
     if text is None:
         return None
-    from linkwright.cli.positions import quantities
+    from linkwright.cli.positions import places
 
-    values = quantities(text, "time", "--time")
+    values = places(text, mechanism, "time", "--time")
     if len(values) > 1:
         raise UsageError("draw.one_position", option="--time", text=text)
     return values[0]

@@ -5,13 +5,17 @@ from __future__ import annotations
 import argparse
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
 
-NAMES = ("csv", "dxf", "html", "json", "mjcf", "modelica", "parquet", "pdf", "png", "svg", "xlsx")
+if TYPE_CHECKING:
+    from linkwright.kinematics.motion import Motion
+    from linkwright.kinetostatics.forces import Forces
+
+NAMES = ("csv", "dxf", "html", "json", "mjcf", "modelica", "parquet", "pdf", "png", "python", "svg", "xlsx")
 #: Options of formats; one that a format lacks is refused with those that it has.
 OPTIONS = (
     "degrees", "unit", "position", "paths", "curve", "dimensions", "labels", "accelerations", "form", "name",
@@ -23,7 +27,10 @@ def arguments(option: Options) -> None:
     option.model()
     option("--output", "FILE", "--to", required=True)
     option("--format", "FORMAT", choices=NAMES, help=option.say("export.format_help", names=", ".join(NAMES)))
-    option.count("--steps", 360)
+    where = option.exclusive()
+    where.count("--steps", 360)
+    where("--at", "INPUTS", nargs="+", words="solve.at_help")
+    where("--times", "TIMES", nargs="+", words="solve.times_help")
     option("--degrees", action="store_true", default=None)
     option("--unit", choices=("mm", "m"))
     option("--position", "N", type=int)
@@ -39,12 +46,14 @@ def arguments(option: Options) -> None:
     option.count("--width")
     option("--size", "N", type=float)
     option("--beside", "FILE", nargs="+")
+    option.fonts()
     option.force()
 
 
 def run(options: argparse.Namespace, session: Session) -> int:
     """Solves a model and writes the file."""
     from linkwright.cli.files import refuse_existing
+    from linkwright.cli.solving import chosen_motion
     from linkwright.cli.source import read_model
     from linkwright.export import export
 
@@ -52,10 +61,13 @@ def run(options: argparse.Namespace, session: Session) -> int:
     chosen, form = _checked(path, options)
     refuse_existing(path, force=options.force)
     mechanism, _ = read_model(options.file, session)
+    motion = chosen_motion(mechanism, options, "mark")
     if chosen == "html":
         form |= _of_page(options.file, options.beside or ())
+    if chosen == "python":
+        form["model"] = str(options.file)
     export(
-        mechanism,
+        mechanism if motion is None else _with_forces(motion),
         path,
         format=chosen,
         force=options.force,
@@ -67,7 +79,24 @@ def run(options: argparse.Namespace, session: Session) -> int:
         session.show_data({"ok": True, "path": str(path), "format": chosen})
     else:
         session.show_written(path)
-    return 0
+    return 0 if motion is None else _told(motion, session)
+
+
+def _with_forces(motion: Motion) -> Motion | Forces:
+    """The motion with its forces where there is anything to carry."""
+    from linkwright.kinetostatics.forces import solve_forces
+
+    return solve_forces(motion) if motion.mechanism.has_loads else motion
+
+
+def _told(motion: Motion, session: Session) -> int:
+    """Says why positions have no numbers; 1 where there are some."""
+    from linkwright.cli.solve_remarks import input_text
+
+    for number, outcome in enumerate(motion.outcomes):
+        if not outcome.ok:
+            session.tell(f"{input_text(motion, number, degrees=True)}: {outcome.say(session.language)}")
+    return int(not motion.whole)
 
 
 def _of_page(file: str, beside: Sequence[str]) -> dict[str, Any]:

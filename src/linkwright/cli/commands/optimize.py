@@ -33,6 +33,7 @@ def arguments(option: Options) -> None:
     option("--output", "FILE")
     option("--plot", "FILE")
     option("--cluster", "ADDRESS", words="sweep.cluster_help")
+    option.fonts()
     option.force()
 
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options
-from linkwright.cli.positions import quantities
+from linkwright.cli.positions import places
 from linkwright.cli.session import Session
 from linkwright.errors import LinkwrightError, about
 
@@ -41,6 +41,7 @@ def arguments(option: Options) -> None:
     form("--title", "TEXT")
     form("--dpi", "N", default="200")
     form("--output", "FILE")
+    form.fonts()
     form.force()
 
 
@@ -132,7 +133,7 @@ def _place(text: str | None, motions: dict[str, Motion], session: Session) -> fl
     first = Source(next(iter(motions.values())))
     if text is None or not first.mechanism.drivers:
         return text
-    values = quantities(text, first.input_dimension, "--at")
+    values = places(text, first.mechanism, first.input_dimension, "--at")
     if len(values) > 1:
         raise UsageError("draw.one_position", option="--at", text=text)
     return values[0]

@@ -4,16 +4,21 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
 
+if TYPE_CHECKING:
+    from linkwright.mechanism.mechanism import Mechanism
+
 FORMS = ("pdf", "html", "docx")
 #: Names of the sections in their usual order.
 SECTIONS = (
-    "task", "drawing", "structure", "method", "worked", "tables", "curves", "reactions", "balance", "gears", "cams",
-    "torque", "limits", "flywheel", "synthesis", "errata", "comparison", "appendix", "references",
+    "task", "drawing", "structure", "flow", "method", "worked", "tables", "curves", "reactions", "free_bodies",
+    "balance", "gears", "cams", "torque", "limits", "flywheel", "synthesis", "errata", "calls", "program",
+    "comparison", "conclusion", "appendix", "references",
 )  # fmt: skip
 
 
@@ -22,23 +27,32 @@ def arguments(option: Options) -> None:
     names = ", ".join(SECTIONS)
     option("--sections", "NAME", nargs="+", default=[], help=option.say("report.sections_help", names=names))
     option("--position", "INPUT", default="")
-    option.count("--positions")
+    option("--positions", "POSITIONS", nargs="+")
     option("--to", "pdf|html|docx")
     option("--output", "FILE")
+    option.fonts()
     option.force()
 
 
 def run(options: argparse.Namespace, session: Session) -> int:
     """Writes the report; sections that have nothing to show are named on the console."""
     from linkwright.cli.files import write_whole
+    from linkwright.cli.positions import joined
     from linkwright.cli.progress import progress
     from linkwright.cli.source import read_model
     from linkwright.parts.file import kind_of
     from linkwright.report.report import report
+    from linkwright.synthesis.task_file import task_file
 
     path = _path(options)
-    machines = [file if kind_of(file) else read_model(file, session)[0] for file in options.files]
-    sources = [file for file in options.files if not kind_of(file)]
+    machines: list[Mechanism | str] = []
+    sources = []
+    for file in options.files:
+        if kind_of(file) or task_file(file) is not None:
+            machines.append(file)
+        else:
+            machines.append(read_model(file, session)[0])
+            sources.append(file)
     with progress(session.say, "report.working") as told:
         found = report(
             machines,
@@ -46,7 +60,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
             sections=options.sections,
             language=session.language,
             position=options.position,
-            positions=options.positions,
+            positions=joined(options.positions) if options.positions else None,
             progress=told,
         )
         content = found.content(path.suffix.lower())

@@ -30,6 +30,7 @@ def arguments(option: Options) -> None:
     option("--state", "FILE")
     option("--output", "FILE")
     option("--plot", "FILE")
+    option.fonts()
     option.force()
 
 

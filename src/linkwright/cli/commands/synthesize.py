@@ -22,10 +22,12 @@ def arguments(option: Options) -> None:
     option("demands", "KEY=VALUE", nargs="*")
     option("--output", "FOLDER")
     option("--plot", "FILE")
+    option.flag("--worked")
     option("--mass", "KG/M")
     option("--speed", "SPEED", default="60 rpm")
     option("--cluster", "ADDRESS", words="sweep.cluster_help")
     option("--state", "FILE", words="study.state_help")
+    option.fonts()
     option.force()
 
 
@@ -74,15 +76,15 @@ def _solve(task: str, demands: dict[str, Any], options: argparse.Namespace, sess
 
 def _asked(options: argparse.Namespace, session: Session) -> tuple[str, dict[str, Any]]:
     """The task and its demands, from a file or the command line."""
-    from linkwright.files.source import GALLERY, read_source
+    from linkwright.files.source import GALLERY
     from linkwright.synthesis.task_names import TASK_NAMES
-    from linkwright.synthesis.tasks import asked_in
+    from linkwright.synthesis.tasks import asked_in, asked_of
 
     if options.task not in TASK_NAMES and not options.demands:
         near = Path(options.task)
         if not near.suffix and not near.exists() and not options.task.startswith(GALLERY):
             return options.task, {}
-        return asked_in(*read_source(options.task))
+        return asked_of(options.task)
     for text in options.demands:
         if not text.partition("=")[1]:
             raise UsageError("synthesize.bad_demand", text=text)
@@ -119,13 +121,14 @@ def _show(found: Synthesis, options: argparse.Namespace, mass: float | None, ses
     if options.plot is not None:
         write_diagram(options.plot, found, session, force=options.force)
         written.append(Path(options.plot))
+    worked = found.worked(session.language) if options.worked else None
     if session.json:
-        data = found.data()
+        data = found.data() | ({} if worked is None else {"worked": worked.data()})
         for each, effort in zip(data["candidates"], efforts, strict=False):
             each |= effort
         session.show_data({"ok": True, **data})
         return
-    session.show(found.text(session.language, session.room))
+    session.show(found.text(session.language, session.room) if worked is None else worked.text())
     if efforts:
         session.show("\n" + "\n".join(_effort_lines(efforts, session.say)))
     session.show_written(*written)

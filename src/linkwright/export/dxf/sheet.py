@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 import math
-import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
@@ -12,7 +11,6 @@ from typing import Any
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
 from linkwright.export.base import package
 from linkwright.export.results import Results
@@ -21,7 +19,7 @@ from linkwright.plot.drawing.labels import Candidate, Label, Obstacles, link_lab
 from linkwright.plot.drawing.machine import Part
 from linkwright.plot.drawing.scene import laid_out
 from linkwright.plot.drawing.view import moved
-from linkwright.plot.svg.element import Element
+from linkwright.plot.svg.strokes import Stroke, strokes
 from linkwright.plot.symbols.base import PIN, Vec, points
 from linkwright.words.characters import one_line
 
@@ -191,7 +189,7 @@ def _strokes(part: Part) -> list[Stroke]:
     """Bars and plates from their exact lines, symbols from what they draw."""
     if part.layer == "bodies":
         return [Stroke(line) for line in part.shape.ink]
-    return [stroke for element in part.shape.elements for stroke in strokes(element)]
+    return [*strokes(part.shape.elements)]
 
 
 def check_unit(unit: str) -> tuple[float, int]:
@@ -233,34 +231,6 @@ def prepare(document: Any, height: float, text: str, decimals: int) -> None:
 def decimals_for(factor: float) -> int:
     """Decimals of dimensions: to a thousandth of a millimetre."""
     return max(0, 6 - round(math.log10(factor)))
-
-
-_NUMBER = r"(-?\d*\.?\d+)"
-_MOVE = re.compile(rf"([ML]){_NUMBER} {_NUMBER}")
-
-
-@dataclass(frozen=True)
-class Stroke:
-    """A polyline (k, 2) on the paper, or a circle where it has a ``radius`` (its centre is the only point)."""
-
-    points: Floats
-    closed: bool = False
-    radius: float | None = None
-
-
-def strokes(element: Element) -> Iterator[Stroke]:
-    """What an element of a symbol draws; elements with curves other than circles are left out."""
-    given = dict(element.attributes)
-    if element.tag == "circle":
-        yield Stroke(points([(float(given["cx"]), float(given["cy"]))]), radius=float(given["r"]))
-    elif element.tag == "path" and re.fullmatch(r"[ML\d\s.,Z-]*", given["d"]):
-        for part in filter(None, re.split(r"(?=M)", given["d"])):
-            rows = [(float(x), float(y)) for _, x, y in _MOVE.findall(part)]
-            if rows:
-                yield Stroke(points(rows), closed=part.endswith("Z"))
-    for inner in element.content:
-        if isinstance(inner, Element):
-            yield from strokes(inner)
 
 
 def unbroken(track: Floats) -> Iterator[Floats]:

@@ -12,6 +12,7 @@ import numpy as np
 from linkwright.core.arrays import largest
 from linkwright.errors import RequestError
 from linkwright.export.base import FORMATS, Format, package
+from linkwright.export.charts import Charts, Place, write_charts
 from linkwright.export.results import Results
 from linkwright.export.tables import Column, Table, tables
 from linkwright.metrics.base import METRICS
@@ -26,7 +27,10 @@ MOST_ROWS, MOST_COLUMNS = 1_048_575, 16_384
 
 
 def content(results: Results, *, degrees: bool = False) -> bytes:
-    """Sheets on the model, its structure, links, points, joints, forces, loads and design numbers.
+    """Sheets on the model, its structure, links, points, joints, forces, loads, charts and design numbers.
+
+    Charts are the program's own, of the cells of the other sheets: motion of the outputs, joint forces and driving
+    effort over the input, the hodograph of the joint on the frame that carries most.
 
     The heading of a column has its owner, quantity and unit and stays in view, as do time and inputs. Texts are
     written as texts: none is read as a formula or a link. Values that are not finite stay empty. ``degrees``: angles
@@ -54,6 +58,7 @@ class Workbook:
         head = {"bold": True, "text_wrap": True, "valign": "top", "bottom": 1, "bg_color": "#E8EEF4"}
         self.head = book.add_format(head)
         self.text = book.add_format({"text_wrap": True, "valign": "top"})
+        self.places: dict[tuple[str, str, str], Place] = {}
 
     def write(self) -> None:
         """All sheets."""
@@ -64,10 +69,15 @@ class Workbook:
         leading = self._turned(first.columns)
         for table in others:
             self._values(table, leading)
-        rows = list(_metrics(self.results))
+        rows = Charts(self.results, self.places).all()
         if rows:
+            sheet = self._sheet("charts")
+            sheet.hide_gridlines(2)
+            write_charts(sheet, self.book, rows)
+        numbers = list(_metrics(self.results))
+        if numbers:
             head = ("metric", "subject", "value", "unit", "at", "at_unit", "remark")
-            self._rows("metrics", head, rows, (34, 24, 14, 8, 12, 8, 60))
+            self._rows("metrics", head, numbers, (34, 24, 14, 8, 12, 8, 60))
 
     def say(self, key: str) -> str:
         """A word of the catalogue."""
@@ -106,6 +116,9 @@ class Workbook:
             raise RequestError("export.sheet_full", columns=MOST_COLUMNS, rows=MOST_ROWS)
         for index, column in enumerate(columns):
             sheet.write_string(0, index, self._heading(column), self.head)
+            subject = table.subject if index >= len(leading) else "positions"
+            place = Place(sheet.get_name(), index, column)
+            self.places.setdefault((subject, column.owner, column.quantity), place)
             sheet.set_column(
                 index, index, 14, self.book.add_format({"num_format": number_format(column.values)})
             )

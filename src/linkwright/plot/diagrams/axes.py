@@ -10,8 +10,9 @@ import numpy as np
 
 from linkwright.core.arrays import Floats, largest
 from linkwright.core.dataclass import dataclass
-from linkwright.metrics.quantities import SHOWN, si_unit
+from linkwright.metrics.quantities import SHOWN
 from linkwright.plot.diagrams.picture import INK, Axes, Figure
+from linkwright.units import si_unit
 from linkwright.words.characters import printable
 
 if TYPE_CHECKING:

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 from linkwright.core.dataclass import dataclass
 from linkwright.machine.flywheel import FLUCTUATION
 from linkwright.plot.diagrams.picture import Figure
+from linkwright.plot.drawing.picture import Drawing
 from linkwright.registry import Registry
 from linkwright.words import Say, say
 from linkwright.words.sentence import in_language
@@ -69,8 +70,8 @@ class Kind(ABC):
     options: ClassVar[tuple[str, ...]] = ()
 
     @abstractmethod
-    def draw(self, sources: Sequence[Source], request: Request) -> Figure:
-        """The figure; several sources lie over each other, told apart by colour.
+    def draw(self, sources: Sequence[Source], request: Request) -> Figure | Drawing:
+        """The figure, or a drawing; several sources lie over each other, told apart by colour.
 
         Raises LinkwrightError for unknown names, and where the diagram makes no sense for a mechanism.
         """

@@ -47,7 +47,8 @@ def plot(
             numbers, torque curve, balancing or coupler curve.
         kind: ``sva`` (of a motion the default), ``angles``, ``paths``, ``torque`` (of forces the default), ``power``,
             ``energy``, ``speed`` (of steady running the default), ``reactions``, ``hodograph``, ``hodographs``,
-            ``shaking``, ``velocity_polygon``, ``acceleration_polygon``, ``force_polygon``. Of a comparison
+            ``shaking``, ``velocity_polygon``, ``acceleration_polygon``, ``force_polygon``, ``free_bodies``,
+            ``flow_chart``. Of a comparison
             ``comparison`` (the default) or ``pivot_hodograph``, of a sensitivity ``sensitivity`` or
             ``sensitivity_curves``; most other results have one kind each.
         of: outputs, links, points or joints that it is about: ``"jaw"``, ``"guide"``, ``"C"``, ``"jaw.D.x"``;

@@ -132,7 +132,7 @@ class ForcePolygon(Kind):
         forces = source.forces_at(request.at)
         require_forces(forces)
         parts = _links(forces, request)
-        scales = [scale_of_picture(_corners(each), EXTENT) for each in parts.values()]
+        scales = [scale_of_picture(corners(each), EXTENT) for each in parts.values()]
         ink, millimetre, cell = position_cell(forces.motion, say)
         cells = [cell]
         for (link, each), scale in zip(parts.items(), scales, strict=True):
@@ -183,28 +183,31 @@ def _links(forces: Forces, request: Request) -> dict[str, list[LinkForce]]:
     """Forces by link, the last group first: of the links that are named, else of those with three forces or more."""
     if request.of:
         names = [known_link(forces.mechanism, name) for name in request.of]
-        return {name: _ordered(link_forces(forces, name, 0)) for name in names}
+        return {name: ordered(link_forces(forces, name, 0)) for name in names}
+    return {link: ordered(link_forces(forces, link, 0)) for link in polygon_links(forces, 0)}
+
+
+def polygon_links(forces: Forces, index: int) -> list[str]:
+    """Links with three forces or more at a position, the last group first; where there are none, those with any."""
     order = [link for group in reversed(forces.motion.structure.groups) for link in reversed(group.links)]
-    every = {link: _ordered(link_forces(forces, link, 0)) for link in order}
-    return {link: found for link, found in every.items() if len(found) > 2} or {
-        link: found for link, found in every.items() if found
-    }
+    count = {link: len(link_forces(forces, link, index)) for link in order}
+    return [link for link in order if count[link] > 2] or [link for link in order if count[link]]
 
 
-def _ordered(found: list[LinkForce]) -> list[LinkForce]:
-    """In the order of the graphical method: what is known first, joint forces last."""
+def ordered(found: list[LinkForce]) -> list[LinkForce]:
+    """Forces in the order of the graphical method: what is known first, joint forces last."""
     return sorted(found, key=lambda each: list(LOOKS).index(each.role))
 
 
-def _corners(found: list[LinkForce]) -> Floats:
+def corners(found: list[LinkForce]) -> Floats:
     """Corners of the polygon, (forces + 1, 2) N, from zero back to zero."""
     steps = np.array([each.force for each in found]).reshape(-1, 2)
     return np.concatenate([np.zeros((1, 2)), np.cumsum(steps, axis=0)])
 
 
 def _pairs(found: list[LinkForce], scale: float) -> list[tuple[Floats, Floats]]:
-    corners = _corners(found) / scale
-    return side_by_side(list(pairwise(corners)))
+    places = corners(found) / scale
+    return side_by_side(list(pairwise(places)))
 
 
 def _draw(axes: Axes, found: list[LinkForce], scale: float) -> None:

@@ -129,7 +129,7 @@ def draw_polygon(axes: Axes, polygon: MotionPolygon, scale: float, prime: str) -
         arrow(axes, start, end, colour, dash=dash, width=width)
         labels.line(start, end)
     middle = np.mean([np.zeros(2), *polygon.images.values()], axis=0) / scale
-    for names, image in _gathered(polygon, scale, prime):
+    for names, image in gathered(polygon, scale, prime):
         axes.plot([image[0]], [image[1]], "o", color=INK, markersize=2.4, zorder=4)
         labels.put(", ".join(names), [image], away=image - middle)
 
@@ -155,7 +155,7 @@ def image_names(points: Iterable[str], prime: str = "") -> tuple[str, dict[str, 
     return pole + prime, {point: names[point] + prime for point in given}
 
 
-def _gathered(polygon: MotionPolygon, scale: float, prime: str) -> list[tuple[list[str], Floats]]:
+def gathered(polygon: MotionPolygon, scale: float, prime: str) -> list[tuple[list[str], Floats]]:
     """Images with their names; those at one place share a label. The pole comes first."""
     pole, letters = image_names(polygon.images, prime)
     found: list[tuple[list[str], Floats]] = [([pole], np.zeros(2))]

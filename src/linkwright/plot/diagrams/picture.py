@@ -7,13 +7,16 @@ import io
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
+from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError, RequestError
-from linkwright.plot.svg.render import MOST_PIXELS
+from linkwright.plot.drawing.picture import PIXELS, Drawing
+from linkwright.plot.svg.fonts import given_fonts, installed_chinese
+from linkwright.plot.svg.render import MOST_PIXELS, natural_size, pdf, png
 from linkwright.whole_files import refuse_target, write_whole
 from linkwright.words.sentence import Sentence
 
@@ -37,24 +40,77 @@ LATIN = "DejaVu Sans"
 REMEDY = Sentence("picture.install_font")
 
 
-@lru_cache(maxsize=1)
-def chinese_font() -> str | None:
-    """Family of an installed font with Chinese characters, in its regular face.
+#: The name under which the chosen face stands in matplotlib's list, so that no other face of its family is taken.
+ALIAS = "Linkwright Chinese"
+REGULAR, BOLD = 400, 700
 
-    What matplotlib noted of fonts earlier is completed with the files that lie in the system's folders now.
+
+def chinese_font() -> str | None:
+    """Name in matplotlib's list of the regular face of a font with Chinese characters; None without one.
+
+    The face is chosen by name from the files that are given and those that lie in the system's folders now, whatever
+    matplotlib noted of fonts earlier, and of which weight it calls itself.
     """
     from matplotlib import font_manager
 
-    from linkwright.plot.svg.text import chinese_fonts, system_fonts
+    face = _chinese_face(given_fonts(), installed_chinese())
+    if face is None:
+        return None
+    manager = font_manager.fontManager
+    wanted = [replace(face, name=ALIAS, weight=weight) for weight in (REGULAR, BOLD)]
+    if wanted[0] not in manager.ttflist:
+        manager.ttflist = [font for font in manager.ttflist if font.name != ALIAS] + wanted
+        cached = getattr(manager, "_findfont_cached", None)
+        if cached is not None:
+            cached.cache_clear()
+    return ALIAS
 
-    manager, files = font_manager.fontManager, {str(file) for file in chinese_fonts(system_fonts())}
-    for file in sorted(files - {font.fname for font in manager.ttflist}):
-        with suppress(OSError, RuntimeError):
-            manager.addfont(file)
-    faces = [font for font in manager.ttflist if Path(font.fname).exists()]
-    names = {font.name for font in faces}
-    others = (font.name for font in faces if font.fname in files and "Mono" not in font.name)
-    return next((family for family in CHINESE if family in names), next(others, None))
+
+@lru_cache(maxsize=8)
+def _chinese_face(given: tuple[Path, ...], installed: tuple[Path, ...]) -> Any:
+    """The face that writes Chinese best: given, not monospaced, of a family that comes early in ``CHINESE``, regular,
+    upright."""
+    from matplotlib import font_manager
+
+    found = [face for file in given for face in _faces(file) if _writes_chinese(file)]
+    found = found or [face for file in installed for face in _faces(file)]
+    listed = (
+        font
+        for font in font_manager.fontManager.ttflist
+        if font.name in CHINESE and Path(font.fname).exists()
+    )
+    found = found or list(listed)
+    return min(found, key=_rank, default=None)
+
+
+def _faces(file: Path) -> Iterator[Any]:
+    """The faces of a font file, as matplotlib lists them."""
+    from matplotlib import font_manager, ft2font
+
+    with suppress(
+        OSError, RuntimeError, TypeError
+    ):  # an older matplotlib reads the first face of a collection
+        first = ft2font.FT2Font(str(file))
+        yield font_manager.ttfFontProperty(first)
+        for index in range(1, int(getattr(first, "num_faces", 1))):
+            yield font_manager.ttfFontProperty(ft2font.FT2Font(str(file), face_index=index))
+
+
+def _writes_chinese(file: Path) -> bool:
+    from matplotlib import ft2font
+
+    try:
+        return ord("中") in ft2font.FT2Font(str(file)).get_charmap()
+    except (OSError, RuntimeError):
+        return False
+
+
+def _rank(face: Any) -> tuple[float, ...]:
+    from matplotlib import font_manager
+
+    weight = font_manager.weight_dict.get(face.weight, face.weight)
+    place = CHINESE.index(face.name) if face.name in CHINESE else len(CHINESE)
+    return "Mono" in face.name, place, abs(float(weight) - REGULAR), face.style != "normal"
 
 
 def families(language: str) -> list[str]:
@@ -71,6 +127,7 @@ def families(language: str) -> list[str]:
 
 
 ENDINGS = (".svg", ".pdf", ".png")
+PIXELS_PER_INCH = 25.4 * PIXELS
 COLOURS = ("#1f5fa8", "#c8501e", "#2c8a4b", "#8a4fa3", "#a3781a", "#2a9aa8", "#b0305c", "#5b6470")
 INK, FAINT, SHADE = "#222222", "#8c929a", "#f3dfc1"
 _STYLE: dict[str, Any] = {
@@ -119,10 +176,10 @@ def style(language: str) -> Iterator[None]:
 
 @dataclass(frozen=True)
 class Diagram:
-    """A diagram: its ``kind`` and ``figure`` (of matplotlib); ``save`` writes it, notebooks show it."""
+    """A diagram: its ``kind`` and ``figure`` (of matplotlib, or a drawing); ``save`` writes it, notebooks show it."""
 
     kind: str
-    figure: Figure
+    figure: Figure | Drawing
     language: str = "en"
 
     def save(self, path: str | Path, *, dpi: float = 200.0, force: bool = False) -> Path:
@@ -136,7 +193,7 @@ class Diagram:
 
     def content(self, ending: str, *, dpi: float = 200.0) -> bytes:
         """What a file with the ending ``.svg``, ``.pdf`` or ``.png`` holds; LinkwrightError for another one."""
-        wide, tall = self.figure.get_size_inches()
+        wide, tall = self._inches
         if ending == ".png" and not 0 < dpi * dpi * wide * tall <= MOST_PIXELS:
             raise RequestError(
                 "picture.bad_dots",
@@ -161,7 +218,17 @@ class Diagram:
         """The diagram as one page of vector PDF."""
         return self._bytes("pdf", 72.0)
 
+    @property
+    def _inches(self) -> tuple[float, float]:
+        """Its width and height."""
+        if isinstance(self.figure, Drawing):
+            wide, tall = natural_size(self.figure.svg)
+            return wide / PIXELS_PER_INCH, tall / PIXELS_PER_INCH
+        return tuple(self.figure.get_size_inches())
+
     def _bytes(self, form: str, dpi: float) -> bytes:
+        if isinstance(self.figure, Drawing):
+            return _drawn(self.figure.svg, form, dpi)
         canvas: Any = _canvas(form)(self.figure)
         stream = io.BytesIO()
         date = {"svg": {"Date": None}, "pdf": {"CreationDate": None}, "png": {"Software": "Linkwright"}}[form]
@@ -173,8 +240,15 @@ class Diagram:
         return self.svg()
 
     def __repr__(self) -> str:
-        width, height = self.figure.get_size_inches()
+        width, height = self._inches
         return f"Diagram({self.kind!r}: {width:g} × {height:g} inches)"
+
+
+def _drawn(svg: str, form: str, dpi: float) -> bytes:
+    """The file of a drawing."""
+    if form == "svg":
+        return svg.encode()
+    return pdf(svg) if form == "pdf" else png(svg, zoom=dpi / PIXELS_PER_INCH)
 
 
 def _canvas(form: str) -> Any:

@@ -28,7 +28,7 @@ LEAST_ARROW = 0.1
 #: Distance of a name from its place, and between the points that stand for a line, mm.
 GAP, STEP = 1.3, 1.2
 Box = tuple[float, float, float, float]
-_LOW = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
+LOW = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 _SIDES = tuple(np.array([np.cos(a), np.sin(a)]) for a in np.radians([45, 0, 90, 135, -45, 180, -90, -135]))
 
 
@@ -258,4 +258,4 @@ def with_index(name: str) -> str:
     """A point's name with its number as an index: ``O₁``."""
     stem, index = split_index(name.rpartition(".")[2] if name.count(".") == 1 else name)
     owner = f"{name.rpartition('.')[0]}." if name.count(".") == 1 else ""
-    return f"{owner}{stem}{index.translate(_LOW)}"
+    return f"{owner}{stem}{index.translate(LOW)}"

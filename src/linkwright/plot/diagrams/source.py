@@ -213,6 +213,13 @@ class Source:
             last = last + TURN * np.round((values[-1] - last) / TURN)
         return np.concatenate([values, last])
 
+    def ended(self, read: Callable[[Motion], Floats]) -> Floats:
+        """What the motion gives at all positions (n,), and where the cycle ends, which need not be as it began."""
+        values = read(self.motion)
+        if self._end is None:
+            return values
+        return np.append(values, read(solve_motion(self.mechanism, times=[self._end], failures="mark")))
+
     @cached_property
     def _end(self) -> float | None:
         """Time at which a closed cycle has returned to its first position, if that is no position already."""

@@ -10,7 +10,7 @@ from operator import methodcaller
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.core.outputs import PLACES, Output
+from linkwright.core.outputs import NAMED, PLACES, Output
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import result_meant
 from linkwright.kinetostatics.table import results_of
@@ -79,6 +79,8 @@ def _together(parts: list[tuple[str, list[Panel]]]) -> list[Panel]:
 
 
 def _of_output(source: Source, output: Output, say: Say) -> list[Panel]:
+    if output.kind in NAMED:
+        return _of_named(source, output)
     if output.kind not in PLACES:
         return [_of_result(source, output)]
     named = ANGULAR if output.kind == "angle" else STRAIGHT
@@ -91,6 +93,16 @@ def _of_output(source: Source, output: Output, say: Say) -> list[Panel]:
     return found
 
 
+def _of_named(source: Source, output: Output) -> list[Panel]:
+    """An output that the model names, with those of its rates that are known."""
+    own = source.mechanism.outputs[output.owner].outputs
+    return [
+        Panel(each.name, each.dimension, (Curve("", source.ended(read), extremes=source.extremes(read)),))
+        for each in own[NAMED.index(output.kind) :]
+        for read in [methodcaller("read", each)]
+    ]
+
+
 def _size(motion: Motion, key: str, word: str) -> Floats:
     """Size of the velocity or acceleration of a point, (n,)."""
     return np.asarray(np.hypot(*getattr(motion.point_of(key), word).T))
@@ -100,7 +112,11 @@ def _of_result(source: Source, output: Output) -> Panel:
     """A force, or a rate that is named alone."""
     results = results_of(source.motion, None if output.of_motion else source.forces)
     found = result_meant(source.mechanism, output.name, results)
-    return Panel(found.name, found.dimension, (Curve("", source.closed(results[found]), "max"),))
+    values = source.closed(results[found])
+    if found.kind != "reaction_direction":
+        return Panel(found.name, found.dimension, (Curve("", values, "max"),))
+    over = np.abs(np.diff(values, prepend=values[0])) > np.pi  # from -180 to 180 degrees: no line is drawn
+    return Panel(found.name, found.dimension, (Curve("", np.where(over, np.nan, values)),))
 
 
 def _of_point(source: Source, key: str, say: Say) -> list[Panel]:

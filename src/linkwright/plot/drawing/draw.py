@@ -11,6 +11,7 @@ from linkwright.core.arrays import Floats
 from linkwright.core.given import one_or_more, real, require, whole
 from linkwright.errors import LinkwrightError, RequestError, require_language
 from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.output_limits import limits_of
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.plot.drawing.dimensions import Dimension, dimension_lines
@@ -18,7 +19,7 @@ from linkwright.plot.drawing.labels import Label, Obstacles, link_labels, place,
 from linkwright.plot.drawing.legend import Legend
 from linkwright.plot.drawing.loads import load_labels, load_marks, unmarked
 from linkwright.plot.drawing.picture import Drawing, bounds, document
-from linkwright.plot.drawing.positions import At, Shown, at_input, at_time, limits_of, with_limits
+from linkwright.plot.drawing.positions import At, Shown, at_input, at_time, with_limits
 from linkwright.plot.drawing.scene import Scene, laid_out
 from linkwright.plot.drawing.vectors import (
     Arrows,

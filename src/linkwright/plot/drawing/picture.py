@@ -21,6 +21,8 @@ from linkwright.whole_files import refuse_target
 MARGIN, SIZE = 12.0, 13.0
 #: Smallest and largest longer side of a drawing, pixels.
 SIZES = (8, 32_000)
+#: Pixels of SVG in a millimetre.
+PIXELS = 96.0 / 25.4
 
 
 @dataclass(frozen=True)
@@ -85,13 +87,18 @@ def _paper(left: float, top: float, width: float, height: float) -> Element:
     return element("rect", {"class": "lw-paper", **box})
 
 
-def document(content: Sequence[Element], box: Box, title: str, size: float | None) -> str:
-    """A whole SVG document over a box; ``size`` is its longer side in pixels."""
+def document(
+    content: Sequence[Element], box: Box, title: str, size: float | None, *, millimetre: float | None = None
+) -> str:
+    """A whole SVG document over a box; ``size`` is its longer side in pixels, ``millimetre`` instead the printed
+    width of a unit, mm."""
     if size is not None and not SIZES[0] <= real("size", size) <= SIZES[1]:
         raise RequestError("picture.bad_size", size=size, least=SIZES[0], most=SIZES[1])
     left, top = box[0] - MARGIN, box[1] - MARGIN
     width, height = box[2] - left + MARGIN, box[3] - top + MARGIN
     factor = 1.0 if size is None else size / max(width, height)
+    if millimetre is not None:
+        factor = millimetre * PIXELS
     root = element(
         "svg",
         {

@@ -1,4 +1,4 @@
-"""Positions that a drawing shows: at an input, at a time, and the two limit positions of an output."""
+"""Positions that a drawing shows: at an input, at a time, and among limit positions."""
 
 from __future__ import annotations
 
@@ -7,10 +7,9 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
-from linkwright.core.search import first_largest
-from linkwright.errors import LinkwrightError, RequestError
+from linkwright.errors import LinkwrightError
 from linkwright.kinematics.cycle import at_inputs
-from linkwright.kinematics.limits import LimitPosition, limit_positions
+from linkwright.kinematics.limits import LimitPosition
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion, with_times
 
@@ -73,34 +72,3 @@ def _passed(motion: Motion, time: float) -> Shown | None:
         return Shown(motion, near)
     denser, (index,) = with_times(motion, [float(motion.time[0]) + forward * since])
     return Shown(denser, index)
-
-
-def limits_of(motion: Motion, output: str | None = None) -> tuple[LimitPosition, ...]:
-    """The reversals of an output with its largest and its smallest value, exact in the input.
-
-    ``output``: a link, a guide or a point's coordinate; by default the last link or block on the frame, in
-    solving order, that goes to and fro. Raises LinkwrightError where nothing turns back.
-    """
-    name = output or _last_to_and_fro(motion)
-    found = limit_positions(motion, name)
-    if not found:
-        raise RequestError("picture.no_limit_positions", name=name)
-    values = np.array([each.value for each in found])
-    high, low = found[first_largest(values)], found[first_largest(-values)]
-    return (high,) if high is low else (high, low)
-
-
-def _last_to_and_fro(motion: Motion) -> str:
-    joints = motion.mechanism.joints
-    driven = {driver.joint for driver in motion.mechanism.drivers.values()}
-    for group in reversed(motion.structure.groups):
-        for link in reversed(group.links):
-            for name, joint in joints.items():
-                if name in driven or not {"frame", link} <= set(joint.joined):
-                    continue
-                if joint.coordinate == "slide":
-                    return name
-                angle = motion.link(link).angle
-                if np.nanmax(angle) - np.nanmin(angle) < 1.9 * np.pi:
-                    return link
-    raise RequestError("picture.none_to_and_fro", name=motion.mechanism.name)

@@ -13,7 +13,7 @@ from linkwright.kinematics.motion import Motion
 from linkwright.plot.drawing.guides import guides, welds
 from linkwright.plot.drawing.inputs import input_arrows
 from linkwright.plot.drawing.machine import LAYERS, Machine, Part, bodies, pins
-from linkwright.plot.drawing.view import DIAGONAL, fitted, followed, moved, placements
+from linkwright.plot.drawing.view import DIAGONAL, View, fitted, followed, moved, placements
 from linkwright.plot.drawing.wheels import wheels
 from linkwright.plot.svg.element import Element, group, number, path
 from linkwright.plot.symbols.base import SYMBOLS
@@ -87,19 +87,26 @@ def laid_out(
     centres: bool = False,
     beside: Sequence[tuple[Motion, int]] = (),
     diagonal: float = DIAGONAL,
+    view: View | None = None,
 ) -> Scene:
     """The scene of a motion; arrows of the drivers stand as at the position ``index``.
 
-    ``beside``: positions of other motions of the mechanism, counted on after its own.
+    ``beside``: positions of other motions of the mechanism, counted on after its own; ``view``: instead of one in
+    which the machine has the ``diagonal``.
     """
     placed = followed(placements(motion), beside)
-    machine = Machine(motion, placed, fitted(motion, placed, diagonal), beside)
-    parts = [*wheels(machine), *bodies(machine), *guides(machine), *pins(machine), *welds(machine)]
+    machine = Machine(motion, placed, view or fitted(motion, placed, diagonal), beside)
+    parts = parts_of(machine)
     if inputs:
         parts += input_arrows(machine, index)
     if centres:
         parts += mass_centres(machine)
     return Scene(machine, tuple(parts))
+
+
+def parts_of(machine: Machine) -> list[Part]:
+    """Wheels, bodies and joints."""
+    return [*wheels(machine), *bodies(machine), *guides(machine), *pins(machine), *welds(machine)]
 
 
 def mass_centres(machine: Machine) -> Iterator[Part]:

@@ -16,6 +16,9 @@ from linkwright.synthesis.result import Candidate, Synthesis
 from linkwright.words import say, speaker
 
 SHOWN = 4
+#: What the output of a task's curve is, where it is not that of a function; factors to the unit of its axis.
+OUTPUTS = {"slider_crank": "place", "toggle": "ratio", "dwell": "angle"}
+FACTORS = {"place": 1e3, "angle": float(np.degrees(1.0)), "ratio": 1.0}
 
 
 @result_diagram("synthesis", Synthesis)
@@ -67,14 +70,17 @@ def _places(numbers: Complexes) -> tuple[Floats, Floats]:
 
 
 def _function(axes: Axes, result: Synthesis, language: str) -> None:
+    """Functions of the candidates over the input, and the pairs; angles in degrees, places in mm."""
+    kind = OUTPUTS.get(result.task, "place" if result.error_name == "length" else "angle")
+    factors = np.array([[np.degrees(1.0)], [FACTORS[kind]]])
     for number, each in enumerate(result.candidates[:SHOWN]):
         if each.curve is not None and each.curve.ndim == 2:
-            axes.plot(*each.curve, color=COLOURS[number % len(COLOURS)])
+            axes.plot(*(factors * each.curve), color=COLOURS[number % len(COLOURS)])
     target = result.target
     if target is not None and not np.iscomplexobj(target):
-        axes.plot(*target, "o", ms=4, mfc="none", color=INK)
+        axes.plot(*(factors * target), "o", ms=4, mfc="none", color=INK)
     axes.set_xlabel(say("synthesize.axis.input", language))
-    axes.set_ylabel(say("synthesize.axis.output", language))
+    axes.set_ylabel(say(f"synthesize.axis.{kind}", language))
 
 
 def _links(axes: Axes, each: Candidate, colour: str) -> Any:

@@ -10,7 +10,16 @@ from pathlib import Path
 from typing import Any
 
 from linkwright.errors import LinkwrightError, RequestError
-from linkwright.plot.svg.text import check_fonts
+from linkwright.plot.svg.fonts import (
+    check_fonts,
+    chinese_fonts,
+    font_files,
+    given_fonts,
+    installed_chinese,
+    needs_chinese,
+    regular,
+    system_fonts,
+)
 from linkwright.whole_files import write_whole
 
 Paths = Sequence[str | Path]
@@ -21,9 +30,9 @@ MOST_PIXELS, LEAST_WIDTH = 100_000_000, 8
 def png(svg: str, *, width: int | None = None, zoom: float = 2.0, fonts: Paths = ()) -> bytes:
     """The picture in pixels: ``width`` of them across, or ``zoom`` for each unit of the SVG.
 
-    ``fonts`` are files used beside the system's. Raises LinkwrightError where resvg-py is not installed, for a width
-    below 8 or with more than a hundred million pixels, or where the text has Chinese characters and no font for
-    them is found.
+    ``fonts`` are files, or folders of them, used beside the system's. Raises LinkwrightError where resvg-py is not
+    installed, for a width below 8 or with more than a hundred million pixels, or where the text has Chinese
+    characters and no font for them is found.
     """
     try:
         import resvg_py
@@ -33,6 +42,9 @@ def png(svg: str, *, width: int | None = None, zoom: float = 2.0, fonts: Paths =
     check_fonts(svg, files)
     check_width(width, *natural_size(svg), zoom)
     size: dict[str, Any] = {"width": int(width)} if width is not None else {"zoom": float(zoom)}
+    if needs_chinese(svg):
+        files = _for_chinese(files)
+        size["skip_system_fonts"] = True
     try:
         return bytes(
             resvg_py.svg_to_bytes(
@@ -44,6 +56,13 @@ def png(svg: str, *, width: int | None = None, zoom: float = 2.0, fonts: Paths =
         )
     except ValueError as problem:
         raise RequestError("picture.cannot_be_made", problem=problem) from None
+
+
+def _for_chinese(given: list[Path]) -> list[Path]:
+    """Fonts of which one writes Chinese, in its regular face; of several resvg takes whichever it meets first."""
+    installed, named = installed_chinese(), chinese_fonts(given)
+    others = [file for file in (*given, *system_fonts()) if file not in named and file not in installed]
+    return [*(regular(named) or regular(installed)), *others]
 
 
 def check_width(width: int | None, wide: float, tall: float, zoom: float = 1.0) -> None:
@@ -62,17 +81,22 @@ def natural_size(svg: str) -> tuple[float, float]:
     return max(found.get("width", 1.0), 1e-3), max(found.get("height", 1.0), 1e-3)
 
 
-def pdf(svg: str, *, fonts: Paths = ()) -> bytes:
-    """The picture as one page of vector PDF, as large as the picture; needs the ``typst`` package."""
+def pdf(svg: str, *, fonts: Paths = (), millimetres: tuple[float, float] | None = None) -> bytes:
+    """The picture as one page of vector PDF, as large as the picture; needs the ``typst`` package.
+
+    ``millimetres``: width and height of the page, which the picture fills.
+    """
     try:
         typst: Any = importlib.import_module("typst")
     except ImportError:
         raise LinkwrightError("picture.pdf_needs") from None
     files = _font_files(fonts)
     check_fonts(svg, files)
-    source = (
-        '#set page(width: auto, height: auto, margin: 0pt)\n#image(bytes(sys.inputs.svg), format: "svg")\n'
-    )
+    page, size = "width: auto, height: auto", ""
+    if millimetres is not None:
+        page = f"width: {millimetres[0]}mm, height: {millimetres[1]}mm"
+        size = f", {page}"
+    source = f'#set page({page}, margin: 0pt)\n#image(bytes(sys.inputs.svg), format: "svg"{size})\n'
     folders = [str(file.parent) for file in files]
     return bytes(typst.compile(source.encode(), sys_inputs={"svg": svg}, font_paths=folders, format="pdf"))
 
@@ -90,8 +114,4 @@ def save_picture(svg: str, path: str | Path, *, force: bool, **options: Any) -> 
 
 
 def _font_files(fonts: Paths) -> list[Path]:
-    files = [Path(font) for font in fonts]
-    for file in files:
-        if not file.is_file():
-            raise RequestError("picture.no_font_file", file=file)
-    return files
+    return [*font_files(fonts), *given_fonts()]

@@ -1,21 +1,15 @@
-"""Widths of text, names with indices, and fonts: an SVG names families, a PNG or PDF needs one with the letters."""
+"""Widths of text, names with indices, and the font families that an SVG names."""
 
 from __future__ import annotations
 
-import os
 import re
-import sys
 import unicodedata
-from collections.abc import Iterable, Sequence
-from functools import lru_cache
-from pathlib import Path
 
-from linkwright.errors import LinkwrightError, RequestError
 from linkwright.plot.svg.element import Attribute, Element, element
-from linkwright.words.sentence import Sentence
 
 NARROW = frozenset("iljfI.,:;'|![]() ")
 WIDE = frozenset("mwMW@%")
+_SYMBOL = re.compile(r"(?<![A-Za-z0-9_])([FMμ])_([A-Za-z]+(?:,[^\s,，、；;]+)?)")
 _INDEX = re.compile(r"^(?P<stem>[^\W\d_]{1,2}'*)_?(?P<index>\d+'*)$")
 
 
@@ -80,59 +74,27 @@ def text_element(
     return element("text", place, *content)
 
 
+def sentence_element(
+    x: float, y: float, text: str, style: str, size: float, anchor: str = "start"
+) -> Element:
+    """A line of text as it is, but for symbols such as ``M_d`` and ``μ_F``, whose indices are set low."""
+    content: list[Element | str] = []
+    parts = _SYMBOL.split(text)
+    for before, letter, low in zip(parts[::3], [*parts[1::3], ""], [*parts[2::3], ""], strict=True):
+        plain = before + letter
+        if content and plain:
+            content.append(element("tspan", {"dy": -0.25 * size, "xml:space": "preserve"}, plain))
+        elif plain:
+            content.append(plain)
+        if low:
+            content.append(element("tspan", {"dy": 0.25 * size, "font-size": 0.75 * size}, low))
+    side = None if anchor == "start" else anchor
+    return element("text", {"class": style, "x": x, "y": y, "font-size": size, "text-anchor": side}, *content)
+
+
 FAMILIES = (
     "Noto Sans", "DejaVu Sans", "Segoe UI", "Helvetica Neue", "Arial",
     "Noto Sans SC", "Noto Sans CJK SC", "Source Han Sans SC", "Microsoft YaHei", "PingFang SC",
     "WenQuanYi Micro Hei", "sans-serif",
 )  # fmt: skip
 FAMILY_LIST = ", ".join(f"'{name}'" if " " in name else name for name in FAMILIES)
-_CHINESE_FILES = (
-    "notosanscjk", "notosanssc", "notosanstc", "notoserifcjk", "sourcehan", "wqy", "droidsansfallback",
-    "msyh", "simhei", "simsun", "deng", "pingfang", "hiragino", "stheiti", "arialunicode", "uming", "ukai",
-)  # fmt: skip
-_SUFFIXES = (".ttf", ".ttc", ".otf", ".otc")
-
-
-def font_folders() -> list[Path]:
-    """Folders in which the system and the user keep fonts."""
-    home = Path.home()
-    if sys.platform == "win32":
-        local = Path(os.environ.get("LOCALAPPDATA", home / "AppData" / "Local"))
-        return [Path(os.environ.get("WINDIR", "C:/Windows")) / "Fonts", local / "Microsoft/Windows/Fonts"]
-    if sys.platform == "darwin":
-        return [Path("/System/Library/Fonts"), Path("/Library/Fonts"), home / "Library/Fonts"]
-    shared = Path(os.environ.get("XDG_DATA_HOME", home / ".local/share")) / "fonts"
-    return [Path("/usr/share/fonts"), Path("/usr/local/share/fonts"), shared, home / ".fonts"]
-
-
-@lru_cache(maxsize=1)
-def system_fonts() -> tuple[Path, ...]:
-    """All font files of the system."""
-    found = (file for folder in font_folders() if folder.is_dir() for file in folder.rglob("*"))
-    return tuple(sorted(file for file in found if file.suffix.lower() in _SUFFIXES))
-
-
-def chinese_fonts(files: Iterable[Path]) -> tuple[Path, ...]:
-    """Those files that are known to hold Chinese characters, judged by their names."""
-
-    def known(file: Path) -> bool:
-        stem = file.stem.lower().replace("-", "").replace("_", "").replace(" ", "")
-        return any(stem.startswith(each) for each in _CHINESE_FILES)
-
-    return tuple(file for file in files if known(file))
-
-
-def needs_chinese(text: str) -> bool:
-    """Whether a text has Chinese characters."""
-    return any("\u2e80" <= c <= "\u9fff" or "\uf900" <= c <= "\ufaff" for c in text)
-
-
-def check_fonts(text: str, given: Sequence[Path]) -> None:
-    """Refuse to draw boxes: raise where no font is found, or none for the Chinese characters in the text."""
-    remedy = Sentence("picture.font_or_file")
-    if given:
-        return
-    if needs_chinese(text) and not chinese_fonts(system_fonts()):
-        raise RequestError("picture.no_chinese_font", remedy=remedy)
-    if "<text" in text and not system_fonts():
-        raise LinkwrightError("picture.no_font", remedy=remedy)

@@ -23,6 +23,6 @@ def blocks(case: Case) -> Iterator[Block]:
     except LinkwrightError:
         columns = without_rounding(motion_results(case.numbered.motion))
     yield Paragraph(say("report.appendix_text"))
-    first = next(iter(case.mechanism.drivers), "")
-    names = [each for each in columns if each.column != first]
+    alone = len(case.mechanism.drivers) < 2
+    names = [each for each in columns if each.kind != "input" or not alone]
     yield from varying(case, "report.appendix_table", columns, names)

@@ -11,11 +11,13 @@ from linkwright.report.machine_results import Case, Missing
 from linkwright.report.section import section
 
 KINDS = ("sva", "angles", "paths")
+#: What is no fault of a machine: none of its links turns.
+WITHOUT = ("picture.none_turns",)
 #: Share of the text's width of a diagram, and its height, mm: two of them share a page.
 SHARE, TALLEST = 0.78, 104.0
 
 
-@section("curves", 7.0)
+@section("curves", 7.0, optional=True)
 def blocks(case: Case) -> Iterator[Block]:
     """Diagrams of the motion."""
     if not case.mechanism.drivers:
@@ -25,19 +27,26 @@ def blocks(case: Case) -> Iterator[Block]:
     if len(outputs) == 1:
         outputs = []
     for output in outputs:
-        yield _figure(case, "sva", case.say("report.caption_sva_of", output=str(output)), of=(str(output),))
+        caption = case.say("report.caption_sva_of", output=str(output))
+        if (shown := _figure(case, "sva", caption, of=(str(output),))) is not None:
+            yield shown
     yield from pictures(case, KINDS[bool(outputs) :])
 
 
 def pictures(case: Case, kinds: tuple[str, ...]) -> Iterator[Block]:
     """A figure per kind of diagram, or why there is none."""
     for kind in kinds:
-        yield _figure(case, kind, case.say(f"report.caption_{kind}"))
+        shown = _figure(case, kind, case.say(f"report.caption_{kind}"))
+        if shown is not None:
+            yield shown
 
 
-def _figure(case: Case, kind: str, caption: str, **options: object) -> Block:
+def _figure(case: Case, kind: str, caption: str, **options: object) -> Block | None:
+    """A diagram, or why there is none; None where the machine has nothing of its kind."""
     try:
         shown = case.diagram(kind, case.motion if kind in KINDS else None, **options)
     except LinkwrightError as error:
+        if error.code in WITHOUT:
+            return None
         return Paragraph(f"{case.say(f'plot.kind.{kind}')}: {literal(case.told(error))}", "missing")
     return Figure(caption, ((shown, SHARE),), "" if options else kind, TALLEST)

@@ -7,12 +7,12 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.core.outputs import KINDS, RESIDUALS, SLIDE, Output
+from linkwright.core.outputs import KINDS, NAMED, RESIDUALS, SLIDE, Output
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.table import motion_results
 from linkwright.kinetostatics.table import force_results
 from linkwright.report.document import Block, Paragraph, Table, literal
-from linkwright.report.machine_results import Case
+from linkwright.report.machine_results import Case, Missing
 from linkwright.report.numbers import column, faded, residual, typeset, without_rounding
 from linkwright.report.section import section
 
@@ -22,23 +22,32 @@ def blocks(case: Case) -> Iterator[Block]:
     """Angles and rates of links, guides, points; joint forces and driver effort: at the numbered positions."""
     say, numbered = case.say, case.numbered
     count = str(len(numbered.rows))
-    if numbered.start is not None:
+    if numbered.listed:
+        yield Paragraph(say("report.numbered_listed", count=count))
+        yield from _unreached(case)
+    elif numbered.start is not None:
         place = f"{case.input_text(numbered.start.input)}{case.input_unit}"
         yield Paragraph(say("report.numbered_limit", count=count, input=place))
     elif case.mechanism.drivers:
         yield Paragraph(say("report.numbered_start", count=count))
+    if case.unnumbered:
+        yield Paragraph(literal(case.unnumbered), "note")
     for note in case.motion.notes:
         yield Paragraph(literal(case.sentence(note)), "note")
     yield Paragraph(literal(case.links_text))
     columns = without_rounding(motion_results(numbered.motion))
+    if len(inputs := _of(columns, "input")) > 1:
+        yield table(case, say("report.inputs_table"), columns, inputs)
     for title, wanted in _motion_tables(case, columns):
         yield table(case, say(title), columns, wanted)
     try:
         columns = without_rounding(force_results(case.numbered_forces))
+    except Missing:
+        return
     except LinkwrightError as error:
         yield Paragraph(literal(case.told(error)), "missing")
         return
-    sizes = [each for each in _of(columns, "reaction", "couple") if not each.component]
+    sizes = [each for each in _of(columns, "reaction", "reaction_direction", "couple") if not each.component]
     efforts = _of(columns, "effort")
     yield from varying(case, "report.reactions_table", columns, sizes)
     if efforts:
@@ -47,13 +56,14 @@ def blocks(case: Case) -> Iterator[Block]:
 
 
 def _motion_tables(case: Case, columns: Mapping[Output, Floats]) -> Iterator[tuple[str, list[Output]]]:
-    """Titles and columns: of links that turn, of guides, of points."""
-    links = [each for each in columns if KINDS[each.kind].of == "link" and varies(columns[each])]
-    points = [each for each in columns if KINDS[each.kind].of == "point" and varies(columns[each])]
+    """Titles and columns: of links that turn, of guides, of outputs that the model names, of points."""
+    links = [each for each in columns if KINDS[each.kind].of == "link" and each in case.varying]
+    points = [each for each in columns if KINDS[each.kind].of == "point" and each in case.varying]
     places = _of(points, "position")
     for title, found in (
         ("links", links),
         ("guides", _of(columns, *SLIDE)),
+        ("outputs", _of(columns, *NAMED)),
         ("points", places),
         ("rates", [each for each in points if each not in places]),
     ):
@@ -65,17 +75,24 @@ def _of(columns: Iterable[Output], *kinds: str) -> list[Output]:
     return [each for each in columns if each.kind in kinds]
 
 
-def varies(values: Floats) -> bool:
-    """Whether a result changes over the cycle."""
-    known = values[np.isfinite(values)]
-    return bool(len(known)) and float(np.ptp(known)) > 1e-12 * max(float(np.abs(known).max()), 1e-300)
+def _unreached(case: Case) -> Iterator[Block]:
+    """Why positions that are listed have no numbers, those with the same reason together."""
+    reasons: dict[str, list[str]] = {}
+    for number, outcome in enumerate(case.numbered.motion.outcomes, 1):
+        if not outcome.ok:
+            reasons.setdefault(outcome.say(case.language), []).append(str(number))
+    for reason, numbers in reasons.items():
+        said = case.say(
+            "report.listed_unreached", numbers=case.say("finding.comma").join(numbers), reason=reason
+        )
+        yield Paragraph(literal(said), "missing")
 
 
 def varying(
     case: Case, title: str, columns: Mapping[Output, Floats], names: Sequence[Output]
 ) -> Iterator[Block]:
     """What does not change over the cycle in a sentence, the others in a table; all in it without a driver."""
-    moving = [name for name in names if varies(columns[name])] if case.mechanism.drivers else names
+    moving = [name for name in names if name in case.varying] if case.mechanism.drivers else names
     still = [name for name in names if name not in moving and np.isfinite(columns[name]).any()]
     if still:
         yield Paragraph(
@@ -96,18 +113,29 @@ def _equal(case: Case, columns: Mapping[Output, Floats], name: Output) -> str:
 
 def table(case: Case, title: str, columns: Mapping[Output, Floats], names: Sequence[Output]) -> Table:
     """Columns at the numbered positions, in shown units."""
-    numbered = case.numbered
-    rows = list(numbered.rows)
-    first = case.inputs_of(numbered)
+    rows = list(case.numbered.rows)
+    key, first = leading(case)
     shown = [case.heads.head(name) for name in names]
     printed = [
         (residual if name.kind in RESIDUALS else column)(columns[name][rows] * factor)
         for name, (_, factor) in zip(names, shown, strict=True)
     ]
-    body = tuple((str(k + 1), first[k], *(each[k] for each in printed)) for k in range(len(rows)))
-    head = (
-        case.say("report.position_number"),
-        f"$q$ / {case.input_unit}",
-        *(head for head, _ in shown),
-    )
-    return Table(title, head, body, ">" * len(head), "", 2)
+    body = tuple((*first[k], *(each[k] for each in printed)) for k in range(len(rows)))
+    head = (*key, *(head for head, _ in shown))
+    return Table(title, head, body, ">" * len(head), "", len(key))
+
+
+def leading(case: Case) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
+    """Heads and cells of what every table begins with: numbers of the positions, the time where drivers follow laws
+    of their own, the input; of several drivers the first one's, or the time alone."""
+    motion, rows = case.numbered.motion, list(case.numbered.rows)
+    heads, columns = [case.say("report.position_number")], [[str(k + 1) for k in range(len(rows))]]
+    if not case.mechanism.drivers:
+        return (*heads, f"$q$ / {case.input_unit}"), [(number, "–") for number in columns[0]]
+    if not case.mechanism.steady:
+        heads.append("$t$ / s")
+        columns.append(column(motion.time[rows]))
+    if case.mechanism.steady or len(motion.inputs) == 1:
+        heads.append(f"$q$ / {case.input_unit}")
+        columns.append([case.input_text(float(value)) for value in motion.input[rows]])
+    return tuple(heads), list(zip(*columns, strict=True))

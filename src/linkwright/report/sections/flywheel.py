@@ -4,17 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from linkwright.errors import LinkwrightError
+from linkwright.machine.running import SteadyRunning
 from linkwright.metrics.quantities import number, shown_unit
-from linkwright.report.document import Block, Formula, Paragraph, Table, literal
-from linkwright.report.machine_results import Case
+from linkwright.report.document import Block, Figure, Formula, Paragraph, Table, literal
+from linkwright.report.machine_results import Case, Missing
 from linkwright.report.section import section
 from linkwright.report.sections.curves import pictures
 
+#: Why machines have neither motor nor flywheel: another drive, no work over whole turns.
+WITHOUT = ("running.one_driver", "running.not_constant", "running.not_whole_turns", "running.no_work")
 
-@section("flywheel", 11.0)
+
+@section("flywheel", 11.0, optional=True)
 def blocks(case: Case) -> Iterator[Block]:
     """Mean torque, motor, energy fluctuation, flywheel by the formula and exactly."""
-    say, running = case.say, case.running
+    say, running = case.say, _running(case)
     yield Paragraph(say("report.flywheel_text", fluctuation=f"{running.required:g}"))
     for remark in running.remarks:
         yield Paragraph(literal(remark.say(case.language)))
@@ -36,10 +41,17 @@ def blocks(case: Case) -> Iterator[Block]:
     yield from pictures(case, ("energy",))
 
 
-def _speed(case: Case) -> Iterator[Block]:
-    from linkwright.errors import LinkwrightError
-    from linkwright.report.document import Figure
+def _running(case: Case) -> SteadyRunning:
+    """Motor and flywheel; raises Missing for machines that have none."""
+    try:
+        return case.running
+    except LinkwrightError as error:
+        if error.code in WITHOUT:
+            raise Missing(error.sentence) from None
+        raise
 
+
+def _speed(case: Case) -> Iterator[Block]:
     try:
         shown = case.diagram("speed", case.running, fluctuation=case.settings.fluctuation)
     except LinkwrightError as error:

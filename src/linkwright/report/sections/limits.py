@@ -15,7 +15,7 @@ from linkwright.report.section import section
 ELSEWHERE = ("peak_reaction", "rms_reaction", "flywheel")
 
 
-@section("limits", 10.0)
+@section("limits", 10.0, optional=True)
 def blocks(case: Case) -> Iterator[Block]:
     """Design numbers of the motion and the forces, with the limits that are recommended."""
     say = case.say

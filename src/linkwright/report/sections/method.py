@@ -12,7 +12,7 @@ from linkwright.report.machine_results import Case
 from linkwright.report.section import section
 from linkwright.structure.group import Group
 from linkwright.worked.chains import Chain, chain_closures
-from linkwright.worked.page import Equation, Note, Relation, Step, Written
+from linkwright.worked.page import Equation, Note, Relation, Step, Tabulated, Written
 from linkwright.worked.symbols import Book, tex
 
 #: Width of a line of formulas, em.
@@ -56,7 +56,11 @@ def _loops(case: Case, group: Group) -> Iterator[Block]:
 
 def formulas(step: Step) -> Iterator[Block]:
     """The relations and formulas of a step, its numbers left out."""
-    shown = [item for item in step.items if not isinstance(item, Equation) or item.formula]
+    shown = [
+        item
+        for item in step.items
+        if not isinstance(item, Tabulated) and (not isinstance(item, Equation) or item.formula)
+    ]
     if not any(isinstance(item, Equation | Relation | Written) for item in shown):
         return
     yield Paragraph(strong(symbols(step.title)), "lead")

@@ -23,7 +23,7 @@ from linkwright.words.sentence import in_words
 MOST, IN_ROWS, TALLEST = 12, 6, 225.0
 
 
-@section("reactions", 8.0)
+@section("reactions", 8.0, optional=True)
 def blocks(case: Case) -> Iterator[Block]:
     """Sizes of all joint forces, the largest of each, and their hodographs."""
     say, _ = case.say, case.forces

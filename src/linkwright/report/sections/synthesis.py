@@ -1,22 +1,92 @@
-"""Synthesis, where the file has a task for it."""
+"""Synthesis, where the file has a task for it: how the dimensions were found, and the candidates."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from linkwright.report.document import Block, Paragraph, literal
-from linkwright.report.machine_results import Case, Missing
+from linkwright.errors import LinkwrightError
+from linkwright.report.calculation import OwnText
+from linkwright.report.document import Block, Figure, Heading, Paragraph, literal, symbols
+from linkwright.report.machine_results import Case, Missing, picture
 from linkwright.report.section import section
+from linkwright.report.sections.worked_position import with_numbers
+from linkwright.report.settings import Settings
+from linkwright.synthesis.result import Synthesis, SynthesisError
+from linkwright.synthesis.task_file import TaskFile
+from linkwright.words import Say, speaker
+from linkwright.words.sentence import in_language
+
+#: Share of the page's width that a diagram takes, and one with a function beside the linkages.
+WIDTH, WIDE = 0.75, 1.0
 
 
 @section("synthesis", 12.0, optional=True)
 def blocks(case: Case) -> Iterator[Block]:
-    """The task and what was found for it."""
-    from linkwright.synthesis.tasks import synthesize
-
+    """The way to the first candidate, pictures and the choice."""
     if not case.mechanism.synthesis or not case.source:
         raise Missing("report.no_synthesis")
-    found = synthesize(case.source)
-    for line in found.text(case.language).splitlines():
-        if line.strip():
-            yield Paragraph(literal(line.strip()))
+    yield from of_task(case.source, case.language)
+
+
+def task_chapter(task: TaskFile, own: Settings, say: Say, language: str) -> Iterator[Block | OwnText]:
+    """The chapter of a file that holds a task alone, under a heading with its name."""
+    yield Heading(literal(task.name), 1)
+    if task.purpose:
+        yield Paragraph(literal(task.purpose))
+    if task.source:
+        yield Paragraph(say("report.source", source=literal(task.source)))
+    if "synthesis" in own.text:
+        yield OwnText(own.text["synthesis"])
+    yield from of_task(task.file, language)
+
+
+def of_task(source: str, language: str) -> Iterator[Block]:
+    """The blocks of the task in a file; where its demands cannot be met, why not, and the nearest solution."""
+    from linkwright.synthesis.tasks import synthesize_file
+
+    try:
+        found = synthesize_file(source)
+    except SynthesisError as error:
+        if error.nearest is None or not len(error.nearest):
+            raise
+        yield Paragraph(literal(error.say(language)), "missing")
+        found = error.nearest
+    yield from _chapter(found, language)
+
+
+def _chapter(found: Synthesis, language: str) -> Iterator[Block]:
+    """All steps with their pictures, the best candidates drawn, and the notes."""
+    say, solution = speaker(language), found.worked(language)
+    for step in solution.steps:
+        yield Heading(symbols(step.title), 2)
+        yield from with_numbers(step)
+        for kind in solution.pictures.get(step.number, ()):
+            yield from _figure(found, kind, language)
+    yield from _figure(found, "synthesis", language)
+    if found.counts:
+        from linkwright.synthesis.report import counts_said
+
+        yield Paragraph(literal(counts_said(found, say)))
+    for sentence in found.notes:
+        yield Paragraph(literal(in_language(sentence, language)))
+
+
+def _figure(found: Synthesis, kind: str, language: str) -> Iterator[Block]:
+    """A diagram of the result; none where it has nothing to show."""
+    from linkwright.plot.diagrams.base import RESULT_DIAGRAMS
+
+    if not RESULT_DIAGRAMS[kind].suits(found):
+        return
+    caption = speaker(language)(f"synthesis_steps.caption.{kind}")
+    try:
+        yield Figure(
+            caption, ((picture(found.plot(kind, language=language, title="")), _width(found, kind)),)
+        )
+    except LinkwrightError as error:
+        yield Paragraph(literal(error.say(language)), "missing")
+
+
+def _width(found: Synthesis, kind: str) -> float:
+    """The share of the page's width that a diagram takes."""
+    curves = [each.curve for each in found if each.curve is not None]
+    return WIDE if kind == "synthesis" and any(curve.ndim == 2 for curve in curves) else WIDTH

@@ -12,9 +12,10 @@ from linkwright.report.machine_results import Case, Missing
 from linkwright.report.numbers import column, small, typeset
 from linkwright.report.section import section
 from linkwright.report.sections.curves import pictures
+from linkwright.report.sections.cycle_tables import leading
 
 
-@section("torque", 9.0)
+@section("torque", 9.0, optional=True)
 def blocks(case: Case) -> Iterator[Block]:
     """Effort from the joint forces beside effort from the powers of all forces."""
     if not case.mechanism.drivers:
@@ -31,15 +32,15 @@ def blocks(case: Case) -> Iterator[Block]:
         at = case.numbered_forces
         rows = list(numbered.rows)
         joint, power = at.input_torque[rows], at.input_torque_from_power[rows]
-        inputs = case.inputs_of(numbered)
         printed = (column(joint), column(power))
         gaps = [small(float(gap), 2) for gap in joint - power]
-        body = tuple((str(k + 1), inputs[k], printed[0][k], printed[1][k], gaps[k]) for k in range(len(rows)))
+        key, first = leading(case)
+        body = tuple((*first[k], printed[0][k], printed[1][k], gaps[k]) for k in range(len(rows)))
         head = (
-            say("report.position_number"), f"$q$ / {case.input_unit}", f"{say('report.from_joints')} / {unit}",
+            *key, f"{say('report.from_joints')} / {unit}",
             f"{say('report.from_power')} / {unit}", f"{say('report.difference')} / {unit}",
         )  # fmt: skip
-        yield Table(say("report.torque_table"), head, body, ">>>>>", "torque-both", 2)
+        yield Table(say("report.torque_table"), head, body, ">" * len(head), "torque-both", len(key))
         known = forces.input_torque - forces.input_torque_from_power
         largest = float(np.nanmax(np.abs(known)))
         (driver,) = case.mechanism.drivers

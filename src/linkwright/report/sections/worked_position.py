@@ -12,7 +12,7 @@ from linkwright.report.document import Block, Figure, Formula, Heading, Paragrap
 from linkwright.report.machine_results import Case
 from linkwright.report.section import section
 from linkwright.report.sections.method import side_by_side
-from linkwright.worked.page import Equation, Note, Relation, Step, Written
+from linkwright.worked.page import Equation, Note, Relation, Step, Tabulated, Written
 from linkwright.worked.solution import Worked
 from linkwright.worked.written import latex_symbol, upright
 
@@ -61,6 +61,9 @@ def with_numbers(step: Step) -> Iterator[Block]:
             yield _system(item)
         elif isinstance(item, Relation | Written):
             yield Formula(item.latex_sides, number=False)
+        elif isinstance(item, Tabulated):
+            rows = tuple(tuple(map(symbols, row)) for row in item.rows)
+            yield Table(symbols(item.title), tuple(map(symbols, item.head)), rows, item.align)
         else:
             sides = [item.latex_symbol, item.latex_formula, item.latex_numbers, _result(item)]
             yield Formula(tuple(side for side in sides if side))

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Complexes
+from linkwright.core.dataclass import dataclass
 from linkwright.core.progress import Progress, current_progress
 from linkwright.engine.machine_code import available
 from linkwright.study.finished_parts import surrounding
@@ -20,7 +21,7 @@ from linkwright.synthesis.free_curve.search import JOINTS, Search
 from linkwright.synthesis.free_curve.target import Target
 from linkwright.synthesis.path_generation.generate import complex_points
 from linkwright.synthesis.requirements.slider_crank import not_negative, positive
-from linkwright.synthesis.result import Candidate, Synthesis, note, refuse, whole
+from linkwright.synthesis.result import Candidate, Derivation, Synthesis, note, refuse, whole
 from linkwright.words.sentence import Sentence
 
 #: Positions of a candidate's curve.
@@ -29,6 +30,23 @@ SHOWN = 721
 FARTHEST, LEAST = 1e9, 1e-12
 #: Designs are alike whose error (share), transmission angle (rad) and size (rms radii) differ less.
 ALIKE = 0.02, 0.03, 0.2
+
+
+@dataclass(frozen=True, eq=False)
+class FreeCurveDerivation(Derivation):
+    """The curve as it was given (m), closed or open, its centroid and rms radius (m); the demands; linkages tried and
+    found."""
+
+    curve: Complexes
+    closed: bool
+    centroid: complex
+    radius: float
+    transmission_angle: float
+    size: float
+    turning: bool
+    seconds: float
+    attempts: int
+    designs: int
 
 
 def free_curve(
@@ -134,10 +152,18 @@ def _ranked(
     if search.stopped and kept is not None:
         notes.append(Sentence("study.interrupted", path=kept.left()))
     counts = {"attempts": search.attempts, "designs": len(found)}
+    derivation = FreeCurveDerivation(
+        curve, target.closed, target.centre, target.radius, target.least, target.largest, target.turning,
+        search.seconds, search.attempts, len(found),
+    )  # fmt: skip
     if not within:
         nearest = [_candidate(each, target) for each, _ in _front(found)[:count]]
         near = (
-            Synthesis("free_curve", tuple(nearest), "curve", curve, counts, tuple(notes)) if nearest else None
+            Synthesis(
+                "free_curve", tuple(nearest), "curve", curve, counts, tuple(notes), derivation=derivation
+            )
+            if nearest
+            else None
         )
         raise refuse(f"free_curve.none_{how}", near, **asked)
     front = _front(within)
@@ -147,7 +173,9 @@ def _ranked(
     rest = [each for each in front if each[1][0] > error]
     chosen = _spread(good + rest, count)
     made = tuple(_candidate(each, target) for each, _ in chosen)
-    result = Synthesis("free_curve", made, "curve", _shown(curve, target.closed), counts, tuple(notes))
+    result = Synthesis(
+        "free_curve", made, "curve", _shown(curve, target.closed), counts, tuple(notes), derivation=derivation
+    )
     if error and not good:
         raise refuse("free_curve.error", result, given=f"{error:g}", least=f"{made[0].error:.3g}")
     return result

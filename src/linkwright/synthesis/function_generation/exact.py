@@ -13,9 +13,12 @@ Sources: Freudenstein 1955, Trans. ASME 77; Hartenberg and Denavit 1964, Kinemat
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
-from linkwright.core.arrays import Floats
+from linkwright.core.arrays import Complexes, Floats
+from linkwright.core.dataclass import dataclass
 from linkwright.synthesis.motion_generation.burmester import five_poses
 
 ZEROS = 72
@@ -23,31 +26,72 @@ ZEROS = 72
 DEPENDENT = 1e-13
 
 
-def freudenstein(phi: Floats, psi: Floats) -> Floats:
-    """Lengths a, b, c (N, 3) in units of the frame from pairs of angles (N, n), n ≥ 3 by least squares; NaN: none.
+@dataclass(frozen=True, eq=False)
+class Freudenstein:
+    """Freudenstein's equation for N sets of n pairs of angles, ``rows`` · P = ``right``, solved.
+
+    ``phi``, ``psi`` (N, n): angles of input and output link, rad; ``rows`` (N, n, 3): cos ψ, cos(φ - ψ), 1;
+    ``right`` (N, n): cos φ; ``p`` (N, 3); ``lengths`` a, b, c (N, 3) in units of the frame; NaN: none.
+    """
+
+    phi: Floats
+    psi: Floats
+    rows: Floats
+    right: Floats
+    p: Floats
+    lengths: Floats
+
+    def __getitem__(self, rows: Any) -> Freudenstein:
+        parts = (self.phi, self.psi, self.rows, self.right, self.p, self.lengths)
+        return Freudenstein(*(each[rows] for each in parts))
+
+    @property
+    def normal(self) -> Floats:
+        """Matrix of the normal equations (…, 3, 3): sums of products of the columns."""
+        return np.asarray(self.rows.swapaxes(-1, -2) @ self.rows)
+
+    @property
+    def moment(self) -> Floats:
+        """Right side of the normal equations (…, 3)."""
+        return np.asarray((self.rows.swapaxes(-1, -2) @ self.right[..., None])[..., 0])
+
+    @property
+    def residual(self) -> Floats:
+        """What is left of every equation, (…, n)."""
+        return np.asarray((self.rows @ self.p[..., None])[..., 0] - self.right)
+
+
+def freudenstein(phi: Floats, psi: Floats) -> Freudenstein:
+    """The equation of pairs of angles (N, n), n ≥ 3 by least squares.
 
     A negative a or c is measured to the opposite end of its link.
     """
     rows = np.stack([np.cos(psi), np.cos(phi - psi), np.ones_like(phi)], -1)
+    right = np.cos(phi)
     u, size, v = np.linalg.svd(rows, full_matrices=False)
-    across = (u.swapaxes(1, 2) @ np.cos(phi)[..., None])[..., 0]
+    across = (u.swapaxes(1, 2) @ right[..., None])[..., 0]
     with np.errstate(divide="ignore", invalid="ignore"):
         p = (v.swapaxes(1, 2) @ (across / size)[..., None])[..., 0]
         p[size[:, 2] <= DEPENDENT * size[:, 0]] = np.nan
         c = -p[:, 1]
         a = c / p[:, 0]
         b = np.sqrt(1 + a * a + c * c - 2 * a * p[:, 2])
-    return np.asarray(np.stack([a, b, c], 1))
+    return Freudenstein(phi, psi, rows, right, p, np.stack([a, b, c], 1))
 
 
 def zero_angles(phi: Floats, psi: Floats, which: str) -> Floats:
     """Real zero angles ζ (K,) that put four pairs (4,) on one four-bar, added to ``input`` or ``output``."""
-    zeta = 2 * np.pi * np.arange(5) / 5
-    values = np.array([_determinant(phi, psi, z, which) for z in zeta])
-    harmonics = np.fft.fft(values) / 5
-    roots = np.roots(harmonics[[2, 1, 0, 4, 3]])
+    h = harmonics(phi, psi, which)
+    roots = np.roots(h[[2, 1, 0, 4, 3]])
     real = np.abs(np.abs(roots) - 1) < 1e-7
     return np.asarray(np.angle(roots[real]))
+
+
+def harmonics(phi: Floats, psi: Floats, which: str) -> Complexes:
+    """Coefficients (5,) of e^{ikζ}, k = 0, 1, 2, -2, -1, of the determinant of four pairs."""
+    zeta = 2 * np.pi * np.arange(5) / 5
+    values = np.array([_determinant(phi, psi, z, which) for z in zeta])
+    return np.asarray(np.fft.fft(values) / 5)
 
 
 def _determinant(phi: Floats, psi: Floats, zeta: float, which: str) -> float:
@@ -67,13 +111,16 @@ def five_pairs(phi: Floats, psi: Floats) -> tuple[Floats, Floats]:
     return zeros, lengths
 
 
-def families(phi: Floats, psi: Floats, zeros: tuple[float | None, float | None]) -> tuple[Floats, Floats]:
-    """Zero angles (K, 2) and lengths (K, 3) of the exact four-bars of three, four or five pairs.
+def families(
+    phi: Floats, psi: Floats, zeros: tuple[float | None, float | None]
+) -> tuple[Floats, Floats, Freudenstein | None]:
+    """Zero angles (K, 2) and lengths (K, 3) of the exact four-bars of three, four or five pairs, and the equation
+    that they were found by (None for five pairs, where they are Burmester's).
 
     A zero angle that is None is free; where more is free than the pairs need it is sampled evenly.
     """
     if len(phi) == 5:
-        return five_pairs(phi, psi)
+        return *five_pairs(phi, psi), None
     grid = 2 * np.pi * np.arange(ZEROS) / ZEROS
     inputs = grid if zeros[0] is None else np.array([zeros[0]])
     outputs = grid if zeros[1] is None else np.array([zeros[1]])
@@ -85,7 +132,8 @@ def families(phi: Floats, psi: Floats, zeros: tuple[float | None, float | None])
         pairs = np.array([(i, outputs[0]) for i in zero_angles(phi, psi + outputs[0], "input")]).reshape(
             -1, 2
         )
-    return pairs, freudenstein(phi + pairs[:, :1], psi + pairs[:, 1:])
+    found = freudenstein(phi + pairs[:, :1], psi + pairs[:, 1:])
+    return pairs, found.lengths, found
 
 
 def chebyshev_spacing(low: float, high: float, count: int) -> Floats:

@@ -10,12 +10,18 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Complexes, Floats
+from linkwright.core.dataclass import dataclass
 from linkwright.core.given import real
 from linkwright.core.progress import current_progress, part_of
 from linkwright.synthesis.assessment import assess_four_bars
 from linkwright.synthesis.build import four_bar_candidate
-from linkwright.synthesis.function_generation.exact import families, freudenstein
-from linkwright.synthesis.function_generation.fit import HOLDS, FunctionDemand, Quality, fit
+from linkwright.synthesis.function_generation.exact import (
+    Freudenstein,
+    families,
+    freudenstein,
+    harmonics,
+)
+from linkwright.synthesis.function_generation.fit import HOLDS, TRIED, FunctionDemand, Quality, fit
 from linkwright.synthesis.function_generation.generators import (
     KINDS,
     GearedFiveBar,
@@ -26,6 +32,7 @@ from linkwright.synthesis.function_generation.generators import (
 from linkwright.synthesis.merit import merit
 from linkwright.synthesis.result import (
     Candidate,
+    Derivation,
     Synthesis,
     SynthesisError,
     allowed_transmission,
@@ -39,6 +46,31 @@ from linkwright.synthesis.result import (
 FINE = 181
 #: Candidates whose points differ less than this share of their size are one.
 DISTINCT = 0.01
+
+
+@dataclass(frozen=True, eq=False)
+class FunctionDerivation(Derivation):
+    """What a function generator was found by.
+
+    ``method``: ``freudenstein`` (three pairs), ``zero_angle`` (four, one zero angle from a determinant),
+    ``burmester`` (five), ``equation`` (least squares in Freudenstein's equation), ``search`` (least structural
+    error); ``zeros``: zero angles of input and output, rad, the free ones as found; ``free``: which were free;
+    ``frame``, m; ``equation``: that of the first candidate; ``harmonics`` (5,) of the determinant; ``kind``: the
+    linkage; ``unknowns``, ``starts``, ``optima``: of a search.
+    """
+
+    method: str
+    inputs: Floats
+    outputs: Floats
+    zeros: tuple[float, float]
+    free: tuple[bool, bool]
+    frame: float
+    kind: str = "four_bar"
+    equation: Freudenstein | None = None
+    harmonics: Complexes | None = None
+    unknowns: int = 0
+    starts: int = 0
+    optima: int = 0
 
 
 def function_generation(
@@ -172,9 +204,12 @@ def _distinct(x: Floats, y: Floats, fitting: bool) -> None:
 
 
 def _exact(demand: FunctionDemand, quality: Quality, frame: float, count: int, seed: int) -> Synthesis:
-    zeros, lengths = families(demand.inputs, demand.outputs, (demand.input_zero, demand.output_zero))
+    zeros, lengths, equation = families(
+        demand.inputs, demand.outputs, (demand.input_zero, demand.output_zero)
+    )
     usable = np.isfinite(lengths).all(1) & (np.abs(lengths) > 1e-3).all(1) & (np.abs(lengths) < 1e3).all(1)
     zeros, lengths = zeros[usable], lengths[usable]
+    equation = None if equation is None else equation[usable]
     target = np.stack([demand.inputs, demand.outputs])
     if not len(zeros):
         nearest = _fitted(KINDS["four_bar"](), demand, Quality(), frame, count, seed)
@@ -200,9 +235,13 @@ def _exact(demand: FunctionDemand, quality: Quality, frame: float, count: int, s
         each = four_bar_candidate(
             0j, pin[i] * frame, joint[i] * frame, complex(frame), facts, int(i), 0.0, values=values
         )
-        made.append(replace(each, curve=_four_bar_curve(demand, pin[i], joint[i], float(zeros[i, 1]))))
+        off = np.angle((joint[i] - 1) * np.exp(-1j * (demand.outputs + links[i, 1])))
+        curve = _four_bar_curve(demand, pin[i], joint[i], float(zeros[i, 1]))
+        made.append(replace(each, curve=curve, deviations=off))
+    derivation = _way_of(demand, zeros[order[0]], equation[order[0]] if equation is not None else None, frame)
     counts = {"solutions": len(zeros), "sound": int(facts.sound.sum())}
-    result = Synthesis("function", different(tuple(made), DISTINCT * frame)[:count], "angle", target, counts)
+    chosen = different(tuple(made), DISTINCT * frame)[:count]
+    result = Synthesis("function", chosen, "angle", target, counts, derivation=derivation)
     if made[0].defects:
         why = note("motion.defects", defects=tuple(note(f"defect.{name}") for name in made[0].defects))
         raise refuse("function.no_movable", result, linkage=note("type.four_bar"), why=why)
@@ -211,11 +250,30 @@ def _exact(demand: FunctionDemand, quality: Quality, frame: float, count: int, s
     return result
 
 
+def _way_of(
+    demand: FunctionDemand, zeros: Floats, equation: Freudenstein | None, frame: float
+) -> FunctionDerivation:
+    """How an exact four-bar with these zero angles was found."""
+    free = (demand.input_zero is None, demand.output_zero is None)
+    x, y = demand.inputs, demand.outputs
+    method, roots = "freudenstein", None
+    if equation is None:
+        method = "burmester"
+    elif len(x) == 4:
+        method = "zero_angle"
+        of_output = harmonics(x + zeros[0], y, "output")
+        roots = of_output if free[1] else harmonics(x, y + zeros[1], "input")
+    return FunctionDerivation(
+        method, x, y, (float(zeros[0]), float(zeros[1])), free, frame, equation=equation, harmonics=roots
+    )
+
+
 def _by_equation(demand: FunctionDemand, quality: Quality, frame: float) -> Synthesis:
     """The four-bar of least squares in Freudenstein's equation, its structural error measured."""
     zeros = (demand.input_zero or 0.0, demand.output_zero or 0.0)
     given = replace(demand, input_zero=zeros[0], output_zero=zeros[1])
-    a, b, c = freudenstein(demand.inputs[None] + zeros[0], demand.outputs[None] + zeros[1])[0]
+    equation = freudenstein(demand.inputs[None] + zeros[0], demand.outputs[None] + zeros[1])[0]
+    a, b, c = equation.lengths
     if not np.isfinite(a + b + c):
         raise refuse("function.none", linkage=note("type.four_bar"))
     generator = KINDS["four_bar"]()
@@ -225,7 +283,11 @@ def _by_equation(demand: FunctionDemand, quality: Quality, frame: float) -> Synt
     chosen = ranked([each for each in sides if each is not None], demand.size)[:1]
     if not chosen:
         raise refuse("function.none", linkage=note("type.four_bar"))
-    result = Synthesis("function", chosen, "angle", np.stack([demand.inputs, demand.outputs]))
+    derivation = FunctionDerivation(
+        "equation", demand.inputs, demand.outputs, zeros, (False, False), frame, equation=equation
+    )
+    target = np.stack([demand.inputs, demand.outputs])
+    result = Synthesis("function", chosen, "angle", target, derivation=derivation)
     if not quality.of(chosen[0])[0]:
         raise _short(quality, result, "four_bar", "equation")
     return result
@@ -285,10 +347,26 @@ def _fitted(
     chosen = different(order, DISTINCT * scale)[:count]
     name = "angle" if generator.output_is_angle else "length"
     target = np.stack([demand.inputs, demand.outputs])
-    result = Synthesis("function", chosen, name, target, {"optima": len(made)}, extent=extent)
+    derivation = _searched(generator, demand, chosen[0], frame, len(made)) if chosen else None
+    result = Synthesis(
+        "function", chosen, name, target, {"optima": len(made)}, extent=extent, derivation=derivation
+    )
     if not good:
         raise _short(quality, result, generator.name, "fitted")
     return result
+
+
+def _searched(
+    generator: Generator, demand: FunctionDemand, best: Candidate, frame: float, optima: int
+) -> FunctionDerivation:
+    """How a linkage of least structural error was found."""
+    free = (demand.input_zero is None, demand.output_zero is None)
+    unknowns = generator.sample(np.random.default_rng(0), 1).shape[1] - (not free[0])
+    zeros = best.values["input_zero [rad]"], demand.output_zero or 0.0
+    return FunctionDerivation(
+        "search", demand.inputs, demand.outputs, zeros, free, frame, generator.name,
+        unknowns=unknowns, starts=TRIED, optima=optima,
+    )  # fmt: skip
 
 
 def _by_quality(made: list[Candidate], quality: Quality) -> tuple[Candidate, ...]:
@@ -330,6 +408,7 @@ def _candidate(
         linkage, float(np.sqrt((off**2).mean())), _type(generator, at), defects, turns,
         float(np.arcsin(min(sine, 1.0))), float(lengths.max() / lengths.min()),
         worst=float(np.abs(off).max()), curve=curve, values=values,
+        positions={name: places[0] * scale for name, places in at.points.items()}, deviations=off[0],
     )  # fmt: skip
 
 

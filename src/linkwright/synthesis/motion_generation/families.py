@@ -117,6 +117,20 @@ def cubic(z: Complexes, d: Complexes, e: Complexes) -> Floats:
     return np.asarray(np.linalg.det(np.stack([q.real, q.imag, third], -1)))
 
 
+#: Powers of x and y in the circle-point curve's function, in the order of its coefficients.
+POWERS = ((3, 0), (2, 1), (1, 2), (0, 3), (2, 0), (1, 1), (0, 2), (1, 0), (0, 1), (0, 0))
+
+
+def cubic_coefficients(d: Complexes, e: Complexes, size: float) -> Floats:
+    """Coefficients (10,) of the circle-point curve's function in x/size and y/size by POWERS, the largest of those of
+    degree three being 1 in size."""
+    x, y = np.array([(i, j) for i in (-1.0, -0.3, 0.4, 1.0) for j in (-1.0, -0.4, 0.3, 1.0)]).T
+    values = cubic(size * (x + 1j * y), d, e)
+    columns = np.stack([x**i * y**j for i, j in POWERS], 1)
+    found = np.linalg.lstsq(columns, values, rcond=None)[0]
+    return np.asarray(found / max(float(np.abs(found[:4]).max()), 1e-300))
+
+
 def inverse_poses(p: Complexes, phi: Floats) -> tuple[Complexes, Floats]:
     """The frame's poses seen from the body: its circle points are the centre points, in axes at pose 0."""
     d, e = relative_poses(p, phi)

@@ -10,7 +10,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from linkwright.core.arrays import Complexes, Floats, Whole
+from linkwright.core.arrays import Complexes, Flags, Floats, Whole
+from linkwright.core.dataclass import dataclass
 from linkwright.synthesis.assessment import Assessment, assess_four_bars, assess_slider_cranks
 from linkwright.synthesis.build import (
     candidate,
@@ -20,11 +21,19 @@ from linkwright.synthesis.build import (
     working_span,
 )
 from linkwright.synthesis.merit import extent_of, merit
-from linkwright.synthesis.motion_generation.burmester import Dyads, centres, circles, join, relative_poses
+from linkwright.synthesis.motion_generation.burmester import (
+    Dyads,
+    centres,
+    circles,
+    five_poses,
+    join,
+    relative_poses,
+)
 from linkwright.synthesis.motion_generation.families import (
     LINES,
     Window,
     circle_points,
+    cubic_coefficients,
     dyads,
     fitted,
     held,
@@ -37,6 +46,7 @@ from linkwright.synthesis.path_generation.generate import complex_points
 from linkwright.synthesis.requirements.slider_crank import positive
 from linkwright.synthesis.result import (
     Candidate,
+    Derivation,
     Synthesis,
     SynthesisError,
     different,
@@ -55,6 +65,27 @@ MOST_DYADS = 360
 USUAL_RATIO = 10.0
 #: Body points of the parallelograms for poses that do not turn.
 AROUND: Complexes = np.array([0, 1, 1j, -1, -1j, 1 + 1j], complex)
+
+
+@dataclass(frozen=True, eq=False)
+class MotionDerivation(Derivation):
+    """Poses: places (n,), m, and angles (n,), rad, NaN where free.
+
+    Five poses: all four Burmester points (4,) in axes at the first place, their centres (4,) in the frame, which are
+    real and which slide. Four: coefficients of the circle- and the centre-point curve by ``families.POWERS`` in
+    coordinates from the first place over ``size`` (m). ``link_ratio``: the limit that was held.
+    """
+
+    p: Complexes
+    phi: Floats
+    link_ratio: float
+    points: Complexes | None = None
+    centres: Complexes | None = None
+    real: Flags | None = None
+    slides: Flags | None = None
+    size: float = 1.0
+    circle_curve: Floats | None = None
+    centre_curve: Floats | None = None
 
 
 def motion_generation(
@@ -109,6 +140,23 @@ def motion_generation(
     return replace(found, candidates=good)
 
 
+def _derivation(p: Complexes, phi: Floats, link_ratio: float) -> MotionDerivation:
+    """What the dyads of these poses follow from."""
+    d, e = relative_poses(p, phi)
+    if len(p) == 5:
+        z, c, real, slides = (each[0] for each in five_poses(p[None], phi[None]))
+        return MotionDerivation(p, phi, link_ratio, points=z, centres=c + p[0], real=real, slides=slides)
+    if len(p) == 4:
+        d_inverse, phi_inverse = inverse_poses(p, phi)
+        size = _scale(p)
+        both = [
+            cubic_coefficients(d, e, size),
+            cubic_coefficients(d_inverse, np.exp(1j * phi_inverse), size),
+        ]
+        return MotionDerivation(p, phi, link_ratio, size=size, circle_curve=both[0], centre_curve=both[1])
+    return MotionDerivation(p, phi, link_ratio)
+
+
 def _applicable(phi: Floats, within: object, line: object, **pivots: Sequence[object]) -> None:
     """Raises SynthesisError for demands that do not go together."""
     named = [name for name, given in pivots.items() if len(given)]
@@ -142,8 +190,9 @@ def _guided(
     counts["pairs"] = len(found) * (len(found) - 1) // 2
     curves = _curves(p, phi, window) if len(p) == 4 else {}
     result = Synthesis(
-        "motion", chosen, "deviation", _shown(p, phi), counts, curves=curves, extent=extent_of(p)
-    )
+        "motion", chosen, "deviation", _shown(p, phi), counts, curves=curves, extent=extent_of(p),
+        derivation=_derivation(p, phi, link_ratio),
+    )  # fmt: skip
     if not chosen:
         raise refuse("motion.no_pairs")
     if all(each.defects for each in chosen):
@@ -239,6 +288,7 @@ def _mixed(p: Complexes, phi: Floats, link_ratio: float, count: int) -> Synthesi
         counts | {"pairs": len(made)},
         notes,
         extent=extent_of(p),
+        derivation=MotionDerivation(p, phi, link_ratio),
     )
     if every is not None and not every[0]:
         raise refuse("motion.mixed_none", result, found=every[1], error=f"{chosen[0].error:.4g}")
@@ -355,12 +405,14 @@ def _candidate(
     if not found.slides[j]:
         o2 = complex(found.centre[j])
         curve = path_of_four_bar(o1, a[0], b[0], o2, p[0])
-        return four_bar_candidate(o1, a, b, o2, facts, k, error, p=complex(p[0]), worst=error, curve=curve)
+        return four_bar_candidate(
+            o1, a, b, o2, facts, k, error, p=complex(p[0]), worst=error, curve=curve, path=p
+        )
     direction = complex(found.direction[j])
     span = working_span(facts, k, cmath.phase(direction))
     turns = bool(facts.turns[k])
     linkage = slider_crank(o1, complex(a[0]), complex(b[0]), direction, complex(p[0]), span=span, turns=turns)
-    return candidate(linkage, facts, k, error, worst=error)
+    return candidate(linkage, facts, k, error, worst=error, positions={"A": a, "B": b, "P": p})
 
 
 def _nearest(p: Complexes, phi: Floats, link_ratio: float, count: int) -> Synthesis | None:

@@ -2,20 +2,35 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Complexes
+from linkwright.core.dataclass import dataclass
 from linkwright.synthesis.assessment import Assessment, assess_four_bars
 from linkwright.synthesis.build import four_bar_candidate, path_of_four_bar
 from linkwright.synthesis.merit import extent_of, merit
 from linkwright.synthesis.nine_points.classes import is_real, relatives
 from linkwright.synthesis.nine_points.query import NinePoints, nine_points
 from linkwright.synthesis.path_generation.generate import complex_points, path_generation
-from linkwright.synthesis.result import Candidate, Synthesis, note, refuse, whole
+from linkwright.synthesis.result import Candidate, Derivation, Synthesis, note, refuse, whole
 
 #: Sum of squares below which a path of least squares passes its points exactly, in units of their size squared.
 EXACT = 1e-18
+
+
+@dataclass(frozen=True, eq=False)
+class NinePointDerivation(Derivation):
+    """Nine points (9,), m; classes of Roberts' cognates found and those that are real; four-bars examined with both
+    inputs and all cognates, and those without defects."""
+
+    points: Complexes
+    classes: int
+    real: int
+    examined: int
+    sound: int
 
 
 def exact_path_generation(points: ArrayLike, *, count: int = 6, seed: int = 0) -> Synthesis:
@@ -57,7 +72,7 @@ def _fewer(z: Complexes, size: float, count: int, seed: int) -> Synthesis:
     exact = tuple(each for each in found if each.error <= EXACT * size**2 and not each.defects)
     if not exact:
         raise refuse("path.no_real", found, count=len(z), error=f"{found.best.error:.4g}")
-    return Synthesis("exact_path", exact[:count], "squares", z, {"exact": len(exact)}, extent=found.extent)
+    return replace(found, task="exact_path", candidates=exact[:count], counts={"exact": len(exact)}, notes=())
 
 
 def _nine(z: Complexes, found: NinePoints, count: int, seed: int) -> Synthesis:
@@ -80,7 +95,8 @@ def _nine(z: Complexes, found: NinePoints, count: int, seed: int) -> Synthesis:
     made = tuple(_candidate(z, pivots, pins, facts, int(i)) for i in order)
     counts |= {"four_bars": len(u), "sound": int(facts.sound.sum())}
     notes = (note("path.nine", classes=counts["classes"], real=counts["real"], sound=counts["sound"]),)
-    result = Synthesis("exact_path", made, "squares", z, counts, notes, extent=extent)
+    derivation = NinePointDerivation(z, counts["classes"], len(real), len(u), int(facts.sound.sum()))
+    result = Synthesis("exact_path", made, "squares", z, counts, notes, extent=extent, derivation=derivation)
     if made[0].defects:
         why = note("motion.defects", defects=tuple(note(f"defect.{name}") for name in made[0].defects))
         raise refuse("path.no_movable", result, real=len(u), why=why)
@@ -95,4 +111,8 @@ def _candidate(
     lengths = [np.ptp(np.abs(pin - pivot)) for pin, pivot in ((a, o1), (b, o2))]
     curve = path_of_four_bar(o1, a[0], b[0], o2, z[0])
     error = float(max(lengths))
-    return four_bar_candidate(o1, a, b, o2, facts, i, error**2, p=complex(z[0]), worst=error, curve=curve)
+    made = four_bar_candidate(
+        o1, a, b, o2, facts, i, error**2, p=complex(z[0]), worst=error, curve=curve, path=z
+    )
+    return replace(made, deviations=np.maximum(*(np.abs(pin - pivot) - abs(pin[0] - pivot)
+                                                 for pin, pivot in ((a, o1), (b, o2)))))  # fmt: skip

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Complexes
+from linkwright.core.dataclass import dataclass
 from linkwright.synthesis.assessment import assess_four_bars
 from linkwright.synthesis.build import four_bar_candidate, path_of_four_bar
 from linkwright.synthesis.crank_family import couplers
@@ -17,6 +19,7 @@ from linkwright.synthesis.path_generation.search import Found, search
 from linkwright.synthesis.requirements.slider_crank import positive
 from linkwright.synthesis.result import (
     Candidate,
+    Derivation,
     Synthesis,
     allowed_transmission,
     different,
@@ -28,6 +31,15 @@ from linkwright.synthesis.result import (
 
 #: Solutions whose lengths agree so far (relative) are one.
 ALIKE = 1e-4
+
+
+@dataclass(frozen=True, eq=False)
+class PathDerivation(Derivation):
+    """The demand of a path, the smallest transmission angle (rad) demanded, and how many optima were compared."""
+
+    demand: Demand
+    transmission_angle: float
+    optima: int
 
 
 def path_generation(
@@ -85,7 +97,10 @@ def path_generation(
     if not chosen:
         raise refuse("path.none")
     notes = (note("path.ordered"),) if chosen[0].defects else ()
-    result = Synthesis("path", chosen, "squares", demand.points, notes=notes, extent=extent)
+    derivation = PathDerivation(demand, transmission_angle, len(candidates))
+    result = Synthesis(
+        "path", chosen, "squares", demand.points, notes=notes, extent=extent, derivation=derivation
+    )
     _contradictions(demand, bound, result)
     return result
 
@@ -163,11 +178,12 @@ def _candidates(found: Found) -> list[Candidate]:
     facts = assess_four_bars(pivot[:, 0], pin_a, pin_b, o2[:, 0])
     off = np.abs(p - paths.demand.points)
     error = (off**2).sum(1)
-    return [
+    made = [
         four_bar_candidate(
             complex(pivot[i, 0]), pin_a[i], pin_b[i], complex(o2[i, 0]), facts, i, error[i], p=complex(p[i, 0]),
-            worst=off[i].max(),
+            worst=off[i].max(), path=p[i],
             curve=path_of_four_bar(complex(pivot[i, 0]), pin_a[i, 0], pin_b[i, 0], complex(o2[i, 0]), p[i, 0]),
         )
         for i in range(len(free))
     ]  # fmt: skip
+    return [replace(each, deviations=off[i]) for i, each in enumerate(made)]

@@ -13,11 +13,12 @@ import math
 import numpy as np
 
 from linkwright.core.arrays import Complexes, Flags
+from linkwright.core.dataclass import dataclass
 from linkwright.synthesis.assessment import Assessment, assess_four_bars
 from linkwright.synthesis.build import four_bar_candidate
 from linkwright.synthesis.linkage import Guide, Linkage
 from linkwright.synthesis.requirements.slider_crank import angle_between_limits, not_negative, positive
-from linkwright.synthesis.result import Candidate, Synthesis, SynthesisError, note, refuse, whole
+from linkwright.synthesis.result import Candidate, Derivation, Synthesis, SynthesisError, note, refuse, whole
 
 SAMPLES = 20_001
 #: A rocker swings less than half a turn.
@@ -28,6 +29,38 @@ USUAL_RATIO = 5.0
 BELOW = 2e-3
 #: Quick-return ratios of the nearest slotted levers, where a demand lies beyond what they can have.
 LEAST_RATIO, MOST_RATIO = 1.05, 1000.0
+
+
+@dataclass(frozen=True)
+class CrankRockerDerivation(Derivation):
+    """A crank-rocker's demands (0: not given), θ (rad), the rocker's length (m), and in units of the rocker, whose
+    pivot lies at 0 and whose limit positions are symmetric about the y axis: the crank's pivot and the centre of the
+    circle on which it lies (None for θ = 0). ``link_ratio``: the limit that was held."""
+
+    swing_angle: float
+    quick_return_ratio: float
+    frame: float
+    rocker: float
+    theta: float
+    rocker_length: float
+    pivot: complex
+    centre: complex | None
+    link_ratio: float
+
+
+@dataclass(frozen=True)
+class QuickReturnDerivation(Derivation):
+    """A slotted lever's demands, θ = its swing (rad), crank and arm (m); with a stroke the guide's distance from the
+    lever's pivot and the rod (m)."""
+
+    quick_return_ratio: float
+    frame: float
+    theta: float
+    crank: float
+    arm: float
+    stroke: float
+    height: float
+    rod: float
 
 
 def crank_rocker(
@@ -80,8 +113,10 @@ def crank_rocker(
             "link_ratio_unmet", nearest, given=f"{link_ratio:g}", least=f"{math.ceil(1e3 * least) / 1e3:g}"
         )
     notes = () if within.any() else (note("link_ratio", least=f"{least:.4g}"),)
+    limit = usual if link_ratio is None else link_ratio
     if not within.any():
-        within = good & (facts.ratio <= 1.05 * least)
+        limit = 1.05 * least
+        within = good & (facts.ratio <= limit)
     score = np.where(within, facts.transmission, -1.0)
     best = int(score.argmax())
     usable = np.flatnonzero(within & (score > 0.5 * score[best]))
@@ -95,7 +130,13 @@ def crank_rocker(
         a, b = (pins[0][i] - pivots[i]) * turn, (pins[1][i] - pivots[i]) * turn
         values = {"swing_angle [rad]": swing_angle, "quick_return_ratio": quick_return_ratio}
         found.append(four_bar_candidate(o1, a, b, complex(o2), facts, i, 0.0, values=values))
-    return Synthesis("crank_rocker", tuple(found), counts={"family": int(good.sum())}, notes=notes)
+    derivation = CrankRockerDerivation(
+        swing_angle, quick_return_ratio, frame, rocker, theta, rocker or frame / float(lengths[best]),
+        complex(pivots[best]), _circle_centre(complex(pivots[best]), swing_angle, theta), limit,
+    )  # fmt: skip
+    return Synthesis(
+        "crank_rocker", tuple(found), counts={"family": int(good.sum())}, notes=notes, derivation=derivation
+    )
 
 
 def _none(swing: float, k: float, frame: float, count: int) -> SynthesisError:
@@ -153,6 +194,16 @@ def _family(swing: float, theta: float) -> tuple[Complexes, Complexes]:
         both = [middle + s * 1j * radius * math.cos(theta) + radius * np.exp(1j * around) for s in (1, -1)]
         pivots = np.concatenate(both)
     return np.asarray(pivots), limits
+
+
+def _circle_centre(pivot: complex, swing: float, theta: float) -> complex | None:
+    """Centre of the circle through both limit positions from whose points they are seen under θ, on the pivot's
+    side."""
+    if theta == 0:
+        return None
+    height, half = math.cos(swing / 2), math.sin(swing / 2)
+    both = [1j * (height + s * half / math.tan(theta)) for s in (1, -1)]
+    return min(both, key=lambda centre: abs(abs(pivot - centre) - half / math.sin(theta)))
 
 
 def _at_distance(swing: float, theta: float, distance: float) -> Complexes:
@@ -235,6 +286,7 @@ def quick_return(
     assembly = {"slot": "forward"}
     arm = stroke / (2 * math.sin(theta / 2)) if stroke else frame + 1.2 * crank
     points["E"] = -1j * frame + arm * lever
+    height = 0.0
     if stroke:
         height = arm * (1 + math.cos(theta / 2)) / 2
         sink = points["E"].imag + frame - height
@@ -259,4 +311,8 @@ def quick_return(
         transmission = math.acos(arm * (1 - math.cos(theta / 2)) / 2 / length)
     ratio = max(frame, arm) / min(crank, arm)
     each = Candidate(linkage, 0.0, "crank_slotted_lever", (), True, transmission, ratio, values=values)
-    return Synthesis("quick_return", (each,))
+    derivation = QuickReturnDerivation(
+        quick_return_ratio, frame, theta, crank, arm, stroke,
+        height, abs(points["F"] - points["E"]) if stroke else 0.0,
+    )  # fmt: skip
+    return Synthesis("quick_return", (each,), derivation=derivation)

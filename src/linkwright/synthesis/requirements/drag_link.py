@@ -17,13 +17,31 @@ import math
 import numpy as np
 
 from linkwright.core.arrays import Complexes, Floats
+from linkwright.core.dataclass import dataclass
 from linkwright.synthesis.assessment import TYPES, Assessment, assess_four_bars
 from linkwright.synthesis.build import four_bar_candidate
 from linkwright.synthesis.requirements.slider_crank import angle_between_limits, positive
-from linkwright.synthesis.result import Synthesis, SynthesisError, refuse
+from linkwright.synthesis.result import Derivation, Synthesis, SynthesisError, refuse
 
 GRID, ROUNDS, BEST = 60_000, 40, 60
 DOUBLE = TYPES.index("double_crank")
+
+
+@dataclass(frozen=True)
+class DragLinkDerivation(Derivation):
+    """A drag link's demands, the driver's turn β during the slow half turn, the follower's and driver's angle ψ and φ
+    at its beginning (rad), and the pins at its beginning and end (m, O1 at 0, O2 on the x axis)."""
+
+    quick_return_ratio: float
+    frame: float
+    link_ratio: float
+    slow_turn: float
+    follower_angle: float
+    driver_angle: float
+    a: complex
+    a_end: complex
+    b: complex
+    b_end: complex
 
 
 def drag_link(quick_return_ratio: float, frame: float, *, link_ratio: float = 5.0) -> Synthesis:
@@ -44,7 +62,11 @@ def drag_link(quick_return_ratio: float, frame: float, *, link_ratio: float = 5.
     o1, a, b, o2 = (each * frame for each in _places(best[None], math.pi + theta))
     values = {"quick_return_ratio": quick_return_ratio, "follower_angle [rad]": float(best[1])}
     each = four_bar_candidate(complex(o1[0]), a[0], b[0], complex(o2[0]), facts, 0, 0.0, values=values)
-    return Synthesis("drag_link", (each,))
+    derivation = DragLinkDerivation(
+        quick_return_ratio, frame, link_ratio, math.pi + theta, float(best[1]), float(best[2]),
+        complex(a[0, 0]), complex(a[0, 1]), complex(b[0, 0]), complex(b[0, 1]),
+    )  # fmt: skip
+    return Synthesis("drag_link", (each,), derivation=derivation)
 
 
 def _none(quick_return_ratio: float, frame: float, link_ratio: float) -> SynthesisError:

@@ -9,6 +9,8 @@ Source: Norton, Design of Machinery, sec. 3.9; Kåsa 1976, IEEE Trans. Instrum. 
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from linkwright.core.arrays import Complexes, Floats
@@ -17,7 +19,7 @@ from linkwright.synthesis.crank_family import CrankFamily, couplers
 from linkwright.synthesis.function_generation.generators import Stephenson
 from linkwright.synthesis.linkage import Linkage
 from linkwright.synthesis.requirements.slider_crank import positive
-from linkwright.synthesis.result import Candidate, Synthesis, SynthesisError, refuse
+from linkwright.synthesis.result import Candidate, Derivation, Synthesis, SynthesisError, refuse
 
 #: Crank-rockers tried, positions of a turn, arcs kept; positions of the turn of a candidate.
 ATLAS, SAMPLES, ARCS, FINE = 4000, 72, 40, 3600
@@ -25,6 +27,8 @@ MOST_REST, MOST_SWING = np.pi, 2.6
 #: Fan of the output's pivot: directions, and arm lengths in units of the arc's radius.
 DIRECTIONS, ARMS = 36, np.geomspace(0.2, 3.0, 14)
 LEAST_TRANSMISSION = np.radians(30)
+#: Positions that are shown of a rest.
+SHOWN = 9
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,6 +59,21 @@ class Fan:
     travel: float
 
 
+@dataclass(frozen=True, eq=False)
+class DwellDerivation(Derivation):
+    """Demands (rad, m); the crank angles (SHOWN,), rad, of the positions that are shown of the rest; centre and
+    radius of the arc, m; four-bars tried and arcs kept."""
+
+    crank_angle: float
+    swing_angle: float
+    frame: float
+    crank: Floats
+    centre: complex
+    radius: float
+    tried: int
+    arcs: int
+
+
 def dwell(crank_angle: float, swing_angle: float, *, frame: float = 1.0, seed: int = 0) -> Synthesis:
     """Six-bars whose output rests over a crank angle (rad) and swings by ``swing_angle`` (rad) else.
 
@@ -76,11 +95,12 @@ def dwell(crank_angle: float, swing_angle: float, *, frame: float = 1.0, seed: i
     arcs = _arcs(crank_angle, np.random.default_rng(seed))
     fans = [_fan(arcs, i, swing_angle) for i in range(len(arcs.d))]
     made = [_output(arcs, i, fans[i], crank_angle, swing_angle, frame) for i in range(len(fans))]
-    candidates = [each for each in made if each is not None]
-    if not candidates:
+    found = [each for each in made if each is not None]
+    if not found:
         raise _none(arcs, fans, crank_angle, swing_angle, frame, degrees)
-    candidates.sort(key=lambda each: each.error)
-    return Synthesis("dwell", tuple(candidates[:4]), "rest", counts={"arcs": ARCS})
+    found.sort(key=lambda each: each[0].error)
+    candidates = tuple(each for each, _ in found[:4])
+    return Synthesis("dwell", candidates, "rest", counts={"arcs": ARCS}, derivation=found[0][1])
 
 
 def _none(
@@ -92,7 +112,8 @@ def _none(
             found = _output(arcs, i, fans[i], crank_angle, fans[i].travel, frame)
             if found is not None:
                 near = f"{np.degrees(fans[i].travel):.4g}"
-                return refuse("dwell.none", Synthesis("dwell", (found,), "rest"), near=near, **degrees)
+                nearest = Synthesis("dwell", (found[0],), "rest", derivation=found[1])
+                return refuse("dwell.none", nearest, near=near, **degrees)
     return refuse("dwell.no_arc", None, **degrees)
 
 
@@ -151,7 +172,9 @@ def _fan(arcs: Arcs, i: int, swing: float) -> Fan:
     )
 
 
-def _output(arcs: Arcs, i: int, fan: Fan, crank_angle: float, swing: float, frame: float) -> Candidate | None:
+def _output(
+    arcs: Arcs, i: int, fan: Fan, crank_angle: float, swing: float, frame: float
+) -> tuple[Candidate, DwellDerivation] | None:
     """The output of one arc with the demanded swing; None where there is none near the fan's."""
     if not abs(fan.travel - swing) <= 0.25 * swing:
         return None
@@ -167,7 +190,19 @@ def _output(arcs: Arcs, i: int, fan: Fan, crank_angle: float, swing: float, fram
     if sine < np.sin(LEAST_TRANSMISSION) * (1 - 1e-6):
         return None
     rest = angle[0, : round(crank_angle / (2 * np.pi) * FINE) + 1]
-    return _candidate(arcs, i, complex(pivot), angle[0], sine, float(np.ptp(rest) / 2), frame)
+    made = _candidate(arcs, i, complex(pivot), angle[0], sine, float(np.ptp(rest) / 2), frame)
+    at = np.linspace(0, len(rest) - 1, SHOWN).round().astype(int)
+    scale = frame / arcs.d[i]
+    end = pivot + arm * np.exp(1j * rest[at])
+    shown = replace(
+        made,
+        positions={"P": p[at] * scale, "Q": end * scale},
+        deviations=rest[at] - 0.5 * (rest.min() + rest.max()),
+    )
+    derivation = DwellDerivation(
+        crank_angle, swing, frame, theta[at], complex(centre * scale), float(rod * scale), ATLAS, ARCS
+    )
+    return shown, derivation
 
 
 def _least_sine(arcs: Arcs, i: int, pivot: complex, arm: float) -> float:

@@ -12,12 +12,29 @@ import math
 
 import numpy as np
 
+from linkwright.core.dataclass import dataclass
 from linkwright.core.given import real
 from linkwright.synthesis.assessment import assess_slider_cranks
 from linkwright.synthesis.build import candidate, slider_crank
-from linkwright.synthesis.result import Synthesis, refuse
+from linkwright.synthesis.result import Derivation, Synthesis, refuse
 
 ROUND = 1e-12
+
+
+@dataclass(frozen=True)
+class SliderCrankDerivation(Derivation):
+    """A slider-crank's demands (m, rad), its crank and rod (m), and whether they come from ``ratios``,
+    ``quick_return`` or ``transmission``."""
+
+    way: str
+    stroke: float
+    crank: float
+    rod: float
+    offset: float
+    rod_ratio: float = 0.0
+    offset_ratio: float = 0.0
+    quick_return_ratio: float = 0.0
+    transmission_angle: float = 0.0
 
 
 def slider_crank_from_ratios(stroke: float, rod_ratio: float, offset_ratio: float = 0.0) -> Synthesis:
@@ -36,7 +53,10 @@ def slider_crank_from_ratios(stroke: float, rod_ratio: float, offset_ratio: floa
         raise refuse("slider_crank.ratio", nearest, given=f"{rod_ratio:g}", least=f"{1 + offset_ratio:g}")
     inner = max((rod_ratio - 1) ** 2 - offset_ratio**2, 0.0)
     crank = stroke / (math.sqrt((rod_ratio + 1) ** 2 - offset_ratio**2) - math.sqrt(inner))
-    return _result(crank, rod_ratio * crank, offset_ratio * crank)
+    return _result(
+        SliderCrankDerivation("ratios", stroke, crank, rod_ratio * crank, offset_ratio * crank,
+                              rod_ratio=rod_ratio, offset_ratio=offset_ratio)
+    )  # fmt: skip
 
 
 def slider_crank_from_quick_return(stroke: float, quick_return_ratio: float, offset: float) -> Synthesis:
@@ -65,7 +85,12 @@ def slider_crank_from_quick_return(stroke: float, quick_return_ratio: float, off
         )
     difference = offset * stroke / math.sin(theta)
     total = stroke**2 / 2 + offset * stroke / math.tan(theta)
-    return _result(math.sqrt((total - difference) / 2), math.sqrt((total + difference) / 2), offset)
+    crank, rod = math.sqrt((total - difference) / 2), math.sqrt((total + difference) / 2)
+    return _result(
+        SliderCrankDerivation(
+            "quick_return", stroke, crank, rod, offset, quick_return_ratio=quick_return_ratio
+        )
+    )
 
 
 def slider_crank_from_transmission(
@@ -95,7 +120,12 @@ def slider_crank_from_transmission(
         middle = 0.5 * (low + high)
         low, high = (middle, high) if excess(middle) < 0 else (low, middle)
     crank = high if offset else stroke / 2
-    return _result(crank, (crank + offset) / slope, offset)
+    rod = (crank + offset) / slope
+    return _result(
+        SliderCrankDerivation(
+            "transmission", stroke, crank, rod, offset, transmission_angle=transmission_angle
+        )
+    )
 
 
 def angle_between_limits(quick_return_ratio: float) -> float:
@@ -122,7 +152,8 @@ def not_negative(**values: float) -> None:
             raise refuse("negative", name=name, given=f"{value:g}")
 
 
-def _result(crank: float, rod: float, offset: float) -> Synthesis:
+def _result(derivation: SliderCrankDerivation) -> Synthesis:
+    crank, rod, offset = derivation.crank, derivation.rod, derivation.offset
     reach, least = math.sqrt((rod + crank) ** 2 - offset**2), max((rod - crank) ** 2 - offset**2, 0.0)
     tip = complex(reach, offset)
     pin = crank * tip / abs(tip)
@@ -141,4 +172,5 @@ def _result(crank: float, rod: float, offset: float) -> Synthesis:
     height = crank * np.sin(turn) - offset
     slide = crank * np.cos(turn) + np.sqrt(np.maximum(rod**2 - height**2, 0))
     curve = np.stack([turn, slide])
-    return Synthesis("slider_crank", (candidate(linkage, facts, 0, 0.0, curve=curve, values=values),))
+    found = candidate(linkage, facts, 0, 0.0, curve=curve, values=values)
+    return Synthesis("slider_crank", (found,), derivation=derivation)

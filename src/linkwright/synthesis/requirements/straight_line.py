@@ -23,9 +23,11 @@ from linkwright.synthesis.assessment import assess_four_bars
 from linkwright.synthesis.build import coupler_unit, four_bar_candidate, path_of_four_bar
 from linkwright.synthesis.linkage import Linkage
 from linkwright.synthesis.requirements.slider_crank import positive
-from linkwright.synthesis.result import Candidate, Synthesis, refuse
+from linkwright.synthesis.result import Candidate, Derivation, Synthesis, refuse
 
 SAMPLES = 361
+#: Positions of the stretch that are shown.
+SHOWN = 9
 
 
 @dataclass(frozen=True)
@@ -50,6 +52,15 @@ FOUR_BARS = {
 KINDS = (*FOUR_BARS, "peaucellier")
 
 
+@dataclass(frozen=True)
+class StraightLineDerivation(Derivation):
+    """Length of the stretch and deviation allowed (m), and how many linkages were compared."""
+
+    length: float
+    allowed: float
+    compared: int
+
+
 def straight_line(length: float, *, deviation: float | None = None, kind: str | None = None) -> Synthesis:
     """Straight-line linkages for a stretch of ``length`` (m) that stays within ``deviation`` (m) of its line.
 
@@ -71,7 +82,8 @@ def straight_line(length: float, *, deviation: float | None = None, kind: str | 
     while not good:
         within *= 1.5
         good = _straight(names, length, within)
-    result = Synthesis("straight_line", good, "deviation", extent=length)
+    derivation = StraightLineDerivation(length, allowed * length, len(names))
+    result = Synthesis("straight_line", good, "deviation", extent=length, derivation=derivation)
     if within > allowed:
         given, least = f"{allowed * length:.4g}", f"{good[0].error:.4g}"
         raise refuse("straight_line.none", result, kind=str(kind), given=given, least=least)
@@ -117,7 +129,14 @@ def _four_bar(name: str, length: float, allowed: float) -> Candidate | None:
         curve=curve,
         values=values,
     )
-    return replace(found, linkage=replace(found.linkage, kind=name))
+    shown = np.linspace(first, last, SHOWN).round().astype(int)
+    positions = {
+        "A": a[shown] * scale,
+        "B": (a + shape.coupler * unit)[shown] * scale,
+        "P": path[shown] * scale,
+    }
+    off_line = (positions["P"] - positions["P"][0]).imag
+    return replace(found, linkage=replace(found.linkage, kind=name), positions=positions, deviations=off_line)
 
 
 def longest_stretch(path: Complexes, allowed: float) -> tuple[int, int, float]:
@@ -171,6 +190,9 @@ def _peaucellier(length: float) -> Candidate:
     curve = scale * power * pins / np.abs(pins) ** 2
     sine = math.sin(math.acos((side**2 + arm**2 - abs(pin) ** 2) / (2 * side * arm)))
     values = {"input_range [rad]": 2 * half}
+    shown = np.linspace(0, len(turn) - 1, SHOWN).round().astype(int)
+    positions = {"A": scale * pins[shown], "P": curve[shown]}
     return Candidate(
-        linkage, 0.0, "peaucellier", (), False, math.asin(sine), arm / crank, curve=curve, values=values
-    )
+        linkage, 0.0, "peaucellier", (), False, math.asin(sine), arm / crank, curve=curve, values=values,
+        positions=positions, deviations=(curve[shown] - curve[0]).real,
+    )  # fmt: skip

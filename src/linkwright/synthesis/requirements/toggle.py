@@ -13,9 +13,23 @@ import math
 
 import numpy as np
 
+from linkwright.core.dataclass import dataclass
 from linkwright.synthesis.build import slider_crank
 from linkwright.synthesis.requirements.slider_crank import positive
-from linkwright.synthesis.result import Candidate, Synthesis, refuse
+from linkwright.synthesis.result import Candidate, Derivation, Synthesis, refuse
+
+
+@dataclass(frozen=True)
+class ToggleDerivation(Derivation):
+    """A toggle's demands (m), the angle α at which it has the force ratio (rad), the links' length (m) and the angle
+    at the beginning of the stroke (rad)."""
+
+    force_ratio: float
+    distance: float
+    stroke: float
+    alpha: float
+    link: float
+    first_angle: float
 
 
 def toggle(force_ratio: float, distance: float, stroke: float) -> Synthesis:
@@ -49,4 +63,5 @@ def toggle(force_ratio: float, distance: float, stroke: float) -> Synthesis:
     }
     transmission = math.pi / 2 - first
     found = Candidate(linkage, 0.0, "toggle", (), False, transmission, 1.0, curve=curve, values=values)
-    return Synthesis("toggle", (found,))
+    derivation = ToggleDerivation(force_ratio, distance, stroke, alpha, length, first)
+    return Synthesis("toggle", (found,), derivation=derivation)

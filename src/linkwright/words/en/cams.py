@@ -102,6 +102,14 @@ WORDS = {
     "drawn_barrel": "unrolled, R = {radius} mm, φ = {angle}°",
     "compensation_points": "angles and wanted lifts do not fit: give as many of both, twelve or more, the "
     "angles increasing",
+    "compensated_output": '"{name}" cannot be kept constant; give an output that the model names, a point\'s '
+    "coordinate, an angle or a displacement",
+    "no_cam_joint": '"{machine}" has no cam; give a follower a joint of kind cam',
+    "which_cam_joint": 'which cam? "{name}" is none{hint}',
+    "compensation_cycle": "the cam has to turn once in a closed cycle that is passed as a whole with its follower "
+    "at rest",
+    "zone_or_span": "give either a zone, two values of the input, or how long it is to be",
+    "compensation_no_effect": 'the lift of "{joint}" does not change "{output}" in the zone',
     "compensation_zone": "the zone with what lies beyond it on both sides is not within the angles given, "
     "or nearly a whole turn; give a smaller zone",
     "inertia_or_mass": "both a mass and a moment of inertia, or the moment of inertia of a translating follower",

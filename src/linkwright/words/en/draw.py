@@ -26,7 +26,7 @@ accelerations, forces and dimension lines.""",
     "inputs_help": "arrows at what is driven",
     "output_help": "write FILE.svg, FILE.png or FILE.pdf",
     "width_help": "pixels across (SVG and PDF: of the longer side)",
-    "fonts_help": "font files used beside the system's, for PNG and PDF",
+    "fonts_help": "font files, or folders of them, used before the system's",
     "one_position": '{option}: "{text}" is more than one value; give one',
     "not_reached": "note: {count} of {of} positions cannot be reached and are left out; the first: {sentence}",
 }

@@ -8,13 +8,16 @@ writes the results to a file; the file's ending chooses the format.
   .csv .parquet   one wide table, SI units         .json   everything, with units
   .xlsx           one sheet per subject            .dxf    drawing at true scale
   .xml            MuJoCo model (MJCF)              .mo     Modelica model
-  .svg .png .pdf  kinematic drawing                .html   living page, works without a network""",
+  .svg .png .pdf  kinematic drawing                .html   living page, works without a network
+  .py             Python program that solves the machine group by group""",
     "examples": """\
 linkwright export gallery:jaw_crusher_sixbar --output crusher.xlsx
+linkwright export crusher.yaml --at "0..-360deg:15" --output crusher.csv --degrees
 linkwright export conveyor.yaml --output conveyor.dxf --unit mm --paths C rod.F
 linkwright export conveyor.yaml --output conveyor.xml         MuJoCo
 linkwright export conveyor.yaml --output conveyor.mo          Modelica
-linkwright export conveyor.yaml --to conveyor.html            living page""",
+linkwright export conveyor.yaml --to conveyor.html            living page
+linkwright export conveyor.yaml --to solution.py              Python program""",
     "beside_help": "html: further models on the same page, for comparison",
     "output_help": "the file; its ending chooses the format",
     "format_help": "the format, where the ending does not say it: {names}",
@@ -30,6 +33,8 @@ linkwright export conveyor.yaml --to conveyor.html            living page""",
     "sheet.joints": "Joints",
     "sheet.forces": "Forces",
     "sheet.loads": "Loads",
+    "sheet.outputs": "Outputs",
+    "sheet.charts": "Charts",
     "sheet.metrics": "Metrics",
     "head.item": "item",
     "head.value": "value",
@@ -71,10 +76,13 @@ linkwright export conveyor.yaml --to conveyor.html            living page""",
     "quantity.relative_angle": "relative angle",
     "quantity.relative_velocity": "relative angular velocity",
     "quantity.relative_acceleration": "relative angular acceleration",
+    "quantity.rate": "rate",
+    "quantity.second_rate": "second rate",
     "quantity.effort": "driver effort",
     "quantity.x": "force x",
     "quantity.y": "force y",
     "quantity.magnitude": "force",
+    "quantity.direction": "direction of the force",
     "quantity.couple": "couple",
     "quantity.shaking_force": "shaking force",
     "quantity.shaking_moment": "shaking moment",

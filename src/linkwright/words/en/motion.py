@@ -36,6 +36,8 @@ WORDS = {
     "not_passed": "{name!r} cannot pass its cycle: {told}; {advice}",
     "advice": "change the dimensions, the assembly or the range of the input (cycle: {{from: …, to: …}}), or "
     "ask for marked outcomes",
+    "no_limits_of_formula": '"{name}" is a formula, whose limit positions are not found; ask for its extremes, '
+    '"{name} max" and "{name} min"',
     "no_output": "there is no output {text!r}; name a link (its angle), POINT.x, POINT.y or a guide (its "
     "displacement); {hint}",
     "no_way_between": "the positions of this motion do not follow the law of driver {name!r} in time, so "

@@ -16,7 +16,7 @@ WORDS = {
     "bad_width": "a picture cannot be {across:.12g} pixels wide; give a width from {least} to {most}",
     "pdf_needs": 'PDF pictures need typst; install it with: pip install "linkwright[plot]"',
     "no_picture_suffix": '{path}: the suffix "{suffix}" is no kind of picture; use .svg, .png or .pdf',
-    "no_font_file": "the font file {file} does not exist; give the path of a TTF or OTF file",
+    "no_font_file": "there is no font at {file}; give a TTF, OTF or TTC file, or a folder that holds some",
     "no_chinese_font": "the picture has Chinese text, and no font that can write it was found; {remedy}",
     "no_font": "the picture has text, and no font was found; {remedy}",
     "bad_frames": "an animation of {frames} frames cannot be made; give 2 to 2000",
@@ -61,6 +61,8 @@ WORDS = {
     "no_forces": 'no joint of "{name}" carries a force: its links have no mass and there are no loads; '
     "give masses (mass: 5 kg) or loads (loads: …)",
     "one_mechanism_forces": "force polygons show one mechanism at one position; give one result",
+    "one_flow_chart": "a flow chart shows how one mechanism is solved; give one result",
+    "one_free_bodies": "free-body diagrams show one mechanism at one position; give one result",
     "bad_diagonal": "a machine cannot be drawn {diagonal} large; give a diagonal above zero",
     "bad_inches": "a diagram cannot be {size} inches large; give width and height, 1 to 100 each, as in size=(6, 4)",
     "no_kind": 'there is no kind of diagram "{name}"; {hint}',
@@ -73,7 +75,9 @@ WORDS = {
     "nothing_moves": "nothing moves at this position, so there is no polygon; choose another input: at=…",
     "name_one": 'name what to draw: of="{name}"',
     "no_numbers": "it has no numbers",
-    "font_or_file": "install one (Debian: fonts-noto-cjk) or name its file: fonts=['NotoSansSC-Regular.ttf']",
-    "install_font": "install one and try again (Debian, Ubuntu: apt-get install fonts-noto-cjk; Fedora: "
+    "font_or_file": "install one (Debian: fonts-noto-cjk), or name its file or folder: --fonts FOLDER on the command "
+    "line, fonts=['NotoSansSC-Regular.ttf'] in Python",
+    "install_font": "install one and try again, or name its folder on the command line, --fonts FOLDER "
+    "(Debian, Ubuntu: apt-get install fonts-noto-cjk; Fedora: "
     "dnf install google-noto-sans-cjk-fonts; Windows and macOS have one)",
 }

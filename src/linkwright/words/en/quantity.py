@@ -15,6 +15,7 @@ WORDS = {
     "input_force": "input force",
     "input": "input {name}",
     "reaction": "reaction at {name} on {on}",
+    "reaction_direction": "direction of the reaction at {name} on {on}",
     "couple": "couple in {name} on {on}",
     "shaking_force": "shaking force",
     "transmission_angle": "transmission angle of {name}",

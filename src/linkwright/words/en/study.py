@@ -159,6 +159,8 @@ metrics of every design. Designs that cannot move are counted and explained.""",
     "no_summary": "{output!r}: there is no summary {kind!r}; {hint}",
     "angle_summary": "{name!r}: an angle has {kinds} in a study; take one of these, or the mean or rms of "
     "its rate",
+    "turns_unevenly": "{link!r} turns unevenly with the input, so its turns cannot be counted; use another "
+    "output in the formula",
     "turns_through": "{link!r} turns through, so its angle has no smallest and largest value; ask for "
     "{link}.angular_velocity instead",
     "no_dimension": "there is no dimension or parameter {address!r} in {name!r}; {hint}",

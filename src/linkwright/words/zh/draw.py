@@ -25,7 +25,7 @@ WORDS = {
     "inputs_help": "驱动处的箭头",
     "output_help": "写入 FILE.svg、FILE.png 或 FILE.pdf",
     "width_help": "宽度，像素（SVG 和 PDF：长边）",
-    "fonts_help": "系统字体之外使用的字体文件（PNG 和 PDF）",
+    "fonts_help": "优先于系统字体使用的字体文件，或其所在文件夹",
     "one_position": "{option}：“{text}”不止一个值；请只给一个",
     "not_reached": "提示：{of} 个位置中有 {count} 个到不了，已略去；第一个：{sentence}",
 }

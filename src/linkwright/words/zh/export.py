@@ -7,13 +7,16 @@ WORDS = {
   .csv .parquet   一张宽表，SI 单位          .json   全部结果，附单位
   .xlsx           每类结果一张工作表          .dxf    真实比例的机构图
   .xml            MuJoCo 模型（MJCF）         .mo     Modelica 模型
-  .svg .png .pdf  机构简图                   .html   交互页面，无需网络""",
+  .svg .png .pdf  机构简图                   .html   交互页面，无需网络
+  .py             逐个杆组求解本机构的 Python 程序""",
     "examples": """\
 linkwright export gallery:jaw_crusher_sixbar --output crusher.xlsx
+linkwright export crusher.yaml --at "0..-360deg:15" --output crusher.csv --degrees
 linkwright export conveyor.yaml --output conveyor.dxf --unit mm --paths C rod.F
 linkwright export conveyor.yaml --output conveyor.xml         MuJoCo
 linkwright export conveyor.yaml --output conveyor.mo          Modelica
-linkwright export conveyor.yaml --to conveyor.html            交互页面""",
+linkwright export conveyor.yaml --to conveyor.html            交互页面
+linkwright export conveyor.yaml --to solution.py              Python 程序""",
     "beside_help": "html：同一页上用于比较的其他模型",
     "output_help": "输出文件；后缀决定格式",
     "format_help": "后缀不能说明格式时指定：{names}",
@@ -29,6 +32,8 @@ linkwright export conveyor.yaml --to conveyor.html            交互页面""",
     "sheet.joints": "运动副",
     "sheet.forces": "力",
     "sheet.loads": "载荷",
+    "sheet.outputs": "输出",
+    "sheet.charts": "曲线图",
     "sheet.metrics": "指标",
     "head.item": "项目",
     "head.value": "值",
@@ -70,10 +75,13 @@ linkwright export conveyor.yaml --to conveyor.html            交互页面""",
     "quantity.relative_angle": "相对转角",
     "quantity.relative_velocity": "相对角速度",
     "quantity.relative_acceleration": "相对角加速度",
+    "quantity.rate": "变化率",
+    "quantity.second_rate": "二阶变化率",
     "quantity.effort": "平衡力（力矩）",
     "quantity.x": "力 x",
     "quantity.y": "力 y",
     "quantity.magnitude": "力",
+    "quantity.direction": "力的方向角",
     "quantity.couple": "力偶矩",
     "quantity.shaking_force": "振动力",
     "quantity.shaking_moment": "振动力矩",

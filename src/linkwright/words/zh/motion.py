@@ -32,6 +32,7 @@ WORDS = {
     "refused_told": "“{name}”在{where}处无法求解：{sentence}；{told}；{advice}",
     "not_passed": "“{name}”不能走完一个循环：{told}；{advice}",
     "advice": "请修改尺寸、装配模式或输入的范围（cycle: {{from: …, to: …}}），或要求标出失败的位置",
+    "no_limits_of_formula": "“{name}”是公式，不求其极限位置；可求其极值（“{name} max”、“{name} min”）",
     "no_output": "没有输出“{text}”；请写构件名（其角度）、点.x、点.y 或移动副名（其位移）；{hint}",
     "no_way_between": "该运动的各位置不按驱动“{name}”的时间规律，因此位置之间没有通路；"
     "请在一个循环或给定时刻的运动中求极限位置",

@@ -15,7 +15,7 @@ WORDS = {
     "bad_width": "图片宽度不能是 {across:.12g} 像素；请取 {least} 到 {most}",
     "pdf_needs": '写 PDF 图片需要 typst；安装：pip install "linkwright[plot]"',
     "no_picture_suffix": "{path}：后缀“{suffix}”不是图片格式；请用 .svg、.png 或 .pdf",
-    "no_font_file": "字体文件 {file} 不存在；请给出 TTF 或 OTF 文件的路径",
+    "no_font_file": "{file} 处没有字体；请给出 TTF、OTF 或 TTC 文件，或含有字体的文件夹",
     "no_chinese_font": "图中有中文，但没有找到中文字体；{remedy}",
     "no_font": "图中有文字，但没有找到字体；{remedy}",
     "bad_frames": "动画不能是 {frames} 帧；请取 2 到 2000",
@@ -56,6 +56,8 @@ WORDS = {
     "no_forces": "“{name}”的运动副都不受力：构件没有质量，也没有载荷；请给出质量（mass: 5 kg）或载荷（"
     "loads: …）",
     "one_mechanism_forces": "力多边形只显示一个机构的一个位置；请只给一个结果",
+    "one_flow_chart": "程序框图只显示一个机构的求解；请只给一个结果",
+    "one_free_bodies": "受力分析图只显示一个机构的一个位置；请只给一个结果",
     "bad_diagonal": "机构不能画成对角线为 {diagonal} 的大小；请给出大于零的对角线",
     "bad_inches": "图的大小不能是 {size} 英寸；请给出宽和高，各 1 到 100，如 size=(6, 4)",
     "no_kind": "没有这种图“{name}”；{hint}",
@@ -68,7 +70,9 @@ WORDS = {
     "nothing_moves": "这个位置上没有构件运动，没有多边形；请另选输入位置：at=…",
     "name_one": '请指明要绘的项目：of="{name}"',
     "no_numbers": "表中没有数",
-    "font_or_file": "请安装一种（Debian：fonts-noto-cjk），或给出字体文件：fonts=['NotoSansSC-Regular.ttf']",
-    "install_font": "请安装一种再试（Debian、Ubuntu：apt-get install fonts-noto-cjk；Fedora：dnf install "
+    "font_or_file": "请安装一种（Debian：fonts-noto-cjk），或给出字体文件或其文件夹：命令行用 --fonts 文件夹，"
+    "Python 用 fonts=['NotoSansSC-Regular.ttf']",
+    "install_font": "请安装一种再试，或在命令行用 --fonts 给出字体文件夹"
+    "（Debian、Ubuntu：apt-get install fonts-noto-cjk；Fedora：dnf install "
     "google-noto-sans-cjk-fonts；Windows 和 macOS 自带）",
 }

@@ -15,6 +15,7 @@ WORDS = {
     "input_force": "平衡力",
     "input": "输入 {name}",
     "reaction": "{name} 处对 {on} 的运动副反力",
+    "reaction_direction": "{name} 处对 {on} 的运动副反力的方向角",
     "couple": "{name} 处对 {on} 的运动副反力偶",
     "shaking_force": "振动力",
     "transmission_angle": "{name} 的传动角",

@@ -134,6 +134,7 @@ WORDS = {
     "by_loads": "因载荷或指标",
     "no_summary": "“{output}”：没有汇总方式“{kind}”；{hint}",
     "angle_summary": "“{name}”：在 study 中角度的汇总方式为 {kinds}；请用其中之一，或其角速度的 mean 或 rms",
+    "turns_unevenly": "{link!r} 的转动与输入不成固定转数比，无法确定其转数；请在公式中改用别的输出",
     "turns_through": "“{link}”整周转动，角度没有最小值和最大值；请改求 {link}.angular_velocity",
     "no_dimension": "“{name}”中没有尺寸或参数“{address}”；{hint}",
     "nothing_varied": '没有改变任何量；请给出尺寸及其各值：{{"crank.length": values}}',

@@ -1,0 +1,126 @@
+"""The section ``outputs``: names that a model gives to formulas of its places and rates."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+
+from linkwright import units
+from linkwright.core import expressions
+from linkwright.core.expressions import Expression
+from linkwright.core.outputs import KINDS, Output
+from linkwright.errors import QuantityError
+from linkwright.fields.nodes import Node
+from linkwright.fields.signals import resolve_output
+from linkwright.files.node_reader import Place
+from linkwright.files.reader import Reader
+from linkwright.mechanism.named_output import NamedOutput
+from linkwright.words.sentence import Sentence
+
+#: First dimensions that a formula is taken for, where several have the same powers.
+_FIRST = ("dimensionless", "length", "angle", "angular_velocity", "torque")
+_NAME = re.compile(r"[^\W\d]\w*")
+
+
+def read_outputs(reader: Reader, node: Node | None) -> dict[str, NamedOutput]:
+    """The named outputs, in order; each may use those before it."""
+    mapping = None if node is None else reader.mapping(node, "outputs")
+    found: dict[str, NamedOutput] = {}
+    known = _variables(reader) if mapping is not None else {}
+    for entry in mapping.entries if mapping else []:
+        name, place = entry.key.text, Place(f"outputs.{entry.key.text}", f"outputs.{entry.key.text}")
+        if not _free(reader, entry.key, place, name):
+            continue
+        named = _named(reader, entry.value, place, name, known)
+        if named is None:
+            reader.broken.add(name)
+            continue
+        found[name] = named
+        known |= {each.name: (units.powers(each.dimension), each) for each in named.outputs}
+    return found
+
+
+def _free(reader: Reader, key: Node, place: Place, name: str) -> bool:
+    """Whether a name is one, and nothing else has it."""
+    reserved = {*expressions.OWN_NAMES, *units.UNITS, "t", "input"}
+    if not _NAME.fullmatch(name) or name in reserved:
+        what = Sentence("model.reserved" if name in reserved else "model.no_word")
+        remedy = (
+            Sentence("model.rename_first", first=name[:1]) if name in reserved else Sentence("model.rename_l")
+        )
+        reader.finding(key, place, "bad_output_name", "name", remedy, name=name, what=what)
+        return False
+    points = {point for link in reader.names.links.values() for point in link}
+    if name in {*reader.names.links, *reader.names.joints, *reader.kinds, *points}:
+        reader.finding(key, place, "name_taken", "duplicate", Sentence("model.rename_one"), name=name)
+        return False
+    return True
+
+
+def _named(
+    reader: Reader,
+    node: Node,
+    place: Place,
+    name: str,
+    known: Mapping[str, tuple[units.Dimension, Output | None]],
+) -> NamedOutput | None:
+    text = reader.quantity_text(node, place, "guide - 180 mm*wheel")
+    if text is None:
+        return None
+    kinds = {**reader.kinds, **{each: kind for each, (kind, _) in known.items()}}
+    try:
+        expression = expressions.parse_any(text, kinds)
+        reader.used |= expression.names
+        if expression.names & reader.broken:
+            reader.unread += 1
+            return None
+        dimension = _dimension(expression, kinds)
+    except QuantityError as error:
+        reader.quantity_error(error, node, place, text)
+        return None
+    moving = [known[each][1] for each in expression.names if each in known]
+    if not moving:
+        reader.finding(node, place, "output_still", "expression", text=text)
+        return None
+    if not dimension:
+        unit = units.si_symbol(expression.dimension(kinds))
+        reader.finding(node, place, "output_dimension", "wrong-dimension", text=text, unit=unit)
+        return None
+    return NamedOutput(name, expression, dimension, min(_rates(each) for each in moving))
+
+
+def _dimension(expression: Expression, kinds: Mapping[str, units.Dimension]) -> str:
+    """Name of the dimension of a formula, a radian in a product of several quantities left out; empty for none."""
+    kind = expression.dimension(kinds)
+    for name in dict.fromkeys((*_FIRST, *units.DIMENSIONS, *units.FURTHER)):
+        if units.powers(name) == kind:
+            return name
+    loose = [name for name in (*_FIRST, *units.DIMENSIONS) if units.DIMENSIONS[name][:3] == kind[:3]]
+    return loose[0] if loose and kind[:3] != (0, 0, 0) else ""
+
+
+def _rates(output: Output | None) -> int:
+    """How many derivatives in time of an output are known; of the input, None, two."""
+    if (
+        output is None
+        or KINDS[output.kind].form == "place"
+        or output.kind in ("angle", "displacement", "named")
+    ):
+        return 2
+    return 1 if output.kind.endswith("velocity") or output.kind == "named_rate" else 0
+
+
+def _variables(reader: Reader) -> dict[str, tuple[units.Dimension, Output | None]]:
+    """What formulas may use: places and rates of links, guides and points, and the input, with their dimensions."""
+    found: dict[str, tuple[units.Dimension, Output | None]] = {}
+    for name, kind in reader.output_variables().items():
+        first = resolve_output(name, reader.names.links, reader.names.sliding)
+        if name == "input" or first is not None:
+            found[name] = kind, first
+        if first is None or ".position." in name:
+            continue
+        base = name.removesuffix(f".{first.component or first.kind}")
+        for each in first.course[1:]:
+            axis = each.component and f".{each.component}"
+            found[f"{base}.{each.word}{axis}"] = units.DIMENSIONS[each.dimension], each
+    return found

@@ -1,0 +1,44 @@
+"""Free-body diagrams of the links at one position, to scale."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from linkwright.errors import RequestError
+from linkwright.plot.diagrams.base import DIAGRAMS, Kind, Request
+from linkwright.plot.diagrams.outputs import known_link
+from linkwright.plot.diagrams.reactions import require_forces
+from linkwright.plot.diagrams.source import Source
+from linkwright.plot.drawing.picture import Drawing
+from linkwright.plot.free_bodies.page import free_body_pages
+from linkwright.words import speaker
+
+
+@DIAGRAMS.register("free_bodies")
+class FreeBodies(Kind):
+    """Every link by itself with joint forces, loads, weight, inertia force and couple, what a driver exerts; of named
+    links where ``of`` says which."""
+
+    options = ("of", "at", "static")
+
+    def draw(self, sources: Sequence[Source], request: Request) -> Drawing:
+        if len(sources) > 1:
+            raise RequestError("picture.one_free_bodies")
+        (source,) = sources
+        forces = source.forces_at(request.at)
+        require_forces(forces)
+        links = [known_link(forces.mechanism, name) for name in request.of]
+        place = source.place_text(forces.motion, request.say)
+        title = request.titled(source.label, f"{request.say(f'kind.{request.kind}')}, {place}")
+        (svg,) = free_body_pages(
+            forces,
+            0,
+            speaker(request.language),
+            request.language,
+            of=links,
+            columns=3 if len(forces.mechanism.links) > 4 else 2,
+            tallest=math.inf,
+            heading=title if request.title is None else request.title,
+        )
+        return Drawing(svg)

@@ -1,0 +1,1 @@
+"""The flow chart of a solution: its steps, their symbols, columns and pages."""

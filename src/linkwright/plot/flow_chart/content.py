@@ -1,0 +1,362 @@
+"""What a machine's solution consists of, step by step: driver, groups in solving order, forces in reverse."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Sequence
+from functools import partial
+from typing import Literal
+
+import numpy as np
+
+from linkwright.core.arrays import Floats
+from linkwright.core.dataclass import dataclass
+from linkwright.groups.base import DYADS
+from linkwright.joints.cam import CamJoint
+from linkwright.kinematics.groups import dyad_shape, in_one_step, whole_form
+from linkwright.kinematics.motion import Motion
+from linkwright.mechanism.mechanism import Mechanism
+from linkwright.plot.force_names import link_numbers
+from linkwright.structure.group import Group
+from linkwright.words import Say, has, say
+from linkwright.words.sentence import link_said
+
+Shape = Literal["terminator", "data", "preparation", "process", "call", "decision"]
+#: Places to which decisions jump.
+LOOP, NEXT, FORCES = "loop", "next", "forces"
+#: Names that one line lists.
+LONGEST = 12
+#: Positions that are listed.
+FEW = 8
+
+
+@dataclass(frozen=True)
+class Node:
+    """One symbol of the chart: its ``lines``, and above them the name of the subprogram that it calls.
+
+    ``name``: what a decision's ``jump`` goes to; ``down`` and ``across``: words at the exits of a decision, the
+    first leads to the next symbol; ``aside``: what stands in a symbol of its own before the jump.
+    """
+
+    shape: Shape
+    lines: tuple[str, ...]
+    call: str = ""
+    name: str = ""
+    jump: str = ""
+    down: str = ""
+    across: str = ""
+    aside: str = ""
+
+
+@dataclass(frozen=True)
+class Loop:
+    """The positions that the chart steps through: values (n,) of the first driver's coordinate (rad or m), or of the
+    time (s)."""
+
+    symbol: str
+    values: Floats
+    unit: str
+    factor: float
+
+    @staticmethod
+    def over(motion: Motion, rows: Sequence[int]) -> Loop:
+        """Over positions of a motion: over the input of one driver of constant speed, else over the time."""
+        mechanism, chosen = motion.mechanism, list(rows)
+        if len(mechanism.drivers) > 1 or not mechanism.steady:
+            return Loop("t", motion.time[chosen], "s", 1.0)
+        name = next(iter(mechanism.drivers))
+        if motion.positions.rotary[name]:
+            return Loop("q", motion.input[chosen], "°", 180.0 / math.pi)
+        return Loop("q", motion.input[chosen], "mm", 1e3)
+
+    def text(self, value: float) -> str:
+        """A value with its unit, six digits at most."""
+        shown = f"{self.factor * value:.6g}".replace("-", "−")
+        return f"{shown}{self.unit}" if self.unit == "°" else f"{shown}\u00a0{self.unit}"
+
+    def step(self, period: float) -> float | None:
+        """The step between neighbours, differences of ``period`` left out; None where they are not equal."""
+        steps = np.diff(self.values)
+        if not len(steps):
+            return None
+        if period:
+            steps = steps - period * np.round((steps - steps[0]) / period)
+        first = float(steps[0])
+        return first if np.allclose(steps, first, rtol=1e-6, atol=1e-9) else None
+
+
+def flow_chart_steps(motion: Motion, rows: Sequence[int], language: str) -> list[Node]:
+    """The symbols of the chart in the order in which they are passed, over numbered positions of a motion."""
+    return list(_Writer(motion, rows, language).all())
+
+
+class _Writer:
+    def __init__(self, motion: Motion, rows: Sequence[int], language: str) -> None:
+        self.motion, self.language = motion, language
+        self.mechanism: Mechanism = motion.mechanism
+        self.groups = motion.structure.groups
+        self.numbers = link_numbers(self.mechanism)
+        self.say: Say = partial(_word, language=language)
+        self.rows = rows
+        self.joint_points = set(self.mechanism.joints)
+
+    def all(self) -> Iterator[Node]:
+        """All symbols."""
+        moves = bool(self.mechanism.drivers)
+        yield Node("terminator", (self.say("begin"),))
+        yield self._data()
+        if moves:
+            yield self._loop()
+        for number, group in enumerate(self.groups):
+            yield self._motion_of(group, LOOP if not number else "")
+        if any(group.unknowns for group in self.groups):
+            yield Node("decision", (self.say("assembled"),), jump=NEXT if moves else "end",
+                       down=self.say("yes"), across=self.say("no"),
+                       aside=self.say("mark" if moves else "mark_rest"))  # fmt: skip
+        yield from self._further()
+        if self.mechanism.has_loads:
+            yield from self._forces()
+        yield self._printed()
+        if moves:
+            yield from self._stepped()
+        yield Node("terminator", (self.say("end"),), name="end")
+
+    # beginning --------------------------------------------------------------------------------
+    def _data(self) -> Node:
+        mechanism, say = self.mechanism, self.say
+        count = len(mechanism.links)
+        parts = [say("fixed_points", points=self._listed(mechanism.frame.points))]
+        parts.append(say("links", count=count) if count > 1 else say("one_link"))
+        if any(joint.wheel_sizes(mechanism) for joint in mechanism.joints.values()):
+            parts.append(say("wheels"))
+        if any(isinstance(joint, CamJoint) for joint in mechanism.joints.values()):
+            parts.append(say("cams"))
+        if mechanism.drivers:
+            parts.append(say("driver_laws" if len(mechanism.drivers) > 1 else "drivers"))
+        if any(dyad_shape(group) for group in self.groups):
+            parts.append(say("modes"))
+        if mechanism.has_loads:
+            parts.append(say("loads"))
+        return Node("data", (say("data", parts=say("and").join(parts)),))
+
+    def _loop(self) -> Node:
+        loop, say = self._over, self.say
+        step, count = self._step, len(loop.values)
+        first = loop.text(float(loop.values[0]))
+        line = (
+            say("values", symbol=loop.symbol, values=say("and").join(self._values()))
+            if step is None
+            else say("step", symbol=loop.symbol, first=first, step=loop.text(step))
+        )
+        return Node("preparation", (say("loop", count=count), line, self._meaning()))
+
+    def _values(self) -> list[str]:
+        """The positions, of many the first ones and the last."""
+        loop = self._over
+        shown = [loop.text(float(value)) for value in loop.values]
+        return shown if len(shown) <= FEW else [*shown[: FEW - 2], "…", shown[-1]]
+
+    def _meaning(self) -> str:
+        if self._over.symbol == "t":
+            return self.say("time")
+        driver = next(iter(self.mechanism.drivers.values()))
+        return self.say("input", symbol=self._over.symbol, driver=link_said(driver.link, self.language))
+
+    @property
+    def _over(self) -> Loop:
+        return Loop.over(self.motion, self.rows)
+
+    @property
+    def _step(self) -> float | None:
+        loop = self._over
+        if loop.symbol == "t":
+            period = self.motion.positions.period or 0.0
+        else:
+            period = 2.0 * math.pi if loop.unit == "°" else 0.0
+        return loop.step(period)
+
+    # motion -----------------------------------------------------------------------------------
+    def _motion_of(self, group: Group, name: str) -> Node:
+        if not group.unknowns and group.drivers:
+            return self._driven(group, name)
+        outer, inner = ([c.joint for c in part] for part in (group.outer_joints, group.inner_joints))
+        lines = [self._heading(group)]
+        lines += self._driven_within(group)
+        key = "from_to" if inner else "from_only"
+        lines.append(self.say(key, outer=self._listed(outer), inner=self._listed(inner)))
+        call = self._call(group, "k")
+        if not call:
+            lines += self._closure(group)
+        return Node("call" if call else "process", tuple(lines), call, name)
+
+    def _driven(self, group: Group, name: str) -> Node:
+        """A driven link: a bar about its pin, or a slide along its guide."""
+        say, (first, *_) = self.say, group.tree
+        lines = []
+        for step in group.tree:
+            if step.driver is None:
+                continue
+            key = "driven_turn" if step.turns else "driven_slide"
+            lines.append(say(key, link=self._numbered([step.child]), joint=step.joint))
+            lines.append(self._law(step.driver))
+        found = [each for each in self._points_of(group.links) if each not in {s.joint for s in group.tree}]
+        if found:
+            lines.append(say("point_found", points=self._listed(found)))
+        call = "bark" if first.turns and len(group.links) == 1 else ""
+        return Node("call" if call else "process", tuple(lines), call, name)
+
+    def _law(self, driver: str) -> str:
+        law = self.mechanism.drivers[driver].law
+        if law.constant_speed is not None:
+            unit = "rad/s" if law.rotary else "m/s"
+            speed = f"{law.constant_speed:.6g}\u00a0{unit}".replace("-", "−")
+            return self.say("law_speed", speed=speed)
+        key = f"report.kind_{law.key}"
+        return self.say("law_other", law=say(key, self.language) if has(key) else law.key)
+
+    def _driven_within(self, group: Group) -> list[str]:
+        """Drivers inside a group that is closed by other joints."""
+        if not group.drivers:
+            return []
+        joints = [self.mechanism.drivers[each].joint for each in group.drivers]
+        laws = self.say("and").join(dict.fromkeys(map(self._law, group.drivers)))
+        return [self.say("driven_within", joints=self._listed(joints), laws=laws)]
+
+    def _closure(self, group: Group) -> Iterator[str]:
+        """How a group that is no dyad is closed."""
+        say, joints = self.say, self._listed([cut.joint for cut in group.cuts])
+        cams = [c.joint for c in group.cuts if isinstance(self.mechanism.joints[c.joint], CamJoint)]
+        if cams:
+            yield say("cam_lift", cams=self._listed(cams))
+        if whole_form(group) is not None or dyad_shape(group) is not None:
+            yield say("closed_form")
+            return
+        if in_one_step(group):
+            yield say("one_step", joints=joints)
+            return
+        yield say("iterated" if self.mechanism.drivers else "iterated_once", joints=joints)
+        if self.mechanism.drivers:
+            yield say("rates")
+
+    def _call(self, group: Group, ending: str) -> str:
+        """The teaching texts' name of what solves a dyad; empty for others, and for one driven inside."""
+        shape = dyad_shape(group)
+        known = shape is not None and not group.drivers and len(group.links) == 2
+        return f"{group.signature.lower()}{ending}" if known and group.signature in DYADS else ""
+
+    def _further(self) -> Iterator[Node]:
+        """Points that no joint has, and mass centres."""
+        mechanism = self.mechanism
+        at_guides = {point for joint in mechanism.guides.values() for point in (joint.at, joint.through)}
+        held = self.joint_points | at_guides | set(mechanism.frame.points)
+        parts = [
+            f"{point}\u00a0({self.numbers[name]})"
+            for name, link in mechanism.links.items()
+            for point in link.points
+            if point not in held
+        ]
+        heavy = [
+            str(self.numbers[name])
+            for name, link in mechanism.links.items()
+            if link.mass and not any(math.dist(link.centre, at) < 1e-12 for at in link.points.values())
+        ]
+        if heavy:
+            key = "mass_centres" if len(heavy) > 1 else "mass_centre"
+            parts.append(self.say(key, links=self._listed(heavy)))
+        if parts:
+            yield Node("call", (self.say("further", points=self._listed(parts)),), "bark")
+
+    # forces -----------------------------------------------------------------------------------
+    def _forces(self) -> Iterator[Node]:
+        say, mechanism = self.say, self.mechanism
+        parts = [say("weights")] if any(mechanism.gravity) and self._heavy else []
+        if self._heavy and mechanism.drivers:
+            parts.append(say("inertia"))
+        if mechanism.loads:
+            key = "load_names" if len(mechanism.loads) > 1 else "load_name"
+            parts.append(say(key, names=self._listed(mechanism.loads)))
+        rubbing = self._rubbing()
+        if rubbing:
+            parts.append(say("friction", joints=self._listed(rubbing)))
+        yield Node("process", (say("known_forces", parts=say("and").join(parts)),))
+        for number, group in enumerate(reversed(self.groups)):
+            yield self._forces_of(group, FORCES if not number and rubbing else "")
+        if rubbing:
+            yield Node("decision", (say("settled"),), jump=FORCES, down=say("yes"), across=say("no"))
+        yield Node("process", (say("power" if mechanism.drivers else "equilibrium"),))
+
+    @property
+    def _heavy(self) -> bool:
+        return any(link.mass or link.inertia for link in self.mechanism.links.values())
+
+    def _rubbing(self) -> list[str]:
+        """Joints whose friction is found with their forces."""
+        joints = self.mechanism.joints.items()
+        return [name for name, joint in joints if joint.friction_arm]
+
+    def _forces_of(self, group: Group, name: str) -> Node:
+        say, mechanism = self.say, self.mechanism
+        joints = dict.fromkeys(c.joint for c in (*group.inner_joints, *group.outer_joints))
+        alone = not group.unknowns and bool(group.drivers)
+        heading = say("driven_link", link=self._numbered(group.links)) if alone else self._heading(group)
+        lines = [heading, say("forces_at", joints=self._listed(joints))]
+        for driver in group.drivers:
+            turns = mechanism.joints[mechanism.drivers[driver].joint].coordinate == "turn"
+            letter = "M" if turns else "F"
+            symbol = f"{letter}_d" if len(mechanism.drivers) == 1 else f"{letter}_d,{driver}"
+            lines.append(say("driver_torque" if turns else "driver_force", symbol=symbol))
+        call = self._call(group, "f")
+        if alone and len(group.links) == 1:
+            call = "barf"
+        if not call:
+            lines.insert(1, say("balance"))
+        return Node("call" if call else "process", tuple(lines), call, name)
+
+    # end --------------------------------------------------------------------------------------
+    def _printed(self) -> Node:
+        say, mechanism = self.say, self.mechanism
+        parts = [self._over.symbol] if mechanism.drivers else []
+        parts.append(say("motion_results" if mechanism.drivers else "positions"))
+        if mechanism.has_loads:
+            parts.append(say("force_results"))
+            parts += dict.fromkeys("M_d" if turns else "F_d" for turns in self._efforts())
+        key = "print" if mechanism.drivers else "print_rest"
+        return Node("data", (say(key, parts=say("and").join(parts)),))
+
+    def _efforts(self) -> list[bool]:
+        joints = self.mechanism.joints
+        return [joints[each.joint].coordinate == "turn" for each in self.mechanism.drivers.values()]
+
+    def _stepped(self) -> Iterator[Node]:
+        say, symbol = self.say, self._over.symbol
+        key = "next_uneven" if self._step is None else "next"
+        yield Node("process", (say(key, symbol=symbol),), name=NEXT)
+        yield Node("decision", (say("last"),), jump=LOOP, down=say("yes"), across=say("no"))
+        yield Node("data", (say("after"),))
+
+    # names ------------------------------------------------------------------------------------
+    def _heading(self, group: Group) -> str:
+        key = "of_links" if len(group.links) > 1 else "of_link"
+        return self.say(key, signature=group.signature, links=self._numbered(group.links))
+
+    def _numbered(self, links: Sequence[str]) -> str:
+        return self.say("and").join(
+            f"{self.numbers[name]} {link_said(name, self.language)}" for name in links
+        )
+
+    def _points_of(self, links: Sequence[str]) -> list[str]:
+        """Joints on links, each once, those of the frame left out."""
+        points = [point for name in links for point in self.mechanism.links[name].points]
+        held = self.mechanism.frame.points
+        return [point for point in dict.fromkeys(points) if point in self.joint_points and point not in held]
+
+    def _listed(self, names: Iterable[str]) -> str:
+        """Names in a row, long rows by their ends."""
+        shown = list(dict.fromkeys(map(str, names)))
+        if len(shown) > LONGEST:
+            shown = [*shown[: LONGEST - 2], "…", shown[-1]]
+        return self.say("and").join(shown)
+
+
+def _word(key: str, *, language: str, **values: object) -> str:
+    return say(f"flow.{key}", language, **values)

@@ -1,0 +1,101 @@
+"""Pages of a flow chart as SVG text, to the size in which they are printed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from linkwright.plot.drawing.picture import document
+from linkwright.plot.flow_chart.content import Node
+from linkwright.plot.flow_chart.layout import BARS, LEAN, LINE, RADIUS, SIZE, Box, Page, fold, laid_out
+from linkwright.plot.svg.element import Element, circle, element, path
+from linkwright.plot.svg.text import sentence_element
+from linkwright.plot.symbols.arrows import head
+from linkwright.plot.symbols.base import points, vec, way
+
+#: Printed width of a unit, mm: two columns fill the width of an A4 page's text, and letters have 8.5 points.
+MILLIMETRE = 0.23
+#: Height of a page's picture, mm, and columns on it.
+TALLEST, COLUMNS = 205.0, 2
+
+
+def flow_chart_pages(
+    nodes: Sequence[Node], title: str, *, columns: int = COLUMNS, heading: str = ""
+) -> list[str]:
+    """SVG text of every page, to be printed in its own size; ``columns`` on a page, ``heading`` above."""
+    sheets = laid_out(nodes, TALLEST / MILLIMETRE, columns)
+    return [_document(sheet, title, heading) for sheet in sheets]
+
+
+def _document(sheet: Page, title: str, heading: str) -> str:
+    wide, tall = sheet.size
+    left = min(float(line.corners[:, 0].min()) for line in sheet.lines)
+    left = min(
+        left, *(box.corners[0] for box in sheet.boxes), *(x - RADIUS for x, _, _ in sheet.circles), wide
+    )
+    content = [each for part in (_lines(sheet), _boxes(sheet), _marks(sheet)) for each in part]
+    top = 0.0
+    if heading:
+        lines = fold(heading, wide - left)
+        top = -LINE * (len(lines) + 0.8)
+        content += [
+            sentence_element(left, top + LINE * number + SIZE, line, "lw-legend", SIZE)
+            for number, line in enumerate(lines)
+        ]
+    return document(content, (left, top, wide, tall), title, None, millimetre=MILLIMETRE)
+
+
+def _lines(sheet: Page) -> Iterator[Element]:
+    for line in sheet.lines:
+        yield path(line.corners, "lw-flow-line")
+        if line.arrow:
+            _, along = way(line.corners[-2], line.corners[-1])
+            yield head(vec(line.corners[-1]), along, 9.0, "lw-flow-head")
+
+
+def _boxes(sheet: Page) -> Iterator[Element]:
+    for box in sheet.boxes:
+        yield from _outline(box)
+        first = box.y - LINE * len(box.lines) / 2 + 0.5 * (LINE + 0.7 * SIZE)
+        for number, text in enumerate(box.lines):
+            style = "lw-legend lw-flow-call" if number < box.bold else "lw-legend"
+            yield sentence_element(box.x, first + LINE * number, text, style, SIZE, "middle")
+
+
+def _outline(box: Box) -> Iterator[Element]:
+    left, top, right, bottom = box.corners
+    match box.shape:
+        case "terminator":
+            yield _rectangle(box, rx=box.half_height)
+        case "data":
+            lean = [(left + LEAN, top), (right, top), (right - LEAN, bottom), (left, bottom)]
+            yield path(points(lean), "lw-flow", closed=True)
+        case "preparation":
+            tip = min(LEAN, box.half_height)
+            hexagon = [(left - tip + LEAN / 2, box.y), (left + LEAN / 2, top), (right - LEAN / 2, top),
+                       (right + tip - LEAN / 2, box.y), (right - LEAN / 2, bottom),
+                       (left + LEAN / 2, bottom)]  # fmt: skip
+            yield path(points(hexagon), "lw-flow", closed=True)
+        case "decision":
+            yield path(points([(left, box.y), (box.x, top), (right, box.y), (box.x, bottom)]), "lw-flow",
+                       closed=True)  # fmt: skip
+        case _:
+            yield _rectangle(box)
+            if box.shape == "call":
+                for x in (left + BARS, right - BARS):
+                    yield path(np.array([(x, top), (x, bottom)]), "lw-flow-line")
+
+
+def _rectangle(box: Box, rx: float | None = None) -> Element:
+    left, top, right, bottom = box.corners
+    size = {"x": left, "y": top, "width": right - left, "height": bottom - top}
+    return element("rect", {"class": "lw-flow", **size, "rx": rx})
+
+
+def _marks(sheet: Page) -> Iterator[Element]:
+    for word in sheet.words:
+        yield sentence_element(word.x, word.y, word.text, "lw-legend", SIZE)
+    for x, y, letter in sheet.circles:
+        yield circle((x, y), RADIUS, "lw-flow")
+        yield sentence_element(x, y + 0.36 * SIZE, letter, "lw-legend", SIZE, "middle")

@@ -1,0 +1,1 @@
+"""Free-body diagrams: every link by itself with all that acts on it, to scale."""

@@ -1,0 +1,230 @@
+"""Pages of free-body diagrams: pictures in rows, the numbers of each below it, scales and symbols said."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from linkwright.core.dataclass import dataclass
+from linkwright.errors import LinkwrightError
+from linkwright.kinetostatics.forces import Forces
+from linkwright.plot.drawing.picture import document
+from linkwright.plot.drawing.vectors import with_unit
+from linkwright.plot.flow_chart.layout import fold
+from linkwright.plot.free_bodies.actions import STYLES, Action, FreeBody, free_bodies
+from linkwright.plot.free_bodies.arrows import MILLIMETRE, SHORT, STUB
+from linkwright.plot.free_bodies.picture import BodyPicture, LinkShapes, body_picture, round_scale
+from linkwright.plot.svg.element import Element, group, number, path
+from linkwright.plot.svg.text import sentence_element, text_element
+from linkwright.plot.symbols.base import points
+from linkwright.words import Say
+from linkwright.words.sentence import link_said
+
+#: Width of a cell, space between cells, height of a page's pictures, mm.
+WIDE, APART, TALLEST = 82.0, 6.0, 216.0
+#: Width and height, units of the paper, that a picture may take.
+ROOM = (WIDE / MILLIMETRE, 260.0)
+#: Sizes of letters and heights of lines: of titles, of tables.
+TITLE, TITLE_LINE, SIZE, LINE = 13.0, 20.0, 10.5, 14.0
+#: Right ends of a table's columns, shares of the width of a cell.
+COLUMNS = (0.42, 0.61, 0.8, 1.0)
+#: Significant digits of the largest number of a table; from here on forces are in kN.
+DIGITS, KILO = 5, 1e5
+
+
+@dataclass(frozen=True)
+class Cell:
+    """A picture with its title and its table, its upper left corner at the origin."""
+
+    elements: tuple[Element, ...]
+    height: float
+    body: FreeBody
+    shortened: bool
+
+
+def free_body_pages(
+    forces: Forces,
+    index: int,
+    say: Say,
+    language: str,
+    *,
+    of: Sequence[str] = (),
+    columns: int = 2,
+    tallest: float = TALLEST,
+    first: float | None = None,
+    heading: str = "",
+) -> list[str]:
+    """SVG text of every page, to be printed in its own size: the links at one position, those of ``of`` where given.
+
+    ``tallest``: height of a page's pictures, mm, ``first``: of the first page's. Raises LinkwrightError where nothing
+    acts on them.
+    """
+    bodies = [body for body in free_bodies(forces, index) if not of or body.link in of]
+    if not bodies:
+        raise LinkwrightError("free_bodies.none")
+    shapes = LinkShapes(forces.motion, index)
+    reach = max(shapes.reach(body.link) for body in bodies) or 1.0
+    usual = round_scale(reach, 46.0)
+    cells = [_cell(body_picture(shapes, body, usual, ROOM), say, language) for body in bodies]
+    sheets = _sheets(cells, min(columns, len(cells)), tallest if first is None else first, tallest)
+    return [_document(sheet, say, heading) for sheet in sheets]
+
+
+# one link -------------------------------------------------------------------------------------
+def _cell(drawn: BodyPicture, say: Say, language: str) -> Cell:
+    body = drawn.body
+    named = say("free_bodies.title", number=body.number, link=link_said(body.link, language))
+    content: list[Element] = [sentence_element(0.0, TITLE, named, "lw-legend lw-flow-call", TITLE)]
+    content.append(sentence_element(0.0, TITLE_LINE + SIZE + 2.0, _scales(drawn), "lw-legend", SIZE))
+    left, top, right, bottom = drawn.box
+    across = 0.5 * (ROOM[0] - (right - left)) - left
+    down = 2 * TITLE_LINE + 4.0 - top
+    shift = f"translate({number(across)} {number(down)})"
+    content.append(group(drawn.elements, None, transform=shift, **{"data-link": body.link}))
+    under = 2 * TITLE_LINE + 12.0 + bottom - top
+    rows, height = _table(body, say, under)
+    return Cell((*content, *rows), under + height, body, drawn.shortened)
+
+
+def _scales(drawn: BodyPicture) -> str:
+    """The scales of a picture: lengths, and forces where it has some."""
+    lengths = f"μ_l = {drawn.length_scale * 1e3:.6g} mm/mm"
+    if drawn.force_scale is None:
+        return lengths
+    return f"{lengths}, μ_F = {with_unit(drawn.force_scale, 'N')}/mm"
+
+
+# numbers --------------------------------------------------------------------------------------
+def _table(body: FreeBody, say: Say, top: float) -> tuple[list[Element], float]:
+    """Components, sizes and directions of forces, and couples, below a height; how tall the table is."""
+    found: list[Element] = []
+    y = top
+    if body.forces:
+        unit, factor = _force_unit(body.forces)
+        head = (f"Fx / {unit}", f"Fy / {unit}", f"F / {unit}", f"{say('free_bodies.direction')} / °")
+        y = _head(found, y, head)
+        place = _places(max(each.size for each in body.forces) * factor)
+        for each in body.forces:
+            x_part, y_part = (float(part) * factor for part in each.force)
+            angle = math.degrees(math.atan2(y_part, x_part)) % 360.0
+            cells = (
+                _shown(x_part, place),
+                _shown(y_part, place),
+                _shown(each.size * factor, place),
+                f"{angle:.2f}",
+            )
+            y = _row(found, y, each, cells)
+        total = np.sum([each.force for each in body.forces], axis=0) * factor
+        y = _line(found, y, say("free_bodies.sum"), tuple(_shown(float(part), place) for part in total))
+    if body.couples:
+        y = _head(found, y, ("M / N·m",))
+        place = _places(max(abs(each.torque) for each in body.couples))
+        for each in body.couples:
+            y = _row(found, y, each, (_shown(each.torque, place),))
+    y = _moments(found, y, body, say)
+    return found, y - top
+
+
+def _moments(found: list[Element], y: float, body: FreeBody, say: Say) -> float:
+    """The sum of all moments about the mass centre."""
+    moments = [each.moment(body.centre) for each in body.actions]
+    largest = max(map(abs, moments))
+    if largest <= 0.0:
+        return y
+    value = f"{_shown(sum(moments), _places(largest))} N·m"
+    text = say("free_bodies.moment_sum", value=value)
+    found.append(sentence_element(0.0, y + SIZE, text, "lw-legend", SIZE))
+    return y + LINE
+
+
+def _force_unit(forces: Sequence[Action]) -> tuple[str, float]:
+    return ("kN", 1e-3) if max(each.size for each in forces) >= KILO else ("N", 1.0)
+
+
+def _places(largest: float) -> int:
+    """Decimals with which a number has DIGITS digits."""
+    return max(0, min(9, DIGITS - 1 - math.floor(math.log10(largest))))
+
+
+def _shown(value: float, place: int) -> str:
+    text = f"{value:.{place}f}"
+    return text.removeprefix("-") if not float(text) else text.replace("-", "−")
+
+
+def _head(found: list[Element], y: float, texts: Sequence[str]) -> float:
+    for share, text in zip(COLUMNS, texts, strict=False):
+        found.append(sentence_element(share * ROOM[0], y + SIZE, text, "lw-legend", SIZE, "end"))
+    found.append(path(points([(0.0, y + LINE), (ROOM[0], y + LINE)]), "lw-rule"))
+    return y + LINE + 2.0
+
+
+def _row(found: list[Element], y: float, action: Action, cells: Sequence[str]) -> float:
+    """The row of an action; a long name takes several lines."""
+    style = f"{STYLES[action.role]}-name"
+    names = fold(action.letter, COLUMNS[0] * ROOM[0] - 62.0, SIZE)
+    for line, text in enumerate(names):
+        index = action.index if line == len(names) - 1 else ""
+        found.append(text_element(0.0, y + SIZE + LINE * line, text, style, SIZE, index=index))
+    _cells(found, y, cells)
+    return y + LINE * len(names)
+
+
+def _line(found: list[Element], y: float, name: str, cells: Sequence[str]) -> float:
+    found.append(path(points([(0.0, y + 1.0), (ROOM[0], y + 1.0)]), "lw-rule"))
+    found.append(sentence_element(0.0, y + SIZE + 3.0, name, "lw-legend", SIZE))
+    _cells(found, y + 3.0, cells)
+    return y + LINE + 6.0
+
+
+def _cells(found: list[Element], y: float, cells: Sequence[str]) -> None:
+    for share, text in zip(COLUMNS, cells, strict=False):
+        found.append(sentence_element(share * ROOM[0], y + SIZE, text, "lw-value", SIZE, "end"))
+
+
+# pages ----------------------------------------------------------------------------------------
+def _sheets(cells: Sequence[Cell], columns: int, first: float, tallest: float) -> list[list[list[Cell]]]:
+    """Pages of rows of cells; heights of the first page and of the others, mm."""
+    rows = [list(cells[i : i + columns]) for i in range(0, len(cells), columns)]
+    sheets: list[list[list[Cell]]] = [[]]
+    used = 0.0
+    for row in rows:
+        height = max(cell.height for cell in row) + APART / MILLIMETRE
+        if sheets[-1] and used + height > (first if len(sheets) == 1 else tallest) / MILLIMETRE:
+            sheets.append([])
+            used = 0.0
+        sheets[-1].append(row)
+        used += height
+    return sheets
+
+
+def _document(rows: Sequence[Sequence[Cell]], say: Say, heading: str) -> str:
+    apart = APART / MILLIMETRE
+    columns = max(map(len, rows))
+    wide = columns * ROOM[0] + (columns - 1) * apart
+    content: list[Element] = []
+    y = 0.0
+    for line in fold(heading, wide, 15.0) if heading else ():
+        content.append(sentence_element(0.0, y + 15.0, line, "lw-legend", 15.0))
+        y += 26.0
+    for row in rows:
+        for place, cell in enumerate(row):
+            shift = f"translate({number(place * (ROOM[0] + apart))} {number(y)})"
+            content.append(group(cell.elements, None, transform=shift))
+        y += max(cell.height for cell in row) + apart
+    cells = [cell for row in rows for cell in row]
+    for line in fold(say("free_bodies.apart").join(_key(cells, say)), wide, SIZE):
+        content.append(sentence_element(0.0, y + SIZE, line, "lw-legend", SIZE))
+        y += LINE
+    return document(content, (0.0, 0.0, wide, y), say("free_bodies.caption"), None, millimetre=MILLIMETRE)
+
+
+def _key(cells: Sequence[Cell], say: Say) -> Iterator[str]:
+    """What the symbols of a page mean, and what is not to scale."""
+    roles = {each.role for cell in cells for each in cell.body.actions}
+    for role in STYLES:
+        if role in roles:
+            yield say(f"free_bodies.{role}")
+    if any(cell.shortened for cell in cells):
+        yield say("free_bodies.shortened", least=f"{SHORT:g}", drawn=f"{STUB:g}")

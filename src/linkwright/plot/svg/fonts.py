@@ -1,0 +1,119 @@
+"""Fonts: files in the system's folders, and those that are given beside them."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
+from functools import lru_cache
+from pathlib import Path
+
+from linkwright.errors import LinkwrightError, RequestError
+from linkwright.words.sentence import Sentence
+
+_CHINESE_FILES = (
+    "notosanscjk", "notosanssc", "notosanstc", "notoserifcjk", "sourcehan", "wqy", "droidsansfallback",
+    "msyh", "simhei", "simsun", "deng", "pingfang", "hiragino", "stheiti", "arialunicode", "uming", "ukai",
+)  # fmt: skip
+#: What the names of files say that hold other faces than the regular one.
+_SPECIAL = (
+    "bold", "black", "heavy", "thin", "light", "medium", "italic", "oblique", "mono", "serif", "song", "ming", "kai",
+    "simsun", "hk", "tc",
+)  # fmt: skip
+_SUFFIXES = (".ttf", ".ttc", ".otf", ".otc")
+
+
+def font_folders() -> list[Path]:
+    """Folders in which the system and the user keep fonts."""
+    home = Path.home()
+    if sys.platform == "win32":
+        local = Path(os.environ.get("LOCALAPPDATA", home / "AppData" / "Local"))
+        return [Path(os.environ.get("WINDIR", "C:/Windows")) / "Fonts", local / "Microsoft/Windows/Fonts"]
+    if sys.platform == "darwin":
+        return [Path("/System/Library/Fonts"), Path("/Library/Fonts"), home / "Library/Fonts"]
+    shared = Path(os.environ.get("XDG_DATA_HOME", home / ".local/share")) / "fonts"
+    return [Path("/usr/share/fonts"), Path("/usr/local/share/fonts"), shared, home / ".fonts"]
+
+
+@lru_cache(maxsize=1)
+def system_fonts() -> tuple[Path, ...]:
+    """All font files of the system."""
+    found = (file for folder in font_folders() if folder.is_dir() for file in folder.rglob("*"))
+    return tuple(sorted(file for file in found if file.suffix.lower() in _SUFFIXES))
+
+
+def chinese_fonts(files: Iterable[Path]) -> tuple[Path, ...]:
+    """Those files that are known to hold Chinese characters, judged by their names."""
+
+    def known(file: Path) -> bool:
+        stem = file.stem.lower().replace("-", "").replace("_", "").replace(" ", "")
+        return any(stem.startswith(each) for each in _CHINESE_FILES)
+
+    return tuple(file for file in files if known(file))
+
+
+def regular(files: Iterable[Path]) -> list[Path]:
+    """The one of some font files whose name is most that of a sans serif of regular weight; empty of none."""
+    return sorted(
+        files, key=lambda file: (sum(word in file.stem.lower() for word in _SPECIAL), len(file.stem))
+    )[:1]
+
+
+def needs_chinese(text: str) -> bool:
+    """Whether a text has Chinese characters."""
+    return any("\u2e80" <= c <= "\u9fff" or "\uf900" <= c <= "\ufaff" for c in text)
+
+
+def font_files(given: Iterable[str | Path]) -> tuple[Path, ...]:
+    """The font files that are given, of folders all in them; raises RequestError for what is neither."""
+    found: list[Path] = []
+    for each in map(Path, given):
+        files = [each] if each.is_file() else sorted(each.rglob("*")) if each.is_dir() else []
+        fonts = [file for file in files if file.suffix.lower() in _SUFFIXES]
+        if not fonts:
+            raise RequestError("picture.no_font_file", file=each)
+        found += fonts
+    return tuple(found)
+
+
+_given: ContextVar[tuple[Path, ...]] = ContextVar("fonts", default=())
+
+
+@contextmanager
+def more_fonts(given: Iterable[str | Path]) -> Iterator[None]:
+    """Texts inside are drawn with these font files, and those in these folders, before the system's.
+
+    Raises RequestError for a path without fonts.
+    """
+    token = _given.set((*font_files(given), *_given.get()))
+    try:
+        yield
+    finally:
+        _given.reset(token)
+
+
+def given_fonts() -> tuple[Path, ...]:
+    """The files of :func:`more_fonts`."""
+    return _given.get()
+
+
+def installed_chinese() -> tuple[Path, ...]:
+    """Fonts with Chinese characters, also those that were installed since the system's were looked through."""
+    found = chinese_fonts(system_fonts())
+    if not found:
+        system_fonts.cache_clear()
+        found = chinese_fonts(system_fonts())
+    return found
+
+
+def check_fonts(text: str, given: Sequence[Path] = ()) -> None:
+    """Refuse to draw boxes: raise where no font is found, or none for the Chinese characters in the text."""
+    remedy = Sentence("picture.font_or_file")
+    if given or given_fonts():
+        return
+    if needs_chinese(text) and not installed_chinese():
+        raise RequestError("picture.no_chinese_font", remedy=remedy)
+    if "<text" in text and not system_fonts():
+        raise LinkwrightError("picture.no_font", remedy=remedy)

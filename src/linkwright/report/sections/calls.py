@@ -1,0 +1,101 @@
+"""The machine in the subprograms of the teaching texts: numbers of points and links, formal and actual arguments."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from linkwright.dyads.calls import FORMAL, Call, Calls, NumberedLink, NumberedPoint, calls, length
+from linkwright.dyads.plan import Step, plan
+from linkwright.report.document import Block, Code, Heading, Paragraph, Table, literal
+from linkwright.report.machine_results import Case, Missing
+from linkwright.report.numbers import typeset
+from linkwright.report.section import section
+
+
+@section("calls", 14.0, optional=True)
+def blocks(case: Case) -> Iterator[Block]:
+    """Numbering, the calls in solving order, a table of formal and actual arguments for every subprogram."""
+    say = case.say
+    numbered = case.numbered
+    forces = case.mechanism.has_loads
+    made = calls(plan(numbered.motion, numbered.rows), case.heads.numbers, forces=forces)
+    if not made.motion:
+        raise Missing("calls.none")
+    yield Paragraph(say("calls.intro"))
+    yield _points(case, made.points)
+    yield _links(case, made)
+    for step in made.others:
+        yield Paragraph(literal(_other(case, step)), "note")
+    for title, group in (("calls.motion", made.motion), ("calls.forces", made.forces)):
+        if group:
+            yield Heading(say(title), 2)
+            yield Code(_program(group), "", say(f"{title}_program"))
+            yield from _tables(case, group)
+    for note in dict.fromkeys(map(str, made.notes)):
+        said = next(each for each in made.notes if str(each) == note)
+        yield Paragraph(literal(case.sentence(said)), "note")
+
+
+def _points(case: Case, points: Sequence[NumberedPoint]) -> Table:
+    say = case.say
+    rows = []
+    for point in points:
+        links = ", ".join(say("calls.frame") if link == "frame" else link for link in point.links)
+        place = "–" if point.place is None else f"({length(point.place.real)}, {length(point.place.imag)})"
+        rows.append((str(point.number), literal(case.sentence(point.name)), literal(links), literal(place)))
+    head = tuple(say(f"calls.head_{key}") for key in ("n", "point", "links", "place"))
+    return Table(say("calls.points"), head, tuple(rows), "><<<")
+
+
+def _links(case: Case, made: Calls) -> Table:
+    say = case.say
+    rows = []
+    for link in sorted(made.links, key=lambda each: each.number):
+        part = case.mechanism.links.get(link.name)
+        mass, inertia = (length(part.mass), length(part.inertia)) if part else ("–", "–")
+        name = link.name if part else say("calls.guide", guide=link.name)
+        rows.append((str(link.number), literal(name), literal(_direction(case, link)), mass, inertia))
+    head = [say(f"calls.head_{key}") for key in ("k", "link", "direction", "mass", "inertia")]
+    align = "><<>>"
+    if not made.forces:
+        head, rows, align = head[:3], [row[:3] for row in rows], "><<"
+    return Table(say("calls.numbers"), tuple(head), tuple(tuple(map(typeset, row)) for row in rows), align)
+
+
+def _direction(case: Case, link: NumberedLink) -> str:
+    """What t(k) of a link is."""
+    say = case.say
+    if link.line is not None:
+        return say("calls.line", first=link.line[0], second=link.line[1])
+    if link.along:
+        return say("calls.along", guide=link.along)
+    if link.name in case.mechanism.links:
+        return say("calls.axis")
+    key = "calls.fixed" if not link.against else "calls.against"
+    return say(key, angle=length(link.angle), link=link.against)
+
+
+def _other(case: Case, step: Step) -> str:
+    """Why a step has no call."""
+    if step.kind:
+        reason: str = case.say(f"calls.{step.kind}")
+    else:
+        reason = case.sentence(step.reason)
+    return case.say(
+        "calls.no_call", signature=step.group.signature, links=", ".join(step.group.links), reason=reason
+    )
+
+
+def _program(group: Sequence[Call]) -> str:
+    return "\n".join(f"Call {call.text}" for call in group)
+
+
+def _tables(case: Case, group: Sequence[Call]) -> Iterator[Table]:
+    """A table for every subprogram, a row for every call."""
+    say = case.say
+    for name in FORMAL:
+        mine = [call for call in group if call.name == name]
+        if mine:
+            head = (say("calls.head_call"), *FORMAL[name])
+            rows = tuple((literal(", ".join(call.links)), *map(typeset, call.actual)) for call in mine)
+            yield Table(say("calls.table", name=name), head, rows, "<" + "^" * len(FORMAL[name]))

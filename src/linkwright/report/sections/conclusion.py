@@ -1,0 +1,224 @@
+"""The conclusion in sentences: what the machine does, which limits it keeps, what governs drive and flywheel.
+
+Every number is one that other sections print: from the design numbers, the steady running, the extremes of curves.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from functools import partial
+
+from linkwright.core.outputs import Output
+from linkwright.errors import LinkwrightError
+from linkwright.metrics.analysis import Analysis
+from linkwright.metrics.base import METRICS, MetricValue
+from linkwright.metrics.quantities import shown
+from linkwright.plot.diagrams.outputs import main_outputs
+from linkwright.report.document import Block, Paragraph, literal
+from linkwright.report.improvements import EFFORT, broken, improvements
+from linkwright.report.machine_results import Case, Missing
+from linkwright.report.numbers import typeset
+from linkwright.report.section import section
+from linkwright.study.evaluation import told
+from linkwright.words import Say
+from linkwright.words.sentence import in_words
+
+#: Joint forces nearer to each other than this share are equal; a mean below this share of the peak is zero.
+EQUAL, NOTHING = 1e-9, 1e-6
+#: A peak that is not more than so many times the mean is not compared with it.
+WORTH = 1.05
+#: Percent that are zero but for rounding.
+SMALLEST = 1e-6
+#: Outputs of which the sentences tell, at most.
+MOST = 3
+
+
+@section("conclusion", 21.0, optional=True)
+def blocks(case: Case) -> Iterator[Block]:
+    """Motion, transmission of force, limits, forces, flywheel, and what to change."""
+    found = list(_Conclusion(case).all())
+    if not found:
+        raise Missing("conclusion.nothing")
+    yield from found
+
+
+class _Conclusion:
+    def __init__(self, case: Case) -> None:
+        self.case = case
+        self.say: Say = partial(_word, case)
+        self.moves = bool(case.mechanism.drivers)
+
+    def all(self) -> Iterator[Block]:
+        """The paragraphs, each with its subject first."""
+        if self.moves:
+            yield from self._paragraph("motion", self._motion())
+            yield from self._paragraph("transmission", self._transmission())
+            yield from self._limits()
+        if self.case.mechanism.has_loads:
+            yield from self._paragraph("forces", self._forces())
+        if self.moves:
+            yield from self._paragraph("flywheel", self._flywheel())
+            yield from self._paragraph("changes", self._changes())
+
+    def _paragraph(self, key: str, sentences: Iterator[str]) -> Iterator[Block]:
+        joint = " " if self.case.language == "en" else ""
+        if text := joint.join(sentences):
+            yield Paragraph(f"{self.say(key)} {text}")
+
+    def _rows(self, *metrics: str) -> list[MetricValue]:
+        return [row for row in self.case.metrics if row.metric in metrics]
+
+    # motion -----------------------------------------------------------------------------------
+    def _motion(self) -> Iterator[str]:
+        say = self.say
+        for row in self._rows("stroke", "swing_angle")[:MOST]:
+            yield say(row.metric, subject=literal(row.subject), value=_value(row))
+        for row in self._rows("quick_return_ratio")[:MOST]:
+            key = "ratio" if abs(row.value - 1.0) > 1e-6 else "no_ratio"
+            yield say(key, subject=literal(row.subject), ratio=_value(row))
+        for output in main_outputs(self.case.motion)[:MOST]:
+            yield from self._rates(output)
+        if not self.case.motion.whole:
+            yield say("partly")
+
+    def _rates(self, output: Output | str) -> Iterator[str]:
+        """The largest velocity and acceleration of an output or of a point, with their places."""
+        analysis, turning = Analysis.of(self.case.result), False
+        names, dimensions = (
+            [f"{output}.{each}" for each in ("velocity", "acceleration")],
+            ["velocity", "acceleration"],
+        )
+        if isinstance(output, Output):
+            rates = (output.rate, output.rate.rate)
+            names, dimensions = [each.name for each in rates], [each.dimension for each in rates]
+            turning = output.kind == "angle"
+        first, second = (analysis.part(f"{name} peak") for name in names)
+        if not (math.isfinite(first.value) and math.isfinite(second.value)):
+            return
+        places = [typeset(shown(each.input, analysis.input_dimension)) for each in (first, second)]
+        yield self.say(
+            "rates_turning" if turning else "rates",
+            subject=literal(str(output)),
+            velocity=typeset(shown(first.value, dimensions[0])),
+            acceleration=typeset(shown(second.value, dimensions[1])),
+            first=places[0],
+            second=places[1],
+        )
+
+    # transmission -----------------------------------------------------------------------------
+    def _transmission(self) -> Iterator[str]:
+        say = self.say
+        if (row := _lowest(self._rows("transmission_angle"))) is not None and row.limit is not None:
+            key = "angle_below" if broken(row) else "angle_above"
+            yield say(key, **_told(row), limit=typeset(shown(row.limit, row.dimension)))
+        if (row := _lowest(self._rows("singularity"))) is not None:
+            yield say("close" if broken(row) else "away", **_told(row))
+
+    def _limits(self) -> Iterator[Block]:
+        say, rows = self.say, [row for row in self.case.metrics if row.limit is not None]
+        if not rows:
+            return
+        count = sum(map(broken, rows))
+        if not count:
+            yield Paragraph(f"{say('limits')} {say('all_met', count=len(rows))}")
+            return
+        yield Paragraph(f"{say('limits')} {say('not_met', count=len(rows), broken=count)}")
+        for sentence in self.case.metrics.warnings_in(self.case.language):
+            yield Paragraph(literal(sentence), "bullet")
+
+    # forces -----------------------------------------------------------------------------------
+    def _forces(self) -> Iterator[str]:
+        say, case = self.say, self.case
+        peaks = self._rows("peak_reaction")
+        if peaks:
+            top = max(peaks, key=lambda row: row.value)
+            equal = [row for row in peaks if abs(row.value - top.value) <= EQUAL * abs(top.value)]
+            joints = say("joint_list").join(literal(in_words(row.subject, case.language)) for row in equal)
+            key = "largest_reaction_rest" if top.at is None or not self.moves else "largest_reaction"
+            yield say(key, value=_value(top), joints=joints, at=_at(top))
+        if not self.moves:
+            return
+        for row in self._rows("peak_input_torque"):
+            yield from self._effort(row)
+        for row in self._rows("peak_shaking_force"):
+            yield say("shaking", value=_value(row), at=_at(row))
+
+    def _effort(self, peak: MetricValue) -> Iterator[str]:
+        """Peak, mean and root mean square of what a driver supplies."""
+        mean = Analysis.of(self.case.forces).part(f"{peak.subject}.effort mean").value
+        roots = [row for row in self._rows("rms_input_torque") if row.subject == peak.subject]
+        if not roots:
+            return
+        small = abs(mean) <= NOTHING * abs(peak.value)
+        alone = "only_" if len(self.case.mechanism.drivers) == 1 else ""
+        yield self.say(
+            f"{alone}{'torque' if peak.dimension == 'torque' else 'force'}",
+            driver=literal(in_words(peak.subject, self.case.language)),
+            peak=_value(peak),
+            at=_at(peak),
+            mean=typeset(shown(0.0 if small else mean, peak.dimension)),
+            rms=_value(roots[0]),
+        )
+        if not small and abs(peak.value) > WORTH * abs(mean):
+            ratio = abs(peak.value / mean)
+            yield self.say("peak_to_mean", ratio=f"{ratio:.0f}" if ratio >= 100.0 else f"{ratio:.3g}")
+
+    # flywheel ---------------------------------------------------------------------------------
+    def _flywheel(self) -> Iterator[str]:
+        say, case = self.say, self.case
+        try:
+            running = case.running
+        except LinkwrightError:
+            return
+        numbers = running.data()
+        low, high = (typeset(shown(numbers[f"energy_{end}_at"], "angle")) for end in ("lowest", "highest"))
+        energy = typeset(shown(numbers["energy_fluctuation"], "energy"))
+        yield say("stretch", low=low, high=high, energy=energy)
+        fluctuation = f"{running.required:g}"
+        if not running.exact_flywheel:
+            yield say("none_needed", fluctuation=fluctuation)
+            return
+        inertia, formula = (typeset(shown(numbers[key], "inertia")) for key in ("exact_flywheel", "flywheel"))
+        yield say("needed", fluctuation=fluctuation, inertia=inertia, formula=formula)
+        yield say("own", own=typeset(f"{running.own:.4g}"))
+
+    # changes ----------------------------------------------------------------------------------
+    def _changes(self) -> Iterator[str]:
+        found = improvements(self.case.motion, self.case.metrics)
+        for each in found:
+            metric = METRICS[each.row.metric]().label_in(self.case.language, each.row.dimension)
+            yield self.say(
+                "torque_change" if each.row.metric == EFFORT else "limit_change",
+                metric=literal(metric),
+                dimension=literal(each.dimension),
+                way=self.say("longer" if each.longer else "shorter"),
+                value=_value(each.row),
+                better=typeset(told(each.better, each.row.dimension)),
+            )
+            percent = typeset(f"{each.side_effect:.2g}") if abs(each.side_effect) > SMALLEST else "0"
+            yield self.say("side_effect", output=literal(each.output), percent=percent)
+        if found:
+            yield self.say("first_order")
+
+
+def _lowest(rows: Sequence[MetricValue]) -> MetricValue | None:
+    """The value that is lowest beside its limit."""
+    known = [row for row in rows if math.isfinite(row.value)]
+    return min(known, key=lambda row: row.value / (row.limit or 1.0), default=None)
+
+
+def _told(row: MetricValue) -> dict[str, str]:
+    return {"value": _value(row), "subject": literal(row.subject), "at": _at(row)}
+
+
+def _value(row: MetricValue) -> str:
+    return typeset(shown(row.value, row.dimension))
+
+
+def _at(row: MetricValue) -> str:
+    return "–" if row.at is None else typeset(shown(row.at, row.at_dimension))
+
+
+def _word(case: Case, key: str, **values: object) -> str:
+    return case.say(f"conclusion.{key}", **values)

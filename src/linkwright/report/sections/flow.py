@@ -1,0 +1,28 @@
+"""The flow chart of the solution, in the solving order of the machine."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from linkwright.plot.flow_chart.content import flow_chart_steps
+from linkwright.plot.flow_chart.picture import TALLEST, flow_chart_pages
+from linkwright.report.document import Block, Figure, Paragraph
+from linkwright.report.machine_results import Case
+from linkwright.report.own_size import own_share
+from linkwright.report.section import section
+
+
+@section("flow", 3.5)
+def blocks(case: Case) -> Iterator[Block]:
+    """The steps of the solution over the numbered positions, in as many pages as they need."""
+    say, numbered = case.say, case.numbered
+    nodes = flow_chart_steps(numbered.motion, numbered.rows, case.language)
+    key = "flow.text" if case.mechanism.drivers else "flow.text_rest"
+    yield Paragraph(say(key, figure="[[flow]]"))
+    caption = say("flow.caption")
+    pages = flow_chart_pages(nodes, caption)
+    for number, svg in enumerate(pages, 1):
+        shown = (
+            caption if len(pages) == 1 else say("flow.page", caption=caption, number=number, count=len(pages))
+        )
+        yield Figure(shown, ((svg, own_share(svg)),), "flow" if number == 1 else "", TALLEST)

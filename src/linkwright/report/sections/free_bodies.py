@@ -1,0 +1,39 @@
+"""Free-body diagrams of every link at the worked position."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from linkwright.kinetostatics.forces import Forces
+from linkwright.plot.free_bodies.actions import idle_loads
+from linkwright.plot.free_bodies.page import free_body_pages
+from linkwright.report.document import Block, Figure, Paragraph, literal
+from linkwright.report.machine_results import Case, Missing
+from linkwright.report.own_size import own_share
+from linkwright.report.section import section
+
+#: Height of a figure, mm, that a page has room for, and of the pictures below the text that begins the section.
+TALLEST, FIRST = 228.0, 178.0
+
+
+@section("free_bodies", 8.45, optional=True)
+def blocks(case: Case) -> Iterator[Block]:
+    """All that acts on each link, drawn and in numbers."""
+    say = case.say
+    forces, index = case.worked_result
+    if not isinstance(forces, Forces):
+        raise Missing("report.no_loads")
+    pages = free_body_pages(forces, index, say, case.language, first=FIRST)
+    place = literal(case.worked_text)
+    key = "free_bodies.text" if place else "free_bodies.text_rest"
+    yield Paragraph(say(key, figure="[[free-bodies]]", place=place))
+    if idle := idle_loads(forces, index):
+        yield Paragraph(literal(say("free_bodies.idle", names=", ".join(idle))), "note")
+    caption = say("free_bodies.caption")
+    for number, svg in enumerate(pages, 1):
+        shown = (
+            caption
+            if len(pages) == 1
+            else say("free_bodies.page", caption=caption, number=number, count=len(pages))
+        )
+        yield Figure(shown, ((svg, own_share(svg)),), "free-bodies" if number == 1 else "", TALLEST)

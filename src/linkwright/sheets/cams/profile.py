@@ -1,0 +1,207 @@
+"""The profile of a disc cam by inversion: the follower at the divided angles against the turn of the cam."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Sequence
+from functools import cached_property
+
+import numpy as np
+
+from linkwright.cams.result import CamDesign
+from linkwright.core.arrays import Complexes, Floats
+from linkwright.sheets.cams.division import divided, widest_gap
+from linkwright.sheets.cams.geometry import Paper, inverted, pair, pitch_of
+from linkwright.sheets.cams.labels import Name, Names, around
+from linkwright.sheets.cams.marks import marked, said
+from linkwright.sheets.cams.scales import graphical
+from linkwright.sheets.cams.symbols import frame_pin, guide
+from linkwright.sheets.panel import Drawn, Panel, drawing_scale, scale_text
+from linkwright.sheets.picture import Picture, Runs, as_runs, joined
+from linkwright.words import Say
+
+_DENSE = 1440
+#: Paper, mm: how far followers' lines go on beyond the outermost point, and room for numbers and names beyond them.
+BEYOND, _MARGIN = 4.0, 12.0
+#: Length of the stem of a translating follower at 0 beyond the other ones' lines, and where its guide is, mm.
+_STEM, _GUIDE = 22.0, 14.5
+#: Radius of an offset circle on paper from which the followers' lines begin at it, mm.
+_OFFSET = 4.0
+#: Share of the base circle within which the pitch curve is taken for it.
+_SAME = 1e-6
+
+
+class ProfilePanel(Panel):
+    """Base circle, positions of the follower, pitch curve, rollers and the profile as their envelope, to scale."""
+
+    name, rank = "profile", 0.5
+    smallest, largest = 90.0, 420.0
+
+    def __init__(self, design: CamDesign, say: Say) -> None:
+        self.design, self.say = design, say
+        self.places = divided(design.cam.program)
+        self.at = inverted(design, self.places)
+        self.turn = np.linspace(0.0, 2 * math.pi, _DENSE + 1)
+        self.pitch = pitch_of(design, self.turn)
+        self.walls = [_wall(design, k) for k in range(len(design.cam.walls))]
+        cloud = [self.pitch, *self.walls, self.at.face.ravel()]
+        self.outer = float(max(np.abs(each).max(initial=0.0) for each in cloud))
+        self._drawn: dict[float, Drawn] = {}
+
+    def drawn(self, size: float, scale: float | None) -> Drawn:
+        wanted = 1e3 * max(self.extent) / max(size - 2 * (BEYOND + _MARGIN), 10.0)
+        reduction = 1e3 * scale if scale else drawing_scale(wanted)
+        if reduction not in self._drawn:
+            self._drawn[reduction] = self._at(reduction)
+        return self._drawn[reduction]
+
+    def _at(self, reduction: float) -> Drawn:
+        """The picture at a scale."""
+        paper, picture = Paper(reduction), Picture()
+        self._centre(picture, paper)
+        self._circles(picture, paper)
+        wanted_names = self._followers(picture, paper)
+        self._curves(picture, paper)
+        self._first(picture, paper)
+        wanted_names += marked(picture, paper, self.design, self.say, self.outer)
+        names = Names(picture, self.letters)
+        for words, spots, leader in wanted_names:
+            names.write(words, spots, leader=leader)
+        return Drawn(picture, tuple(self._caption(reduction)), scale_text(reduction))
+
+    @cached_property
+    def extent(self) -> tuple[float, float]:
+        """Width and height of the picture at full size, m."""
+        oscillating = self.design.cam.follower.oscillating
+        ends = self.at.foot if oscillating else self.outer * self.at.along
+        cloud = np.concatenate([*self.walls, self.pitch, self.at.face.ravel(), ends])
+        return float(np.ptp(cloud.real)), float(np.ptp(cloud.imag))
+
+    def _centre(self, picture: Picture, paper: Paper) -> None:
+        """The axes of the cam and its pin."""
+        reach = paper.length(self.outer) + BEYOND
+        for way in ((1.0, 0.0), (0.0, 1.0)):
+            picture.line([-reach * np.array(way), reach * np.array(way)], "chain")
+        frame_pin(picture, np.zeros(2), (0.0, -1.0))
+
+    def _circles(self, picture: Picture, paper: Paper) -> None:
+        """Prime circle where the pitch curve leaves it, base circle of the profile, offset circle."""
+        cam = self.design.cam
+        base, roller = cam.base_radius or 0.0, cam.follower.roller_radius
+        prime = (base + roller) * np.exp(1j * np.angle(self.pitch))
+        if cam.follower.kind == "flat":
+            prime = base * np.exp(1j * self.turn)
+        else:
+            prime = np.where(np.abs(np.abs(self.pitch) / (base + roller) - 1.0) < _SAME, np.nan, prime)
+        picture.line(paper.points(prime), "chain")
+        if roller:
+            picture.circle((0.0, 0.0), paper.length(base), "thin")
+        if offset := _offset(self.design):
+            picture.circle((0.0, 0.0), paper.length(offset), "chain")
+
+    def _followers(self, picture: Picture, paper: Paper) -> list[Name]:
+        """The positions 0, 1, 2 …; gives their numbers with the places where these may be."""
+        follower = self.design.cam.follower
+        numbers: list[Name] = []
+        for k in range(len(self.places)):
+            end, away = (self._arm if follower.oscillating else self._stem)(picture, paper, k)
+            spots = around(end, away, (2.0, 4.0, 6.0), (0.0, 30.0, -30.0, 60.0, -60.0))
+            numbers.append((as_runs(str(k)), spots, None))
+            trace = paper.point(self.at.trace[k])
+            for line in self.at.face[k : k + 1]:
+                picture.line(paper.points(line), "thin")
+            if follower.kind == "roller":
+                picture.circle(trace, paper.length(follower.roller_radius), "thin")
+            if follower.kind != "flat":
+                picture.circle(trace, 0.4, "thin", fill="ink")
+        if follower.oscillating:
+            self._pivots(picture, paper)
+        return numbers
+
+    def _stem(self, picture: Picture, paper: Paper, k: int) -> tuple[Floats, complex]:
+        """The line along which a translating follower slides, from where it touches the offset circle."""
+        along, foot = complex(self.at.along[k]), complex(self.at.foot[k])
+        start = foot if paper.length(abs(foot)) > _OFFSET else complex(self.at.rest[k])
+        end = paper.point(foot + self._reach(foot) * along) + BEYOND * pair(along)
+        picture.line([paper.point(start), end], "thin")
+        return end, along
+
+    def _reach(self, foot: complex) -> float:
+        """Length from a foot to the circle around everything, m."""
+        return math.sqrt(max(self.outer**2 - abs(foot) ** 2, 0.0))
+
+    def _arm(self, picture: Picture, paper: Paper, k: int) -> tuple[Floats, complex]:
+        """The arm of an oscillating follower, and the arc on which its end has moved from the base circle."""
+        pivot, at = complex(self.at.foot[k]), self.at
+        if self.design.cam.follower.kind == "flat":
+            picture.line(paper.points(np.array([pivot, at.face[k, 1]])), "thin")
+        else:
+            picture.line(paper.points(np.array([pivot, at.trace[k]])), "thin")
+            first = cmath.phase(at.rest[k] - pivot)
+            turned = math.remainder(cmath.phase(at.trace[k] - pivot) - first, 2 * math.pi)
+            if abs(turned) > 1e-9:
+                radius = paper.length(abs(at.rest[k] - pivot))
+                picture.arc(paper.point(pivot), radius, first, first + turned)
+        picture.circle(paper.point(pivot), 0.6, "thin", fill="ink")
+        return paper.point(pivot), pivot / abs(pivot)
+
+    def _pivots(self, picture: Picture, paper: Paper) -> None:
+        """The circle of the pivots, as far as there are any."""
+        radius = paper.length(self.design.cam.follower.pivot_distance or 0.0)
+        start, end = widest_gap(self.places)
+        if end - start < math.radians(60):
+            picture.circle((0.0, 0.0), radius, "chain")
+            return
+        sense = -self.design.cam.turn
+        picture.arc((0.0, 0.0), radius, sense * end, sense * (start + 2 * math.pi), "chain")
+
+    def _curves(self, picture: Picture, paper: Paper) -> None:
+        """Pitch curve and profile; the second cam of a pair dashed."""
+        if self.design.cam.follower.kind == "roller":
+            picture.line(paper.points(self.pitch[:-1]), "chain", closed=True)
+        for number, wall in enumerate(self.walls):
+            second = number > 0 and self.design.cam.conjugate is not None
+            picture.line(paper.points(wall), "dashed" if second else "thick", closed=True)
+
+    def _first(self, picture: Picture, paper: Paper) -> None:
+        """The follower at 0 with its guide or pivot, thick."""
+        follower, at = self.design.cam.follower, self.at
+        trace, along, foot = complex(at.trace[0]), complex(at.along[0]), complex(at.foot[0])
+        for line in at.face[:1]:
+            picture.line(paper.points(line), "thick")
+        if follower.oscillating:
+            start = at.face[0, 0] if len(at.face) else trace
+            picture.line(paper.points(np.array([foot, start])), "thick")
+            frame_pin(picture, paper.point(foot), (1.0, 0.0))
+        else:
+            low = trace if not len(at.face) else along * (trace / along).real
+            end = paper.point(foot + self._reach(foot) * along) + BEYOND * pair(along)
+            picture.line([paper.point(low), end + _STEM * pair(along)], "thick")
+            guide(picture, end + _GUIDE * pair(along), pair(along))
+        if follower.kind == "roller":
+            picture.circle(paper.point(trace), paper.length(follower.roller_radius), "thick")
+            picture.circle(paper.point(trace), 0.8, "thin", fill="paper")
+
+    def _caption(self, reduction: float) -> Sequence[Runs]:
+        lines = [as_runs(self.say("cam_sheet.profile"))]
+        lines.append(joined(graphical("l", 1e-3 * reduction, "m"), f"  ({scale_text(reduction)})"))
+        if checks := said(self.design):
+            lines.append(checks)
+        if self.design.cam.conjugate is not None:
+            lines.append(as_runs(self.say("cam_sheet.second_cam")))
+        return lines
+
+
+def _offset(design: CamDesign) -> float:
+    """Radius of the offset circle, m; zero where there is none."""
+    follower = design.cam.follower
+    return 0.0 if follower.oscillating or follower.kind == "flat" else abs(follower.offset)
+
+
+def _wall(design: CamDesign, number: int) -> Complexes:
+    """A wall as a closed outline, m; the second cam of a translating pair turned to its place."""
+    points = design.profile(_DENSE, number)
+    outline = points[:, 0] + 1j * points[:, 1]
+    cam = design.cam
+    return -outline if number and cam.conjugate is not None and not cam.follower.oscillating else outline

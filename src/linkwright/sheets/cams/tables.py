@@ -1,0 +1,160 @@
+"""The tables of a cam's sheet: its data, and its points at the divided angles."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from linkwright.cams.result import CamDesign
+from linkwright.laws.smoothest import FoundProgram
+from linkwright.sheets.cams.division import Phase, divided, phases
+from linkwright.sheets.cams.geometry import pitch_of
+from linkwright.sheets.cams.scales import fixed, plain
+from linkwright.sheets.panel import Drawn
+from linkwright.sheets.picture import Runs, Words, as_runs, indexed, joined
+from linkwright.sheets.table import TablePanel
+from linkwright.words import Say, has
+
+Row = list[Words]
+#: Most parts of the table of points side by side.
+_PARTS = 3
+
+
+def data_table(design: CamDesign, say: Say, parts: int) -> TablePanel:
+    """Motion, sizes and checks of a cam: name, symbol, value; in so many parts side by side."""
+    head = [say(f"cam_sheet.{key}") for key in ("quantity", "symbol", "value")]
+    rows = [*_motion(design, say), *_sizes(design, say), *_checks(design, say)]
+    return TablePanel("table_data", 2.0, head, rows, say("cam_sheet.data"), parts=parts)
+
+
+def _row(say: Say, key: str, symbol: Words, value: float, unit: str) -> Row:
+    gap = "" if unit in ("", "°") else " "
+    return [say(f"cam_sheet.{key}"), symbol, f"{plain(value, 5)}{gap}{unit}"]
+
+
+def _motion(design: CamDesign, say: Say) -> Iterator[Row]:
+    cam = design.cam
+    low, high = cam.program.lifts
+    if cam.follower.oscillating:
+        yield _row(say, "swing", indexed("ψ", "max"), math.degrees(high - low), "°")
+    else:
+        yield _row(say, "lift", "h", 1e3 * (high - low), "mm")
+    for number, phase in enumerate(phases(cam.program), 1):
+        yield _phase(phase, number, say)
+    if isinstance(cam.program, FoundProgram):
+        yield [say("cam_sheet.law"), "", say("cam_sheet.found")]
+    sense = say(f"cam_sheet.{'counterclockwise' if cam.turn > 0 else 'clockwise'}")
+    if design.loading.speed:
+        speed = f"{plain(design.loading.speed * 30 / math.pi, 5)} r/min"
+        yield [say("cam_sheet.speed"), "n", f"{speed}, {sense}"]
+    else:
+        yield [say("cam_sheet.turn"), "", sense]
+
+
+def _phase(phase: Phase, number: int, say: Say) -> Row:
+    """The angle of a phase, and its law where it moves."""
+    symbol: Words = indexed(*phase.symbol) if phase.symbol[0] else indexed("δ", str(number))
+    name = say(f"cam_sheet.{_name(phase)}")
+    degrees = f"{plain(math.degrees(phase.angle), 5)}°"
+    if phase.way == "dwell":
+        return [name, symbol, degrees]
+    laws = ", ".join(say(f"report.law_{law}") if has(f"report.law_{law}") else law for law in phase.laws)
+    return [name, symbol, f"{degrees}, {laws}"]
+
+
+def _name(phase: Phase) -> str:
+    if phase.way == "dwell" and phase.symbol[0]:
+        return "far_dwell" if phase.symbol[0] == "Φ" else "near_dwell"
+    return phase.way
+
+
+def _sizes(design: CamDesign, say: Say) -> Iterator[Row]:
+    cam, follower = design.cam, design.cam.follower
+    base = cam.base_radius or 0.0
+    if cam.barrel_radius is not None:
+        yield _row(say, "barrel_radius", "R", 1e3 * cam.barrel_radius, "mm")
+    elif follower.kind == "roller":
+        yield _row(say, "prime_radius", indexed("r", "0"), 1e3 * (base + follower.roller_radius), "mm")
+        yield _row(say, "base_radius", indexed("r", "b"), 1e3 * base, "mm")
+    else:
+        yield _row(say, "one_base_radius", indexed("r", "0"), 1e3 * base, "mm")
+    if follower.kind == "roller":
+        yield _row(say, "roller_radius", indexed("r", "r"), 1e3 * follower.roller_radius, "mm")
+    if follower.oscillating:
+        yield _row(say, "pivot_distance", "l", 1e3 * (follower.pivot_distance or 0.0), "mm")
+        if follower.kind == "flat":
+            yield _row(say, "face_offset", "f", 1e3 * follower.face_offset, "mm")
+        else:
+            yield _row(say, "arm", indexed("l", "r"), 1e3 * (follower.arm or 0.0), "mm")
+        yield _row(
+            say, "start_angle", indexed("ψ", "0"), math.degrees(follower.start_angle(base) or 0.0), "°"
+        )
+    elif follower.kind != "flat" and follower.offset:
+        yield _row(say, "offset", "e", 1e3 * follower.offset, "mm")
+    if design.face is not None:
+        yield _row(say, "face_width", "b", 1e3 * (design.face[1] - design.face[0]), "mm")
+
+
+def _checks(design: CamDesign, say: Say) -> Iterator[Row]:
+    limits = design.cam.limits
+    fall = limits.pressure_angle if limits.pressure_angle_fall is None else limits.pressure_angle_fall
+    for key, extreme, limit in (
+        ("angle_rise", design.pressure_angle_rise, limits.pressure_angle),
+        ("angle_fall", design.pressure_angle_fall, fall),
+    ):
+        if extreme.value:
+            value = f"{plain(abs(math.degrees(extreme.value)), 4)}°"
+            value += "" if limit is None else f",  [α] = {plain(math.degrees(limit))}°"
+            yield [say(f"cam_sheet.{key}"), indexed("α", "max"), value]
+    if design.smallest_radius is not None:
+        yield _row(say, "smallest_radius", indexed("ρ", "min"), 1e3 * design.smallest_radius.value, "mm")
+
+
+class PointsTable(TablePanel):
+    """A table with a ``note`` beneath its caption."""
+
+    note: Runs = ()
+
+    def drawn(self, size: float, scale: float | None) -> Drawn:
+        table = super().drawn(size, scale)
+        return replace(table, caption=(*table.caption, self.note))
+
+
+def points_table(design: CamDesign, say: Say, letters: float, tall: int) -> PointsTable:
+    """Lift, pitch curve, profile and pressure angle at the divided angles, in parts side by side of at most
+    ``tall`` rows, as far as the paper is wide enough; ``letters``: their height, mm."""
+    head, rows = _points(design)
+    parts = min(_PARTS, math.ceil(len(rows) / tall))
+    found = PointsTable("table_points", 3.0, head, rows, say("cam_sheet.points"), parts=parts)
+    found.letters = letters
+    found.note = joined("x, y ", say("cam_sheet.profile_curve"))
+    if design.cam.follower.kind == "roller":
+        pitch = joined(indexed("x", "0"), ", ", indexed("y", "0"), " ", say("cam_sheet.pitch_curve"))
+        found.note = joined(pitch, ";  ", found.note)
+    return found
+
+
+def _points(design: CamDesign) -> tuple[Row, list[Row]]:
+    cam, phi = design.cam, divided(design.cam.program)
+    contact = design.wall.contact(phi)
+    lift = cam.program.curves(phi)[0]
+    turning = cam.follower.oscillating
+    shown = np.degrees(lift) if turning else 1e3 * lift
+    head: Row = [as_runs("i"), "δ/°", "ψ/°" if turning else "s/mm"]
+    columns = [np.degrees(phi), shown]
+    if cam.follower.kind == "roller":
+        pitch = 1e3 * pitch_of(design, phi)
+        head += [joined(indexed("x", "0"), "/mm"), joined(indexed("y", "0"), "/mm")]
+        columns += [pitch.real, pitch.imag]
+    head += ["x/mm", "y/mm"]
+    columns += [1e3 * contact.point.real, 1e3 * contact.point.imag]
+    if cam.follower.kind != "flat":
+        head.append("α/°")
+        columns.append(np.degrees(np.abs(contact.pressure_angle)))
+    rows: list[Row] = [
+        [str(k), *(fixed(float(each)) for each in row)] for k, row in enumerate(zip(*columns, strict=True))
+    ]
+    return head, rows

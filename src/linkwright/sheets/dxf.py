@@ -1,0 +1,217 @@
+"""A sheet as DXF in millimetres: a layer for each kind of line with its type and width, texts in millimetres."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any
+
+import numpy as np
+
+from linkwright.core.arrays import Floats
+from linkwright.export.dxf.sheet import STYLE, content_of, new_document
+from linkwright.plot.svg.fonts import needs_chinese
+from linkwright.sheets.paper import Paper
+from linkwright.sheets.picture import CAPITAL, Circle, Item, Line, Text
+from linkwright.sheets.svg import width_of
+from linkwright.words.characters import one_line
+
+#: Layers with their colour (7: black or white, as the ground demands), type of line and pattern, mm.
+_TYPES = {"frame": "CONTINUOUS", "thick": "CONTINUOUS", "thin": "CONTINUOUS", "dashed": "SHEET_DASHED",
+          "chain": "SHEET_CHAIN", "double_chain": "SHEET_DOUBLE_CHAIN"}  # fmt: skip
+_COLOURS = {"frame": 7, "thick": 7, "thin": 3, "dashed": 2, "chain": 1, "double_chain": 6, "text": 7}
+#: Patterns: their whole length, then dashes and gaps (negative), mm.
+_PATTERNS = {
+    "SHEET_DASHED": [4.5, 3.5, -1.0],
+    "SHEET_CHAIN": [9.0, 7.0, -0.9, 0.2, -0.9],
+    "SHEET_DOUBLE_CHAIN": [10.1, 7.0, -0.9, 0.2, -0.9, 0.2, -0.9],
+}
+_ANCHORS = {"start": 0, "middle": 1, "end": 2}
+
+
+def dxf(items: Iterable[Item], paper: Paper) -> bytes:
+    """The file: model space in millimetres, the lower left corner of the paper at the origin.
+
+    What a filled outline hides is cut away, as DXF has no order of painting that all programs keep. Raises
+    LinkwrightError where ezdxf is missing.
+    """
+    document = new_document(_COLOURS)
+    for name, pattern in _PATTERNS.items():
+        document.linetypes.add(name, pattern)
+    for name, kind in _TYPES.items():
+        layer = document.layers.get(name)
+        layer.dxf.linetype = kind
+        layer.dxf.lineweight = round(100 * width_of(name, paper))
+    rows = list(items)
+    words = "".join(text for item in rows if isinstance(item, Text) for text, _ in item.runs)
+    document.styles.add(STYLE, font="simsun.ttc" if needs_chinese(words) else "arial.ttf")
+    space = document.modelspace()
+    document.header["$LTSCALE"] = 1.0
+    document.header["$EXTMIN"], document.header["$EXTMAX"] = (0, 0, 0), (paper.width, paper.height, 0)
+    _limits(document, paper)
+    for number, item in enumerate(rows):
+        if isinstance(item, Text):
+            _text(space, item)
+        else:
+            covers = [
+                each for each in rows[number + 1 :] if not isinstance(each, Text) and each.fill == "paper"
+            ]
+            _shape(space, item, covers)
+    return content_of(document)
+
+
+def _limits(document: Any, paper: Paper) -> None:
+    """The limits of the drawing, and the view with which it opens: the whole paper."""
+    document.header["$LIMMIN"], document.header["$LIMMAX"] = (0, 0), (paper.width, paper.height)
+    document.set_modelspace_vport(height=1.05 * paper.height, center=(paper.width / 2, paper.height / 2))
+
+
+def _shape(space: Any, item: Line | Circle, covers: list[Line | Circle]) -> None:
+    attributes = {"layer": item.pen}
+    low, high = item.cloud.min(axis=0), item.cloud.max(axis=0)
+    near = [each for each in covers if _touches(each, low, high)]
+    if isinstance(item, Circle):
+        if near:
+            angle = np.linspace(0.0, 2 * np.pi, 49)
+            outline = item.at + item.radius * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+            _pieces(space, outline, near, attributes)
+        else:
+            space.add_circle(tuple(item.at), item.radius, dxfattribs=attributes)
+        if item.fill == "ink":
+            hatch = space.add_hatch(color=7, dxfattribs=attributes)
+            hatch.paths.add_edge_path().add_arc(
+                tuple(item.at), radius=item.radius, start_angle=0, end_angle=360
+            )
+        return
+    if item.fill == "ink":
+        hatch = space.add_hatch(color=7, dxfattribs=attributes)
+        hatch.paths.add_polyline_path(item.points.tolist(), is_closed=True)
+        return
+    if near:
+        outline = np.vstack([item.points, item.points[:1]]) if item.closed else item.points
+        _pieces(space, outline, near, attributes)
+    elif len(item.points) == 2 and not item.closed:
+        space.add_line(*item.points.tolist(), dxfattribs=attributes)
+    else:
+        space.add_lwpolyline(item.points.tolist(), close=item.closed, dxfattribs=attributes)
+
+
+def _touches(cover: Line | Circle, low: Floats, high: Floats) -> bool:
+    cloud = cover.cloud
+    return bool((cloud.min(axis=0) <= high).all() and (cloud.max(axis=0) >= low).all())
+
+
+def _pieces(space: Any, outline: Floats, covers: list[Line | Circle], attributes: Mapping[str, str]) -> None:
+    """What is seen of a polyline below filled outlines."""
+    for piece in visible(outline, covers):
+        if len(piece) == 2:
+            space.add_line(*piece.tolist(), dxfattribs=attributes)
+        else:
+            space.add_lwpolyline(piece.tolist(), dxfattribs=attributes)
+
+
+def visible(outline: Floats, covers: Iterable[Line | Circle]) -> Iterator[Floats]:
+    """The pieces (k, 2) of a polyline that lie outside of circles and convex polygons."""
+    shapes = list(covers)
+    piece: list[Floats] = []
+    for start, end in zip(outline[:-1], outline[1:], strict=True):
+        for first, last in _outside(start, end, shapes):
+            a, b = start + first * (end - start), start + last * (end - start)
+            if piece and np.allclose(piece[-1], a, atol=1e-9):
+                piece.append(b)
+                continue
+            if piece:
+                yield np.array(piece)
+            piece = [a, b]
+    if piece:
+        yield np.array(piece)
+
+
+def _outside(start: Floats, end: Floats, shapes: list[Line | Circle]) -> list[tuple[float, float]]:
+    """The shares of the way from start to end that no shape covers."""
+    free = [(0.0, 1.0)]
+    for shape in shapes:
+        inside = (
+            _in_circle(start, end, shape)
+            if isinstance(shape, Circle)
+            else _in_polygon(start, end, shape.points)
+        )
+        if inside is None:
+            continue
+        low, high = inside
+        parts = [((a, min(b, low)), (max(a, high), b)) for a, b in free]
+        free = [part for pair in parts for part in pair if part[1] - part[0] > 1e-6]
+    return free
+
+
+def _in_circle(start: Floats, end: Floats, circle: Circle) -> tuple[float, float] | None:
+    way, off = end - start, start - circle.at
+    a, b, c = float(way @ way), 2 * float(way @ off), float(off @ off) - (circle.radius - 1e-6) ** 2
+    root = b * b - 4 * a * c
+    if a == 0.0 or root <= 0.0:
+        return None
+    first, last = (-b - root**0.5) / (2 * a), (-b + root**0.5) / (2 * a)
+    return (max(first, 0.0), min(last, 1.0)) if first < 1.0 and last > 0.0 else None
+
+
+def _in_polygon(start: Floats, end: Floats, corners: Floats) -> tuple[float, float] | None:
+    """The stretch within a polygon, by clipping at the sides of its convex hull (Cyrus and Beck)."""
+    nexts = np.roll(corners, -1, axis=0)
+    area = float(np.sum(corners[:, 0] * nexts[:, 1] - corners[:, 1] * nexts[:, 0]))
+    first, last = 0.0, 1.0
+    for corner, other in zip(corners, nexts, strict=True):
+        side = (other - corner) * (1.0 if area > 0 else -1.0)
+        inward = np.array([-side[1], side[0]])
+        begin, rate = float(inward @ (start - corner)) - 1e-6, float(inward @ (end - start))
+        if abs(rate) < 1e-12:
+            if begin < 0:
+                return None
+            continue
+        share = -begin / rate
+        first, last = (max(first, share), last) if rate > 0 else (first, min(last, share))
+    return (first, last) if last - first > 1e-6 else None
+
+
+def _text(space: Any, item: Text) -> None:
+    """A line of text; with indices as multi-line text, where they are stacked."""
+    height = item.size * CAPITAL
+    attributes: dict[str, Any] = {"layer": "text", "style": STYLE, "rotation": item.turn}
+    if all(level == 0 for _, level in item.runs):
+        plain = one_line("".join(text for text, _ in item.runs)).replace("%%", "%%%%%%")
+        attributes |= {"height": height, "width": item.squeeze, "oblique": 15.0 if item.symbol else 0.0}
+        entity = space.add_text(plain, dxfattribs=attributes)
+        from ezdxf.enums import TextEntityAlignment
+
+        place = (TextEntityAlignment.LEFT, TextEntityAlignment.CENTER, TextEntityAlignment.RIGHT)
+        entity.set_placement(tuple(item.at), align=place[_ANCHORS[item.anchor]])
+        return
+    attributes |= {
+        "char_height": height,
+        "attachment_point": 7 + _ANCHORS[item.anchor],
+        "insert": tuple(item.at),
+        "width": 2.0 * item.width,
+    }
+    space.add_mtext("".join(_stacked(item)), dxfattribs=attributes)
+
+
+def _stacked(item: Text) -> Iterator[str]:
+    """The parts of a text in the language of MTEXT."""
+    if item.symbol:
+        yield "{\\Q15;"
+    waiting = ""
+    for text, level in item.runs:
+        plain = one_line(text).translate({ord(c): f"\\{c}" for c in "\\{};^#/"})
+        if level > 0:
+            waiting = plain
+            continue
+        if level < 0:
+            yield f"{{\\H0.7x;\\S{waiting or ' '}^{plain};}}"
+            waiting = ""
+            continue
+        if waiting:
+            yield f"{{\\H0.7x;\\S{waiting}^ ;}}"
+            waiting = ""
+        yield plain
+    if waiting:
+        yield f"{{\\H0.7x;\\S{waiting}^ ;}}"
+    if item.symbol:
+        yield "}"

@@ -1,0 +1,88 @@
+"""What a file may say about its drawing sheets: the keys of ``sheet``."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from linkwright.core.dataclass import dataclass
+from linkwright.fields.base import (
+    Field,
+    Free,
+    Place,
+    Quantities,
+    Quantity,
+    Reader,
+    Schema,
+    Text,
+    Word,
+    table_schema,
+)
+from linkwright.fields.nodes import Node
+from linkwright.parts.fields import ByAddress, Flag, Listed, Table, Whole
+from linkwright.sheets.paper import SIZES, STANDARDS
+from linkwright.words import LANGUAGES
+
+#: Texts of the title block.
+WORDS: Mapping[str, Field] = {
+    "title": Text(
+        doc="title of the task in the title block; otherwise that of the report, else the machine's name"
+    ),
+    "drawing": Text(doc="name of the drawing in the title block"),
+    "number": Text(doc="number of the drawing"),
+    "school": Text(doc="school or company in the title block"),
+    "faculty": Text(doc="faculty or department"),
+    "class": Text(doc="class of the student"),
+    "student": Text(doc="who made the drawing; otherwise the report's author"),
+    "student_number": Text(doc="number of the student"),
+    "adviser": Text(doc="who advises"),
+    "checker": Text(doc="who checks"),
+    "date": Text(doc="date of the drawing"),
+}
+PANEL: Mapping[str, Field] = {
+    "at": Quantities(
+        "length", ("x", "y"), doc="lower left corner of the panel with its caption, from that of the paper"
+    ),
+    "size": Quantity("length", above=0.0, doc="longest side of the picture at most, on paper"),
+    "scale": Quantity("dimensionless", above=0.0, doc="scale in SI units per millimetre of paper"),
+}
+SHEET: Mapping[str, Field] = {
+    "size": Word(tuple(SIZES), doc="paper size, A0 to A4; default A1"),
+    "orientation": Word(("landscape", "portrait"), doc="default landscape; A4 portrait"),
+    "standard": Word(
+        STANDARDS, doc="gb (GB/T 14689, 10609.1) or iso (ISO 5457, 7200); default by the language"
+    ),
+    "block": Word(
+        ("full", "short"),
+        doc="title block: full, or the short one of schools; default full, short on A3 and A4",
+    ),
+    "binding": Flag(doc="whether a margin for binding is left (gb); default true"),
+    "zones": Flag(doc="whether the frame has numbered fields; default false"),
+    **WORDS,
+    "sheet": Whole(1, 999, doc="number of this sheet"),
+    "sheets": Whole(1, 999, doc="how many sheets there are"),
+    "positions": Listed(
+        Text(), "[60 deg, 240 deg]", doc="inputs of the positions that are worked out, one or two"
+    ),
+    "only": Listed(
+        Text(), "[mechanism, velocity_1]", doc="panels that are drawn, in their order; default all"
+    ),
+    "leave_out": Listed(Text(), "[table_data]", doc="panels that are left out"),
+    "panels": ByAddress(Table(PANEL), doc="place, size and scale of single panels by their names"),
+    **{each: Table(WORDS, doc=f"the texts in the language {each}") for each in LANGUAGES},
+}
+
+
+@dataclass(frozen=True)
+class SheetSection(Free):
+    """The section ``sheet``: kept as it stands, checked by its keys."""
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
+        return None if reader.table(node, place, SHEET) is None else reader.free(node)
+
+    def shape(self) -> Schema:
+        return table_schema(SHEET)
+
+
+#: The key of files.
+FIELD = SheetSection(doc="size, title block, panels and their places for the command sheet")

@@ -1,0 +1,118 @@
+"""The sheet of a mechanism: positions, polygons, diagrams over the cycle and tables."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import suppress
+
+import numpy as np
+
+from linkwright.core.outputs import Output
+from linkwright.errors import LinkwrightError, RequestError
+from linkwright.kinetostatics.forces import Forces
+from linkwright.mechanism.mechanism import Mechanism
+from linkwright.plot.diagrams.base import Request
+from linkwright.plot.diagrams.force_polygon import link_forces, polygon_links
+from linkwright.plot.diagrams.outputs import main_output
+from linkwright.plot.diagrams.panels import Panel as Plotted
+from linkwright.plot.diagrams.source import InputAxis, Source
+from linkwright.plot.diagrams.sva import Sva
+from linkwright.plot.diagrams.torque import Torque
+from linkwright.sheets.curves import Axis, Curve, CurvePanel
+from linkwright.sheets.kind import SHEETS, Content, Subject
+from linkwright.sheets.machine import MachinePanel
+from linkwright.sheets.machine_tables import data_table, force_table, motion_table
+from linkwright.sheets.panel import Panel
+from linkwright.sheets.picture import as_runs, indexed
+from linkwright.sheets.polygons import AccelerationPanel, ForcePanel, VelocityPanel
+from linkwright.sheets.positions import Positions
+
+#: Names of the diagrams of an output, with their ranks: where it is, its velocity, its acceleration.
+_MOTION = (("displacement", 3.0), ("velocity", 3.5), ("acceleration", 4.0))
+_SYMBOLS = {"angle": "φ", "length": "s", "time": "t"}
+
+
+@SHEETS.register("mechanism")
+def mechanism(subject: Subject) -> Content:
+    """Mechanism, polygons of the positions, force polygons, diagrams, tables; what a machine does not have is left
+    out."""
+    if not isinstance(subject.drawn, Mechanism):
+        raise RequestError("sheet.no_mechanism")
+    positions = Positions(subject)
+    if not positions.shown:
+        raise LinkwrightError("sheet.nothing_reached", name=subject.drawn.name)
+    machine = MachinePanel("mechanism", positions)
+    panels: list[Panel] = [machine]
+    if subject.drawn.drivers:
+        panels += _motion_polygons(positions)
+    forces = positions.forces
+    if forces is not None:
+        panels += _force_polygons(positions, forces)
+    panels += _curves(positions)
+    panels += [data_table(positions), *motion_table(positions), *force_table(positions)]
+    return Content(panels)
+
+
+def _motion_polygons(positions: Positions) -> Iterator[Panel]:
+    """Velocity and acceleration polygon of each position; left out where all is at rest."""
+    for shown in positions.shown:
+        later, number = (5.0, 2) if shown.number == "II" else (0.0, 1)
+        for kind, name, rank in ((VelocityPanel, "velocity", 1.0), (AccelerationPanel, "acceleration", 1.5)):
+            with suppress(LinkwrightError):
+                yield kind(f"{name}_{number}", rank + later, positions, shown)
+
+
+def _force_polygons(positions: Positions, forces: Forces) -> Iterator[Panel]:
+    """The force polygons of the links in the order of statics, for each position."""
+    for shown in positions.shown:
+        rank = 5.0 if shown.number == "I" else 8.0
+        for link in polygon_links(forces, shown.index):
+            if positions.mechanism.drivers and len(link_forces(forces, link, shown.index)) < 3:
+                continue
+            name = f"force_{len(shown.number)}_{link}"
+            yield ForcePanel(name, rank, positions, shown, forces, link)
+
+
+def _curves(positions: Positions) -> Iterator[Panel]:
+    """Displacement, velocity and acceleration of the main output, and the driving torque or force, over the cycle."""
+    if not positions.mechanism.drivers or positions.case.motion.steps < 3:
+        return
+    subject = positions.subject
+    request = Request("sva", language=subject.language)
+    source = Source(positions.case.motion)
+    try:
+        name = _moving(positions.mechanism, main_output(source.motion))
+        for (word, rank), plotted in zip(_MOTION, Sva().panels(source, request), strict=False):
+            yield _curve(
+                word, rank, subject.words(f"caption_curve_{word}", output=name), source.axis, plotted
+            )
+    except LinkwrightError as error:
+        subject.notes.append(subject.words("no_curves", sentence=positions.case.told(error)))
+    if positions.forces is None:
+        return
+    efforts = Torque().panels(Source(positions.case.forces), request)
+    for number, plotted in enumerate(efforts, 1):
+        word = "torque" if plotted.dimension == "torque" else "drive_force"
+        key = "balance" if len(efforts) == 1 else f"balance_{number}"
+        yield _curve(key, 4.5, subject.words(f"caption_curve_{word}"), source.axis, plotted)
+
+
+def _moving(mechanism: Mechanism, output: Output | str) -> str:
+    """What an output is of: the block of a guide, a link, a point."""
+    if isinstance(output, Output) and output.owner in mechanism.guides:
+        return mechanism.guides[output.owner].block
+    return output.owner if isinstance(output, Output) else output
+
+
+def _curve(name: str, rank: float, caption: str, axis: InputAxis, plotted: Plotted) -> CurvePanel:
+    """The curves of a diagram's panel on the sheet."""
+    symbols = {"torque": indexed("M", "b"), "force": indexed("F", "b")}
+    symbol = symbols.get(plotted.dimension, as_runs(plotted.title.rpartition(" ")[2]))
+    across = Axis(as_runs(_SYMBOLS[axis.dimension]), axis.dimension, axis.unit.name, axis.unit.factor)
+    up = Axis(symbol, plotted.dimension, plotted.unit.name, plotted.unit.factor)
+    curves = [Curve(each.values, each.label if len(plotted.curves) > 1 else "") for each in plotted.curves]
+    levels = [(level.label, level.value) for level in plotted.levels]
+    values = np.asarray(axis.values, dtype=float)
+    return CurvePanel(
+        name, rank, caption, (across, values), up, curves, levels=levels, backwards=axis.backwards
+    )

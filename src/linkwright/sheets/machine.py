@@ -1,0 +1,200 @@
+"""The mechanism on a sheet, to a standard scale: positions, crank circle, paths and limit positions."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from functools import cached_property
+
+import numpy as np
+
+from linkwright.core.arrays import Floats
+from linkwright.drivers.base import Driver
+from linkwright.kinematics.names import canonical
+from linkwright.plot.drawing.labels import Label, link_labels, point_labels
+from linkwright.plot.drawing.loads import load_labels, load_marks
+from linkwright.plot.drawing.scene import Scene, laid_out
+from linkwright.plot.drawing.view import View
+from linkwright.plot.force_names import link_numbers
+from linkwright.sheets.labels import TO_UNITS, UNIT, Name, name_of, put
+from linkwright.sheets.panel import Drawn, Panel, drawing_scale, scale_text
+from linkwright.sheets.picture import LEAST, Picture, as_runs, indexed, joined
+from linkwright.sheets.positions import Positions
+from linkwright.sheets.scene import draw_elements, draw_machine, outline_machine
+
+#: Room for symbols and names about the points of a machine, mm; smallest crank circle whose positions are numbered.
+AROUND, NUMBERED_RADIUS = 8.0, 9.0
+#: Smallest and largest size as shares of the paper's length and width together.
+SIZES = (0.22, 0.36)
+#: Points whose paths are drawn, at most, and the least extent of a path, mm.
+PATHS, LEAST_PATH = 6, 3.0
+
+
+class MachinePanel(Panel):
+    """The mechanism in the positions of the sheet."""
+
+    rank = 0.0
+
+    def __init__(self, name: str, positions: Positions) -> None:
+        self.name, self.positions = name, positions
+        self.mechanism = positions.mechanism
+        self._pictures: dict[float, Picture] = {}
+        paper = positions.subject.settings.paper
+        self.smallest, self.largest = (share * (paper.width + paper.height) for share in SIZES)
+
+    @cached_property
+    def _extent(self) -> float:
+        """The longer side of all that the machine reaches, m."""
+        motion = self.positions.motion
+        clouds = [motion.point_of(key).position for key in motion.point_names()]
+        clouds += [np.array([at]) for at in self.mechanism.frame.points.values()]
+        every = np.concatenate(clouds)
+        every = every[np.isfinite(every).all(axis=1)]
+        return float(np.ptp(every, axis=0).max()) or 1.0
+
+    def drawn(self, size: float, scale: float | None) -> Drawn:
+        if scale is not None:
+            return self._drawn(1e3 * scale)
+        allowed = self.positions.subject.settings.paper.standard == "gb"
+        reduction = drawing_scale(1e3 * self._extent / max(size - AROUND, 10.0), allowed=allowed)
+        while True:
+            found = self._drawn(reduction)
+            box = found.picture.bounds
+            if max(box.width, box.height) <= size or reduction > 2e3 * self._extent:
+                return found
+            reduction = drawing_scale(1.05 * reduction, allowed=allowed)
+
+    def _drawn(self, reduction: float) -> Drawn:
+        if reduction not in self._pictures:
+            self._pictures[reduction] = _Machine(self.positions, reduction, self.letters).picture()
+        picture = self._pictures[reduction]
+        per_mm = joined(indexed("μ", "l"), f" = {reduction / 1e3:g} m/mm ({scale_text(reduction)})")
+        return Drawn(picture, (as_runs(self._caption), per_mm), scale_text(reduction))
+
+    @property
+    def _caption(self) -> str:
+        words, shown = self.positions.subject.words, self.positions.shown
+        places = [(each.number, self.positions.place(each)) for each in shown]
+        if not places or not places[0][1]:
+            return words("caption_machine")
+        told = words("between").join(
+            words("position", number=number, place=place) for number, place in places
+        )
+        return words("caption_positions", positions=told)
+
+
+class _Machine:
+    """One picture of the machine; lengths of the machine are ``factor`` mm per metre."""
+
+    def __init__(self, positions: Positions, reduction: float, letters: float) -> None:
+        self.positions, self.factor, self.letters = positions, 1e3 / reduction, letters
+        self.mechanism, self.motion = positions.mechanism, positions.motion
+        self.main = positions.shown[0].index
+        view = View(self.factor / UNIT)
+        self.scene: Scene = laid_out(self.motion, self.main, view=view)
+        self.found = Picture()
+
+    def picture(self) -> Picture:
+        """Paths and other positions below, the machine, its loads and its names."""
+        names: list[Name] = []
+        self._paths()
+        for row in self.positions.limits:
+            outline_machine(self.found, self.scene, row, "double_chain")
+        for shown in self.positions.shown[1:]:
+            outline_machine(self.found, self.scene, shown.index, "thin")
+        names += self._numbered()
+        draw_machine(self.found, self.scene, self.main)
+        draw_elements(self.found, load_marks(self.scene.machine, self.main).elements)
+        put(self.found, [*self._names(), *names])
+        return self.found
+
+    def _paths(self) -> None:
+        """The paths of moving points, thin chain lines; each place once, the longest first."""
+        tracks = [self.positions.track(key) * self.factor for key in self.motion.point_names()]
+        spans = [
+            float(np.nanmax(np.ptp(track[np.isfinite(track).all(axis=1)], axis=0), initial=0.0))
+            for track in tracks
+        ]
+        order = sorted(range(len(tracks)), key=lambda k: -spans[k])
+        kept: list[Floats] = []
+        for k in order:
+            same = any(np.allclose(tracks[k], other, atol=0.05, equal_nan=True) for other in kept)
+            if spans[k] > LEAST_PATH and not same and len(kept) < PATHS:
+                kept.append(tracks[k])
+                self.found.line(tracks[k], "chain")
+
+    # names -------------------------------------------------------------------------------------
+    def _names(self) -> Iterator[Name]:
+        """Names of points, numbers of links, ω of the driver, names of loads."""
+        machine, numbers = self.scene.machine, link_numbers(self.mechanism)
+        for label in point_labels(machine, self.main):
+            yield name_of(label.text, _places(label), height=self.letters, clear=2.2)
+        for label in link_labels(self.scene, self.main):
+            yield Name(as_runs(str(numbers[label.text])), _places(label), self.letters, leader=True)
+        for label in load_labels(machine, self.main):
+            yield name_of(label.text, _places(label), height=self.letters, clear=2.0)
+        for driver in self.mechanism.drivers.values():
+            if self.motion.positions.rotary[driver.name]:
+                at = np.array(machine.paper(driver.relative_to, driver.joint, self.main)) / TO_UNITS
+                yield Name(
+                    indexed("ω", str(numbers[driver.link])), [at], self.letters, clear=8.5, symbol=True
+                )
+        yield from self._roman()
+
+    def _roman(self) -> Iterator[Name]:
+        """The numbers of the positions at the point that is driven."""
+        if len(self.positions.shown) < 2 or (key := self._driven_point()) is None:
+            return
+        track = self.motion.point_of(key).position
+        for shown in self.positions.shown:
+            yield Name(as_runs(shown.number), [track[shown.index] * self.factor], self.letters, clear=4.5)
+
+    # the numbered positions ----------------------------------------------------------------------
+    def _driver(self) -> Driver | None:
+        return next(iter(self.mechanism.drivers.values()), None)
+
+    def _driven_point(self) -> str | None:
+        """The key of the point of the first driven link that is farthest from its pivot, or of the driven block."""
+        driver = self._driver()
+        if driver is None or driver.link == "frame":
+            return None
+        link, joint = self.mechanism.link(driver.link), self.mechanism.joints[driver.joint]
+        if joint.coordinate == "slide":
+            at = getattr(joint, "at", None)
+            return None if at is None or at not in link.points else canonical(self.mechanism, link.name, at)
+        pivot = link.points.get(driver.joint)
+        if pivot is None:
+            return None
+        pins = [name for name in link.points if name in self.mechanism.joints or len(link.points) == 2]
+        far = max(pins, key=lambda name: math.dist(link.points[name], pivot), default=None)
+        if far is None or math.dist(link.points[far], pivot) <= 0:
+            return None
+        return canonical(self.mechanism, link.name, far)
+
+    def _numbered(self) -> list[Name]:
+        """Twelve positions of the driven point, numbered outside its circle, or beside its line."""
+        driver, key = self._driver(), self._driven_point()
+        motion, rows = self.positions.numbered
+        if driver is None or key is None or not rows:
+            return []
+        places = motion.point_of(key).position[rows] * self.factor
+        good = [(number, place) for number, place in enumerate(places, 1) if np.isfinite(place).all()]
+        if not good:
+            return []
+        every = np.array([place for _, place in good])
+        middle = 0.5 * (every.min(axis=0) + every.max(axis=0))
+        if float(np.ptp(every, axis=0).max()) < 2 * NUMBERED_RADIUS:
+            return []
+        turning = self.motion.positions.rotary[driver.name]
+        found = []
+        for number, place in good:
+            self.found.circle(place, 0.7, fill="paper")
+            out = (place - middle) / (float(np.hypot(*(place - middle))) or 1.0) if turning else np.zeros(2)
+            found.append(
+                Name(as_runs(str(number)), [place + 2.2 * out], LEAST, clear=0.6 if turning else 1.2)
+            )
+        return found
+
+
+def _places(label: Label) -> list[Floats]:
+    return [np.array(anchor) / TO_UNITS for anchor in label.anchors]

@@ -1,0 +1,132 @@
+"""Tables of a machine's sheet: its data, and the values of the positions that are worked out."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+
+from linkwright.core.arrays import Floats
+from linkwright.plot.diagrams.axes import significant
+from linkwright.plot.force_names import link_numbers, reaction_index, reaction_pairs
+from linkwright.plot.svg.text import split_index
+from linkwright.sheets.picture import Runs, Words, as_runs, indexed, joined
+from linkwright.sheets.positions import Positions
+from linkwright.sheets.table import TablePanel
+
+
+def data_table(positions: Positions) -> TablePanel:
+    """The links with their numbers, distances of their points in mm, masses and inertias."""
+    mechanism, words = positions.mechanism, positions.subject.words
+    heavy = any(link.mass or link.inertia for link in mechanism.links.values())
+    head: list[Words] = [words("head_number"), words("head_link"), words("head_lengths")]
+    head += [joined(_italic("m"), "/kg"), joined(_italic("J"), "/(kg·m²)")] if heavy else []
+    rows: list[list[Words]] = []
+    for name, number in link_numbers(mechanism).items():
+        link = mechanism.link(name)
+        mass = [_number(link.mass), _number(link.inertia)] if heavy and name != "frame" else ["–", "–"]
+        for k, text in enumerate(_lengths(link.points)):
+            first = [str(number), name if name != "frame" else words("frame")] if k == 0 else ["", ""]
+            rows.append([*first, text, *((mass if k == 0 else ["", ""]) if heavy else [])])
+    return TablePanel("table_data", 2.5, head, rows, words("caption_data"))
+
+
+def _italic(letter: str) -> Runs:
+    return as_runs(letter)
+
+
+def _number(value: float) -> str:
+    return significant(value) if value else "–"
+
+
+def _lengths(points: Mapping[str, tuple[float, float]]) -> Iterator[Runs]:
+    """Distances of a link's other points from its first one, two on a line; a dash where there are none."""
+    places = list(points.items())
+    found: list[Runs] = []
+    for name, at in places[1:]:
+        length = 1e3 * math.dist(places[0][1], at)
+        pair = joined(_point(places[0][0]), _point(name))
+        found.append(joined(pair, f" {significant(length)}"))
+    if not found:
+        yield as_runs("–")
+    for k in range(0, len(found), 2):
+        yield joined(found[k], *(("; ", found[k + 1]) if k + 1 < len(found) else ()))
+
+
+def _point(name: str) -> Runs:
+    stem, index = split_index(name)
+    return as_runs(((stem, 0), (index, -1)))
+
+
+def motion_table(positions: Positions) -> Iterator[TablePanel]:
+    """Velocities and accelerations of points and links at the positions."""
+    if not positions.mechanism.drivers:
+        return
+    words, motion = positions.subject.words, positions.motion
+    numbers = link_numbers(positions.mechanism)
+    rows: list[list[Words]] = []
+    seen: list[Floats] = []
+    for key in motion.point_names():
+        point = motion.point_of(key)
+        track = np.hstack([point.position, point.velocity])
+        same = any(np.allclose(track, other, atol=1e-9, equal_nan=True) for other in seen)
+        if same or not float(np.nanmax(np.abs(point.velocity), initial=0.0)) > 1e-9:
+            continue
+        seen.append(track)
+        name = key.rpartition(".")[2] if key.count(".") == 1 else key
+        rows.append(_row(indexed("v", name), "m/s", np.hypot(*point.velocity.T), positions))
+        rows.append(_row(indexed("a", name), "m/s²", np.hypot(*point.acceleration.T), positions))
+    for link, number in numbers.items():
+        if link == "frame":
+            continue
+        state = motion.link(link)
+        if float(np.nanmax(np.abs(state.angular_velocity), initial=0.0)) > 1e-9:
+            rows.append(_row(indexed("ω", str(number)), "rad/s", state.angular_velocity, positions))
+            rows.append(_row(indexed("α", str(number)), "rad/s²", state.angular_acceleration, positions))
+    if rows:
+        yield TablePanel("table_motion", 7.0, _head(positions), rows, words("caption_motion"))
+
+
+def force_table(positions: Positions) -> Iterator[TablePanel]:
+    """Joint forces with their directions and what the drivers supply at the positions."""
+    forces = positions.forces
+    if forces is None:
+        return
+    words, mechanism = positions.subject.words, positions.mechanism
+    rows: list[list[Words]] = []
+    for joint, link in reaction_pairs(mechanism):
+        force = forces.reaction(joint, on=link)
+        symbol = indexed("F", reaction_index(mechanism, joint, link))
+        size = np.hypot(*force.T)
+        cells: list[Words] = [
+            f"{significant(float(size[each.index]))} ∠ {_direction(force[each.index]):.1f}°"
+            if size[each.index] > 1e-9
+            else "0"
+            for each in positions.shown
+        ]
+        rows.append([symbol, "N", *cells])
+    for name in mechanism.drivers:
+        turning = mechanism.joints[mechanism.drivers[name].joint].coordinate == "turn"
+        letter = indexed("M" if turning else "F", "b" if len(mechanism.drivers) == 1 else f"b,{name}")
+        rows.append(_row(letter, "N·m" if turning else "N", forces.driver_effort(name), positions))
+    if rows:
+        yield TablePanel("table_forces", 7.5, _head(positions), rows, words("caption_forces"))
+
+
+def _direction(force: Floats) -> float:
+    """Direction of a force, degrees from the x axis, counter-clockwise."""
+    return float(np.degrees(np.arctan2(force[1], force[0]))) % 360.0
+
+
+def _head(positions: Positions) -> list[Words]:
+    words = positions.subject.words
+    places = [
+        joined(each.number, f" ({positions.place(each)})") if positions.place(each) else each.number
+        for each in positions.shown
+    ]
+    return [words("head_quantity"), words("head_unit"), *places]
+
+
+def _row(symbol: Runs, unit: str, values: Floats, positions: Positions) -> list[Words]:
+    return [symbol, unit, *(significant(float(values[each.index])) for each in positions.shown)]

@@ -1,0 +1,119 @@
+"""A panel of a sheet: a picture that is drawn as large as its place allows, with its caption beneath.
+
+A panel is written as a class with a ``name``, the ``sizes`` that it may have and a ``drawn``::
+
+    class LiftDiagram(Panel):
+        smallest, largest = 90.0, 220.0
+
+        def drawn(self, size: float, scale: float | None) -> Drawn:
+            picture = Picture()
+            picture.line(points_in_mm, "thick")
+            return Drawn(picture, (as_runs("lift"), joined(indexed("μ", "s"), " = 0.5 mm/mm")))
+
+The layout asks for the longest size with which all panels of a sheet have room. A panel to scale takes the next
+preferred scale with which its picture is at most ``size`` mm long; one of fixed size ignores it.
+"""
+
+from __future__ import annotations
+
+import math
+from abc import ABC, abstractmethod
+
+import numpy as np
+
+from linkwright.core.dataclass import dataclass
+from linkwright.sheets.paper import Box
+from linkwright.sheets.picture import CAPTION, LEAST, TEXT, Picture, Runs, runs_width
+
+#: Between a picture and its caption, and from one line of text to the next in heights of letters.
+UNDER, LEADING = 3.0, 1.75
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """A panel's picture in mm with any origin, and the lines of its caption, the first one larger.
+
+    ``scale``: as a ratio (1:2); the title block prints that of the first panel that has one.
+    """
+
+    picture: Picture
+    caption: tuple[Runs, ...] = ()
+    scale: str = ""
+
+
+class Panel(ABC):
+    """One picture of a sheet.
+
+    ``name``: by which files move it or leave it out; ``smallest`` and ``largest``: sizes of its longer side that are
+    worth drawing, mm; ``rank``: where panels have no room on a sheet, those of the highest rank are left out first;
+    ``letters``: height of its letters, mm, smaller on small paper.
+    """
+
+    name: str
+    smallest: float = 40.0
+    largest: float = 120.0
+    rank: float = 5.0
+    letters: float = TEXT
+
+    @abstractmethod
+    def drawn(self, size: float, scale: float | None) -> Drawn:
+        """The panel with a picture of at most ``size`` mm; ``scale``: the scale that the file asks for, SI per mm."""
+
+
+@dataclass(frozen=True)
+class Block:
+    """A panel that is drawn, its lower left corner at the origin, with its caption centred beneath."""
+
+    name: str
+    picture: Picture
+    width: float
+    height: float
+    scale: str = ""
+
+    def at(self, left: float, bottom: float) -> Box:
+        """Its rectangle at a place of the paper."""
+        return Box(left, bottom, left + self.width, bottom + self.height)
+
+
+def block_of(name: str, drawn: Drawn, caption: float = CAPTION) -> Block:
+    """A drawn panel with its caption, as one picture; ``caption``: height of its first line."""
+    inner = drawn.picture.bounds
+    heights = [
+        caption if number == 0 else (TEXT if caption > TEXT else LEAST)
+        for number in range(len(drawn.caption))
+    ]
+    widths = [runs_width(line, height) for line, height in zip(drawn.caption, heights, strict=True)]
+    wide = max([inner.width, *widths])
+    below = sum(LEADING * height for height in heights) + (UNDER if heights else 0.0)
+    found = Picture()
+    found.add(drawn.picture, (0.5 * (wide - inner.width) - inner.left, below - inner.bottom))
+    level = below - UNDER
+    for line, height in zip(drawn.caption, heights, strict=True):
+        found.text((0.5 * wide, level - 1.25 * height), line, height, "middle")
+        level -= LEADING * height
+    return Block(name, found, wide, below + inner.height, drawn.scale)
+
+
+def preferred(least: float) -> float:
+    """The smallest of 1, 2, 2.5, 4, 5 times a power of ten that is not below a value: graphical scales per mm."""
+    power = math.pow(10.0, math.floor(math.log10(least) + 1e-12))
+    return min(k * power for k in (1.0, 2.0, 2.5, 4.0, 5.0, 10.0) if k * power >= least * (1 - 1e-9))
+
+
+#: Reductions of ISO 5455 and those that GB/T 14690 prefers, then two of those that it allows.
+_PREFERRED, _ALLOWED = (1.0, 2.0, 5.0), (2.5, 4.0)
+
+
+def drawing_scale(least: float, *, allowed: bool = False) -> float:
+    """The smallest reduction (2.0 for 1:2, 0.5 for 2:1) that is not below a value; ``allowed``: also 1:2.5, 1:4,
+    2.5:1 and 4:1, which GB/T 14690 allows."""
+    power = math.pow(10.0, math.floor(math.log10(least) + 1e-12))
+    steps = (*_PREFERRED, *(_ALLOWED if allowed else ()))
+    found = [k * each for k in steps for each in (power, 10 * power)]
+    return min(each for each in found if each >= least * (1 - 1e-9))
+
+
+def scale_text(reduction: float) -> str:
+    """A scale as a ratio: 1:2, 2:1."""
+    one, other = (1.0, reduction) if reduction >= 1.0 else (1.0 / reduction, 1.0)
+    return f"{np.round(one, 6):g}:{np.round(other, 6):g}"

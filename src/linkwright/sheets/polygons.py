@@ -1,0 +1,193 @@
+"""Velocity, acceleration and force polygons as panels, to preferred scales."""
+
+from __future__ import annotations
+
+import re
+from abc import abstractmethod
+from itertools import pairwise
+from typing import ClassVar
+
+import numpy as np
+
+from linkwright.core.arrays import Floats
+from linkwright.errors import LinkwrightError
+from linkwright.kinetostatics.forces import Forces
+from linkwright.plot.diagrams.force_polygon import LinkForce, corners, link_forces, ordered
+from linkwright.plot.diagrams.motion_polygons import gathered
+from linkwright.plot.diagrams.motion_vectors import (
+    MotionPolygon,
+    acceleration_polygon,
+    velocity_polygon,
+)
+from linkwright.plot.diagrams.scaled_page import LOW, side_by_side
+from linkwright.plot.force_names import link_numbers
+from linkwright.sheets.labels import Name, put
+from linkwright.sheets.panel import Drawn, Panel, preferred
+from linkwright.sheets.picture import LEAST, Picture, as_runs, indexed, joined
+from linkwright.sheets.positions import Positions, Shown
+
+#: Vectors that are shorter on the sheet have no name of their own, mm.
+SHORT = 1.5
+#: Letters at the ends of parts of an acceleration.
+ENDS = {"normal": "n", "coriolis": "k"}
+
+
+class ScaledPanel(Panel):
+    """A panel of vectors to a preferred scale, SI per mm; ``symbol`` and ``unit`` of that scale."""
+
+    smallest, largest = 34.0, 130.0
+    symbol: ClassVar[str]
+    unit: ClassVar[str]
+
+    def __init__(self, name: str, rank: float, positions: Positions, shown: Shown) -> None:
+        self.name, self.rank = name, rank
+        self.positions, self.shown = positions, shown
+        self._pictures: dict[float, Picture] = {}
+
+    @abstractmethod
+    def reach(self) -> float:
+        """The longer side of the picture, SI."""
+
+    @abstractmethod
+    def picture(self, scale: float) -> Picture:
+        """The picture to a scale, SI per mm."""
+
+    @abstractmethod
+    def caption(self) -> str:
+        """What it shows."""
+
+    def drawn(self, size: float, scale: float | None) -> Drawn:
+        chosen = scale or preferred(self.reach() / max(size - 10.0, 8.0))
+        per_mm = joined(indexed("μ", self.symbol), f" = {chosen:g} {self.unit}/mm")
+        if chosen not in self._pictures:
+            self._pictures[chosen] = self.picture(chosen)
+        return Drawn(self._pictures[chosen], (as_runs(self.caption()), per_mm))
+
+
+class MotionPolygonPanel(ScaledPanel):
+    """A velocity or acceleration polygon: absolute vectors thick, relative ones thin, parts dashed."""
+
+    prime: ClassVar[str] = ""
+    word: ClassVar[str]
+
+    def __init__(self, name: str, rank: float, positions: Positions, shown: Shown) -> None:
+        super().__init__(name, rank, positions, shown)
+        self.polygon = self.made()
+        images = np.array([np.zeros(2), *self.polygon.images.values(), *(s.end for s in self.polygon.steps)])
+        self.longest = float(np.ptp(images, axis=0).max())
+        if not self.longest > 0.0:
+            raise LinkwrightError("picture.nothing_moves")
+
+    @abstractmethod
+    def made(self) -> MotionPolygon:
+        """The polygon in SI units."""
+
+    def reach(self) -> float:
+        return self.longest
+
+    def caption(self) -> str:
+        positions = self.positions
+        if len(positions.shown) < 2:
+            return positions.subject.words(f"caption_{self.word}")
+        return positions.subject.words(f"caption_{self.word}_at", number=self.shown.number)
+
+    def picture(self, scale: float) -> Picture:
+        found = Picture()
+        pairs = side_by_side([(step.start / scale, step.end / scale) for step in self.polygon.steps])
+        for step, (start, end) in zip(self.polygon.steps, pairs, strict=True):
+            if step.role == "absolute":
+                found.arrow(start, end)
+        for step, (start, end) in zip(self.polygon.steps, pairs, strict=True):
+            if step.role != "absolute":
+                found.arrow(start, end, "thin" if step.role in ("relative", "sliding") else "dashed")
+        names: list[Name] = []
+        for texts, place in gathered(self.polygon, scale, self.prime):
+            found.circle(place, 0.45, fill="ink")
+            runs = as_runs(", ".join(map(self._short, texts)))
+            names.append(Name(runs, [place], self.letters, symbol=True))
+        names += self._ends(pairs)
+        put(found, names)
+        return found
+
+    def _short(self, text: str) -> str:
+        """A name of an image; that of a guide's point under a block, ``a(lever)``, with the number of its link."""
+        found = re.fullmatch(r"(\w+)\((.+)\)(′?)", text)
+        numbers = link_numbers(self.positions.mechanism)
+        if found is None or found[2] not in numbers:
+            return text
+        return f"{found[1]}{str(numbers[found[2]]).translate(LOW)}{found[3]}"
+
+    def _ends(self, pairs: list[tuple[Floats, Floats]]) -> list[Name]:
+        """n′ at the ends of normal parts, k′ at those of Coriolis parts, numbered where there are several."""
+        parts = {
+            role: [
+                end
+                for step, (start, end) in zip(self.polygon.steps, pairs, strict=True)
+                if step.role == role and np.hypot(*(end - start)) > SHORT
+            ]
+            for role in ENDS
+        }
+        found = []
+        for role, ends in parts.items():
+            for number, end in enumerate(ends, 1):
+                runs = as_runs(((f"{ENDS[role]}′", 0), (str(number) if len(ends) > 1 else "", -1)))
+                found.append(Name(runs, [end], LEAST, symbol=True))
+        return found
+
+
+class VelocityPanel(MotionPolygonPanel):
+    """The velocity polygon of a position."""
+
+    symbol, unit, word = "v", "(m/s)", "velocity"
+
+    def made(self) -> MotionPolygon:
+        return velocity_polygon(self.positions.motion, self.shown.index)
+
+
+class AccelerationPanel(MotionPolygonPanel):
+    """The acceleration polygon of a position."""
+
+    symbol, unit, word, prime = "a", "(m/s²)", "acceleration", "′"
+
+    def made(self) -> MotionPolygon:
+        return acceleration_polygon(self.positions.motion, self.shown.index)
+
+
+class ForcePanel(ScaledPanel):
+    """The force polygon of a link: loads, weight, inertia force, then joint forces; it closes."""
+
+    symbol, unit = "F", "N"
+    smallest, largest = 28.0, 90.0
+
+    def __init__(
+        self, name: str, rank: float, positions: Positions, shown: Shown, forces: Forces, link: str
+    ) -> None:
+        super().__init__(name, rank, positions, shown)
+        self.link, self.forces = link, forces
+        self.vectors: list[LinkForce] = ordered(link_forces(forces, link, shown.index))
+        self.corners = corners(self.vectors)
+
+    def reach(self) -> float:
+        return float(np.ptp(self.corners, axis=0).max()) or 1.0
+
+    def caption(self) -> str:
+        words, number = self.positions.subject.words, link_numbers(self.positions.mechanism)[self.link]
+        if len(self.positions.shown) < 2:
+            return words("caption_force", link=number)
+        return words("caption_force_at", link=number, number=self.shown.number)
+
+    def picture(self, scale: float) -> Picture:
+        found = Picture()
+        places = self.corners / scale
+        pairs = side_by_side(list(pairwise(places)))
+        names = []
+        for vector, (start, end) in zip(self.vectors, pairs, strict=True):
+            found.arrow(start, end, "thick" if vector.role == "reaction" else "thin")
+            if np.hypot(*(end - start)) > SHORT:
+                spots = [start + share * (end - start) for share in (0.5, 0.35, 0.65, 0.2, 0.8)]
+                runs = indexed(vector.letter, vector.index)
+                if vector.role == "inertia":
+                    runs = indexed("F", f"I{link_numbers(self.positions.mechanism)[self.link]}")
+                names.append(Name(runs, spots, self.letters, clear=1.2, symbol=True))
+        put(found, names)
+        return found

@@ -1,0 +1,138 @@
+"""What is asked for a sheet: the section ``sheet`` of a file, with what the report's section tells of its author."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import field
+from typing import Any, cast
+
+from linkwright.core.dataclass import dataclass
+from linkwright.errors import ModelError
+from linkwright.files.compose import compose
+from linkwright.files.node_reader import Place
+from linkwright.files.reader import Reader
+from linkwright.files.write import flow
+from linkwright.mechanism.mechanism import Mechanism
+from linkwright.report.settings import worked_place
+from linkwright.sheets.fields import SHEET, WORDS
+from linkwright.sheets.paper import Paper, Standard
+from linkwright.sheets.title_block import Fields
+
+#: Keys of the report's section, and of its cover, that a title block falls back on.
+_OF_REPORT = {"title": "title", "student": "author", "date": "date", "faculty": "course"}
+_OF_COVER = {
+    "title": "title", "school": "school", "faculty": "faculty", "class": "class", "student_number": "number",
+    "student": "author", "adviser": "adviser", "date": "date",
+}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Placed:
+    """What a file says of one panel: ``at`` x, y mm, ``size`` mm, ``scale`` SI per mm; None where nothing."""
+
+    at: tuple[float, float] | None = None
+    size: float | None = None
+    scale: float | None = None
+
+
+@dataclass(frozen=True)
+class Settings:
+    """The settings of a sheet; ``fields`` of its title block; ``only`` and ``leave_out``: names of panels."""
+
+    paper: Paper
+    block: str
+    zones: bool
+    fields: Fields
+    positions: tuple[str, ...] = ()
+    only: tuple[str, ...] = ()
+    leave_out: tuple[str, ...] = ()
+    panels: Mapping[str, Placed] = field(default_factory=dict)
+
+
+def read_section(given: Mapping[str, Any]) -> dict[str, Any]:
+    """The values of a section ``sheet`` by its keys, SI; raises ModelError with all findings."""
+    if not given:
+        return {}
+    root, _ = compose(flow(given))
+    assert root is not None
+    reader = Reader("sheet")
+    values = reader.table(root, Place("sheet", "sheet"), SHEET)
+    if reader.findings:
+        raise ModelError(reader.findings)
+    return {key: value for key, value in (values or {}).items() if value is not None}
+
+
+def settings(
+    section: Mapping[str, Any],
+    language: str,
+    *,
+    size: str = "",
+    report: Mapping[str, Any] | None = None,
+    name: str = "",
+    usual: str = "A1",
+) -> Settings:
+    """The settings in a language; ``size`` before that of the file, ``usual`` where neither is; ``name``: of the
+    machine, for a title block without a title."""
+    given = read_section(section)
+    paper = _paper(given, language, size or given.get("size") or usual)
+    words = {**_fallback(report or {}, language), **_words(given), **(given.get(language) or {})}
+    words.setdefault("title", name)
+    fields = Fields(
+        **{("class_name" if key == "class" else key): str(words.get(key, "")) for key in WORDS},
+        sheet=given.get("sheet", 1),
+        sheets=max(given.get("sheets", 1), given.get("sheet", 1)),
+    )
+    return Settings(
+        paper,
+        given.get("block") or ("short" if paper.size in ("A3", "A4") else "full"),
+        bool(given.get("zones", False)),
+        fields,
+        tuple(given.get("positions", ())),
+        tuple(given.get("only", ())),
+        tuple(given.get("leave_out", ())),
+        {key: _placed(each) for key, each in given.get("panels", {}).items()},
+    )
+
+
+def check(mechanism: Mechanism) -> None:
+    """Raises ModelError for a section ``sheet`` of which a key makes no sense, QuantityError for a position."""
+    for text in read_section(mechanism.sheet).get("positions", ()):
+        worked_place(mechanism, text)
+
+
+def _paper(given: Mapping[str, Any], language: str, size: str) -> Paper:
+    upright = given.get("orientation", "portrait" if size == "A4" else "landscape") == "portrait"
+    standard = cast(Standard, given.get("standard") or ("gb" if language == "zh" else "iso"))
+    return Paper(size, upright, standard, given.get("binding", True))
+
+
+def _words(given: Mapping[str, Any]) -> dict[str, str]:
+    return {key: given[key] for key in WORDS if key in given}
+
+
+def _fallback(report: Mapping[str, Any], language: str) -> dict[str, str]:
+    """What the section ``report`` and its cover tell, the language's own before the rest."""
+    found: dict[str, str] = {}
+    for section in (report, report.get(language)):
+        if isinstance(section, Mapping):
+            found |= _plain(section, _OF_REPORT)
+            cover = section.get("cover")
+            if isinstance(cover, Mapping):
+                found |= _plain(cover, _OF_COVER)
+                if isinstance(own := cover.get(language), Mapping):
+                    found |= _plain(own, _OF_COVER)
+    return found
+
+
+def _plain(section: Mapping[str, Any], keys: Mapping[str, str]) -> dict[str, str]:
+    texts = {key: section.get(name) for key, name in keys.items()}
+    return {key: str(text) for key, text in texts.items() if isinstance(text, str | int | float)}
+
+
+def _placed(values: Mapping[str, Any]) -> Placed:
+    at = values.get("at")
+    return Placed(
+        None if at is None else (1e3 * at[0], 1e3 * at[1]),
+        None if values.get("size") is None else 1e3 * values["size"],
+        values.get("scale"),
+    )

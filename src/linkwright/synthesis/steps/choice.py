@@ -1,0 +1,86 @@
+"""The last step of every task: the candidates, their lengths, and why the first one was taken."""
+
+from __future__ import annotations
+
+import math
+
+from linkwright.synthesis.report import defects_text, error_texts, name_said
+from linkwright.synthesis.result import merits
+from linkwright.synthesis.steps.writing import Writer, decimals, numbers
+from linkwright.worked.page import Step
+
+#: Tasks whose demands leave one linkage.
+DETERMINED = ("slider_crank", "quick_return", "toggle")
+#: Tasks whose candidates are ranked by defects, error and merit.
+RANKED = ("function", "motion", "path", "exact_path")
+#: Share by which errors must differ to count.
+APART = 0.0025
+
+
+def write_choice(w: Writer) -> None:
+    """Table of the candidates, their lengths, and the reason of the choice."""
+    step = w.step("choice")
+    _facts(w, step)
+    _lengths(w, step)
+    step.say(_reason(w))
+
+
+def _facts(w: Writer, step: Step) -> None:
+    found, say = w.found, w.say
+    each = found.candidates
+    errors, worst = zip(*(error_texts(one) for one in each), strict=True)
+    columns = [
+        (say("synthesize.column.number"), numbers(len(each))),
+        (say("synthesize.column.type"), [say(f"synthesize.type.{one.grashof_type}") for one in each]),
+        (say("synthesize.column.error"), errors),
+        (say("synthesize.column.worst"), worst),
+        (say("synthesize.column.defects"), [defects_text(one, say) for one in each]),
+        (say("synthesize.column.input"),
+         [say("synthesize.turns" if one.turns else "synthesize.swings") for one in each]),
+        ("μ_min / °", decimals([math.degrees(one.transmission_angle) for one in each], 2)),
+        (say("synthesize.column.ratio"), decimals([one.link_ratio for one in each], 3)),
+        (w.over(say("synthesize.column.longest")), w.lengths([one.linkage.longest() for one in each])),
+    ]  # fmt: skip
+    align = "><>><<>>>"
+    if found.task in RANKED and len(each) > 1:
+        columns.append((w.words("merit"), decimals(merits(each, found.extent), 4)))
+        align += ">"
+    w.table(step, "table.candidates", columns, align)
+    step.say(say(f"synthesize.error.{found.error_name}"))
+
+
+def _lengths(w: Writer, step: Step) -> None:
+    """Lengths of the links, candidates of the same links in one table."""
+    groups: dict[tuple[str, ...], list[tuple[int, dict[str, float]]]] = {}
+    for number, each in enumerate(w.found.candidates, 1):
+        lengths = each.linkage.lengths()
+        groups.setdefault(tuple(lengths), []).append((number, lengths))
+    for names, rows in groups.items():
+        columns = [(w.say("synthesize.column.number"), [str(number) for number, _ in rows])]
+        columns += [
+            (w.over(name_said(name, w.say)), w.lengths([lengths[name] for _, lengths in rows]))
+            for name in names
+        ]
+        w.table(step, "table.lengths", columns)
+
+
+def _reason(w: Writer) -> str:
+    """Why the first candidate was taken."""
+    found, best = w.found, w.found.best
+    angle = f"{math.degrees(best.transmission_angle):.2f}"
+    if found.task in DETERMINED:
+        return w.words("reason.determined")
+    if found.task not in RANKED:
+        return w.words(f"reason.{found.task}", angle=angle, ratio=f"{best.link_ratio:.3g}")
+    if getattr(found.derivation, "method", "") == "equation":
+        return w.words("reason.equation", angle=angle)
+    if len(found) == 1:
+        return w.words("reason.only", angle=angle)
+    second = found[1]
+    if bool(second.defects) != bool(best.defects):
+        return w.words("reason.sound", defects=defects_text(second, w.say))
+    alike = error_texts(best)[0] == "0" and error_texts(second)[0] == "0"
+    if not alike and abs(best.error - second.error) > APART * second.error:
+        return w.words("reason.error", error=error_texts(best)[0], next=error_texts(second)[0])
+    first, other = merits(found.candidates[:2], found.extent)
+    return w.words("reason.merit", merit=f"{first:.4f}", next=f"{other:.4f}", angle=angle)

@@ -1,0 +1,197 @@
+"""Steps of the tasks that formulas solve: slider-crank, crank with slotted lever, toggle."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from linkwright.synthesis.requirements.crank_rocker import QuickReturnDerivation
+from linkwright.synthesis.requirements.slider_crank import SliderCrankDerivation
+from linkwright.synthesis.requirements.toggle import ToggleDerivation
+from linkwright.synthesis.steps.writing import Writer, decimals, degrees
+from linkwright.worked.page import Step
+from linkwright.worked.terms import (
+    FOUR,
+    ONE,
+    TWO,
+    ZERO,
+    Term,
+    arccosine,
+    arcsine,
+    arctangent,
+    cosine,
+    number,
+    root,
+    sine,
+    tangent,
+)
+
+HALF_TURN = number(180.0, degrees=True)
+#: Angles of a toggle that its table shows, in parts of the stroke.
+SHOWN = 7
+
+
+def extreme_position_angle(w: Writer, step: Step, ratio: Term, radians: float) -> Term:
+    """θ = 180° (K - 1)/(K + 1)."""
+    step.say(w.words("theta"))
+    theta = w.angle("θ", radians)
+    return step.find(theta, HALF_TURN * (ratio - ONE) / (ratio + ONE), "°")
+
+
+def slider_crank(w: Writer, d: SliderCrankDerivation) -> None:
+    """Crank, rod and offset from the stroke; then stroke, K and transmission angles again from the lengths."""
+    r, rod, e = w.length("r", d.crank), w.length("l", d.rod), w.length("e", d.offset)
+    stroke = w.length("H", d.stroke)
+    step = w.step("given")
+    step.give(stroke, w.unit)
+    {"ratios": _from_ratios, "quick_return": _from_quick_return, "transmission": _from_transmission}[d.way](
+        w, d, step, (stroke, r, rod, e)
+    )
+    w.picture("construction")
+    _slider_check(w, (r, rod, e))
+
+
+def _from_ratios(w: Writer, d: SliderCrankDerivation, given: Step, terms: tuple[Term, ...]) -> None:
+    stroke, r, rod, e = terms
+    lam = given.give(w.value("λ", d.rod_ratio), "")
+    eps = given.give(w.value("ε", d.offset_ratio), "") if d.offset_ratio else ZERO
+    step = w.step("lengths")
+    step.say(w.words("slider.ratios"))
+    outer = root((lam + ONE).squared - eps.squared) if d.offset_ratio else lam + ONE
+    inner = root((lam - ONE).squared - eps.squared) if d.offset_ratio else lam - ONE
+    step.relate(w.length("H", d.stroke), r * (outer - inner) if d.offset_ratio else TWO * r)
+    step.find(r, stroke / (outer - inner) if d.offset_ratio else stroke / TWO, w.unit)
+    step.find(rod, lam * r, w.unit)
+    if d.offset_ratio:
+        step.find(e, eps * r, w.unit)
+
+
+def _from_quick_return(w: Writer, d: SliderCrankDerivation, given: Step, terms: tuple[Term, ...]) -> None:
+    stroke, r, rod, e = terms
+    ratio = given.give(w.value("K", d.quick_return_ratio), "")
+    given.give(e, w.unit)
+    step = w.step("theta")
+    angle = math.pi * (d.quick_return_ratio - 1) / (d.quick_return_ratio + 1)
+    theta = extreme_position_angle(w, step, ratio, angle)
+    step = w.step("lengths")
+    step.say(w.words("slider.triangle"))
+    less = stroke * e / sine(theta)
+    more = stroke.squared / TWO + stroke * e / tangent(theta)
+    difference = step.find(w.value("q", less.value, "1"), less, f"{w.unit}²")
+    total = step.find(w.value("q", more.value, "2"), more, f"{w.unit}²")
+    step.relate(rod.squared - r.squared, difference)
+    step.relate(rod.squared + r.squared, total)
+    step.find(r, root((total - difference) / TWO), w.unit)
+    step.find(rod, root((total + difference) / TWO), w.unit)
+
+
+def _from_transmission(w: Writer, d: SliderCrankDerivation, given: Step, terms: tuple[Term, ...]) -> None:
+    stroke, r, rod, e = terms
+    least = given.give(w.angle("μ", d.transmission_angle, "min"), "°")
+    if d.offset:
+        given.give(e, w.unit)
+    step = w.step("lengths")
+    step.say(w.words("slider.transmission"))
+    if d.offset:
+        step.relate(stroke, root((rod + r).squared - e.squared) - root((rod - r).squared - e.squared))
+        step.say(w.words("slider.bisection"))
+        step.give(r, w.unit)
+    else:
+        step.find(r, stroke / TWO, w.unit)
+    step.find(rod, (r + e) / cosine(least), w.unit)
+
+
+def _slider_check(w: Writer, lengths: tuple[Term, Term, Term]) -> None:
+    """Limit positions, stroke, K, and the transmission angles of both strokes."""
+    r, rod, e = lengths
+    step = w.step("check")
+    step.say(w.words("slider.limits"))
+    far, near = rod + r, rod - r
+    places = [
+        step.find(w.length("x", _side(each, e).value / w.scale, index), _side(each, e), w.unit)
+        for index, each in (("1", far), ("2", near))
+    ]
+    step.find(w.length("H", (places[0] - places[1]).value / w.scale), places[0] - places[1], w.unit)
+    if not e.is_zero:
+        turn = arcsine(e / near) - arcsine(e / far)
+        theta = step.find(w.angle("θ", math.radians(turn.value)), turn, "°")
+        ratio = (HALF_TURN + theta) / (HALF_TURN - theta)
+        step.find(w.value("K", ratio.value), ratio, "")
+    step.say(
+        w.words(
+            "slider.turns",
+            sum=w.length_text((r + e).value / w.scale),
+            rod=w.length_text(rod.amount / w.scale),
+        )
+    )
+    step.say(w.words("slider.strokes" if not e.is_zero else "slider.alike"))
+    for index, across in (("s", r - e), ("f", r + e)) if not e.is_zero else (("min", r),):
+        angle = arccosine(across / rod)
+        step.find(w.angle("μ", math.radians(angle.value), index), angle, "°")
+
+
+def _side(hypotenuse: Term, e: Term) -> Term:
+    """The side along the guide."""
+    return hypotenuse if e.is_zero else root(hypotenuse.squared - e.squared)
+
+
+def quick_return(w: Writer, d: QuickReturnDerivation) -> None:
+    """Crank and arm of a slotted lever from K, the distance of its pivots and the stroke."""
+    step = w.step("given")
+    ratio = step.give(w.value("K", d.quick_return_ratio), "")
+    frame = step.give(w.length("d", d.frame), w.unit)
+    stroke = step.give(w.length("H", d.stroke), w.unit) if d.stroke else ZERO
+    step = w.step("theta")
+    theta = extreme_position_angle(w, step, ratio, d.theta)
+    step = w.step("lengths")
+    step.say(w.words("lever.tangent"))
+    half = sine(theta / TWO)
+    crank = step.find(w.length("r", d.crank), frame * half, w.unit)
+    if d.stroke:
+        _ram(w, d, step, theta, stroke)
+    w.picture("construction")
+    step = w.step("check")
+    step.say(w.words("lever.check"))
+    swing = TWO * arcsine(crank / frame)
+    found = step.find(w.angle("θ", math.radians(swing.value)), swing, "°")
+    again = (HALF_TURN + found) / (HALF_TURN - found)
+    step.find(w.value("K", again.value), again, "")
+
+
+def _ram(w: Writer, d: QuickReturnDerivation, step: Step, theta: Term, stroke: Term) -> None:
+    """The lever's arm, the place of the guide and the rod."""
+    step.say(w.words("lever.arm"))
+    arm = step.find(w.length("L", d.arm), stroke / (TWO * sine(theta / TWO)), w.unit)
+    step.say(w.words("lever.guide"))
+    step.find(w.length("y", d.height), arm * (ONE + cosine(theta / TWO)) / TWO, w.unit)
+    sagitta = arm * (ONE - cosine(theta / TWO))
+    height = step.find(w.length("s", sagitta.value / w.scale), sagitta, w.unit)
+    step.say(w.words("lever.pressure"))
+    rod = step.give(w.length("l", d.rod), w.unit)
+    angle = arcsine(height / (TWO * rod))
+    step.find(w.angle("α", math.radians(angle.value), "max"), angle, "°")
+
+
+def toggle(w: Writer, d: ToggleDerivation) -> None:
+    """Angle and links of a toggle from its force ratio, and the ratio over the stroke."""
+    step = w.step("given")
+    ratio = step.give(w.value("n", d.force_ratio), "")
+    distance = step.give(w.length("s", d.distance), w.unit)
+    stroke = step.give(w.length("H", d.stroke), w.unit)
+    step = w.step("lengths")
+    step.say(w.words("toggle.work"))
+    alpha = step.find(w.angle("α", d.alpha), arctangent(ONE / (TWO * ratio)), "°")
+    step.say(w.words("toggle.distance"))
+    link = step.find(w.length("l", d.link), distance / (FOUR * sine(alpha / TWO).squared), w.unit)
+    step.say(w.words("toggle.stroke"))
+    step.find(w.angle("α", d.first_angle, "0"), TWO * arcsine(root(stroke / (FOUR * link))), "°")
+    step = w.step("check")
+    step.say(w.words("toggle.check"))
+    angles = np.unique(np.append(np.linspace(d.first_angle, d.alpha / 4, SHOWN), d.alpha))[::-1]
+    rows = [
+        ("α / °", degrees(angles)),
+        (w.over(w.words("toggle.left")), w.lengths(2 * d.link * (1 - np.cos(angles)))),
+        ("P/F", decimals(1 / (2 * np.tan(angles)), 4)),
+    ]
+    w.table(step, "table.toggle", rows)

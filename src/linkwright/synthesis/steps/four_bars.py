@@ -1,0 +1,111 @@
+"""What a four-bar is examined by: Grashof's condition, transmission angle, branch and order at its positions."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+
+import numpy as np
+
+from linkwright.core.arrays import Complexes, Floats
+from linkwright.synthesis.result import Candidate
+from linkwright.synthesis.steps.writing import Writer, decimals, degrees, numbers
+from linkwright.worked.page import Step
+from linkwright.worked.terms import TWO, Term, arccosine
+
+
+def four_bar_lengths(w: Writer, each: Candidate) -> tuple[Term, Term, Term, Term]:
+    """Symbols of input, coupler, output and frame of a four-bar: a, b, c, d."""
+    points = each.linkage.points
+    ends = (("O1", "A"), ("A", "B"), ("O2", "B"), ("O1", "O2"))
+    a, b, c, d = (
+        w.length(name, abs(points[last] - points[first]))
+        for name, (first, last) in zip("abcd", ends, strict=True)
+    )
+    return a, b, c, d
+
+
+def examine(w: Writer, each: Candidate) -> None:
+    """The step that examines a four-bar: Grashof, transmission angle, and the branch at its positions."""
+    step = w.step("examined")
+    sides = four_bar_lengths(w, each)
+    grashof(w, step, sides, each)
+    if each.turns:
+        transmission(w, step, sides)
+    else:
+        angle = f"{math.degrees(each.transmission_angle):.2f}"
+        step.say(w.words("transmission_between", angle=angle))
+    if len(each.positions.get("A", ())) > 1:
+        branches(w, step, each)
+
+
+def grashof(w: Writer, step: Step, sides: tuple[Term, ...], each: Candidate) -> None:
+    """Sum of the shortest and the longest link against that of the others."""
+    low, *middle, high = sorted(sides, key=lambda term: term.amount)
+    step.say(w.words("grashof"))
+    for index, (first, second) in enumerate(((low, high), tuple(middle)), 1):
+        total = first + second
+        step.find(w.length("S", total.value / w.scale, str(index)), total, w.unit)
+    gap = low.amount + high.amount - middle[0].amount - middle[1].amount
+    sign = "equal" if abs(gap) <= 1e-12 * high.amount else "less" if gap < 0 else "more"
+    kind = w.say(f"synthesize.type.{each.grashof_type}")
+    step.say(w.words(f"grashof_{sign}", kind=kind, shortest=low.plain))
+
+
+def transmission(w: Writer, step: Step, sides: tuple[Term, ...]) -> None:
+    """Transmission angles where the input lies along the frame: the smallest is one of them."""
+    a, b, c, d = sides
+    step.say(w.words("transmission_turn"))
+    for index, apart in (("1", d - a), ("2", d + a)):
+        cosine = (b.squared + c.squared - apart.squared) / (TWO * b * c)
+        step.find(w.angle("μ", math.acos(max(-1.0, min(1.0, cosine.value))), index), arccosine(cosine), "°")
+    found = [item.value for item in step.equations[-2:]]
+    least = min(min(angle, 180.0 - angle) for angle in found)
+    step.say(w.words("transmission_least", angle=f"{least:.2f}"))
+
+
+def signed_transmission(each: Candidate) -> Floats:
+    """Angle from the coupler B→A to the output B→O2 at every position, rad, its sign that of the branch."""
+    a, b, o2 = each.positions["A"], each.positions["B"], each.linkage.points["O2"]
+    return np.asarray(np.angle((o2 - b) / (a - b)))
+
+
+def _one_way(angle: Floats) -> Floats:
+    """Angles without jumps, in the direction in which they come within one turn where there is one, rad."""
+    for sign in (1.0, -1.0):
+        steps = np.mod(sign * np.diff(angle) + 1e-9, 2 * np.pi) - 1e-9
+        if steps.sum() < 2 * np.pi:
+            return np.asarray(angle[0] + sign * np.append(0.0, np.cumsum(steps)))
+    return np.unwrap(angle)
+
+
+def branches(w: Writer, step: Step, each: Candidate) -> None:
+    """Input angle, transmission angle with its sign, and the lengths again at every position."""
+    points, a = each.linkage.points, each.positions["A"]
+    if "B" not in each.positions or "O2" not in points or each.linkage.guides:
+        return
+    o1, o2, b = points["O1"], points["O2"], each.positions["B"]
+    turned = np.degrees(_one_way(np.angle(a - o1)))
+    step.say(w.words("branches"))
+    columns = [
+        (w.words("position"), numbers(len(a))),
+        ("θ / °", decimals(turned, 4)),
+        ("μ / °", degrees(signed_transmission(each))),
+        (w.over("|O1A|"), w.lengths(np.abs(a - o1))),
+        (w.over("|AB|"), w.lengths(np.abs(b - a))),
+        (w.over("|O2B|"), w.lengths(np.abs(b - o2))),
+    ]
+    w.table(step, "table.branches", columns)
+    step.say(w.words("branches_sound" if not each.defects else "branches_defects"))
+
+
+def coordinates(w: Writer, each: Candidate, names: Iterable[str]) -> list[tuple[str, list[str]]]:
+    """Columns with the coordinates of moving points at every position."""
+    columns = []
+    for name in names:
+        places: Complexes = each.positions[name]
+        columns += [
+            (w.over(f"x_{name}"), w.lengths(places.real)),
+            (w.over(f"y_{name}"), w.lengths(places.imag)),
+        ]
+    return columns

@@ -1,0 +1,301 @@
+"""Steps of function generation: Freudenstein's equation for three to five pairs and by least squares, and the search.
+
+cos φ = P₀ cos ψ + P₁ cos γ + P₂ with γ = ψ - φ, P₀ = c/a, P₁ = -c/d, P₂ = (a² + c² + d² - b²)/(2 a d).
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from linkwright.core.arrays import Floats
+from linkwright.synthesis.function_generation.exact import Freudenstein
+from linkwright.synthesis.function_generation.generate import FunctionDerivation
+from linkwright.synthesis.steps.four_bars import coordinates, examine, four_bar_lengths
+from linkwright.synthesis.steps.writing import (
+    Writer,
+    decimals,
+    degrees,
+    entries,
+    matrix,
+    named,
+    numbers,
+    product,
+    small,
+)
+from linkwright.worked.matrix import Matrix
+from linkwright.worked.page import Step
+from linkwright.worked.terms import TWO, Term, cosine, root, sine, symbol
+
+#: Pairs up to which every equation is printed.
+ALL_ROWS = 8
+P = tuple(named("P", str(i)) for i in range(3))
+
+
+def function(w: Writer, d: FunctionDerivation) -> None:
+    """The pairs, the equations and their solution, the error at every pair, and what the linkage is like."""
+    _given(w, d)
+    four_bar = w.found.best.linkage.kind == "four_bar"
+    if d.method == "search":
+        _search(w, d)
+    else:
+        _equation(w, d)
+    _errors(w, d)
+    if four_bar:
+        examine(w, w.found.best)
+
+
+def _given(w: Writer, d: FunctionDerivation) -> None:
+    step = w.step("given")
+    places = w.found.error_name == "length"
+    outputs = w.lengths(d.outputs) if places else degrees(d.outputs)
+    step.say(w.words("function.pairs", count=len(d.inputs)))
+    columns = [
+        (w.words("pair"), numbers(len(d.inputs))),
+        ("φ / °", degrees(d.inputs)),
+        (w.over("s") if places else "ψ / °", outputs),
+    ]
+    w.table(step, "table.pairs", columns)
+    if w.found.best.linkage.kind != "slider_crank":
+        step.give(w.length("d", d.frame), w.unit)
+    for index, free, zero in zip(("φ", "ψ"), d.free, d.zeros, strict=True):
+        of_slider = places and index == "ψ"
+        if free:
+            step.say(w.words("function.free_place" if of_slider else "function.free", zero=f"ζ_{index}"))
+        elif of_slider:
+            step.give(w.length("s", zero, "0"), w.unit)
+        else:
+            name = (f"ζ_{index}", rf"\zeta_{{{named(index)[1]}}}")
+            step.give(symbol(*name, math.degrees(zero), degrees=True), "°")
+
+
+# Freudenstein's equation ------------------------------------------------------------------------
+def _equation(w: Writer, d: FunctionDerivation) -> None:
+    step = w.step("freudenstein")
+    step.say(w.words("function.freudenstein"))
+    a, b, c, frame = _free_symbols(w)
+    p = [symbol(*name, 0.5) for name in P]
+    phi, psi, gamma = (w.angle(name, 1.0) for name in ("φ", "ψ", "γ"))
+    step.relate(cosine(phi), p[0] * cosine(psi) + p[1] * cosine(gamma) + p[2])
+    step.relate(gamma, psi - phi)
+    step.relate(p[0], c / a)
+    step.relate(p[1], -(c / frame))
+    step.relate(p[2], (a.squared + c.squared + frame.squared - b.squared) / (TWO * a * frame))
+    if d.method == "zero_angle":
+        _zero_angle(w, d)
+    if d.equation is None:
+        _five_pairs(w, d)
+        return
+    _cosines(w, d.equation, any(d.zeros))
+    _solved(w, d)
+    _from_coefficients(w, d)
+
+
+def _free_symbols(w: Writer) -> tuple[Term, ...]:
+    return tuple(symbol(name, name, 1.0) for name in "abcd")
+
+
+def _cosines(w: Writer, equation: Freudenstein, moved: bool) -> None:
+    """Every pair's angles with the zero angles added, and their cosines."""
+    step = w.step("cosines")
+    if moved:
+        step.say(w.words("function.zeros_added"))
+    columns = [
+        (w.words("pair"), numbers(len(equation.phi))),
+        ("φ / °", degrees(equation.phi)),
+        ("ψ / °", degrees(equation.psi)),
+        ("γ = ψ − φ / °", degrees(equation.psi - equation.phi)),
+        ("cos ψ", decimals(equation.rows[:, 0], 6)),
+        ("cos γ", decimals(equation.rows[:, 1], 6)),
+        ("cos φ", decimals(equation.right, 6)),
+    ]
+    w.table(step, "table.cosines", columns)
+
+
+def _solved(w: Writer, d: FunctionDerivation) -> None:
+    """The system of equations as matrices, with symbols and with numbers, and its solution."""
+    equation = d.equation
+    assert equation is not None
+    unknown, count = entries([each] for each in P), len(equation.phi)
+    step = w.step("system")
+    if count <= ALL_ROWS:
+        rows = [[_cos("ψ", i), _cos("γ", i), ("1", "1")] for i in range(1, count + 1)]
+        product(step, entries(rows), unknown, "=", entries([_cos("φ", i)] for i in range(1, count + 1)))
+        product(step, matrix(equation.rows), unknown, "=", matrix(equation.right))
+    if d.method == "equation" and count > 3:
+        step.say(w.words("function.normal"))
+        product(step, _sums(count), unknown, "=", entries([each] for each in _sums_right()))
+        product(step, matrix(equation.normal), unknown, "=", matrix(equation.moment))
+    step.say(w.words("function.solution" if count == 3 else "function.solution_normal"
+                     if d.method == "equation" else "function.solution_four"))  # fmt: skip
+    product(step, unknown, "=", matrix(equation.p))
+
+
+def _cos(name: str, i: int) -> tuple[str, str]:
+    plain, tex = named(name, str(i))
+    return f"cos {plain}", rf"\cos {tex}"
+
+
+def _sum(*names: str) -> tuple[str, str]:
+    """A sum over all pairs of a product of cosines."""
+    if len(names) == 2 and names[0] == names[1]:
+        return f"Σcos²{names[0]}", rf"\sum\cos^2 {named(names[0])[1]}"
+    plain = " ".join(f"cos {name}" for name in names)
+    tex = r"\,".join(r"\cos " + named(name)[1] for name in names)
+    return f"Σ{plain}", rf"\sum {tex}"
+
+
+def _sums(count: int) -> Matrix:
+    names = ("ψ", "γ")
+    rows = [[_sum(first, second) for second in names] + [_sum(first)] for first in names]
+    return entries([*rows, [*(_sum(name) for name in names), (str(count), str(count))]])
+
+
+def _sums_right() -> list[tuple[str, str]]:
+    return [_sum("φ", "ψ"), _sum("φ", "γ"), _sum("φ")]
+
+
+def _from_coefficients(w: Writer, d: FunctionDerivation) -> None:
+    """Lengths from P₀, P₁, P₂; negative ones point the other way."""
+    equation = d.equation
+    assert equation is not None
+    step = w.step("lengths")
+    p = [symbol(*name, float(value)) for name, value in zip(P, equation.p, strict=True)]
+    frame = w.length("d", d.frame)
+    c = step.find(w.length("c", float(equation.lengths[2]) * d.frame), -(p[1] * frame), w.unit)
+    a = step.find(w.length("a", float(equation.lengths[0]) * d.frame), c / p[0], w.unit)
+    square = a.squared + c.squared + frame.squared - TWO * a * frame * p[2]
+    step.find(w.length("b", float(equation.lengths[1]) * d.frame), root(square), w.unit)
+    turned = [term.plain for term in (a, c) if term.amount < 0.0]
+    if turned:
+        step.say(w.words("function.negative", names=", ".join(turned)))
+
+
+def _zero_angle(w: Writer, d: FunctionDerivation) -> None:
+    """The free zero angle as a root of the determinant."""
+    step = w.step("zero_angle")
+    h = d.harmonics
+    assert h is not None
+    step.say(w.words("function.determinant"))
+    which = 1 if d.free[1] else 0
+    zeta = w.angle("ζ", d.zeros[which])
+    factors = (h[0].real, 2 * h[1].real, -2 * h[1].imag, 2 * h[2].real, -2 * h[2].imag)
+    k = [step.give(w.value("k", float(each), str(i)), "") for i, each in enumerate(factors)]
+    twice = TWO * zeta
+    value = k[0] + k[1] * cosine(zeta) + k[2] * sine(zeta) + k[3] * cosine(twice) + k[4] * sine(twice)
+    if all(d.free):
+        fixed = w.angle("ζ", d.zeros[0], "φ")
+        step.say(w.words("function.sampled"))
+        step.give(fixed, "°")
+    step.give(zeta, "°")
+    step.say(w.words("function.root"))
+    step.find(symbol("D", "D", 0.0), value, "")
+
+
+def _five_pairs(w: Writer, d: FunctionDerivation) -> None:
+    """Five pairs: Burmester's points of the motion of the output link against the input link."""
+    step = w.step("five_pairs")
+    step.say(w.words("function.burmester", count=w.found.counts.get("solutions", len(w.found))))
+    best = w.found.best
+    for index, key in (("φ", "input_zero [rad]"), ("ψ", "output_zero [rad]")):
+        name = (f"ζ_{index}", rf"\zeta_{{{named(index)[1]}}}")
+        step.give(symbol(*name, math.degrees(best.values[key]), degrees=True), "°")
+    a, b, c, frame = four_bar_lengths(w, best)
+    for term in (a, b, c):
+        step.give(term, w.unit)
+    for name, formula in zip(P, _coefficients((a, b, c, frame)), strict=True):
+        step.find(symbol(*name, formula.value), formula, "")
+
+
+def _coefficients(sides: tuple[Term, Term, Term, Term]) -> tuple[Term, Term, Term]:
+    a, b, c, frame = sides
+    return (
+        c / a,
+        -(c / frame),
+        (a.squared + c.squared + frame.squared - b.squared) / (TWO * a * frame),
+    )
+
+
+# errors -----------------------------------------------------------------------------------------
+def _search(w: Writer, d: FunctionDerivation) -> None:
+    step = w.step("search")
+    names = w.say(f"synthesize.type.{d.kind}")
+    step.say(w.words("function.search", linkage=names, unknowns=d.unknowns, starts=d.starts, optima=d.optima))
+    best = w.found.best
+    zero = math.degrees(best.values["input_zero [rad]"])
+    step.give(symbol("ζ_φ", r"\zeta_{\varphi}", zero, degrees=True), "°")
+    constant, scale = best.values["output_constant"], best.values["scale"]
+    places = w.found.error_name == "length"
+    told = {
+        "symbol": "s" if places else "ψ",
+        "constant": w.length_text(constant) if places else f"{math.degrees(constant):.6g}°",
+    }
+    if scale == 1.0:
+        step.say(w.words("function.outputs", **told))
+    else:
+        step.say(w.words("function.scaled", scale=f"{scale:.6g}", **told))
+
+
+def _errors(w: Writer, d: FunctionDerivation) -> None:
+    """What Freudenstein's equation leaves, and the structural error, at every pair."""
+    best = w.found.best
+    step = w.step("error")
+    places = w.found.error_name == "length"
+    if d.method != "search":
+        _residuals(w, step, d)
+    else:
+        step.say(w.words("function.positions"))
+        moving = [name for name in best.positions if name not in best.linkage.frame]
+        columns = [(w.words("pair"), numbers(len(d.inputs))), *coordinates(w, best, moving)]
+        w.table(step, "table.positions", columns)
+    found = d.outputs + best.deviations
+    shown = w.lengths if places else degrees
+    off = small(best.deviations * w.scale, w.scale) if places else small(np.degrees(best.deviations))
+    letter = "s" if places else "ψ"
+    unit = w.unit if places else "°"
+    columns = [
+        (w.words("pair"), numbers(len(d.inputs))),
+        ("φ / °", degrees(d.inputs)),
+        (f"{letter} / {unit}", shown(d.outputs)),
+        (w.words("generated", symbol=letter, unit=unit), shown(found)),
+        (f"Δ{letter} / {unit}", off),
+    ]
+    w.table(step, "table.error", columns)
+    if w.found.error_name != "none":
+        rms, worst = (
+            _shown(w, each, places) for each in (_rms(best.deviations), np.abs(best.deviations).max())
+        )
+        step.say(w.words("function.error", rms=rms, worst=worst))
+    w.picture("structural_error")
+
+
+def _rms(values: Floats) -> float:
+    return float(np.sqrt(np.mean(values**2)))
+
+
+def _shown(w: Writer, value: float, places: bool) -> str:
+    if places:
+        return f"{small([value * w.scale], w.scale)[0]} {w.unit}"
+    return f"{small([math.degrees(value)])[0]}°"
+
+
+def _residuals(w: Writer, step: Step, d: FunctionDerivation) -> None:
+    """Both sides of Freudenstein's equation at every pair."""
+    if d.equation is not None:
+        rows, right, p = d.equation.rows, d.equation.right, d.equation.p
+    else:
+        zeros = [w.found.best.values[f"{name}_zero [rad]"] for name in ("input", "output")]
+        phi, psi = d.inputs + zeros[0], d.outputs + zeros[1]
+        rows = np.stack([np.cos(psi), np.cos(phi - psi), np.ones_like(phi)], 1)
+        right = np.cos(phi)
+        terms = _coefficients(four_bar_lengths(w, w.found.best))
+        p = np.array([term.value for term in terms])
+    step.say(w.words("function.residual"))
+    columns = [
+        (w.words("pair"), numbers(len(right))),
+        ("cos φ", decimals(right, 6)),
+        ("P_0 cos ψ + P_1 cos γ + P_2", decimals(rows @ p, 6)),
+        (w.words("residual"), small(rows @ p - right)),
+    ]
+    w.table(step, "table.residual", columns)

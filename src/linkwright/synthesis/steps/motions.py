@@ -1,0 +1,211 @@
+"""Steps of motion generation: poles, Burmester's curves and points, the circles of both pins.
+
+A body point with the coordinates (ξ, η) in the axes of the body lies at A_j = p_j + R(φ_j) (ξ, η). Its positions lie
+on a circle about C where 2 (A_j - A_1)·C = A_j² - A_1² for j = 2 … n: the perpendicular bisectors meet in C.
+Source: Burmester 1888; McCarthy and Soh 2011, Geometric Design of Linkages.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from linkwright.core.arrays import Complexes
+from linkwright.synthesis.motion_generation.families import POWERS
+from linkwright.synthesis.motion_generation.generate import MotionDerivation
+from linkwright.synthesis.steps.four_bars import coordinates, examine
+from linkwright.synthesis.steps.writing import (
+    Writer,
+    decimals,
+    degrees,
+    entries,
+    matrix,
+    named,
+    numbers,
+    product,
+    small,
+)
+from linkwright.worked.page import Step
+from linkwright.worked.terms import Term, root, symbol
+
+#: Most poses of which every pole is printed.
+MOST_POLES = 5
+#: Turns (rad) below which two poses are parallel, and have no pole.
+PARALLEL = 1e-9
+#: Share of a circle's radius within which its points lie on it.
+MET = 1e-9
+
+
+def motion(w: Writer, d: MotionDerivation) -> None:
+    """The poses, their poles, the curves or points of Burmester, and the circles of the pins that were taken."""
+    _given(w, d)
+    free = bool(np.isnan(d.phi).any())
+    if not free and len(d.p) <= MOST_POLES:
+        _poles(w, d)
+    if d.circle_curve is not None:
+        _curves(w, d)
+    elif d.points is not None:
+        _points(w, d)
+    else:
+        step = w.step("dyads")
+        step.say(w.words(_family(d), count=len(d.p), dyads=w.found.counts.get("dyads", 0)))
+    _circles(w, d)
+    if not w.found.best.linkage.guides:
+        examine(w, w.found.best)
+
+
+def _family(d: MotionDerivation) -> str:
+    if np.isnan(d.phi).any():
+        return "motion.mixed"
+    return {2: "motion.two", 3: "motion.three"}.get(len(d.p), "motion.many")
+
+
+def _given(w: Writer, d: MotionDerivation) -> None:
+    step = w.step("given")
+    step.say(w.words("motion.poses", count=len(d.p)))
+    free = w.words("motion.free")
+    angles = [free if math.isnan(each) else degrees([each])[0] for each in d.phi]
+    columns = [
+        (w.words("pose"), numbers(len(d.p))),
+        (w.over("x"), w.lengths(d.p.real)),
+        (w.over("y"), w.lengths(d.p.imag)),
+        ("φ / °", angles),
+    ]
+    w.table(step, "table.poses", columns)
+
+
+def _poles(w: Writer, d: MotionDerivation) -> None:
+    """Poles of all pairs of poses: the points that have the same place in both."""
+    step = w.step("poles")
+    step.say(w.words("motion.poles"))
+    pairs, places, turns = [], [], []
+    for j in range(len(d.p)):
+        for k in range(j + 1, len(d.p)):
+            turn = d.phi[k] - d.phi[j]
+            unit = np.exp(1j * turn)
+            pairs.append(f"P_{j + 1}{k + 1}")
+            turns.append(turn)
+            parallel = abs(unit - 1) < PARALLEL
+            places.append(np.nan if parallel else (d.p[k] - unit * d.p[j]) / (1 - unit))
+    at: Complexes = np.array(places)
+    columns = [
+        (w.words("pole"), pairs),
+        ("φ_k − φ_j / °", degrees(turns)),
+        (w.over("x"), [text.replace("nan", "∞") for text in w.lengths(at.real)]),
+        (w.over("y"), [text.replace("nan", "∞") for text in w.lengths(at.imag)]),
+    ]
+    w.table(step, "table.poles", columns)
+
+
+def _curves(w: Writer, d: MotionDerivation) -> None:
+    """Equations of the circle- and centre-point curve of four poses, and both chosen pairs in them."""
+    assert d.circle_curve is not None and d.centre_curve is not None
+    step = w.step("curves")
+    step.say(w.words("motion.curves", size=w.length_text(d.size)))
+    powers = [_power(i, j) for i, j in POWERS]
+    columns = [
+        (w.words("term"), powers),
+        (w.words("circle_points"), decimals(d.circle_curve, 6)),
+        (w.words("centre_points"), decimals(d.centre_curve, 6)),
+    ]
+    w.table(step, "table.curves", columns)
+    best = w.found.best
+    rows = []
+    pins = [("A", "O1"), ("B", "O2")]
+    for pin, pivot in pins:
+        if pivot not in best.linkage.points:
+            continue
+        first, centre = best.positions[pin][0] - d.p[0], best.linkage.points[pivot] - d.p[0]
+        for name, place, curve in ((pin, first, d.circle_curve), (pivot, centre, d.centre_curve)):
+            u, v = place.real / d.size, place.imag / d.size
+            left = sum(c * u**i * v**j for c, (i, j) in zip(curve, POWERS, strict=True))
+            rows.append((name, f"{u:.6f}", f"{v:.6f}", small([left], 100.0)[0]))
+    step.say(w.words("motion.on_curves"))
+    table = list(zip(*rows, strict=True))
+    heads = (w.words("point"), "u", "v", w.words("left_side"))
+    w.table(step, "table.on_curves", list(zip(heads, table, strict=True)), "<>>>")
+
+
+def _power(i: int, j: int) -> str:
+    parts = [name + {1: "", 2: "²", 3: "³"}[n] for name, n in (("u", i), ("v", j)) if n]
+    return "".join(parts) or "1"
+
+
+def _points(w: Writer, d: MotionDerivation) -> None:
+    """Burmester's four points of five poses."""
+    assert d.points is not None and d.centres is not None and d.real is not None and d.slides is not None
+    step = w.step("burmester")
+    step.say(w.words("motion.five"))
+    at = d.points + d.p[0]
+    kinds = [
+        w.words("complex" if not real else "slides" if slides else "real")
+        for real, slides in zip(d.real, d.slides, strict=True)
+    ]
+    columns = [(w.words("solution"), numbers(len(at)))]
+    for name, values in (("A", at), ("O", d.centres)):
+        shown = [w.lengths([part]) if real else ["–"] for part, real in zip(values.real, d.real, strict=True)]
+        other = [w.lengths([part]) if real else ["–"] for part, real in zip(values.imag, d.real, strict=True)]
+        columns += [
+            (w.over(f"x_{name}"), [each[0] for each in shown]),
+            (w.over(f"y_{name}"), [each[0] for each in other]),
+        ]
+    columns.append((w.words("kind"), kinds))
+    w.table(step, "table.burmester", columns, ">>>>><")
+
+
+def _circles(w: Writer, d: MotionDerivation) -> None:
+    """The positions of both pins, and their circle's centre from the bisectors."""
+    best = w.found.best
+    step = w.step("circles")
+    step.say(w.words("motion.positions"))
+    columns = [(w.words("pose"), numbers(len(d.p))), *coordinates(w, best, ("A", "B"))]
+    w.table(step, "table.positions", columns)
+    for pin, pivot in (("A", "O1"), ("B", "O2")):
+        if pivot in best.linkage.points:
+            _centre(w, step, best.positions[pin], (pin, pivot))
+        else:
+            _line(w, step, best.positions[pin])
+    w.picture("construction")
+
+
+def _centre(w: Writer, step: Step, positions: Complexes, names: tuple[str, str]) -> None:
+    """The bisectors as equations of the centre, their solution, and the radius in every pose."""
+    pin, pivot = names
+    places = positions * w.scale
+    centre = w.found.best.linkage.points[pivot] * w.scale
+    far = np.abs(places - centre)
+    met = np.abs(far - far[0]).max() <= MET * far[0]
+    unknown = [named("x", pivot), named("y", pivot)]
+    if met:
+        rows = 2 * (places[1:] - places[0])
+        right = np.abs(places[1:]) ** 2 - np.abs(places[0]) ** 2
+        step.say(w.words("motion.bisectors", pin=pin, pivot=pivot))
+        known = matrix(np.stack([rows.real, rows.imag], 1), 4)
+        product(step, known, entries([each] for each in unknown), "=", matrix(right, 4))
+    else:
+        step.say(w.words("motion.bisectors_off", pin=pin, pivot=pivot))
+    x, y = (
+        symbol(*name, value if abs(value) > MET * far[0] else 0.0)
+        for name, value in zip(unknown, (centre.real, centre.imag), strict=True)
+    )
+    step.give(x, w.unit)
+    step.give(y, w.unit)
+    first = [
+        symbol(*named(axis, f"{pin}1"), value)
+        for axis, value in (("x", float(places[0].real)), ("y", float(places[0].imag)))
+    ]
+    radius: Term = root((first[0] - x).squared + (first[1] - y).squared)
+    step.find(symbol(f"l_{pivot}{pin}", f"l_{{{pivot}{pin}}}", float(far[0])), radius, w.unit)
+    off = 0.0 if met else float(np.abs(far - far[0]).max())
+    radii = ", ".join(w.lengths(far / w.scale))
+    step.say(w.words("motion.radii", pin=pin, pivot=pivot, radii=radii, unit=w.unit, off=f"{off:.4g}"))
+
+
+def _line(w: Writer, step: Step, positions: Complexes) -> None:
+    """The straight line of a pin that slides."""
+    chord = positions[np.abs(positions - positions[0]).argmax()] - positions[0]
+    unit = chord / abs(chord)
+    off = ((positions - positions[0]) * unit.conj()).imag
+    step.say(w.words("motion.line", angle=f"{math.degrees(np.angle(unit)):.4f}",
+                     off=small([np.abs(off).max() * w.scale], abs(chord) * w.scale)[0], unit=w.unit))  # fmt: skip

@@ -1,0 +1,229 @@
+"""Steps of paths, straight lines, dwells and free curves: what was sought, and what can be checked by hand."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from linkwright.synthesis.free_curve.generate import FreeCurveDerivation
+from linkwright.synthesis.path_generation.exact import NinePointDerivation
+from linkwright.synthesis.path_generation.generate import PathDerivation
+from linkwright.synthesis.report import error_texts
+from linkwright.synthesis.requirements.dwell import DwellDerivation
+from linkwright.synthesis.requirements.straight_line import FOUR_BARS, StraightLineDerivation
+from linkwright.synthesis.steps.four_bars import coordinates, examine, four_bar_lengths
+from linkwright.synthesis.steps.writing import Writer, decimals, degrees, numbers, small
+from linkwright.worked.page import Step
+from linkwright.worked.terms import Pair, symbol, total
+
+#: Points of a free curve that are shown.
+SHOWN = 12
+#: Path points whose squares are written out.
+WRITTEN = 9
+
+
+def path(w: Writer, d: PathDerivation) -> None:
+    """Points, unknowns, and the coupler point at every one of them."""
+    points = d.demand.points
+    step = w.step("given")
+    step.say(w.words("path.points", count=len(points)))
+    columns = [
+        (w.words("point"), numbers(len(points))),
+        (w.over("x"), w.lengths(points.real)),
+        (w.over("y"), w.lengths(points.imag)),
+    ]
+    if d.demand.timed:
+        columns.append(("θ / °", degrees(d.demand.angles)))
+    w.table(step, "table.points", columns)
+    step = w.step("search")
+    step.say(w.words("path.vectors"))
+    unknowns = 2 * len(points) - d.demand.excess
+    key = "path.more" if d.demand.excess > 0 else "path.enough"
+    step.say(w.words(key, equations=2 * len(points), unknowns=unknowns, optima=d.optima))
+    if d.demand.pivot is not None:
+        step.say(w.words("path.pivot"))
+    _coupler_point(w)
+    _points_met(w)
+    examine(w, w.found.best)
+
+
+def _coupler_point(w: Writer) -> None:
+    """Pivots, and the coupler point in the axes of the coupler."""
+    step = w.step("found")
+    points = w.found.best.linkage.points
+    for name in ("O1", "O2"):
+        for axis, value in (("x", points[name].real), ("y", points[name].imag)):
+            step.give(symbol(f"{axis}_{name}", f"{axis}_{{{name}}}", value * w.scale), w.unit)
+    for term in four_bar_lengths(w, w.found.best):
+        step.give(term, w.unit)
+    along = points["B"] - points["A"]
+    local = (points["P"] - points["A"]) * along.conjugate() / abs(along)
+    step.say(w.words("path.local"))
+    for axis, value in (("ξ", local.real), ("η", local.imag)):
+        step.give(symbol(axis, {"ξ": r"\xi", "η": r"\eta"}[axis], value * w.scale), w.unit)
+
+
+def _points_met(w: Writer) -> None:
+    """Pins and coupler point at every demanded point, its distance, and the sum of squares."""
+    found, best = w.found, w.found.best
+    target = found.target
+    assert target is not None
+    step = w.step("error")
+    step.say(w.words("path.positions"))
+    w.table(step, "table.positions", [(w.words("point"), numbers(len(target))), *coordinates(w, best, "ABP")])
+    places = best.positions["P"]
+    off = np.abs(places - target)
+    columns = [
+        (w.words("point"), numbers(len(target))),
+        (w.over("x"), w.lengths(target.real)),
+        (w.over("y"), w.lengths(target.imag)),
+        (w.over("x_P"), w.lengths(places.real)),
+        (w.over("y_P"), w.lengths(places.imag)),
+        (w.over(w.words("distance")), small(off * w.scale, found.extent * w.scale)),
+    ]
+    w.table(step, "table.error", columns)
+    size = found.extent * w.scale
+    if off.max() * w.scale > 1e-9 * size and len(off) <= WRITTEN:
+        terms = [w.length("e", float(each), str(i + 1)).squared for i, each in enumerate(off)]
+        value = float((off**2).sum()) * w.scale**2
+        step.find(symbol("Σe²", r"\sum e^2", value), total(terms), f"{w.unit}²")
+    else:
+        step.say(w.words("path.sum", squares=error_texts(best)[0]))
+    w.picture("structural_error")
+
+
+def nine_points(w: Writer, d: NinePointDerivation) -> None:
+    """Nine points: all classes of cognates, and the check of the lengths in every position."""
+    step = w.step("given")
+    columns = [
+        (w.words("point"), numbers(len(d.points))),
+        (w.over("x"), w.lengths(d.points.real)),
+        (w.over("y"), w.lengths(d.points.imag)),
+    ]
+    w.table(step, "table.points", columns)
+    step = w.step("search")
+    step.say(w.words("path.nine", classes=d.classes, real=d.real, examined=d.examined, sound=d.sound))
+    _coupler_point(w)
+    step = w.step("error")
+    step.say(w.words("path.nine_check"))
+    best = w.found.best
+    w.table(
+        step, "table.positions", [(w.words("point"), numbers(len(d.points))), *coordinates(w, best, "ABP")]
+    )
+    examine(w, best)
+
+
+def straight_line(w: Writer, d: StraightLineDerivation) -> None:
+    """The proportions of the linkage, its scale, and the distance from the line along the stretch."""
+    best = w.found.best
+    kind = best.linkage.kind
+    step = w.step("given")
+    step.give(w.length("s", d.length), w.unit)
+    step.give(w.length("δ", d.allowed), w.unit)
+    key = "line.kind" if d.compared == 1 else "line.compared"
+    step.say(w.words(key, count=d.compared, good=len(w.found)))
+    step = w.step("lengths")
+    step.say(
+        w.words("line.peaucellier" if kind == "peaucellier" else "line.proportions", kind=kind.capitalize())
+    )
+    if kind in FOUR_BARS:
+        _proportions(w, step, kind)
+    _along(w, best.positions["P"], best.deviations)
+    if kind in FOUR_BARS:
+        examine(w, best)
+
+
+def _proportions(w: Writer, step: Step, kind: str) -> None:
+    shape = FOUR_BARS[kind]
+    sides = four_bar_lengths(w, w.found.best)
+    unit = symbol("m", "m", sides[3].amount / shape.frame)
+    step.give(unit, w.unit)
+    for term, share in zip(sides, (shape.crank, shape.coupler, shape.output, shape.frame), strict=True):
+        step.find(term, symbol(f"{share:.6g}", f"{share:.6g}", share) * unit, w.unit)
+
+
+def _along(w: Writer, places: np.ndarray, off: np.ndarray) -> None:
+    """Coordinates of the drawing point along the stretch, and its distance from the line."""
+    step = w.step("error")
+    step.say(w.words("line.positions"))
+    columns = [
+        (w.words("position"), numbers(len(places))),
+        (w.over("x_P"), w.lengths(places.real)),
+        (w.over("y_P"), w.lengths(places.imag)),
+        (w.over(w.words("distance")), small(off * w.scale, float(np.ptp(np.abs(places))) * w.scale)),
+    ]
+    w.table(step, "table.error", columns)
+    step.say(w.words("line.error", error=w.length_text(w.found.best.error)))
+    w.picture("structural_error")
+
+
+def dwell(w: Writer, d: DwellDerivation) -> None:
+    """The arc of the coupler curve, the radius at several positions of the rest, and what the output deviates."""
+    best = w.found.best
+    step = w.step("given")
+    step.give(w.angle("θ", d.crank_angle), "°")
+    step.give(w.angle("ψ", d.swing_angle), "°")
+    step.give(w.length("d", d.frame), w.unit)
+    step = w.step("search")
+    step.say(w.words("dwell.search", tried=d.tried, arcs=d.arcs))
+    step = w.step("arc")
+    step.say(w.words("dwell.arc"))
+    centre = Pair(w.length("x", d.centre.real, "C"), w.length("y", d.centre.imag, "C"))
+    step.give(centre.x, w.unit)
+    step.give(centre.y, w.unit)
+    step.give(w.length("ρ", d.radius), w.unit)
+    places = best.positions["P"]
+    far = np.abs(places - d.centre)
+    columns = [
+        (w.words("position"), numbers(len(places))),
+        ("θ / °", degrees(d.crank, 3)),
+        (w.over("x_P"), w.lengths(places.real)),
+        (w.over("y_P"), w.lengths(places.imag)),
+        (w.over("|CP|"), w.lengths(far)),
+        (w.over("|CP| − ρ"), small((far - d.radius) * w.scale, d.radius * w.scale)),
+        ("Δψ / °", decimals(np.degrees(best.deviations), 5)),
+    ]
+    w.table(step, "table.rest", columns)
+    step.say(
+        w.words(
+            "dwell.rest", error=f"{math.degrees(best.error):.4g}", swing=f"{math.degrees(d.swing_angle):.6g}"
+        )
+    )
+    w.picture("structural_error")
+
+
+def free_curve(w: Writer, d: FreeCurveDerivation) -> None:
+    """The measure, the search's demands, and how far the drawn curve lies from some points of the given one."""
+    best = w.found.best
+    step = w.step("given")
+    key = "free.closed" if d.closed else "free.open"
+    step.say(w.words(key, points=len(d.curve)))
+    for name, value in (("x_S", d.centroid.real), ("y_S", d.centroid.imag), ("R", d.radius)):
+        letter, _, index = name.partition("_")
+        step.give(w.length(letter, value, index), w.unit)
+    step = w.step("search")
+    step.say(w.words("free.measure"))
+    step.say(
+        w.words("free.search", angle=f"{math.degrees(d.transmission_angle):g}", size=f"{d.size:g}",
+                seconds=f"{d.seconds:g}", attempts=d.attempts, designs=d.designs)
+    )  # fmt: skip
+    step.say(w.words("free.linkage", kind=w.say(f"synthesize.type.{best.grashof_type}"),
+                     joints=f"{best.values['joints']:g}", links=f"{best.values['links']:g}"))  # fmt: skip
+    step = w.step("error")
+    chosen = np.unique(np.linspace(0, len(d.curve) - 1, SHOWN).round().astype(int))
+    points, drawn = d.curve[chosen], best.curve
+    assert drawn is not None
+    nearest = drawn[np.abs(points[:, None] - drawn).argmin(1)]
+    columns = [
+        (w.words("point"), numbers(len(points))),
+        (w.over("x"), w.lengths(points.real)),
+        (w.over("y"), w.lengths(points.imag)),
+        (w.over("x_P"), w.lengths(nearest.real)),
+        (w.over("y_P"), w.lengths(nearest.imag)),
+        (w.over(w.words("distance")), small(np.abs(nearest - points) * w.scale, d.radius * w.scale)),
+    ]
+    step.say(w.words("free.points"))
+    w.table(step, "table.error", columns)
+    step.say(w.words("free.error", error=f"{best.error:.4g}", mean=w.length_text(best.error * d.radius),
+                     worst=w.length_text(best.worst * d.radius)))  # fmt: skip

@@ -1,0 +1,149 @@
+"""What the steps of all tasks are written with: symbols with their units, tables, matrices, numbers as text."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import field
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from linkwright.core.dataclass import dataclass
+from linkwright.synthesis.result import Synthesis
+from linkwright.words import Say
+from linkwright.worked.matrix import Matrix, side_by_side
+from linkwright.worked.page import Step, Tabulated
+from linkwright.worked.terms import ZERO, Term, symbol
+
+#: Lengths are printed in m where the longest link has this length or more, m.
+LARGE = 10.0
+#: Share of its size below which a deviation is rounding.
+ROUNDING = 1e-11
+#: Most rows of a table of positions.
+MOST_ROWS = 24
+GREEK = {
+    "α": "alpha", "β": "beta", "γ": "gamma", "δ": "delta", "ε": "varepsilon", "ζ": "zeta", "θ": "theta",
+    "λ": "lambda", "μ": "mu", "ρ": "rho", "φ": "varphi", "ψ": "psi", "Δ": "Delta",
+}  # fmt: skip
+
+
+@dataclass
+class Writer:
+    """The steps of one synthesis as they are written; ``pictures``: kinds of diagrams behind a step by its number."""
+
+    found: Synthesis
+    say: Say
+    steps: list[Step] = field(default_factory=list)
+    pictures: dict[str, list[str]] = field(default_factory=dict)
+
+    @property
+    def large(self) -> bool:
+        """Whether lengths are printed in m."""
+        return max(self.found.best.linkage.lengths().values()) >= LARGE
+
+    @property
+    def unit(self) -> str:
+        """Unit of lengths."""
+        return "m" if self.large else "mm"
+
+    @property
+    def scale(self) -> float:
+        """That unit per m."""
+        return 1.0 if self.large else 1e3
+
+    def words(self, key: str, **values: object) -> str:
+        """A text of the catalogue of these steps."""
+        return self.say(f"synthesis_steps.{key}", **values)
+
+    def step(self, key: str) -> Step:
+        """A new step with its title."""
+        step = Step(str(len(self.steps) + 1), self.words(f"title.{key}"))
+        self.steps.append(step)
+        return step
+
+    def picture(self, kind: str) -> None:
+        """A diagram of the result behind the step that is being written."""
+        self.pictures.setdefault(self.steps[-1].number, []).append(kind)
+
+    # symbols ------------------------------------------------------------------------------------
+    def length(self, name: str, metres: float, index: str = "") -> Term:
+        """A length by its letter and index; nothing where it is zero."""
+        return symbol(*named(name, index), metres * self.scale) if metres else ZERO
+
+    def angle(self, name: str, radians: float, index: str = "") -> Term:
+        """An angle, in degrees."""
+        return symbol(*named(name, index), math.degrees(radians), degrees=True)
+
+    def value(self, name: str, amount: float, index: str = "") -> Term:
+        """A plain number."""
+        return symbol(*named(name, index), amount)
+
+    # texts --------------------------------------------------------------------------------------
+    def lengths(self, metres: ArrayLike) -> list[str]:
+        """Lengths as a column of a table prints them, to 1/10000 mm."""
+        return decimals(np.asarray(metres, float) * self.scale, 7 if self.large else 4)
+
+    def length_text(self, metres: float) -> str:
+        """A length with its unit."""
+        return f"{metres * self.scale:.7g} {self.unit}"
+
+    def over(self, text: str) -> str:
+        """The head of a column of lengths: ``a / mm``."""
+        return f"{text} / {self.unit}"
+
+    def table(
+        self, step: Step, title: str, columns: Sequence[tuple[str, Sequence[str]]], align: str = ""
+    ) -> None:
+        """Adds a table by its columns, head and texts; a long one is shown by evenly spaced rows."""
+        rows = list(zip(*(texts for _, texts in columns), strict=True))
+        if len(rows) > MOST_ROWS:
+            chosen = np.unique(np.linspace(0, len(rows) - 1, MOST_ROWS).round().astype(int))
+            rows = [rows[i] for i in chosen]
+        heads = tuple(head for head, _ in columns)
+        step.items.append(Tabulated(self.words(title), heads, tuple(rows), align or ">" * len(heads)))
+
+
+def named(name: str, index: str = "") -> tuple[str, str]:
+    """A symbol in plain text and in LaTeX."""
+    tex = rf"\{GREEK[name]}" if name in GREEK else name
+    return (f"{name}_{index}", f"{tex}_{{{index}}}") if index else (name, tex)
+
+
+def decimals(values: ArrayLike, places: int) -> list[str]:
+    """Numbers with so many decimals, zero without a sign."""
+    least = 0.5 * 10.0**-places
+    return [f"{0.0 if abs(value) < least else value:.{places}f}" for value in np.atleast_1d(values)]
+
+
+def degrees(radians: ArrayLike, places: int = 4) -> list[str]:
+    """Angles in degrees."""
+    return decimals(np.degrees(np.asarray(radians, float)), places)
+
+
+def small(values: ArrayLike, size: float = 1.0) -> list[str]:
+    """Deviations with four digits; zero where they are rounding of ``size``."""
+    given = np.atleast_1d(np.asarray(values, float))
+    return ["0" if abs(value) <= ROUNDING * size else f"{value:.4g}" for value in given]
+
+
+def numbers(count: int) -> list[str]:
+    """1 … count."""
+    return [str(i + 1) for i in range(count)]
+
+
+def matrix(values: ArrayLike, places: int = 6) -> Matrix:
+    """A matrix of numbers; a vector is a column."""
+    rows = np.asarray(values, float)
+    rows = rows[:, None] if rows.ndim == 1 else rows
+    return Matrix(tuple(tuple((text, text) for text in decimals(row, places)) for row in rows))
+
+
+def entries(rows: Iterable[Iterable[tuple[str, str]]]) -> Matrix:
+    """A matrix of symbols, each as plain text and as LaTeX."""
+    return Matrix(tuple(tuple(row) for row in rows))
+
+
+def product(step: Step, *parts: Matrix | str) -> None:
+    """Adds an equation of matrices."""
+    step.items.append(side_by_side(parts))

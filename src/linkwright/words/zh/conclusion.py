@@ -1,0 +1,47 @@
+"""机构报告的结论。"""
+
+WORDS = {
+    "motion": "**运动。**",
+    "stroke": "{subject} 的行程为 {value}。",
+    "swing_angle": "{subject} 的摆角为 {value}。",
+    "ratio": "{subject} 的慢行程所需时间为快行程的 {ratio} 倍（行程速比系数 K）。",
+    "no_ratio": "{subject} 的往返行程所需时间相等（行程速比系数 K = 1）。",
+    "rates": "{subject} 的最大速度为 {velocity}（q = {first}），最大加速度为 {acceleration}（q = {second}）。",
+    "rates_turning": "{subject} 的最大角速度为 {velocity}（q = {first}），最大角加速度为 {acceleration}"
+    "（q = {second}）。",
+    "partly": "以上数值适用于机构可装配的输入范围。",
+    "transmission": "**传力性能。**",
+    "angle_above": "最小传动角为 {value}（杆组 {subject}，q = {at}），满足推荐值 {limit}。",
+    "angle_below": "最小传动角为 {value}（杆组 {subject}，q = {at}），小于推荐值 {limit}。",
+    "away": "各杆组均不接近奇异位置：距奇异位置的程度最小为 {value}"
+    "（杆组 {subject}，q = {at}；最好为 1，奇异时为 0）。",
+    "close": "杆组 {subject} 在 q = {at} 处接近奇异位置（距奇异位置的程度为 {value}；最好为 1，奇异时为 0），"
+    "该处的力会变得很大。",
+    "limits": "**推荐限值。**",
+    "all_met": "有推荐限值的 {count} 项指标全部满足。",
+    "not_met": "有推荐限值的 {count} 项指标中有 {broken} 项不满足：",
+    "forces": "**受力。**",
+    "largest_reaction": "最大运动副反力为 {value}（运动副 {joints}，q = {at}）。",
+    "largest_reaction_rest": "最大运动副反力为 {value}（运动副 {joints}）。",
+    "torque": "原动件 {driver} 的平衡力矩最大值为 {peak}（q = {at}），平均值为 {mean}，均方根值为 {rms}。",
+    "only_torque": "平衡力矩的最大值为 {peak}（q = {at}），平均值为 {mean}，均方根值为 {rms}。",
+    "force": "原动件 {driver} 的平衡力最大值为 {peak}（q = {at}），平均值为 {mean}，均方根值为 {rms}。",
+    "only_force": "平衡力的最大值为 {peak}（q = {at}），平均值为 {mean}，均方根值为 {rms}。",
+    "peak_to_mean": "最大值为平均值的 {ratio} 倍。",
+    "shaking": "机架所受振动力的峰值为 {value}（q = {at}）。",
+    "flywheel": "**飞轮。**",
+    "stretch": "决定飞轮大小的区间为 q = {low}（输入轴转速最低）至 q = {high}（转速最高），"
+    "其间的最大盈亏功为 {energy}。",
+    "needed": "取 δ = {fluctuation} 时，输入轴上需要转动惯量为 {inertia} 的飞轮（按公式为 {formula}）。",
+    "own": "不装飞轮时按公式 δ = {own}。",
+    "none_needed": "取 δ = {fluctuation} 时不需要飞轮，机构自身的转动惯量已足够。",
+    "changes": "**改进建议。**",
+    "longer": "增大",
+    "shorter": "减小",
+    "limit_change": "各杆长中 {dimension} 对{metric}的影响最大：{way} 1 % 可使其由 {value} 变为约 {better}。",
+    "torque_change": "各杆长中 {dimension} 对{metric}的影响最大：{way} 1 % 可使其由 {value} 降为约 {better}。",
+    "side_effect": "此时 {output} 的行程变化 {percent} %。",
+    "first_order": "以上为按当前尺寸处的精确导数所得的一阶近似值；改变尺寸后须重新校核其余要求。",
+    "nothing": "没有可供总结的运动或受力结果",
+    "joint_list": "、",
+}
