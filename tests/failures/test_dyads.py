@@ -49,6 +49,10 @@ def test_what_is_no_number_point_line_mode_or_body():
         rrr((0, 0), (0.3, 0), ("a", 0.25))
     with refused("dyads.no_two", RequestError, name="lengths"):
         rrr((0, 0), (0.3, 0), 0.25)
+    with refused("dyads.no_length", RequestError, name="lengths", value="-0.2"):
+        rrr((0, 0), (0.3, 0), (0.25, [-0.2, 0.2]))
+    with refused("dyads.no_length", RequestError, name="length", value="0"):
+        rrp((0, 0), Line((0, 0)), 0.0)
     with refused("dyads.no_line", RequestError, name="guide"):
         rrp((0, 0), (0, 0), 0.3)
     with refused("dyads.no_shape", RequestError):

@@ -205,6 +205,8 @@ def test_inputs_of_laws_in_time_are_refused() -> None:
         lw.report("gallery:excavator", sections=["tables"], positions=["2.2 m"])
     is_refused(["solve", "gallery:crank_rocker", "--at", "coupler mxa"], "quantity")
     is_refused(["solve", "gallery:crank_rocker", "--at", "0..90deg:-15"], "solve.step_away")
+    is_refused(["solve", "gallery:dyad_rrr", "--at", "limits"], "solve.no_limits")
+    is_refused(["solve", "gallery:parallelogram", "--at", "rocker min"], "picture.no_limit_positions")
     is_refused(["export", "gallery:crank_rocker", "--at", "x min", "--output", "a.csv"], "motion.no_output")
 
 

@@ -16,6 +16,7 @@ from tests import store
 from tests.reference.random_mechanisms import random_mechanism
 
 import linkwright as lw
+from linkwright.cli import main
 
 STEPS = 24
 #: Driven bar and slider, every dyad, moving guides; a group that the library solves; a structure without a driver.
@@ -141,3 +142,34 @@ gravity: [0, -9.81 m/s²]
     printed = run(lw.export(forces, tmp_path / "arm.py"))
     agrees(printed, forces.columns(), np.arange(forces.steps))
     assert {"elbow.effort [N·m]", "push.effort [N]", "rail on fore.couple [N·m]"} <= set(printed)
+
+
+def test_the_command_writes_the_program_for_its_file(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
+    model, target = tmp_path / "own machine.yaml", tmp_path / "solution.py"
+    model.write_text(store.text("triad"), "utf-8")
+    assert main(["export", str(model), "--to", str(target), "--steps", "6", "--lang", "zh"]) == 0
+    capsys.readouterr()
+    forces = lw.solve_forces(lw.solve_motion(lw.load(model), steps=6))
+    agrees(run(target, apart=False), forces.columns(), np.arange(6))
+
+
+def test_loads_that_vary_and_friction_come_as_numbers_of_the_positions(tmp_path: Path):
+    text = """
+format: 1
+name: A piston that rubs
+frame: {points: {O: [0 mm, 0 mm], V: [0 mm, 20 mm]}}
+links:
+  crank: {points: [O, A], length: 60 mm, mass: 1 kg, inertia: 0.001 kg·m²}
+  rod: {points: [A, B], length: 220 mm, mass: 2 kg, inertia: 0.01 kg·m²}
+  piston: {points: [B], mass: 3 kg}
+joints:
+  A: {kind: revolute, pin_radius: 10 mm, friction: 0.1}
+  bore: {kind: prismatic, guide: frame, through: V, direction: 0 deg, block: piston, at: B, friction: 0.15}
+loads:
+  gas: {kind: force, on: piston, at: B, direction: 180 deg, magnitude: 200 N}
+  pull: {kind: spring, between: [frame.V, rod.B], stiffness: 1000 N/m, free_length: 50 mm}
+driver: {turn: crank, about: O, speed: 20 rad/s}
+gravity: [0, -9.81 m/s²]
+"""
+    assert compare(lw.loads(text), "machine.yaml", tmp_path) == set()
+    assert "rod_force[:, 0] = np.array([" in (tmp_path / "solution.py").read_text("utf-8")

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import cmath
 import math
+from collections.abc import Mapping
 from dataclasses import field, replace
 from itertools import zip_longest
 
@@ -102,7 +103,7 @@ class Calls:
     notes: list[str] = field(default_factory=list)
 
 
-def calls(plan: Plan, numbers: dict[str, int], *, forces: bool) -> Calls:
+def calls(plan: Plan, numbers: Mapping[str, int], *, forces: bool) -> Calls:
     """The calls for a plan; ``numbers``: of the moving links; ``forces``: whether there is anything to carry."""
     return _Caller(plan, numbers, forces).made()
 
@@ -110,7 +111,7 @@ def calls(plan: Plan, numbers: dict[str, int], *, forces: bool) -> Calls:
 class _Caller:
     """Numbers points and writes calls, step by step."""
 
-    def __init__(self, plan: Plan, numbers: dict[str, int], forces: bool) -> None:
+    def __init__(self, plan: Plan, numbers: Mapping[str, int], forces: bool) -> None:
         self.plan, self.mechanism, self.numbers, self.with_forces = plan, plan.mechanism, numbers, forces
         self.found = Calls()
         self.axes = dict(plan.axes)

@@ -8,7 +8,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.outputs import Output
-from linkwright.dyads.listed_numbers import number, pair, quoted, series
+from linkwright.dyads.listed_numbers import call, number, pair, quoted, series
 from linkwright.dyads.plan import Guide, Step
 from linkwright.kinetostatics.link_balance import applied_rows
 from linkwright.mechanism.geometry import centre
@@ -86,12 +86,7 @@ class ForceLines:
         arguments = [] if bodies == ["None"] else bodies
         if any(self.mechanism.gravity) and any(self.mechanism.links[link].mass for link in step.links):
             arguments.append("gravity=G")
-        line = f"{found} = dyads.{function}({', '.join([subject, *arguments])})"
-        if len(line) <= 100:
-            self.listing.write(line)
-        else:
-            self.listing.write(f"{found} = dyads.{function}(", f"    {subject},")
-            self.listing.write(*(f"    {argument}," for argument in arguments), ")")
+        self.listing.write(*call(found, function, [subject, *arguments]))
         for i, outer in enumerate(step.outer):
             self._outer(step, found, i, outer)
         if step.inner:
@@ -201,15 +196,23 @@ class ForceLines:
         size = max(float(np.abs(row).max(initial=0.0)) for row in (fx, fy, moment))
         if size == 0.0:
             return []
-        force = self._vector(fx, fy, size)
+        force = self._vector(link, fx, fy, size)
         acting = [each for each in self.mechanism.loads.values() if getattr(each, "on", None) == link]
         point = getattr(acting[0], "at", None) if len(acting) == 1 else None
         if isinstance(point, str) and self._through(link, point, fx, fy, moment):
             return [f"Load({force}, {self.listing.point(link, point)})"]
-        couple = series(np.where(np.abs(moment) > FADED * size, moment, 0.0))
+        couple = self._named(f"{link}_couple", series(np.where(np.abs(moment) > FADED * size, moment, 0.0)))
         if force == "(0, 0)":
             return [f"Load(couple={couple})"]
         return [f"Load({force}, (0, 0), {couple})"]
+
+    def _named(self, name: str, text: str) -> str:
+        """Numbers of all positions as a name, written before the call; a number as it is."""
+        if "np" not in text:
+            return text
+        own = self.listing.names.of("load", name)
+        self.listing.write(f"{own} = {text}")
+        return own
 
     def _through(self, link: str, point: str, fx: Floats, fy: Floats, moment: Floats) -> bool:
         """Whether the moment is that of the force at a point."""
@@ -217,12 +220,16 @@ class ForceLines:
         gap = np.abs(x * fy - y * fx - moment).max(initial=0.0)
         return bool(gap <= 1e-9 * max(float(np.abs(moment).max(initial=0.0)), 1e-300))
 
-    @staticmethod
-    def _vector(fx: Floats, fy: Floats, size: float) -> str:
+    def _vector(self, link: str, fx: Floats, fy: Floats, size: float) -> str:
+        """A force: its two components, or where they vary the name of an array that is written before the call."""
         parts = [series(np.where(np.abs(row) > FADED * size, row, 0.0)) for row in (fx, fy)]
         if all("np" not in each for each in parts):
             return f"({parts[0]}, {parts[1]})"
-        return f"np.stack(np.broadcast_arrays({parts[0]}, {parts[1]}), axis=-1)"
+        own = self.listing.names.of("load", f"{link}_force")
+        said = self.listing.say("dyads.listing_load", link=" ".join(link.split()))
+        self.listing.write(f"# {said}", f"{own} = np.zeros(({len(self.listing.rows)}, 2))")
+        self.listing.write(*(f"{own}[:, {i}] = {part}" for i, part in enumerate(parts) if part != "0"))
+        return own
 
     # columns ------------------------------------------------------------------------------------
     def columns(self) -> None:

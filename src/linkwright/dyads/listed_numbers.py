@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 
@@ -15,7 +15,7 @@ ZERO = 1e-14
 #: Share of a step up to which values are equally spaced.
 EVEN = 1e-9
 #: Columns of a line.
-WIDE = 96
+WIDE = 90
 
 
 def number(value: float) -> str:
@@ -87,6 +87,14 @@ def _course(start: float, step: float, count: int) -> str:
     first, wide = (round(each / size, 14) * size for each in (start, step))
     begin = "" if abs(first) <= EVEN * abs(step) else f"{number(first)} + "
     return f"{begin}{number(wide)} * np.arange({count})"
+
+
+def call(target: str, function: str, arguments: Sequence[str]) -> list[str]:
+    """The lines of a call whose result gets a name; a long one has a line for each argument."""
+    line = f"{target} = dyads.{function}({', '.join(arguments)})"
+    if len(line) <= WIDE:
+        return [line]
+    return [f"{target} = dyads.{function}(", *(f"    {argument}," for argument in arguments), ")"]
 
 
 def column(items: Iterable[str]) -> Iterator[str]:

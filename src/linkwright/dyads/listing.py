@@ -11,7 +11,7 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.outputs import POINT, SLIDE, Output
 from linkwright.dyads.listed_forces import CROSS, ForceLines
-from linkwright.dyads.listed_numbers import WIDE, ZERO, angle, column, number, pair, quoted, series
+from linkwright.dyads.listed_numbers import WIDE, ZERO, angle, call, column, number, pair, quoted, series
 from linkwright.dyads.plan import Axes, Guide, Pin, Plan, Step, plan
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import canonical
@@ -148,9 +148,7 @@ class Listing:
             ]
         elif rates[1] == "0":
             rates = rates[:1]
-        self.write(
-            f"{self.names.of('link', step.links[0])} = dyads.bar({', '.join([self.outer(pin), turn, *rates])})"
-        )
+        self.write(*call(self.names.of("link", step.links[0]), "bar", [self.outer(pin), turn, *rates]))
 
     def _slider(self, step: Step) -> None:
         driver = step.group.tree[0].driver or ""
@@ -159,7 +157,7 @@ class Listing:
         arguments = [self.outer(guide), place, *rates]
         if step.offsets[0]:
             arguments.append(f"offset={number(step.offsets[0])}")
-        self.write(f"{self.names.of('link', step.links[0])} = dyads.slider({', '.join(arguments)})")
+        self.write(*call(self.names.of("link", step.links[0]), "slider", arguments))
 
     def _driven(self, driver: str, sign: float) -> list[str]:
         """A driver's coordinate and its rates, 0 for those that are."""
@@ -192,7 +190,7 @@ class Listing:
             arguments.append(f"({number(step.offsets[0])}, {number(step.offsets[1])})")
         if step.mode:
             arguments.append(f'mode="{step.mode}"')
-        self.write(f"{name} = dyads.{step.kind.lower()}({', '.join(arguments)})")
+        self.write(*call(name, step.kind.lower(), arguments))
         one, two = (self.names.of("link", link) for link in step.links)
         self.write(f"{one}, {two} = {name}.first, {name}.second")
         if step.kind in ("RRR", "RRP", "PRP"):

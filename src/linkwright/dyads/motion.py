@@ -118,7 +118,7 @@ def rrr(
         PositionError: it cannot be assembled, or is singular; the sentence says in which position and by how much.
         RequestError: something is no number or point, or the mode is not one of its words.
     """
-    l1, l2 = _two("lengths", lengths)
+    l1, l2 = (_length("lengths", each) for each in _two("lengths", lengths))
     inputs = _pin("base_1", "first", first) | _pin("base_2", "second", second)
     return _solved("RRR", inputs | {"first.B.x": l1, "second.B.x": l2}, mode, unreachable)
 
@@ -141,7 +141,10 @@ def rrp(
     Raises:
         PositionError, RequestError: as for :func:`rrr`.
     """
-    sizes = {"first.B.x": numbers("length", length), "outer_2.offset": numbers("offset", offset)}
+    sizes = {
+        "first.B.x": _length("length", numbers("length", length)),
+        "outer_2.offset": numbers("offset", offset),
+    }
     inputs = _pin("base_1", "pin", pin) | _guide("base_2", "guide", guide)
     return _solved("RRP", inputs | sizes, mode, unreachable)
 
@@ -225,6 +228,13 @@ def _two(name: str, given: Any) -> tuple[Floats, Floats]:
     except (TypeError, ValueError):
         raise RequestError("dyads.no_two", name=name, given=repr(given)[:60]) from None
     return numbers(name, one), numbers(name, two)
+
+
+def _length(name: str, given: Floats) -> Floats:
+    """Lengths, which are positive; raises RequestError for others."""
+    if not np.all(given > 0.0):
+        raise RequestError("dyads.no_length", name=name, value=f"{float(np.min(given)):g}")
+    return given
 
 
 def _named(base: str, inputs: Mapping[str, Floats]) -> dict[str, Floats]:

@@ -98,7 +98,8 @@ class Charts:
         for output in main_outputs(self.results.motion)[:4]:
             if isinstance(output, Output):
                 subject, owner = ("links" if output.kind == "angle" else "joints"), output.owner
-                kinds = [(each.quantity,) for each in output.course] if output.kind in PLACES else []
+                course = output.course if output.kind in PLACES else ()
+                kinds: list[tuple[str, ...]] = [(each.quantity,) for each in course]
             else:
                 subject, owner = "points", output
                 kinds = [(f"{kind}.x", f"{kind}.y") for kind in ("position", "velocity", "acceleration")]
@@ -154,8 +155,10 @@ class Charts:
         if ("forces", name, "x") not in self.places:
             return
         x, y = (self.places["forces", name, axis] for axis in "xy")
-        titles = (f"{self.say(f'export.quantity.{axis}')} [N]" for axis in "xy")
-        yield Chart(f"{self.say('plot.kind.hodograph')}, {name}", *titles, (Curve(name, x, y),), square=True)
+        right, up = (f"{self.say(f'export.quantity.{axis}')} [N]" for axis in "xy")
+        yield Chart(
+            f"{self.say('plot.kind.hodograph')}, {name}", right, up, (Curve(name, x, y),), square=True
+        )
 
 
 def write_charts(sheet: Any, book: Any, rows: Sequence[Sequence[Chart]]) -> None:

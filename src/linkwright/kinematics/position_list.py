@@ -144,7 +144,13 @@ class PositionList:
 def _limits(cycle: Motion, entry: AtLimit, output: str) -> list[LimitPosition]:
     from linkwright.kinematics.output_limits import limits_of
 
-    found = sorted(limits_of(cycle, entry.output or output or None), key=lambda each: each.index)
+    try:
+        limits = limits_of(cycle, entry.output or output or None)
+    except RequestError:
+        if entry.output or output:
+            raise
+        raise RequestError("solve.no_limits", name=cycle.mechanism.name) from None
+    found = sorted(limits, key=lambda each: each.index)
     chosen = [each for each in found if entry.kind in ("limits", each.kind)]
     if not chosen:
         raise RequestError("picture.no_limit_positions", name=entry.output or output)

@@ -8,6 +8,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from tests import store
+from tests.reference.random_mechanisms import random_mechanism
 
 import linkwright as lw
 from linkwright.dyads.calls import FORMAL, calls
@@ -104,8 +105,9 @@ def _complex(pairs: np.ndarray) -> np.ndarray:
     return pairs[:, 0] + 1j * pairs[:, 1]
 
 
-def check(name: str) -> None:
-    motion = lw.solve_motion(store.machine(name), steps=STEPS, failures="mark")
+def check(machine: lw.Mechanism, within: float = 1e-5) -> None:
+    """``within``: share of the machine's size; the calls have lengths of six digits, which long chains magnify."""
+    motion = lw.solve_motion(machine, steps=STEPS, failures="mark")
     made, run, rows = carried_out(motion)
     size = motion.mechanism.size
     numbers = [point.number for point in made.points]
@@ -114,11 +116,12 @@ def check(name: str) -> None:
         text = str(point.name)
         if text in motion.point_names():
             assert (
-                np.abs(run.p[point.number] - _complex(motion.point(text).position[rows])).max() < 1e-5 * size
+                np.abs(run.p[point.number] - _complex(motion.point(text).position[rows])).max()
+                < within * size
             ), text
         elif text.startswith("mass centre of "):
             centre = motion.link(text.removeprefix("mass centre of ")).centre.position[rows]
-            assert np.abs(run.p[point.number] - _complex(centre)).max() < 1e-5 * size, text
+            assert np.abs(run.p[point.number] - _complex(centre)).max() < within * size, text
     for call in made.motion + made.forces:
         assert len(call.actual) == len(call.formal)
         points = {
@@ -146,10 +149,25 @@ CORE = (
 
 @pytest.mark.parametrize("name", CORE)
 def test_calls_give_the_points_of_the_solver(name: str):
-    check(name)
+    check(store.machine(name))
 
 
 @pytest.mark.rotating
 @pytest.mark.parametrize("name", [name for name in store.names() if name not in CORE])
 def test_calls_of_the_whole_gallery(name: str):
-    check(name)
+    check(store.machine(name))
+
+
+#: Both modes of every dyad, offsets, guides that move and that the moving link carries.
+SEEDS = (3, 8, 19, 31, 75)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_calls_of_random_machines(seed: int):
+    check(lw.loads(random_mechanism(seed)), within=1e-3)
+
+
+@pytest.mark.rotating
+@pytest.mark.parametrize("seed", range(2000, 2060))
+def test_calls_of_more_random_machines(seed: int):
+    check(lw.loads(random_mechanism(seed)), within=1e-3)

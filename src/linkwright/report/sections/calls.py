@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from linkwright.dyads.calls import FORMAL, Call, Calls, NumberedLink, NumberedPoint, calls, length
-from linkwright.dyads.plan import Step, plan
+from linkwright.dyads.plan import plan
 from linkwright.report.document import Block, Code, Heading, Paragraph, Table, literal
 from linkwright.report.machine_results import Case, Missing
 from linkwright.report.numbers import typeset
@@ -24,8 +24,7 @@ def blocks(case: Case) -> Iterator[Block]:
     yield Paragraph(say("calls.intro"))
     yield _points(case, made.points)
     yield _links(case, made)
-    for step in made.others:
-        yield Paragraph(literal(_other(case, step)), "note")
+    yield from _others(case, made)
     for title, group in (("calls.motion", made.motion), ("calls.forces", made.forces)):
         if group:
             yield Heading(say(title), 2)
@@ -48,18 +47,17 @@ def _points(case: Case, points: Sequence[NumberedPoint]) -> Table:
 
 
 def _links(case: Case, made: Calls) -> Table:
-    say = case.say
+    """Links, and guides that need a direction of their own; masses where forces are found."""
+    say, width = case.say, 5 if made.forces else 3
     rows = []
     for link in sorted(made.links, key=lambda each: each.number):
         part = case.mechanism.links.get(link.name)
         mass, inertia = (length(part.mass), length(part.inertia)) if part else ("–", "–")
         name = link.name if part else say("calls.guide", guide=link.name)
-        rows.append((str(link.number), literal(name), literal(_direction(case, link)), mass, inertia))
-    head = [say(f"calls.head_{key}") for key in ("k", "link", "direction", "mass", "inertia")]
-    align = "><<>>"
-    if not made.forces:
-        head, rows, align = head[:3], [row[:3] for row in rows], "><<"
-    return Table(say("calls.numbers"), tuple(head), tuple(tuple(map(typeset, row)) for row in rows), align)
+        cells = (str(link.number), literal(name), literal(_direction(case, link)), mass, inertia)
+        rows.append(tuple(map(typeset, cells[:width])))
+    head = tuple(say(f"calls.head_{key}") for key in ("k", "link", "direction", "mass", "inertia")[:width])
+    return Table(say("calls.numbers"), head, tuple(rows), "><<>>"[:width])
 
 
 def _direction(case: Case, link: NumberedLink) -> str:
@@ -75,15 +73,20 @@ def _direction(case: Case, link: NumberedLink) -> str:
     return say(key, angle=length(link.angle), link=link.against)
 
 
-def _other(case: Case, step: Step) -> str:
-    """Why a step has no call."""
-    if step.kind:
-        reason: str = case.say(f"calls.{step.kind}")
-    else:
-        reason = case.sentence(step.reason)
-    return case.say(
-        "calls.no_call", signature=step.group.signature, links=", ".join(step.group.links), reason=reason
-    )
+def _others(case: Case, made: Calls) -> Iterator[Paragraph]:
+    """Which steps have no call, and why; once for each reason."""
+    say = case.say
+    groups: dict[str, list[str]] = {}
+    for step in made.others:
+        reason: str = say(f"calls.{step.kind}") if step.kind else case.sentence(step.reason)
+        groups.setdefault(reason, []).append(
+            say("calls.group", signature=step.group.signature, links=", ".join(step.group.links))
+        )
+    for reason, named in groups.items():
+        said = say("calls.no_call", groups=say("calls.and").join(named), reason=reason)
+        yield Paragraph(literal(said), "note")
+    if made.forces and any(not step.kind for step in made.others):
+        yield Paragraph(say("calls.others_load"), "note")
 
 
 def _program(group: Sequence[Call]) -> str:

@@ -35,7 +35,11 @@ WORDS = {
     "axis": "x axis of the link",
     "fixed": "{angle} rad, constant",
     "against": "t({link}) + {angle} rad",
-    "no_call": "{signature} ({links}) has no subprogram in these texts: {reason}.",
+    "group": "{signature} ({links})",
+    "and": ", ",
+    "no_call": "No subprogram of these texts for {groups}: {reason}.",
+    "others_load": "What groups without a subprogram exert on the links of the others is not in the calls for the "
+    "joint forces; it is added as a force at a point (nn).",
     "motion": "Motion, in solving order",
     "motion_program": "calls for the motion",
     "forces": "Joint forces, from the last group to the first",

@@ -32,4 +32,6 @@ WORDS = {
     "listing_forces": "joint forces, from the last group to the first",
     "listing_no_forces": "joint forces: not all groups have a function for them; lw.solve_forces(mechanism) has them",
     "listing_table": "table: the columns of `linkwright export`; angles within half a turn",
+    "listing_load": "loads of the model and friction on {link}, by positions",
+    "no_length": "{name}: a link's length must be positive, got {value} m",
 }

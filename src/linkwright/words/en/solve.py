@@ -71,6 +71,8 @@ linkwright solve gallery:excavator --times "0..8 s:0.5" --json""",
     "to: -360 deg}}",
     "step_from_limit": 'from "{text}" on, give one limit position with step and count: {{from: jaw max, step: '
     "15 deg, count: 24}}",
+    "no_limits": 'no link of "{name}" on the frame turns back, so limits has no positions to stand for; name the '
+    'output that does: "coupler limits", "C.x max"',
     "bad_count": '"{text}" is no number of positions; give 2 to {most}',
     "range_long": '"{text}" has more than {most} steps; take a larger step',
     "too_many": "--steps is {steps}; take {most} at most",

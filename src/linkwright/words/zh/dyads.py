@@ -31,4 +31,6 @@ WORDS = {
     "listing_forces": "运动副反力，由最后一个杆组向前求",
     "listing_no_forces": "运动副反力：并非每个杆组都有求力的函数，请用 lw.solve_forces(mechanism)",
     "listing_table": "结果表：各列与 linkwright export 相同；角度在正负半周之内",
+    "listing_load": "{link} 上的载荷与摩擦，按位置",
+    "no_length": "{name}：构件的长度须为正，给出的是 {value} m",
 }

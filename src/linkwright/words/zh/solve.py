@@ -69,6 +69,8 @@ linkwright solve gallery:excavator --times "0..8 s:0.5" --json""",
     "{{from: 0 deg, step: -15 deg, to: -360 deg}}",
     "step_from_limit": "从“{text}”开始时，应给出一个极限位置以及 step 与 count："
     "{{from: jaw max, step: 15 deg, count: 24}}",
+    "no_limits": "“{name}”中与机架相连的构件都不往复运动，limits 没有对应的位置；请写出往复的输出："
+    "“coupler limits”、“C.x max”",
     "bad_count": "“{text}”不是位置数；请给出 2 至 {most}",
     "range_long": "“{text}”超过 {most} 步；请加大步长",
     "too_many": "--steps 为 {steps}；最多 {most}",
