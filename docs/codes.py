@@ -158,6 +158,7 @@ AREAS: Mapping[str, tuple[str, str]] = {
     "range": ("ranges of the input", "输入的范围"),
     "report": ("reports", "报告"),
     "running": ("steady running: motor and flywheel", "稳定运转：电动机与飞轮"),
+    "sheet": ("drawing sheets", "图纸"),
     "solve": ("the command solve", "命令 solve"),
     "studio": ("the studio", "编辑器"),
     "study": ("studies, sweeps, sensitivities and comparisons", "研究、扫描、灵敏度与比较"),

@@ -213,6 +213,7 @@ SECTIONS = {
     "expected": "gallery",
     "synthesis": "how-to/synthesis",
     "report": "how-to/report",
+    "sheet": "how-to/sheets",
     "course": "how-to/course",
     "optimize": "how-to/optimisation",
 }

@@ -9,6 +9,7 @@ import re
 from collections.abc import Callable, Sequence
 from typing import Any, Protocol
 
+import numpy as np
 from tests.every import every
 
 import linkwright as lw
@@ -62,6 +63,16 @@ def last_digit(result: str) -> float:
 def is_printed_zero(result: str) -> bool:
     """Whether the page says that nothing is left."""
     return re.fullmatch(r"-?0(\.0*)?", result) is not None
+
+
+def numeric_matrices(latex: str) -> list[np.ndarray]:
+    """The matrices of a LaTeX equation all of whose entries are numbers."""
+    found = []
+    for body in re.findall(r"\\begin\{bmatrix\} (.*?) \\end\{bmatrix\}", latex):
+        rows = [row.split(" & ") for row in body.split(r" \\ ")]
+        if not any("_" in each or "\\" in each for row in rows for each in row):
+            found.append(np.array(rows, float))
+    return found
 
 
 class Line(Protocol):

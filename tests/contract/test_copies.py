@@ -164,7 +164,7 @@ MADE_OF_CODE = {
 } | {
     f"Cam{part}" for part in ("Choice", "Conjugate", "Elasticity", "Limits", "Loading", "Material", "Spring")
 }
-MADE_OF_CODE |= {"Segment", "Window", "LivingPage"}
+MADE_OF_CODE |= {"Segment", "Window", "LivingPage", "Sheet"}
 
 
 @cache

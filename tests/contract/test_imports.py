@@ -35,7 +35,7 @@ STAGES = (
     ("metrics", "machine", "worked"),
     ("cycle_programs",),
     ("study", "optimisation", "synthesis", "cams", "gears", "parts", "tolerance"),
-    ("report", "plot", "export", "page", "validation", "course"),
+    ("report", "plot", "export", "page", "validation", "course", "sheets"),
     ("cli", "server", "__main__"),
 )
 STAGE = {package: number for number, packages in enumerate(STAGES) for package in packages}

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from tests.every import every
 from tests.refusals import refused
-from tests.worked_reading import reckon_lines
+from tests.worked_reading import numeric_matrices, reckon_lines
 
 import linkwright as lw
 
@@ -48,6 +48,11 @@ CASES: dict[str, tuple[str, dict[str, Any]]] = {
     "equation": (
         "function",
         {"inputs": ANGLES, "outputs": OUTPUTS, "input_zero": 0.4, "output_zero": 0.7, "equation_error": True},
+    ),
+    "rounded": ("slider_crank", {"stroke": 0.3975, "rod_ratio": 3.55, "offset_ratio": 0.305, "rounding": 5e-4}),
+    "rounded pairs": (
+        "function",
+        {"inputs": ANGLES, "outputs": OUTPUTS, "frame": 0.1, "rounding": 1e-3},
     ),
     "places": (
         "function",
@@ -95,23 +100,15 @@ def case(name: str) -> lw.Synthesis:
 
 
 def items(name: str, kind: str) -> list[dict[str, Any]]:
-    """What a worked solution holds of a kind: ``matrices``, ``table``."""
+    """What a worked solution holds of a kind: ``relation``, ``table``."""
     data: Any = case(name).worked().data()
     return [item for step in data["steps"] for item in step["items"] if kind in item]
 
 
 def matrices(name: str) -> list[list[np.ndarray]]:
-    """The equations of matrices that hold numbers: left matrix, and what is behind the equal sign."""
-    found = []
-    for item in items(name, "matrices"):
-        numbers = [part for part in item["matrices"] if isinstance(part, list) and not named(part)]
-        found.append([np.array(part, float) for part in numbers])
+    """The matrices of numbers of every equation of matrices that has any."""
+    found = [numeric_matrices(item["latex"]) for item in items(name, "relation")]
     return [each for each in found if each]
-
-
-def named(rows: list[list[str]]) -> bool:
-    """Whether a matrix holds symbols."""
-    return any(each.isalpha() and each != "e" for each in "".join(text for row in rows for text in row))
 
 
 def column(name: str, head: str) -> np.ndarray:
@@ -289,6 +286,33 @@ def test_a_crank_rocker_moves_as_its_lines_say(name: str) -> None:
     assert slow / (math.tau - slow) == pytest.approx(1.2, abs=2e-3)
 
 
+def test_rounded_lengths_have_the_error_that_is_shown() -> None:
+    """Multiples of a millimetre, and the output of the rounded four-bar from its own triangle."""
+    best = case("rounded pairs").best
+    points = best.linkage.points
+    ends = {"a": ("O1", "A"), "b": ("A", "B"), "c": ("O2", "B"), "d": ("O1", "O2")}
+    lengths = {name: 1e3 * abs(points[last] - points[first]) for name, (first, last) in ends.items()}
+    assert [each - round(each) for each in lengths.values()] == pytest.approx([0] * 4, abs=1e-9)
+    zeros = [case("five pairs").best.values[f"{name}_zero [rad]"] for name in ("input", "output")]
+    off = [
+        output_of(lengths, x + zeros[0], y + zeros[1]) - y - zeros[1]
+        for x, y in zip(ANGLES, OUTPUTS, strict=True)
+    ]
+    assert best.deviations == pytest.approx(off, abs=1e-9) and 0 < best.error < 0.02
+    assert best.error == pytest.approx(np.sqrt(np.mean(np.square(off))), rel=1e-6)
+
+
+def test_rounding_that_loses_the_linkage_is_refused() -> None:
+    with refused("synthesize.rounding", lw.SynthesisError, given="500") as caught:
+        lw.synthesize("slider_crank", stroke=0.3975, rod_ratio=3.55, rounding=0.5)
+    nearest = caught.value.nearest
+    assert nearest.best.values["rod [m]"] == pytest.approx(3.55 * 0.3975 / 2)
+    with refused("synthesize.task.only_with", lw.SynthesisError, demand="rounding"):
+        lw.function_generation(ANGLES, OUTPUTS, linkage="watt", rounding=1e-3)
+    with refused("synthesize.not_positive", lw.SynthesisError, name="rounding"):
+        lw.function_generation(ANGLES, OUTPUTS, rounding=0.0)
+
+
 def test_branch_defects_show_in_the_signs() -> None:
     """Of five poses the best linkage has a circuit defect: its transmission angle changes its sign."""
     signs = np.sign(column("five poses", "μ / °"))
@@ -299,3 +323,42 @@ def test_branch_defects_show_in_the_signs() -> None:
 def test_cognates_have_no_way_of_their_own() -> None:
     with refused("synthesize.no_derivation", lw.SynthesisError, task="cognates"):
         lw.cognates(case("path").best.linkage).worked()
+
+
+def test_the_crank_pivot_lies_on_the_drawn_circle() -> None:
+    """Seen from the pivot the limit positions of the rocker enclose θ, and the dashed circle passes all three."""
+    lines = case("crank-rocker").plot("construction").figure.axes[0].lines
+    (circle,) = [line for line in lines if line.get_linestyle() == "--"]
+    x, y = circle.get_xdata(), circle.get_ydata()
+    centre, radius = complex(np.ptp(x) / 2 + min(x), np.ptp(y) / 2 + min(y)), np.ptp(x) / 2
+    values = {line.symbol: line.value for line in case("crank-rocker").worked().equations}
+    pivot = complex(values["x_O1"], values["y_O1"])
+    limits = [284.2078 * np.exp(1j * (90 + side * 20) * DEG) for side in (1, -1)]
+    for place in (pivot, *limits):
+        assert abs(place - centre) == pytest.approx(radius, rel=1e-4)
+    seen = np.angle((limits[0] - pivot) / (limits[1] - pivot))
+    assert abs(np.degrees(seen)) == pytest.approx(180 * 0.2 / 2.2, abs=1e-3)
+
+
+def test_the_error_curve_has_the_deviations() -> None:
+    found = case("equation")
+    (curve,) = [
+        line for line in found.plot("structural_error").figure.axes[0].lines if line.get_marker() == "o"
+    ]
+    assert curve.get_ydata() == pytest.approx(np.degrees(found.best.deviations))
+    assert curve.get_xdata() == pytest.approx(np.degrees(CASES["equation"][1]["inputs"]))
+
+
+@pytest.mark.parametrize(
+    "name", ["ratios", "in line", "shaper", "lever", "two poses", "five poses", "crank-rocker, K 1"]
+)
+def test_every_construction_is_drawn(name: str) -> None:
+    """With every limit position or place of a pin as a point."""
+    figure = case(name).plot("construction", language="zh").figure
+    names = {text.get_text() for text in figure.axes[0].texts}
+    assert {"B1", "B2"} <= names or {"E1", "E2"} <= names or {"A1", "B1", "P1"} <= names
+
+
+def test_what_is_exact_has_no_error_curve() -> None:
+    with pytest.raises(lw.LinkwrightError):
+        case("three pairs").plot("structural_error")

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 from tests.press_report import PHI, PSI
+from tests.worked_reading import numeric_matrices
 
 import linkwright as lw
 
@@ -126,6 +127,21 @@ def of_pairs(phi: np.ndarray, psi: np.ndarray) -> np.ndarray:
     return np.concatenate([(rows.T @ rows).ravel(), rows.T @ np.cos(phi), p, (a, b, c)])
 
 
+def test_press_lengths_rounded_to_half_millimetres() -> None:
+    """The rounded lengths of both chains; of the slider-crank its stroke, K and transmission angles again."""
+    double = lw.synthesize("gallery:double_crank_of_ten_pairs").best.linkage
+    assert [1e3 * each for each in double.lengths().values()] == pytest.approx([139.5, 136.5, 162.5, 55])
+    slider = lw.synthesize("slider_crank", stroke=0.3975, rod_ratio=3.55, offset_ratio=0.305, rounding=5e-4)
+    values = slider.best.values
+    assert [1e3 * values[f"{name} [m]"] for name in ("crank", "rod", "offset")] == pytest.approx(
+        [198, 702.5, 60.5]
+    )
+    assert 1e3 * values["stroke [m]"] == pytest.approx(397.6061, abs=5e-5)
+    shown = {line.symbol: line.value for line in slider.worked().equations}
+    assert shown["K"] == pytest.approx(1.0343, abs=5e-5)
+    assert (shown["μ_s"], shown["μ_f"]) == pytest.approx((78.7127, 68.4094), abs=5e-5)
+
+
 def test_press_normal_equations_as_printed() -> None:
     """What is worked out is the report's, as closely as its pairs, printed to 1e-4°, determine it."""
     inputs, outputs = np.radians(PHI), np.radians(PSI)
@@ -133,12 +149,13 @@ def test_press_normal_equations_as_printed() -> None:
         inputs, outputs, input_zero=0, output_zero=0, frame=0.055, equation_error=True
     )
     steps: Any = found.worked().data()["steps"]
-    shown = [item["matrices"] for step in steps for item in step["items"] if "matrices" in item]
-    (normal, _, _, moment), (_, _, solution) = shown[-2:]
+    shown = [
+        numeric_matrices(item["latex"]) for step in steps for item in step["items"] if "relation" in item
+    ]
+    (normal, moment), (solution,) = [each for each in shown if each][-2:]
     lengths = {line.symbol: line.value for line in found.worked().equations}
     ours = np.concatenate(
-        [np.array(each, float).ravel() for each in (normal, moment, solution)]
-        + [np.array([lengths[name] for name in "abc"])]
+        [each.ravel() for each in (normal, moment, solution)] + [np.array([lengths[name] for name in "abc"])]
     )
     printed = np.concatenate([np.ravel(NORMAL), RIGHT, P, LENGTHS])
     both = np.concatenate([inputs, outputs])

@@ -15,6 +15,7 @@ from linkwright.errors import Finding, QuantityError, Severity
 from linkwright.fields.base import Count, Field, Free, WordedText
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar, below
+from linkwright.fields.sheet import FIELD as SHEET_SECTION
 from linkwright.files.check_mechanism import check_whole
 from linkwright.files.misplaced import in_place
 from linkwright.files.node_reader import MODES, Place, TooManyFindings
@@ -27,7 +28,6 @@ from linkwright.files.report_schema import report_keys
 from linkwright.loads.base import Load, read_load
 from linkwright.mechanism.drawing import Drawing
 from linkwright.mechanism.mechanism import GRAVITY, Mechanism
-from linkwright.sheets.fields import FIELD as SHEET_SECTION
 from linkwright.words.sentence import Sentence
 
 FORMAT = 1

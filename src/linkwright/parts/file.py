@@ -14,6 +14,7 @@ from linkwright.fields.base import Count, Field, Free, Text, Word, table_schema
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node
 from linkwright.fields.nodes import Sequence as SequenceNode
+from linkwright.fields.sheet import FIELD as SHEET_SECTION
 from linkwright.files.model_file import declared_kind, read_root
 from linkwright.files.node_reader import Place, as_meant
 from linkwright.files.read_model import FORMAT, TASK_KEYS, read_parameters
@@ -21,7 +22,6 @@ from linkwright.files.reader import Reader
 from linkwright.files.report_schema import report_keys
 from linkwright.files.schema import json_schema
 from linkwright.files.source import read_source
-from linkwright.sheets.fields import FIELD as SHEET_SECTION
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -113,7 +114,7 @@ def visible(outline: Floats, covers: Iterable[Line | Circle]) -> Iterator[Floats
     """The pieces (k, 2) of a polyline that lie outside of circles and convex polygons."""
     shapes = list(covers)
     piece: list[Floats] = []
-    for start, end in zip(outline[:-1], outline[1:], strict=True):
+    for start, end in pairwise(outline):
         for first, last in _outside(start, end, shapes):
             a, b = start + first * (end - start), start + last * (end - start)
             if piece and np.allclose(piece[-1], a, atol=1e-9):

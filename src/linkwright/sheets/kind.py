@@ -17,6 +17,7 @@ from linkwright.registry import Registry
 from linkwright.sheets.panel import Panel
 from linkwright.sheets.settings import Settings
 from linkwright.words import Say
+from linkwright.words.sentence import Sentence
 
 
 @dataclass(frozen=True)
@@ -32,6 +33,10 @@ class Subject:
     say: Say
     of: str = ""
     notes: list[str] = field(default_factory=list)
+
+    def note(self, key: str, **values: object) -> None:
+        """Notes what the sheet lacks: a sentence of the area ``sheet``."""
+        self.notes.append(Sentence(f"sheet.{key}", **values).say(self.language))
 
     def words(self, key: str, **values: object) -> str:
         """A text of the area ``sheet``."""

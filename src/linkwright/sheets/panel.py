@@ -19,8 +19,6 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 
-import numpy as np
-
 from linkwright.core.dataclass import dataclass
 from linkwright.sheets.paper import Box
 from linkwright.sheets.picture import CAPTION, LEAST, TEXT, Picture, Runs, runs_width
@@ -109,11 +107,11 @@ def drawing_scale(least: float, *, allowed: bool = False) -> float:
     2.5:1 and 4:1, which GB/T 14690 allows."""
     power = math.pow(10.0, math.floor(math.log10(least) + 1e-12))
     steps = (*_PREFERRED, *(_ALLOWED if allowed else ()))
-    found = [k * each for k in steps for each in (power, 10 * power)]
+    found: list[float] = [k * each for k in steps for each in (power, 10 * power)]
     return min(each for each in found if each >= least * (1 - 1e-9))
 
 
 def scale_text(reduction: float) -> str:
     """A scale as a ratio: 1:2, 2:1."""
     one, other = (1.0, reduction) if reduction >= 1.0 else (1.0 / reduction, 1.0)
-    return f"{np.round(one, 6):g}:{np.round(other, 6):g}"
+    return f"{round(one, 6):g}:{round(other, 6):g}"

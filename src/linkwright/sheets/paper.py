@@ -11,7 +11,6 @@ from typing import Literal
 from linkwright.core.dataclass import dataclass
 
 Standard = Literal["gb", "iso"]
-STANDARDS: tuple[Standard, ...] = ("gb", "iso")
 #: Short and long side of the basic sizes.
 SIZES = {"A0": (841, 1189), "A1": (594, 841), "A2": (420, 594), "A3": (297, 420), "A4": (210, 297)}
 #: Margins of GB/T 14689: at the three sides of a bound sheet, at all sides of one that is not bound.

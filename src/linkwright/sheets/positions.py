@@ -55,7 +55,8 @@ class Positions:
         return found, rows[:count], rows[count:]
 
     def _times(self) -> list[float]:
-        """Times of the positions that are asked for; else the report's, and half a cycle on."""
+        """Times of the positions that are asked for; else the report's, and half a cycle on, or half a turn where
+        half a cycle is whole turns of the driver."""
         asked = self.subject.settings.positions[:MOST]
         if asked:
             return [self._time(text) for text in asked]
@@ -64,8 +65,21 @@ class Positions:
         start, span = float(reached[0]), float(reached[-1] - reached[0])
         period = motion.positions.period
         if period is not None and motion.ok.all():
-            return [first, float(motion.time[0]) + (first - float(motion.time[0]) + period / 2) % period]
+            return [
+                first,
+                float(motion.time[0]) + (first - float(motion.time[0]) + self._half(period)) % period,
+            ]
         return [first, start + (2 / 3) * span] if span else [first]
+
+    @cached_property
+    def _turn(self) -> float | None:
+        """Time of one turn of the first driver where it turns evenly, s."""
+        speed = next(iter(self.mechanism.drivers.values())).law.constant_speed
+        return 2 * np.pi / abs(speed) if speed and self.case.rotary else None
+
+    def _half(self, period: float) -> float:
+        turns = period / 2 / self._turn if self._turn else 0.5
+        return self._turn / 2 if self._turn and abs(turns - round(turns)) < 1e-6 else period / 2
 
     def _time(self, text: str) -> float:
         """The time of an input, or a time, as a file gives it; raises QuantityError."""
@@ -90,9 +104,7 @@ class Positions:
         motion, rows, _ = self._passing
         for row in rows:
             if not motion.ok[row]:
-                self.subject.notes.append(
-                    self.subject.words("not_reached", sentence=motion.outcomes[row].sentence)
-                )
+                self.subject.note("not_reached", sentence=motion.outcomes[row].sentence)
         reached = [row for row in dict.fromkeys(rows) if motion.ok[row]]
         return [Shown(number, row) for number, row in zip(ROMAN, reached, strict=False)]
 
@@ -110,7 +122,7 @@ class Positions:
         try:
             return solve_forces(self.motion)
         except LinkwrightError as error:
-            self.subject.notes.append(self.subject.words("no_forces", sentence=self.case.told(error)))
+            self.subject.note("no_forces", sentence=error.sentence)
             return None
 
     def place(self, shown: Shown) -> str:
@@ -126,7 +138,8 @@ class Positions:
 
     @cached_property
     def numbered(self) -> tuple[Motion, list[int]]:
-        """Twelve equal steps of the cycle from the report's first position, as rows of a motion."""
+        """Twelve equal steps, as rows of a motion, from the report's first position: of the cycle, or of a shorter
+        turn of the first driver."""
         motion = self.motion
         period = motion.positions.period
         if not self.mechanism.drivers or motion.steps < 2:
@@ -136,8 +149,8 @@ class Positions:
             reached = motion.time[motion.ok]
             wanted = np.linspace(float(reached[0]), float(reached[-1]), NUMBERED)
         else:
-            first = self._first(start)
-            wanted = start + (first - start + period * np.arange(NUMBERED) / NUMBERED) % period
+            first, course = self._first(start), min(period, self._turn or period)
+            wanted = start + (first - start + course * np.arange(NUMBERED) / NUMBERED) % period
         return with_times(motion, wanted.tolist())
 
     def _first(self, start: float) -> float:

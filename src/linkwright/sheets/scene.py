@@ -14,8 +14,8 @@ from linkwright.sheets.picture import Circle, Fill, Line, Pen, Picture
 _STYLES: dict[str, tuple[Pen, Fill]] = {
     "lw-bar": ("thick", ""), "lw-plate": ("thick", ""), "lw-block": ("thick", "paper"), "lw-pin": ("thin", "paper"),
     "lw-mass-ring": ("thin", "paper"), "lw-point": ("thin", "ink"), "lw-weld": ("thin", "ink"),
-    "lw-mass": ("thin", "ink"), "lw-support": ("thin", "paper"), "lw-rim": ("thin", "paper"),
-    "lw-ground": ("thick", ""), "lw-strand": ("thick", ""), "lw-pitch": ("chain", ""), "lw-gear": ("thin", "paper"),
+    "lw-mass": ("thin", "ink"), "lw-support": ("thin", "paper"), "lw-rim": ("thin", ""),
+    "lw-ground": ("thick", ""), "lw-strand": ("thick", ""), "lw-pitch": ("chain", ""), "lw-gear": ("thin", ""),
     "lw-spring": ("thin", ""), "lw-load-ring": ("thin", "paper"),
 }  # fmt: skip
 #: Layers of which other positions of the machine show their lines.

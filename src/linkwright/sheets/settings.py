@@ -8,13 +8,13 @@ from typing import Any, cast
 
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import ModelError
+from linkwright.fields.sheet import SHEET, WORDS
 from linkwright.files.compose import compose
 from linkwright.files.node_reader import Place
 from linkwright.files.reader import Reader
 from linkwright.files.write import flow
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.report.settings import worked_place
-from linkwright.sheets.fields import SHEET, WORDS
 from linkwright.sheets.paper import Paper, Standard
 from linkwright.sheets.title_block import Fields
 

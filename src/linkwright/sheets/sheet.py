@@ -16,7 +16,7 @@ from linkwright.parts.base import Problem
 from linkwright.registry import listed
 from linkwright.sheets.frame import BAR, BAR_HEIGHT, control_bar, frame
 from linkwright.sheets.kind import SHEETS, Content, Subject
-from linkwright.sheets.layout import GAP, Layout, Room, laid_out
+from linkwright.sheets.layout import GAP, Room, laid_out
 from linkwright.sheets.panel import Block, Panel, block_of
 from linkwright.sheets.paper import SIZES, Box, Paper
 from linkwright.sheets.picture import CAPTION, LEAST, TEXT, Picture, Text
@@ -182,6 +182,8 @@ def _composed(subject: Subject, content: Content, kind: str, name: str) -> Sheet
     _refuse_outside(fixed, inner)
     free = [key for key in panels if key not in fixed]
     layout = laid_out(free, {key: panels[key].rank for key in free}, draw, room.without(*fixed.values()))
+    if layout.left_out:
+        subject.note("no_room", size=paper.size, names=layout.left_out)
     places = {**fixed, **layout.places}
     picture = frame(paper, zones=wanted.zones, block=corner)
     picture.add(control_bar(subject.say), (bar.left, bar.bottom))
@@ -192,7 +194,7 @@ def _composed(subject: Subject, content: Content, kind: str, name: str) -> Sheet
         (blocks[key].scale for key in panels if key in blocks and blocks[key].scale), content.scale()
     )
     picture.add(_block(subject, kind, scale).picture(), (corner.left, corner.bottom))
-    return Sheet(paper, name, picture, places, corner, scale, (*subject.notes, *_lacking(subject, layout)))
+    return Sheet(paper, name, picture, places, corner, scale, tuple(subject.notes))
 
 
 def _block(subject: Subject, kind: str, scale: str) -> TitleBlock:
@@ -229,11 +231,3 @@ def _refuse_outside(fixed: Mapping[str, Box], inner: Box) -> None:
                 "sheet.outside", name=name, width=round(box.width), height=round(box.height),
                 left=round(inner.left), bottom=round(inner.bottom), right=round(inner.right), top=round(inner.top),
             )  # fmt: skip
-
-
-def _lacking(subject: Subject, layout: Layout) -> list[str]:
-    """What has no room, in a sentence."""
-    if not layout.left_out:
-        return []
-    size = subject.settings.paper.size
-    return [subject.words("no_room", size=size, names=", ".join(layout.left_out))]

@@ -13,6 +13,7 @@ from linkwright.synthesis.requirements.crank_rocker import crank_rocker, quick_r
 from linkwright.synthesis.requirements.drag_link import drag_link
 from linkwright.synthesis.requirements.dwell import dwell
 from linkwright.synthesis.requirements.slider_crank import (
+    rounded_slider_crank,
     slider_crank_from_quick_return,
     slider_crank_from_ratios,
     slider_crank_from_transmission,
@@ -31,8 +32,11 @@ def slider_crank(
     quick_return_ratio: float | None = None,
     offset: float | None = None,
     transmission_angle: float | None = None,
+    rounding: float | None = None,
 ) -> Synthesis:
     """The slider-crank of a stroke (m) and one further demand: see ``requirements/slider_crank.py``.
+
+    ``rounding``: its lengths are multiples of this length (m).
 
     Raises SynthesisError where the demands are none of those sets, or contradict each other.
     """
@@ -45,12 +49,14 @@ def slider_crank(
     }
     given = {name for name, value in further.items() if value is not None}
     if rod_ratio is not None and given <= {"rod_ratio", "offset_ratio"}:
-        return slider_crank_from_ratios(stroke, rod_ratio, offset_ratio or 0.0)
-    if quick_return_ratio is not None and offset is not None and len(given) == 2:
-        return slider_crank_from_quick_return(stroke, quick_return_ratio, offset)
-    if transmission_angle is not None and given <= {"transmission_angle", "offset"}:
-        return slider_crank_from_transmission(stroke, transmission_angle, offset or 0.0)
-    raise refuse("slider_crank.demands", given=tuple(sorted(given)) or "stroke")
+        found = slider_crank_from_ratios(stroke, rod_ratio, offset_ratio or 0.0)
+    elif quick_return_ratio is not None and offset is not None and len(given) == 2:
+        found = slider_crank_from_quick_return(stroke, quick_return_ratio, offset)
+    elif transmission_angle is not None and given <= {"transmission_angle", "offset"}:
+        found = slider_crank_from_transmission(stroke, transmission_angle, offset or 0.0)
+    else:
+        raise refuse("slider_crank.demands", given=tuple(sorted(given)) or "stroke")
+    return found if rounding is None else rounded_slider_crank(found, rounding)
 
 
 TASKS: Mapping[str, Task] = {

@@ -51,7 +51,7 @@ SHAPES: Mapping[str, tuple[tuple[str, ...], int]] = {
 FORMS: Mapping[str, str] = {
     name: form
     for form, names in {
-        "length": "stroke offset frame rocker rod distance length deviation bound file_unit",
+        "length": "stroke offset frame rocker rod distance length deviation bound file_unit rounding",
         "angle": "swing_angle crank_angle transmission_angle input_zero output_zero direction",
         "number": "rod_ratio offset_ratio quick_return_ratio link_ratio force_ratio gear_ratio size error seconds",
         "count": "count seed joints",
@@ -111,7 +111,7 @@ def synthesize(task: str | Path, **demands: Any) -> Synthesis:
     if not isinstance(task, str):
         raise refuse("task", task=told(task), known=tuple(known))
     if task not in known:
-        if task.lower().endswith((".yaml", ".yml", ".json")) or exists(task):
+        if task.startswith(GALLERY) or task.lower().endswith((".yaml", ".yml", ".json")) or exists(task):
             return synthesize_file(task)
         near = nearest(task, list(known))
         raise refuse("task", task=task, known=near or tuple(known))

@@ -22,6 +22,7 @@ CHINESE = {
     "Cycloidal cam, rise and return over 60° each": "摆线凸轮，升程与回程各 60°",
     "Diameters of turned shafts from two lathes": "两台车床所车轴的直径",
     "Disc cam with a roller, sizes and spring chosen": "滚子从动件盘形凸轮，选定尺寸与弹簧",
+    "Double crank of a printing press by least squares": "印刷机双曲柄机构的最小二乘综合",
     "Double crank of a printing press's cylinder drive": "印刷机滚筒传动的双曲柄机构",
     "Double slider driven by one of its blocks": "由一个滑块驱动的双滑块机构",
     "Eighteen timed points": "十八个定时点",

@@ -36,6 +36,8 @@ def draw_structural_error(result: Synthesis, request: Request) -> Figure:
     axes.vlines(x, 0.0, factor * off, color=COLOURS[0], linewidth=1.0)
     order = np.argsort(x)
     axes.plot(x[order], factor * off[order], "o-", color=COLOURS[0], ms=4, linewidth=0.8)
+    if result.error_name not in ("angle", "length"):
+        axes.locator_params(axis="x", integer=True)
     axes.set_xlabel(label)
     key = "angle" if angles else "length"
     axes.set_ylabel(say(f"synthesis_steps.axis.deviation_{key}", request.language))

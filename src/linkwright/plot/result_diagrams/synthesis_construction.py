@@ -62,8 +62,8 @@ class Plane:
         """Writes the names beside their points, away from the middle of all of them."""
         middle = np.mean([z for _, z, _ in self.named])
         for name, z, colour in self.named:
-            away = (z - middle) / (float(np.abs(z - middle)) or 1.0)
-            shift = (math.copysign(max(10.0 * abs(float(away.real)), 7.0), away.real), 9 * away.imag + 2)
+            away = complex((z - middle) / (float(np.abs(z - middle)) or 1.0))
+            shift = (math.copysign(max(10 * abs(away.real), 7), away.real), 9 * away.imag + 2)
             self.axes.annotate(
                 name, (z.real, z.imag), shift, textcoords="offset points", color=colour, zorder=4,
                 ha="left" if away.real >= 0 else "right", va="center",

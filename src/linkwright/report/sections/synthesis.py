@@ -31,10 +31,10 @@ def blocks(case: Case) -> Iterator[Block]:
 def task_chapter(task: TaskFile, own: Settings, say: Say, language: str) -> Iterator[Block | OwnText]:
     """The chapter of a file that holds a task alone, under a heading with its name."""
     yield Heading(literal(task.name), 1)
-    if task.purpose:
-        yield Paragraph(literal(task.purpose))
-    if task.source:
-        yield Paragraph(say("report.source", source=literal(task.source)))
+    if purpose := own.purpose or task.purpose:
+        yield Paragraph(literal(purpose))
+    if source := own.source or task.source:
+        yield Paragraph(say("report.source", source=literal(source)))
     if "synthesis" in own.text:
         yield OwnText(own.text["synthesis"])
     yield from of_task(task.file, language)

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from linkwright.cams.result import CamDesign
 from linkwright.sheets.cams.division import divided
 from linkwright.sheets.cams.geometry import Paper, pitch_of, sharpest
-from linkwright.sheets.cams.labels import Name, Names, around
 from linkwright.sheets.cams.marks import angle_between, said
 from linkwright.sheets.cams.scales import graphical
+from linkwright.sheets.labels import Name, put
 from linkwright.sheets.panel import Drawn, Panel, drawing_scale, scale_text
 from linkwright.sheets.picture import Picture, Runs, as_runs, indexed, joined
 from linkwright.words import Say
@@ -20,6 +21,8 @@ from linkwright.words import Say
 _DENSE = 1440
 #: Room beside the developed cylinder for numbers and names, and how far its edges lie beyond the groove, mm.
 _MARGIN, _EDGE = 10.0, 6.0
+#: How far and whither leaders of names go, mm.
+_LEADER = np.array([-9.0, 11.0])
 
 
 class DevelopmentPanel(Panel):
@@ -57,9 +60,7 @@ class DevelopmentPanel(Panel):
             picture.line(paper.points(wall), "thick")
         names = self._rollers(picture, paper, low)
         names += self._marks(picture, paper, (end, high))
-        writer = Names(picture, self.letters)
-        for words, spots, leader in names:
-            writer.write(words, spots, leader=leader)
+        put(picture, [replace(each, height=self.letters) for each in names])
         return Drawn(picture, tuple(self._caption(reduction)), scale_text(reduction))
 
     def _rollers(self, picture: Picture, paper: Paper, low: float) -> list[Name]:
@@ -72,7 +73,9 @@ class DevelopmentPanel(Panel):
             picture.line([(at[0], low), (at[0], at[1])], "thin")
             picture.circle(at, roller, "thin")
             number = str(k % (len(self.places) - 1))
-            names.append((as_runs(number), around((at[0], low), -1j, (1.5, 7.0, 12.5)), None))
+            names.append(
+                Name(as_runs(number), [np.array([at[0], low - depth]) for depth in (2.5, 8.0)], clear=0.3)
+            )
         return names
 
     def _marks(self, picture: Picture, paper: Paper, corner: tuple[float, float]) -> list[Name]:
@@ -84,17 +87,18 @@ class DevelopmentPanel(Panel):
             picture.line([(x, high), (x, level + 1.5)])
             picture.head((x, level), (way, 0.0))
         length = f"2πR = {1e3 * 2 * math.pi * self.radius:.5g} mm"
-        names: list[Name] = [(as_runs(length), around((0.5 * end, level), 1j, (1.2,)), None)]
+        names = [Name(as_runs(length), [np.array([0.5 * end, level])], clear=0.8)]
         found = sharpest(self.design)
         if found is not None:
             phi = np.array([found.place])
             start, slope = pitch_of(self.design, phi)[0], self.design.wall.contact(phi).normal[0]
             spots = angle_between(picture, paper.point(start), 1j, complex(slope), 0.0)
-            names.append((indexed("α", "max"), spots, None))
+            names.append(Name(indexed("α", "max"), spots))
         for key, curve, share in (("pitch", self.pitch, 0.28), ("profile", self.walls[1], 0.36)):
             place = paper.point(curve[round(share * (len(curve) - 1))])
-            spots = around(place, 1j, (14.0, 20.0, 28.0, 36.0), (50.0, 70.0, 35.0, -50.0, -70.0, -35.0))
-            names.append((as_runs(self.say(f"cam_sheet.{key}_curve")), spots, place))
+            side = place + _LEADER
+            picture.line([place, side])
+            names.append(Name(as_runs(self.say(f"cam_sheet.{key}_curve")), [side], clear=0.6))
         return names
 
     def _caption(self, reduction: float) -> Sequence[Runs]:

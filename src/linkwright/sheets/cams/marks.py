@@ -12,20 +12,19 @@ from linkwright.cams.result import CamDesign
 from linkwright.core.arrays import Complexes, Floats
 from linkwright.sheets.cams.division import divided, widest_gap
 from linkwright.sheets.cams.geometry import Paper, inverted, pair, pitch_of, sharpest
-from linkwright.sheets.cams.labels import Name, Spot, around
 from linkwright.sheets.cams.scales import equal, plain
+from linkwright.sheets.labels import Name
 from linkwright.sheets.picture import Picture, Runs, as_runs, indexed, joined
 from linkwright.words import Say
 
-#: Turns of names about what they mean, degrees.
-_TURNS = (0.0, 25.0, -25.0, 55.0, -55.0, 90.0, -90.0)
-_NEAR = (0.0, 12.0, -12.0, 30.0, -30.0, 45.0, -45.0)
 #: Gap of the followers below which they are close together, rad.
 _CLOSE = math.radians(50)
 #: Distance from a break of the motion at which its curvature is that of a side, rad.
 _BESIDE = 1e-9
 #: Length of the lines of the pressure angle and radius of its arc, mm.
 _ARM, _ARC = 24.0, 17.0
+#: Distance of names from what they mean, and how far leaders reach beyond the base circle, mm.
+_CLEAR, _LEADER = 1.2, 9.0
 
 
 def marked(picture: Picture, paper: Paper, design: CamDesign, say: Say, outer: float) -> list[Name]:
@@ -35,7 +34,7 @@ def marked(picture: Picture, paper: Paper, design: CamDesign, say: Say, outer: f
         *_tightest(picture, paper, design, outer),
         *_radii(picture, paper, design),
         *_turning(picture, paper, design),
-        *_curves(paper, design, say),
+        *_curves(picture, paper, design, say),
     ]
 
 
@@ -47,7 +46,7 @@ def _free(design: CamDesign) -> tuple[float, float]:
     start, end = widest_gap(places)
     if end - start < _CLOSE:
         end = start + 4 * (end - start)
-    first = 0.0 if cam.follower.oscillating else math.pi / 2
+    first = cmath.phase(inverted(design, np.zeros(1)).trace[0])
     ends = (first - cam.turn * start, first - cam.turn * end)
     return min(ends), max(ends)
 
@@ -61,12 +60,12 @@ def _steepest(picture: Picture, paper: Paper, design: CamDesign) -> Iterator[Nam
     at, contact = inverted(design, phi), design.wall.contact(phi)
     start, along, normal = paper.point(at.trace[0]), complex(at.along[0]), complex(contact.normal[0])
     roller = paper.length(design.cam.follower.roller_radius)
-    yield indexed("α", "max"), angle_between(picture, start, along, normal, roller), None
+    yield Name(indexed("α", "max"), angle_between(picture, start, along, normal, roller), clear=_CLEAR)
 
 
 def angle_between(
     picture: Picture, start: Floats, along: complex, normal: complex, roller: float
-) -> list[Spot]:
+) -> list[Floats]:
     """Draws the angle at a place from the way of the follower to the normal, that one as far back as to the profile
     of a ``roller`` (mm); gives the places where its name may be."""
     picture.line([start - (roller + 7.0) * pair(normal), start + _ARM * pair(normal)], "thin")
@@ -79,7 +78,7 @@ def angle_between(
             ray = cmath.exp(1j * angle)
             picture.head(start + _ARC * pair(ray), pair(way * math.copysign(1.0, turned) * 1j * ray), 2.2)
     middle = cmath.exp(1j * (first + 0.5 * turned))
-    return around(start, middle, (_ARC + 2.0, _ARM + 1.0, _ARM + 5.0, 0.6 * _ARC), _NEAR)
+    return [start + reach * pair(middle) for reach in (_ARC + 1.0, _ARM, 0.6 * _ARC)]
 
 
 def _tightest(picture: Picture, paper: Paper, design: CamDesign, outer: float) -> Iterator[Name]:
@@ -96,13 +95,9 @@ def _tightest(picture: Picture, paper: Paper, design: CamDesign, outer: float) -
     picture.arrow(centre, point, "thin")
     for way in ((1.2, 0.0), (0.0, 1.2)):
         picture.line([centre - np.array(way), centre + np.array(way)])
-    spots = [
-        spot
-        for share in (0.5, 0.7, 0.3, 1.0)
-        for side in (1j, -1j)
-        for spot in around(point + share * (centre - point), side * inward, (1.5, 4.0))
-    ]
-    yield indexed("ρ", "min"), spots, None
+    yield Name(
+        indexed("ρ", "min"), [point + share * (centre - point) for share in (0.5, 0.7, 0.3)], clear=_CLEAR
+    )
 
 
 def _radii(picture: Picture, paper: Paper, design: CamDesign) -> Iterator[Name]:
@@ -115,17 +110,11 @@ def _radii(picture: Picture, paper: Paper, design: CamDesign) -> Iterator[Name]:
         ray = cmath.exp(1j * (low + share * (high - low)))
         tip = paper.length(radius) * pair(ray)
         picture.arrow((0.0, 0.0), tip, "thin")
-        spots = [
-            spot
-            for part in (0.72, 0.58, 0.86)
-            for side in (1j, -1j)
-            for spot in around(part * tip, side * ray, (1.5, 3.0))
-        ]
-        yield indexed("r", index), spots, None
+        yield Name(indexed("r", index), [share * tip for share in (0.72, 0.58, 0.86)], clear=_CLEAR)
     if not cam.follower.oscillating and cam.follower.kind != "flat" and cam.follower.offset:
         ray = cmath.exp(1j * (low + 0.5 * (high - low)))
         edge = paper.length(abs(cam.follower.offset)) * pair(ray)
-        yield as_runs("e"), around(edge, ray, (1.5, 3.0, 6.0), _TURNS), edge
+        yield Name(as_runs("e"), [edge], clear=_CLEAR)
 
 
 def _turning(picture: Picture, paper: Paper, design: CamDesign) -> Iterator[Name]:
@@ -138,14 +127,11 @@ def _turning(picture: Picture, paper: Paper, design: CamDesign) -> Iterator[Name
     picture.arc((0.0, 0.0), radius, middle - half, middle + half, "thick")
     tip = cmath.exp(1j * (middle + half))
     picture.head(radius * pair(tip), pair(1j * cam.turn * tip))
-    ray = cmath.exp(1j * middle)
-    spots = around(
-        (0.0, 0.0), ray, (radius + 2.0, radius - 6.0, radius + 4.0), (0.0, 12.0, -12.0, 25.0, -25.0)
-    )
-    yield indexed("ω", "1" if cam.follower.oscillating else ""), spots, None
+    places = [radius * pair(cmath.exp(1j * (middle + turn))) for turn in (0.0, 0.2, -0.2)]
+    yield Name(indexed("ω", "1" if cam.follower.oscillating else ""), places, clear=_CLEAR)
 
 
-def _curves(paper: Paper, design: CamDesign, say: Say) -> Iterator[Name]:
+def _curves(picture: Picture, paper: Paper, design: CamDesign, say: Say) -> Iterator[Name]:
     """The names of profile and pitch curve, with leaders from near the ends of the free directions."""
     phi = np.linspace(0.0, 2 * math.pi, 721)[:-1]
     low, high = _free(design)
@@ -156,9 +142,9 @@ def _curves(paper: Paper, design: CamDesign, say: Say) -> Iterator[Name]:
     for key, curve, share in curves:
         ray = cmath.exp(1j * (low + share * (high - low)))
         point = curve[int(np.argmin(np.abs(np.angle(curve / ray))))]
-        edge = max(far, paper.length(abs(point))) * pair(ray)
-        spots = around(edge, ray, (8.0, 14.0, 20.0), (0.0, 20.0, -20.0, 40.0, -40.0))
-        yield as_runs(say(f"cam_sheet.{key}_curve")), spots, paper.point(point)
+        end = (max(far, paper.length(abs(point))) + _LEADER) * pair(ray)
+        picture.line([paper.point(point), end])
+        yield Name(as_runs(say(f"cam_sheet.{key}_curve")), [end], clear=0.6)
 
 
 def said(design: CamDesign) -> Runs:

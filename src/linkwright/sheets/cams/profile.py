@@ -5,6 +5,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
@@ -13,10 +14,10 @@ from linkwright.cams.result import CamDesign
 from linkwright.core.arrays import Complexes, Floats
 from linkwright.sheets.cams.division import divided, widest_gap
 from linkwright.sheets.cams.geometry import Paper, inverted, pair, pitch_of
-from linkwright.sheets.cams.labels import Name, Names, around
 from linkwright.sheets.cams.marks import marked, said
 from linkwright.sheets.cams.scales import graphical
 from linkwright.sheets.cams.symbols import frame_pin, guide
+from linkwright.sheets.labels import Name, put
 from linkwright.sheets.panel import Drawn, Panel, drawing_scale, scale_text
 from linkwright.sheets.picture import Picture, Runs, as_runs, joined
 from linkwright.words import Say
@@ -61,13 +62,11 @@ class ProfilePanel(Panel):
         paper, picture = Paper(reduction), Picture()
         self._centre(picture, paper)
         self._circles(picture, paper)
-        wanted_names = self._followers(picture, paper)
+        names = self._followers(picture, paper)
         self._curves(picture, paper)
         self._first(picture, paper)
-        wanted_names += marked(picture, paper, self.design, self.say, self.outer)
-        names = Names(picture, self.letters)
-        for words, spots, leader in wanted_names:
-            names.write(words, spots, leader=leader)
+        names += marked(picture, paper, self.design, self.say, self.outer)
+        put(picture, [replace(each, height=self.letters) for each in names])
         return Drawn(picture, tuple(self._caption(reduction)), scale_text(reduction))
 
     @cached_property
@@ -106,8 +105,7 @@ class ProfilePanel(Panel):
         numbers: list[Name] = []
         for k in range(len(self.places)):
             end, away = (self._arm if follower.oscillating else self._stem)(picture, paper, k)
-            spots = around(end, away, (2.0, 4.0, 6.0), (0.0, 30.0, -30.0, 60.0, -60.0))
-            numbers.append((as_runs(str(k)), spots, None))
+            numbers.append(Name(as_runs(str(k)), [end + 0.8 * pair(away)], clear=0.8))
             trace = paper.point(self.at.trace[k])
             for line in self.at.face[k : k + 1]:
                 picture.line(paper.points(line), "thin")

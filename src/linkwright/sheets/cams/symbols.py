@@ -1,43 +1,34 @@
-"""Symbols of GB/T 4460 and ISO 3952 on a cam's sheet, in millimetres of paper."""
+"""Symbols of kinematic drawings on a cam's sheet, at places in millimetres of paper."""
 
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Floats
+from linkwright.plot.symbols.base import SYMBOLS, Vec, vec
+from linkwright.sheets.labels import TO_UNITS
 from linkwright.sheets.picture import Picture
+from linkwright.sheets.scene import draw_elements
 
-#: Radius of a pin; height and half width of its legs; half length of guides and their distance; hatching.
-_PIN, _LEGS, _HALF, _GUIDE, _ROOM, _PITCH, _DEEP = 1.5, 6.0, 3.2, 6.0, 1.6, 1.8, 2.0
-
-
-def frame_pin(picture: Picture, at: ArrayLike, toward: tuple[float, float]) -> None:
-    """A pin on the frame: a circle on two legs that stand on a hatched line in the direction ``toward``."""
-    place, down = np.asarray(at, dtype=float), np.asarray(toward)
-    across = np.array([-down[1], down[0]])
-    left, right = (place + _LEGS * down + side * _HALF * across for side in (-1.0, 1.0))
-    picture.line([left, place, right], "thin")
-    ground = (place + _LEGS * down - 1.5 * _HALF * across, place + _LEGS * down + 1.5 * _HALF * across)
-    hatched(picture, *ground, down)
-    picture.circle(place, _PIN, "thin", fill="paper")
+#: Half the length of the walls between which a stem slides, and their distance, in units of symbols.
+_HALF, _ROOM = 20.0, 5.0
 
 
-def guide(picture: Picture, at: ArrayLike, along: ArrayLike) -> None:
-    """Two hatched strokes between which a rod slides."""
-    place, way = np.asarray(at, dtype=float), np.asarray(along, dtype=float)
-    across = np.array([-way[1], way[0]])
-    for side in (-1.0, 1.0):
-        middle = place + side * _ROOM * across
-        hatched(picture, middle - _GUIDE * way, middle + _GUIDE * way, side * across)
+def frame_pin(picture: Picture, at: Floats, toward: Vec) -> None:
+    """A pin on the frame, which lies in the direction ``toward``."""
+    place = vec(at * TO_UNITS)
+    for shape in (SYMBOLS["fixed_pivot"](at=place, toward=_turned(toward)), SYMBOLS["pin"](at=place)):
+        draw_elements(picture, shape.elements)
 
 
-def hatched(picture: Picture, start: Floats, end: Floats, side: Floats) -> None:
-    """A thick line with strokes of 45° on one side."""
-    length = float(np.hypot(*(end - start)))
-    way = (end - start) / length
-    picture.line([start, end], "thick")
-    count = max(2, round(length / _PITCH))
-    for k in range(count):
-        foot = start + (k + 0.75) * length / count * way
-        picture.line([foot, foot + _DEEP * (side - 0.75 * way)], "thin")
+def guide(picture: Picture, at: Floats, along: Floats) -> None:
+    """The hatched walls between which a rod slides."""
+    place = {"at": vec(at * TO_UNITS), "along": _turned(vec(along))}
+    for side in (-1, 1):
+        walls = SYMBOLS["ground_guide"](**place, start=-_HALF, end=_HALF, height=_ROOM, side=side)
+        draw_elements(picture, walls.elements)
+
+
+def _turned(way: Vec) -> Vec:
+    """A direction in the axes of symbols, whose y is down."""
+    return vec(np.sign(TO_UNITS) * way)

@@ -87,7 +87,7 @@ def _curves(positions: Positions) -> Iterator[Panel]:
                 word, rank, subject.words(f"caption_curve_{word}", output=name), source.axis, plotted
             )
     except LinkwrightError as error:
-        subject.notes.append(subject.words("no_curves", sentence=positions.case.told(error)))
+        subject.note("no_curves", sentence=error.sentence)
     if positions.forces is None:
         return
     efforts = Torque().panels(Source(positions.case.forces), request)

@@ -30,6 +30,7 @@ from linkwright.synthesis.function_generation.generators import (
     TurningFourBar,
 )
 from linkwright.synthesis.merit import merit
+from linkwright.synthesis.requirements.slider_crank import multiple, positive
 from linkwright.synthesis.result import (
     Candidate,
     Derivation,
@@ -56,7 +57,8 @@ class FunctionDerivation(Derivation):
     ``burmester`` (five), ``equation`` (least squares in Freudenstein's equation), ``search`` (least structural
     error); ``zeros``: zero angles of input and output, rad, the free ones as found; ``free``: which were free;
     ``frame``, m; ``equation``: that of the first candidate; ``harmonics`` (5,) of the determinant; ``kind``: the
-    linkage; ``unknowns``, ``starts``, ``optima``: of a search.
+    linkage; ``unknowns``, ``starts``, ``optima``: of a search; ``unrounded``: lengths a, b, c, d (m) of the first
+    candidate before they were rounded.
     """
 
     method: str
@@ -71,6 +73,7 @@ class FunctionDerivation(Derivation):
     unknowns: int = 0
     starts: int = 0
     optima: int = 0
+    unrounded: tuple[float, float, float, float] | None = None
 
 
 def function_generation(
@@ -88,6 +91,7 @@ def function_generation(
     transmission_angle: float = 0.0,
     least_squares: bool = False,
     equation_error: bool = False,
+    rounding: float | None = None,
     count: int = 6,
     seed: int = 0,
 ) -> Synthesis:
@@ -110,6 +114,8 @@ def function_generation(
         least_squares: a four-bar of least squares even where 3 to 5 pairs can be met exactly.
         equation_error: the four-bar of least squares in Freudenstein's equation, for given zero angles: linear, as
             textbooks do it; its structural error is larger than that of the others.
+        rounding: the lengths of a four-bar are multiples of this length, m; its error is then that of the rounded
+            lengths.
         count, seed: candidates wanted; seed of the random starts.
 
     Returns:
@@ -122,7 +128,7 @@ def function_generation(
             the transmission angle (``nearest``: the one of least squares, the one with defects, or the one with the
             largest transmission angle).
     """
-    _applicable(linkage, outputs, places, frame, gear_ratio, equation_error)
+    _applicable(linkage, outputs, places, frame, gear_ratio, equation_error, rounding)
     x, y = (_values(each) for each in (inputs, outputs if places is None else places))
     frame = 1.0 if frame is None else frame
     _check(x, y, linkage, frame)
@@ -136,20 +142,63 @@ def function_generation(
     _distinct(x, y, fitting or len(x) > 5)
     exact = len(x) == 3 or (len(x) == 4 and free) or (len(x) == 5 and free == 2)
     if equation_error:
-        return _by_equation(demand, quality, frame)
-    if linkage == "four_bar" and exact and not scale_free and not least_squares:
-        return _exact(demand, quality, frame, count, seed)
-    generator = KINDS[linkage]()
-    if turning and linkage == "four_bar":
-        generator = TurningFourBar(transmission_angle)
-    if linkage == "geared_five_bar" and gear_ratio is not None:
-        generator = GearedFiveBar(gear_ratio)
-    return _fitted(generator, demand, quality, frame, count, seed)
+        found = _by_equation(demand, quality, frame)
+    elif linkage == "four_bar" and exact and not scale_free and not least_squares:
+        found = _exact(demand, quality, frame, count, seed)
+    else:
+        generator = KINDS[linkage]()
+        if turning and linkage == "four_bar":
+            generator = TurningFourBar(transmission_angle)
+        if linkage == "geared_five_bar" and gear_ratio is not None:
+            generator = GearedFiveBar(gear_ratio)
+        found = _fitted(generator, demand, quality, frame, count, seed)
+    return found if rounding is None else _rounded(found, demand, quality, rounding)
+
+
+def _rounded(found: Synthesis, demand: FunctionDemand, quality: Quality, rounding: float) -> Synthesis:
+    """The four-bars of a result with lengths that are multiples of one (m), those that are still sound.
+
+    Raises SynthesisError where the first one is not; ``nearest``: without rounding.
+    """
+    positive(rounding=rounding)
+    made = [(each, _of_multiples(each, found, demand, rounding)) for each in found]
+    good = [one for each, one in made
+            if one is not None and set(one.defects) <= set(each.defects) and quality.of(one)[0]]  # fmt: skip
+    if not good or good[0] is not made[0][1]:
+        raise refuse("rounding", found, given=f"{1e3 * rounding:g}")
+    derivation = found.derivation
+    if isinstance(derivation, FunctionDerivation):
+        derivation = replace(derivation, unrounded=_sides(found.best))
+    return replace(found, candidates=tuple(good), derivation=derivation)
+
+
+def _sides(each: Candidate) -> tuple[float, float, float, float]:
+    """Lengths a, b, c, d of a four-bar, m."""
+    o1, a, b, o2 = (each.linkage.points[name] for name in ("O1", "A", "B", "O2"))
+    return abs(a - o1), abs(b - a), abs(b - o2), abs(o2 - o1)
+
+
+def _of_multiples(
+    each: Candidate, found: Synthesis, demand: FunctionDemand, rounding: float
+) -> Candidate | None:
+    """A four-bar with rounded lengths and the same zero angles; None where a length vanishes or it does not close."""
+    a, b, c, frame = (multiple(length, rounding) for length in _sides(each))
+    if not min(a, b, c, frame) > 0:
+        return None
+    output = each.values.get("output_zero [rad]", demand.output_zero)
+    if getattr(found.derivation, "method", "") == "equation":
+        output = -each.values["output_constant"]
+    zero = each.values["input_zero [rad]"]
+    x = np.array([[math.log(a / frame), math.log(b / frame), math.log(c / frame), zero]])
+    o2, pin, joint = (each.linkage.points[name] for name in ("O2", "A", "B"))
+    side = np.sign(((o2 - pin).conjugate() * (joint - pin)).imag)
+    given = replace(demand, input_zero=zero, output_zero=output)
+    return _candidate(KINDS["four_bar"](), given, x, np.array([[side]]), frame)
 
 
 def _applicable(
     linkage: str, outputs: ArrayLike, places: ArrayLike | None, frame: float | None, gear_ratio: float | None,
-    equation_error: bool,
+    equation_error: bool, rounding: float | None,
 ) -> None:  # fmt: skip
     """Raises SynthesisError for a demand that the kind of linkage does not have."""
     slider = linkage == "slider_crank"
@@ -158,6 +207,7 @@ def _applicable(
     for demand, given, needs in (
         ("gear_ratio", gear_ratio is not None and linkage != "geared_five_bar", "geared_five_bar"),
         ("equation_error", equation_error and linkage != "four_bar", "four_bar"),
+        ("rounding", rounding is not None and linkage != "four_bar", "four_bar"),
         ("places", places is not None and not slider, "slider_crank"),
     ):
         if given:
@@ -271,9 +321,9 @@ def _way_of(
 def _by_equation(demand: FunctionDemand, quality: Quality, frame: float) -> Synthesis:
     """The four-bar of least squares in Freudenstein's equation, its structural error measured."""
     zeros = (demand.input_zero or 0.0, demand.output_zero or 0.0)
-    given = replace(demand, input_zero=zeros[0], output_zero=zeros[1])
     equation = freudenstein(demand.inputs[None] + zeros[0], demand.outputs[None] + zeros[1])[0]
     a, b, c = equation.lengths
+    given = replace(demand, input_zero=zeros[0], output_zero=zeros[1] + (np.pi if c < 0 else 0.0))
     if not np.isfinite(a + b + c):
         raise refuse("function.none", linkage=note("type.four_bar"))
     generator = KINDS["four_bar"]()

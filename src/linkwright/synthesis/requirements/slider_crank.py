@@ -9,6 +9,7 @@ Sources: Volmer, Getriebetechnik; Norton, Design of Machinery, ch. 3 and 4.
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
@@ -35,6 +36,28 @@ class SliderCrankDerivation(Derivation):
     offset_ratio: float = 0.0
     quick_return_ratio: float = 0.0
     transmission_angle: float = 0.0
+    rounded: tuple[float, float, float] | None = None
+
+
+def rounded_slider_crank(found: Synthesis, rounding: float) -> Synthesis:
+    """The slider-crank with its lengths rounded to multiples of a length (m); ``error``: what its stroke is off.
+
+    Raises:
+        SynthesisError: a length vanishes, or the crank does not turn any more; ``nearest``: without rounding.
+    """
+    positive(rounding=rounding)
+    derivation = found.derivation
+    assert isinstance(derivation, SliderCrankDerivation)
+    given = derivation.crank, derivation.rod, derivation.offset
+    crank, rod, offset = (multiple(each, rounding) for each in given)
+    if not crank or crank + offset > rod:
+        raise refuse("rounding", found, given=f"{1e3 * rounding:g}")
+    return _result(replace(derivation, rounded=(crank, rod, offset)))
+
+
+def multiple(length: float, rounding: float) -> float:
+    """The nearest multiple of a length."""
+    return rounding * round(length / rounding)
 
 
 def slider_crank_from_ratios(stroke: float, rod_ratio: float, offset_ratio: float = 0.0) -> Synthesis:
@@ -153,7 +176,7 @@ def not_negative(**values: float) -> None:
 
 
 def _result(derivation: SliderCrankDerivation) -> Synthesis:
-    crank, rod, offset = derivation.crank, derivation.rod, derivation.offset
+    crank, rod, offset = derivation.rounded or (derivation.crank, derivation.rod, derivation.offset)
     reach, least = math.sqrt((rod + crank) ** 2 - offset**2), max((rod - crank) ** 2 - offset**2, 0.0)
     tip = complex(reach, offset)
     pin = crank * tip / abs(tip)
@@ -172,5 +195,7 @@ def _result(derivation: SliderCrankDerivation) -> Synthesis:
     height = crank * np.sin(turn) - offset
     slide = crank * np.cos(turn) + np.sqrt(np.maximum(rod**2 - height**2, 0))
     curve = np.stack([turn, slide])
-    found = candidate(linkage, facts, 0, 0.0, curve=curve, values=values)
-    return Synthesis("slider_crank", (found,), derivation=derivation)
+    error = abs(values["stroke [m]"] - derivation.stroke) if derivation.rounded else 0.0
+    found = candidate(linkage, facts, 0, error, worst=error, curve=curve, values=values)
+    name = "deviation" if derivation.rounded else "none"
+    return Synthesis("slider_crank", (found,), name, derivation=derivation)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -39,6 +40,18 @@ def extreme_position_angle(w: Writer, step: Step, ratio: Term, radians: float) -
     return step.find(theta, HALF_TURN * (ratio - ONE) / (ratio + ONE), "°")
 
 
+def rounded(w: Writer, names: Sequence[str], lengths: Sequence[float], after: Sequence[float]) -> None:
+    """The step in which lengths (m) are rounded; from there on the rounded ones are used."""
+    step = w.step("rounded")
+    step.say(w.words("rounded.on"))
+    columns = [
+        (w.words("rounded.length"), list(names)),
+        (w.over(w.words("rounded.calculated")), w.lengths(lengths)),
+        (w.over(w.words("rounded.rounded")), w.lengths(after)),
+    ]
+    w.table(step, "table.rounded", columns, "<>>")
+
+
 def slider_crank(w: Writer, d: SliderCrankDerivation) -> None:
     """Crank, rod and offset from the stroke; then stroke, K and transmission angles again from the lengths."""
     r, rod, e = w.length("r", d.crank), w.length("l", d.rod), w.length("e", d.offset)
@@ -49,6 +62,9 @@ def slider_crank(w: Writer, d: SliderCrankDerivation) -> None:
         w, d, step, (stroke, r, rod, e)
     )
     w.picture("construction")
+    if d.rounded is not None:
+        rounded(w, ("r", "l", "e"), (d.crank, d.rod, d.offset), d.rounded)
+        r, rod, e = (w.length(name, each) for name, each in zip("rle", d.rounded, strict=True))
     _slider_check(w, (r, rod, e))
 
 

@@ -12,6 +12,7 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.synthesis.function_generation.exact import Freudenstein
 from linkwright.synthesis.function_generation.generate import FunctionDerivation
+from linkwright.synthesis.steps.closed_forms import rounded
 from linkwright.synthesis.steps.four_bars import coordinates, examine, four_bar_lengths
 from linkwright.synthesis.steps.writing import (
     Writer,
@@ -41,6 +42,9 @@ def function(w: Writer, d: FunctionDerivation) -> None:
         _search(w, d)
     else:
         _equation(w, d)
+        _residuals(w, w.steps[-1], d)
+    if d.unrounded is not None:
+        rounded(w, "abcd", d.unrounded, [each.amount / w.scale for each in four_bar_lengths(w, w.found.best)])
     _errors(w, d)
     if four_bar:
         examine(w, w.found.best)
@@ -197,15 +201,22 @@ def _five_pairs(w: Writer, d: FunctionDerivation) -> None:
     """Five pairs: Burmester's points of the motion of the output link against the input link."""
     step = w.step("five_pairs")
     step.say(w.words("function.burmester", count=w.found.counts.get("solutions", len(w.found))))
-    best = w.found.best
-    for index, key in (("φ", "input_zero [rad]"), ("ψ", "output_zero [rad]")):
+    for index, zero in zip(("φ", "ψ"), d.zeros, strict=True):
         name = (f"ζ_{index}", rf"\zeta_{{{named(index)[1]}}}")
-        step.give(symbol(*name, math.degrees(best.values[key]), degrees=True), "°")
-    a, b, c, frame = four_bar_lengths(w, best)
+        step.give(symbol(*name, math.degrees(zero), degrees=True), "°")
+    a, b, c, frame = _lengths(w, d)
     for term in (a, b, c):
         step.give(term, w.unit)
     for name, formula in zip(P, _coefficients((a, b, c, frame)), strict=True):
         step.find(symbol(*name, formula.value), formula, "")
+
+
+def _lengths(w: Writer, d: FunctionDerivation) -> tuple[Term, Term, Term, Term]:
+    """Lengths a, b, c, d as they were found, before they were rounded."""
+    if d.unrounded is None:
+        return four_bar_lengths(w, w.found.best)
+    a, b, c, frame = (w.length(name, each) for name, each in zip("abcd", d.unrounded, strict=True))
+    return a, b, c, frame
 
 
 def _coefficients(sides: tuple[Term, Term, Term, Term]) -> tuple[Term, Term, Term]:
@@ -242,9 +253,7 @@ def _errors(w: Writer, d: FunctionDerivation) -> None:
     best = w.found.best
     step = w.step("error")
     places = w.found.error_name == "length"
-    if d.method != "search":
-        _residuals(w, step, d)
-    else:
+    if d.method == "search":
         step.say(w.words("function.positions"))
         moving = [name for name in best.positions if name not in best.linkage.frame]
         columns = [(w.words("pair"), numbers(len(d.inputs))), *coordinates(w, best, moving)]
@@ -285,11 +294,10 @@ def _residuals(w: Writer, step: Step, d: FunctionDerivation) -> None:
     if d.equation is not None:
         rows, right, p = d.equation.rows, d.equation.right, d.equation.p
     else:
-        zeros = [w.found.best.values[f"{name}_zero [rad]"] for name in ("input", "output")]
-        phi, psi = d.inputs + zeros[0], d.outputs + zeros[1]
+        phi, psi = d.inputs + d.zeros[0], d.outputs + d.zeros[1]
         rows = np.stack([np.cos(psi), np.cos(phi - psi), np.ones_like(phi)], 1)
         right = np.cos(phi)
-        terms = _coefficients(four_bar_lengths(w, w.found.best))
+        terms = _coefficients(_lengths(w, d))
         p = np.array([term.value for term in terms])
     step.say(w.words("function.residual"))
     columns = [

@@ -262,4 +262,10 @@ WORDS = {
     "axis.deviation_angle": "deviation (°)",
     "axis.deviation_length": "deviation (mm)",
     "axis.position": "position",
+    "title.rounded": "Rounded lengths",
+    "table.rounded": "Rounding of the lengths",
+    "rounded.on": "From here on with the rounded lengths:",
+    "rounded.length": "length",
+    "rounded.calculated": "calculated",
+    "rounded.rounded": "rounded",
 }

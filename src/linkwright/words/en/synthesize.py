@@ -218,6 +218,8 @@ section "synthesis" of a file, or on the command line as KEY=VALUE.""",
     "joints or more seconds",
     "no_derivation": "the task {task} has no worked solution: its linkages follow from one that is "
     "given; print its text instead",
+    "rounding": "with lengths rounded to multiples of {given} mm the best linkage no longer meets the demands; give "
+    "a smaller rounding (the nearest solution is not rounded)",
     "task": 'there is no task "{task}"; known: {known}',
     "task.missing": 'the task "{task}" needs "{demand}": {form}',
     "task.unknown": '"{demand}" is no demand of the task "{task}"; {hint}',

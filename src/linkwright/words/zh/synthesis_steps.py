@@ -212,4 +212,10 @@ WORDS = {
     "axis.deviation_angle": "偏差（°）",
     "axis.deviation_length": "偏差（mm）",
     "axis.position": "位置",
+    "title.rounded": "杆长圆整",
+    "table.rounded": "杆长的圆整",
+    "rounded.on": "以下用圆整后的杆长：",
+    "rounded.length": "杆长",
+    "rounded.calculated": "计算值",
+    "rounded.rounded": "圆整值",
 }

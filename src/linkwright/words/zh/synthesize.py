@@ -182,6 +182,7 @@ Grashof 类型、整个范围内的缺陷、最小传动角、最长与最短杆
     "请降低要求，或增加秒数（列出最接近的）",
     "free_curve.error": "未求得误差在 {given} 以内的机构；最小为 {least}（已列出）；请允许更多运动副或更多秒数",
     "no_derivation": "任务{task}没有解题过程：其机构由给定的机构得出；请改用text()输出",
+    "rounding": "杆长取{given} mm的倍数后，最好的机构不再满足要求；请取较小的倍数（最近的解未圆整）",
     "task": '没有任务 "{task}"；已知：{known}',
     "task.missing": '任务 "{task}" 需要 "{demand}"：{form}',
     "task.unknown": '"{demand}" 不是任务 "{task}" 的要求；{hint}',

@@ -19,10 +19,11 @@ from linkwright.fields.base import (
     table_schema,
 )
 from linkwright.fields.nodes import Node
-from linkwright.parts.fields import ByAddress, Flag, Listed, Table, Whole
-from linkwright.sheets.paper import SIZES, STANDARDS
+from linkwright.fields.tables import ByAddress, Flag, Listed, Table, Whole
 from linkwright.words import LANGUAGES
 
+#: Sizes of paper, and the standards of frames and title blocks.
+SIZES, STANDARDS = ("A0", "A1", "A2", "A3", "A4"), ("gb", "iso")
 #: Texts of the title block.
 WORDS: Mapping[str, Field] = {
     "title": Text(
@@ -47,7 +48,7 @@ PANEL: Mapping[str, Field] = {
     "scale": Quantity("dimensionless", above=0.0, doc="scale in SI units per millimetre of paper"),
 }
 SHEET: Mapping[str, Field] = {
-    "size": Word(tuple(SIZES), doc="paper size, A0 to A4; default A1"),
+    "size": Word(SIZES, doc="paper size, A0 to A4; default A1"),
     "orientation": Word(("landscape", "portrait"), doc="default landscape; A4 portrait"),
     "standard": Word(
         STANDARDS, doc="gb (GB/T 14689, 10609.1) or iso (ISO 5457, 7200); default by the language"

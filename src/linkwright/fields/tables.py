@@ -1,0 +1,131 @@
+"""Fields for tables in tables, lists of one field, and plain numbers and switches."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from linkwright.core.dataclass import dataclass
+from linkwright.fields.base import Field, Place, Reader, Schema, given_by_file, table_schema
+from linkwright.fields.nodes import Node
+from linkwright.words.sentence import Sentence
+
+Make = Callable[..., Any]
+
+#: More positions or machines than one computer takes at once.
+MOST = 10_000_000
+_WHOLE = re.compile(r"[+-]?[0-9]{1,18}")
+
+
+@dataclass(frozen=True)
+class Table(Field):
+    """A mapping of known keys, made into an object by ``make``."""
+
+    fields: Mapping[str, Field]
+    make: Make = dict
+
+    @classmethod
+    def of(cls, made: type, **settings: Any) -> Table:
+        """The table of what :func:`linkwright.fields.base.given` declares in a dataclass."""
+        return cls(given_by_file(made), made, **settings)
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
+        before = reader.error_count
+        values = reader.table(node, place, self.fields)
+        if values is None or reader.error_count > before:
+            return None
+        return self.make(**values)
+
+    def shape(self) -> Schema:
+        return table_schema(self.fields)
+
+
+@dataclass(frozen=True)
+class Named(Field):
+    """A mapping of names that the user chose, each with a value of one field."""
+
+    item: Field
+    what: str
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
+        mapping = reader.mapping(node, place)
+        if mapping is None:
+            return None
+        found: dict[str, Any] = {}
+        for entry in mapping.entries:
+            child = place.child(entry.key.text)
+            if reader.name(entry.key, child, self.what) is not None:
+                found[entry.key.text] = self.item.read(reader, entry.value, child, given)
+        return found
+
+    def shape(self) -> Schema:
+        return {"type": "object", "additionalProperties": self.item.schema()}
+
+
+@dataclass(frozen=True)
+class ByAddress(Named):
+    """A mapping of any texts (addresses of dimensions, outputs), each with a value of one field."""
+
+    what: str = "output"
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
+        mapping = reader.mapping(node, place)
+        if mapping is None:
+            return None
+        return {
+            entry.key.text: self.item.read(reader, entry.value, place.child(entry.key.text), given)
+            for entry in mapping.entries
+        }
+
+
+@dataclass(frozen=True)
+class Listed(Field):
+    """A list with items of one field."""
+
+    item: Field
+    form: str = "[…, …]"
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
+        items = reader.items(node, place, None, self.form)
+        if items is None:
+            return None
+        return tuple(
+            self.item.read(reader, item, place.child(str(index)), given) for index, item in enumerate(items)
+        )
+
+    def shape(self) -> Schema:
+        return {"type": "array", "items": self.item.schema()}
+
+
+@dataclass(frozen=True)
+class Flag(Field):
+    """``true`` or ``false``."""
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> bool | None:
+        word = reader.word(node, place, ("true", "false"))
+        return None if word is None else word == "true"
+
+    def shape(self) -> Schema:
+        return {"type": "boolean"}
+
+
+@dataclass(frozen=True)
+class Whole(Field):
+    """A whole number from ``least`` to ``most``."""
+
+    least: int = 0
+    most: int = MOST
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> int | None:
+        text = reader.text(node, place)
+        if text is None:
+            return None
+        if _WHOLE.fullmatch(text.strip()) and self.least <= int(text) <= self.most:
+            return int(text)
+        message = Sentence("part.no_whole", text=text, least=self.least, most=self.most)
+        reader.error(node, place, message, Sentence("part.no_whole_remedy"), "range")
+        return None
+
+    def shape(self) -> Schema:
+        return {"type": "integer", "minimum": self.least, "maximum": self.most}
