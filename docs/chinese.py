@@ -24,7 +24,6 @@ MEANINGS = {
     "name of the drawing in the title block": "标题栏中的图样名称",
     "number of the drawing": "图号",
     "school or company in the title block": "标题栏中的学校或单位",
-    "faculty or department": "院系或部门",
     "class of the student": "班级",
     "who made the drawing; otherwise the report's author": "设计者；未写则用说明书的作者",
     "number of the student": "学号",

@@ -107,7 +107,7 @@ def without_glyph(document: Document) -> str:
 
 
 @lru_cache(maxsize=512)
-def _printed(text: str, families: tuple[str, ...], folders: tuple[str, ...] = ()) -> bool:
+def _printed(text: str, families: tuple[str, ...], folders: tuple[Any, ...] = ()) -> bool:
     """Whether Typst finds a glyph for every character; PDF/A is the form that it refuses without one."""
     import typst as program
 
@@ -155,13 +155,13 @@ def aligned_by(marks: str) -> str:
     return "by-" + marks.translate(str.maketrans("<>^", "lrc"))
 
 
-def _folders() -> tuple[str, ...]:
+def _folders() -> tuple[Any, ...]:
     """Folders of the fonts that are given."""
     return tuple(dict.fromkeys(str(file.parent) for file in given_fonts()))
 
 
 @lru_cache(maxsize=8)
-def _families(folders: tuple[str, ...] = ()) -> dict[str, int]:
+def _families(folders: tuple[Any, ...] = ()) -> dict[str, int]:
     """Families that are there, with the weight of their boldest face."""
     import typst as program
 
@@ -171,10 +171,11 @@ def _families(folders: tuple[str, ...] = ()) -> dict[str, int]:
     return found
 
 
-def without_bold() -> bool:
-    """Whether Chinese characters have no bold face: they are then made bold by a line around them."""
-    known = _families(_folders())
-    return any(known[name] < BOLD for name in [name for name in CHINESE if name in known][:1])
+def without_bold(families: tuple[str, ...]) -> bool:
+    """Whether Chinese characters have no bold face in the first of families that has them: they are then made bold
+    by a line around them."""
+    chinese = [name for name in families if name not in (*LATIN, *PICTURES)]
+    return bool(chinese) and _families(_folders())[chinese[0]] < BOLD
 
 
 def fonts(language: str) -> tuple[str, ...]:
@@ -212,7 +213,7 @@ class _Writer:
             mathematics=_listed((MATHEMATICS, *families)),
             monospaced=_listed((MONOSPACED, *families)),
             language=quoted(document.language),
-            thin=str(without_bold()).lower(),
+            thin=str(without_bold(families)).lower(),
         )
         if document.cover is not None:
             title = self._cover(document.cover)
