@@ -31,6 +31,7 @@ ASKED: dict[str, list[str]] = {
     "plot": ["gallery:kite", "--output", "OUT.svg"],
     "program": ["gallery:production_mix"],
     "report": ["gallery:kite", "--sections", "task", "structure", "--to", "html", "--output", "OUT.html"],
+    "sheet": ["gallery:slider_crank_offset", "--size", "A1", "--output", "OUT.svg"],
     "solve": ["gallery:kite", "--steps", "4"],
     "statics": ["gallery:two_cables"],
     "statistics": ["gallery:spring_rate"],

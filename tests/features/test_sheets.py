@@ -289,7 +289,11 @@ def test_refusals() -> None:
         lw.sheet(store.machine("crank_rocker"), kind="gear")
     with refused("sheet.outside", name="mechanism"):
         sheet("crank_rocker", panels={"mechanism": {"at": ["0 mm", "0 mm"]}})
+    with refused("sheet.meets", name="mechanism", other="title_block"):
+        sheet("crank_rocker", panels={"mechanism": {"at": ["600 mm", "20 mm"], "size": "120 mm"}})
     with refused("sheet.bad_ending", ending=".png"):
         sheet("crank_rocker", only=["mechanism"]).content(".png")
+    with faulty("wrong-dimension", "sheet.positions.1"):
+        sheet("crank_rocker", positions=["30 deg", "60 mm"])
     with faulty("unknown-key", "sheet.papre"):
         sheet("crank_rocker", papre="A1")

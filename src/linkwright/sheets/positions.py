@@ -18,8 +18,8 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.plot.diagrams.axes import significant
 from linkwright.report.machine_results import Case
 from linkwright.report.settings import settings as report_settings
-from linkwright.report.settings import worked_place
 from linkwright.sheets.kind import Subject
+from linkwright.sheets.settings import places
 
 #: Numbered positions of the crank, and the most positions that are worked out.
 NUMBERED, MOST = 12, 2
@@ -59,7 +59,7 @@ class Positions:
         half a cycle is whole turns of the driver."""
         asked = self.subject.settings.positions[:MOST]
         if asked:
-            return [self._time(text) for text in asked]
+            return [self._time(place) for place in places(self.mechanism, asked)]
         first, motion = self.case.moment, self.case.motion
         reached = motion.time[motion.ok]
         start, span = float(reached[0]), float(reached[-1] - reached[0])
@@ -81,10 +81,8 @@ class Positions:
         turns = period / 2 / self._turn if self._turn else 0.5
         return self._turn / 2 if self._turn and abs(turns - round(turns)) < 1e-6 else period / 2
 
-    def _time(self, text: str) -> float:
-        """The time of an input, or a time, as a file gives it; raises QuantityError."""
-        place = worked_place(self.mechanism, text)
-        assert place is not None
+    def _time(self, place: float) -> float:
+        """The time of an input (rad or m), or a time itself where drivers do not turn evenly, s."""
         return float(at_inputs(self.mechanism, [place]).time[0]) if self.mechanism.steady else place
 
     def _limit_times(self) -> list[float]:

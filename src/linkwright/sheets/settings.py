@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import field
 from typing import Any, cast
 
 from linkwright.core.dataclass import dataclass
-from linkwright.errors import ModelError
+from linkwright.errors import Finding, ModelError, QuantityError
 from linkwright.fields.sheet import SHEET, WORDS
 from linkwright.files.compose import compose
 from linkwright.files.node_reader import Place
@@ -95,9 +95,28 @@ def settings(
 
 
 def check(mechanism: Mechanism) -> None:
-    """Raises ModelError for a section ``sheet`` of which a key makes no sense, QuantityError for a position."""
-    for text in read_section(mechanism.sheet).get("positions", ()):
-        worked_place(mechanism, text)
+    """Raises ModelError for a section ``sheet`` of which a key makes no sense."""
+    places(mechanism, read_section(mechanism.sheet).get("positions", ()))
+
+
+def places(mechanism: Mechanism, texts: Sequence[str]) -> list[float]:
+    """The inputs (rad or m), or times (s), of positions as a file gives them; none of what is at rest.
+
+    Raises ModelError with a finding for each that is none.
+    """
+    found: list[float] = []
+    wrong: list[Finding] = []
+    for number, text in enumerate(texts):
+        try:
+            place = worked_place(mechanism, text)
+        except QuantityError as error:
+            key = f"sheet.positions.{number}"
+            wrong.append(Finding("error", "", key, error.message, error.remedy, error.code))
+            continue
+        found += [] if place is None else [place]
+    if wrong:
+        raise ModelError(wrong)
+    return found
 
 
 def _paper(given: Mapping[str, Any], language: str, size: str) -> Paper:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import field, replace
+from itertools import combinations
 from pathlib import Path
 from typing import Any
 
@@ -180,6 +181,7 @@ def _composed(subject: Subject, content: Content, kind: str, name: str) -> Sheet
     draw = _Drawer(panels, wanted.panels, room.whole, TEXT if paper.size in ("A3", "A4") else CAPTION)
     fixed = {key: draw(key, 1.0).at(*at) for key in panels if (at := wanted.panels.get(key, Placed()).at)}
     _refuse_outside(fixed, inner)
+    _refuse_meeting({"title_block": corner, **fixed})
     free = [key for key in panels if key not in fixed]
     layout = laid_out(free, {key: panels[key].rank for key in free}, draw, room.without(*fixed.values()))
     if layout.left_out:
@@ -221,6 +223,13 @@ def _chosen(panels: Sequence[Panel], wanted: Settings) -> dict[str, Panel]:
             raise RequestError("sheet.no_panel", name=name, hint=listed(name, known))
     names = wanted.only or tuple(known)
     return {name: known[name] for name in names if name not in wanted.leave_out}
+
+
+def _refuse_meeting(fixed: Mapping[str, Box]) -> None:
+    """Raises LinkwrightError for a panel that the file places over another one or over the title block."""
+    for one, other in combinations(fixed, 2):
+        if fixed[one].meets(fixed[other]):
+            raise RequestError("sheet.meets", name=other, other=one)
 
 
 def _refuse_outside(fixed: Mapping[str, Box], inner: Box) -> None:

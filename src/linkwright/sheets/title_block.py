@@ -10,6 +10,9 @@ from linkwright.sheets.paper import Box
 from linkwright.sheets.picture import LEAST, TEXT, Picture, as_runs, runs_width
 from linkwright.words import Say
 
+#: Least width of letters as a share of their own.
+NARROWEST = 0.62
+
 
 @dataclass(frozen=True)
 class Fields:
@@ -85,7 +88,8 @@ def _write(picture: Picture, cell: Cell, box: Box) -> None:
 def fitted(text: str, width: float, room: float, letters: float) -> tuple[list[str], float]:
     """A text in one or two lines that fit a width, and the height of its letters: at most ``letters``, mm.
 
-    Chinese characters may be squeezed to 0.7 of their width, as in long imitation Song (GB/T 14691).
+    Chinese characters may be squeezed to 0.7 of their width, as in long imitation Song (GB/T 14691); others to
+    NARROWEST where they would be cut.
     """
     if "\n" in text:
         parts = [part for part in text.split("\n") if part]
@@ -99,6 +103,8 @@ def fitted(text: str, width: float, room: float, letters: float) -> tuple[list[s
             return [text], height
         if 2.6 * height <= room and (lines := _halves(text, width, height)):
             return lines, height
+    if not needs_chinese(text) and NARROWEST * runs_width(as_runs(text), least) <= width:
+        return [text], least
     while text and runs_width(as_runs(text + "…"), least) > width:
         text = text[:-1]
     return [text + "…"], least

@@ -22,6 +22,7 @@ linkwright sheet shaper.yaml --size A1 --lang zh""",
     "no_panel": 'the sheet has no panel "{name}"; {hint}',
     "outside": "sheet.panels.{name}: the panel, {width} mm × {height} mm with its caption, crosses the frame, which "
     "reaches from ({left}; {bottom}) to ({right}; {top}) mm; change `at`, or make it smaller with `size`",
+    "meets": "sheet.panels.{name}: the panel stands over {other}; change `at` of one of them",
     "no_room": "{size} has no room for: {names}. Take a larger size, or leave other panels out with `leave_out`.",
     "print_full_size": "Print at 100 %: this bar is 100 mm long.",
     "drawing_mechanism": "Kinematic and force analysis",

@@ -20,6 +20,7 @@ linkwright sheet shaper.yaml --size A1 --lang zh""",
     "no_panel": "图纸上没有图“{name}”；{hint}",
     "outside": "sheet.panels.{name}：此图连同图名为 {width} mm × {height} mm，超出图框；图框从 ({left}; {bottom}) 到 "
     "({right}; {top}) mm；请改 at，或用 size 缩小",
+    "meets": "sheet.panels.{name}：此图压住了 {other}；请改其中一个的 at",
     "no_room": "{size} 放不下：{names}。请用更大的图幅，或用 leave_out 略去别的图。",
     "print_full_size": "按 100 % 打印：此线长 100 mm。",
     "drawing_mechanism": "机构运动及动力分析",
