@@ -23,6 +23,7 @@ MEANINGS = {
         "标题栏中的题目；未写则用说明书的题目，再则用机构的名称",
     "name of the drawing in the title block": "标题栏中的图样名称",
     "number of the drawing": "图号",
+    "faculty or department": "院系或部门",
     "school or company in the title block": "标题栏中的学校或单位",
     "class of the student": "班级",
     "who made the drawing; otherwise the report's author": "设计者；未写则用说明书的作者",

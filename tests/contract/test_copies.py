@@ -146,6 +146,9 @@ RESULTS: dict[str, Callable[[], Any]] = {
     "variants": variants,
     "grades": grades,
     "interruption": lambda: lw.Interrupted(Path("crank.state")),
+    "compensating cam": lambda: lw.compensating_cam(
+        lw.load("gallery:printing_press"), "lead", span=9.0, steps=240
+    ),
     "synthesis": lambda: lw.synthesize("slider_crank", stroke=0.3, rod_ratio=3.5),
 }
 

@@ -32,6 +32,11 @@ SOLVING = ("structure", "kinematics", "engine", "groups")
 #: What is left, by file: how often a kind is asked for or imported, and why.
 LEFT: Mapping[str, tuple[int, str]] = {
     "cams/compensating_cam.py": (3, "finds the lift of a cam joint"),
+    "dyads/calls.py": (7, "calls of the teaching subprograms, of which each is about kinds of its own"),
+    "dyads/listed_forces.py": (4, "which loads and joints a listing can write"),
+    "dyads/listing.py": (4, "which laws and joints a listing can write"),
+    "plot/flow_chart/content.py": (3, "words of a flow chart for gears, cams and laws"),
+    "sheets/kinds/cam.py": (3, "the sheet of a cam, of a machine's too"),
     "cams/joint.py": (2, "designs the cam of a cam joint"),
     "report/sections/cams.py": (2, "the section of reports on the design of cams"),
     "worked/cams.py": (1, "the formulas of a cam joint, which asks for them"),
