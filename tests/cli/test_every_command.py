@@ -17,6 +17,7 @@ ASKED: dict[str, list[str]] = {
     "beam": ["gallery:cantilever"],
     "cam": ["gallery:cam_lecture"],
     "check": ["gallery:kite"],
+    "compensate": ["gallery:printing_press", "lead", "--span", "500 deg", "--steps", "240"],
     "compare": ["gallery:jaw_crusher_sixbar", "gallery:jaw_crusher_fourbar", "--of", "jaw"],
     "draw": ["gallery:kite", "--output", "OUT.svg"],
     "export": ["gallery:kite", "--output", "OUT.csv"],

@@ -35,8 +35,8 @@ def test_two_bars_as_structure() -> None:
 
 def printed_system(worked: str) -> tuple[np.ndarray, np.ndarray, dict[str, float]]:
     """A, B and the unknowns by name of A·X = B, and the reactions below it, as a worked text prints them."""
-    lines = [line for line in worked.splitlines() if re.search(r"Σ[FM]\w*: .*\[.*\].*\[", line)]
-    parts_of = [re.findall(r"\[([^\]]*)\]", line) for line in lines]
+    lines = [line for line in worked.splitlines() if re.search(r"Σ[FM]\w*: .*[⎡⎢⎣].*[⎡⎢⎣]", line)]
+    parts_of = [re.findall(r"[⎡⎢⎣]([^⎤⎥⎦]*)[⎤⎥⎦]", line) for line in lines]
     a = np.array([[float(c) for c in row[0].split()] for row in parts_of])
     names = [row[1].strip() for row in parts_of if row[1].strip()]
     b = np.array([float(row[-1]) for row in parts_of])

@@ -197,7 +197,7 @@ class Cell:
         for joint in self.mechanism.guides:
             found |= zip((f"{joint}.s", f"{joint}.vs", f"{joint}.as"), outputs.slide(joint), strict=True)
         found |= {"valid": self.placed.valid, "reached": self.placed.reached}
-        return found | {f"fact:{name}": value for name, value in self.placed.facts.items()}
+        return found | {f"why:{name}": value for name, value in self.placed.facts.items()}
 
     def _wrench(self, link: str) -> Wrench:
         trace = self.motion.trace

@@ -246,9 +246,15 @@ class ForceLines:
         ]
         if not rows:
             return
-        write("reactions = [", *rows, "]", "for joint_of, on, force in reactions:")
-        for i, part in enumerate("xy"):
-            write(f'    table[f"{Output("reaction", "{joint_of}", part, "{on}").heading}"] = force[..., {i}]')
+        write("reactions = [", *rows, "]")
+        write("largest = max(float(np.max(np.hypot(f[..., 0], f[..., 1]))) for _, _, f in reactions)")
+        write("for joint_of, on, force in reactions:", "    size = np.hypot(force[..., 0], force[..., 1])")
+        parts = {"x": "force[..., 0]", "y": "force[..., 1]", "": "size"}
+        for part, text in parts.items():
+            write(f'    table[f"{Output("reaction", "{joint_of}", part, "{on}").heading}"] = {text}')
+        heading = Output("reaction_direction", "{joint_of}", on="{on}").heading
+        write("    angle = np.arctan2(force[..., 1], force[..., 0])")
+        write(f'    table[f"{heading}"] = np.where(size > 1e-12 * largest, angle, np.nan)')
         for (joint, link), text in self.couples.items():
             if link == "frame":
                 continue

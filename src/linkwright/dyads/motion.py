@@ -309,7 +309,7 @@ def _refused(own: Cell, found: Mapping[str, Floats], ok: Flags) -> PositionError
     failed = np.flatnonzero(~ok.reshape(-1))
     at = int(failed[0])
     facts = {
-        name.removeprefix("fact:"): float(row.reshape(-1)[at]) for name, row in found.items() if ":" in name
+        name.removeprefix("why:"): float(row.reshape(-1)[at]) for name, row in found.items() if ":" in name
     }
     numbers_known = np.isfinite(list(facts.values())).all()
     reached = bool(found["reached"].reshape(-1)[at]) and own.dyad.words[0] != ""

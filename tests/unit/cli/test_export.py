@@ -21,7 +21,7 @@ def test_every_option_of_every_format_is_on_the_command_line() -> None:
         if parameter.kind is parameter.KEYWORD_ONLY
     }
     assert len(options) > 5
-    assert options - {"text"} <= set(OPTIONS)  # the text is that of the file itself
+    assert options - {"text", "model"} <= set(OPTIONS)  # the text and the name are those of the file itself
     parser = command_parser("export", speaker("en"))
     found = parser.read(
         ["m.yaml", "--output", "a.dxf", "--curve", "spline", "--no-labels", "--timestep", "0.001"]

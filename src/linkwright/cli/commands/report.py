@@ -16,8 +16,8 @@ if TYPE_CHECKING:
 FORMS = ("pdf", "html", "docx")
 #: Names of the sections in their usual order.
 SECTIONS = (
-    "task", "drawing", "structure", "flow", "method", "worked", "tables", "curves", "reactions", "free_bodies",
-    "balance", "gears", "cams", "torque", "limits", "flywheel", "synthesis", "errata", "calls", "program",
+    "task", "drawing", "structure", "flow", "method", "worked", "tables", "curves", "reactions", "balance",
+    "free_bodies", "gears", "cams", "torque", "limits", "flywheel", "synthesis", "errata", "calls", "program",
     "comparison", "conclusion", "appendix", "references",
 )  # fmt: skip
 
