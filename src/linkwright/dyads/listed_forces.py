@@ -253,8 +253,10 @@ class ForceLines:
         for part, text in parts.items():
             write(f'    table[f"{Output("reaction", "{joint_of}", part, "{on}").heading}"] = {text}')
         heading = Output("reaction_direction", "{joint_of}", on="{on}").heading
-        write("    angle = np.arctan2(force[..., 1], force[..., 0])")
-        write(f'    table[f"{heading}"] = np.where(size > 1e-12 * largest, angle, np.nan)')
+        write(
+            "    angle = np.where(size > 1e-12 * largest, np.arctan2(force[..., 1], force[..., 0]), np.nan)"
+        )
+        write(f'    table[f"{heading}"] = angle')
         for (joint, link), text in self.couples.items():
             if link == "frame":
                 continue
