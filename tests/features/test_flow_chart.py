@@ -99,6 +99,13 @@ def test_the_loop_steps_over_the_input() -> None:
     assert "i > N?" in texts
 
 
+def test_the_step_is_that_of_the_tables_where_these_begin_at_a_limit() -> None:
+    """Twelve positions from 343.17°: the second is at 13.17°, a step of 30° further."""
+    found = lw.report("gallery:shaper_course", sections=["flow"]).document.blocks
+    pictures = " ".join(svg for block in found for svg, _ in getattr(block, "pictures", ()))
+    assert "Δq = 30°" in pictures
+
+
 @pytest.mark.parametrize("name", ["dyad_rrr", "gear_differential", "double_slider"])
 def test_several_drivers_and_laws_go_over_the_time(name: str) -> None:
     texts = [text for text, *_ in chart(name).texts]

@@ -80,7 +80,8 @@ class Loop:
         if not len(steps):
             return None
         if period:
-            steps = steps - period * np.round((steps - steps[0]) / period)
+            usual = float(np.median(steps))  # one of them may be where the cycle begins again
+            steps = steps - period * np.round((steps - usual) / period)
         first = float(steps[0])
         return first if np.allclose(steps, first, rtol=1e-6, atol=1e-9) else None
 

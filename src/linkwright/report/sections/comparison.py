@@ -20,7 +20,12 @@ def blocks(cases: Sequence[Case]) -> Iterator[Block]:
         raise Missing("report.one_machine")
     first = cases[0]
     say = first.say
-    found = compare([case.mechanism for case in cases], fluctuation=first.settings.fluctuation)
+    try:
+        found = compare([case.mechanism for case in cases], fluctuation=first.settings.fluctuation)
+    except LinkwrightError as error:
+        if error.code == "study.no_common_output":
+            raise Missing(error.sentence) from None
+        raise
     head, *rows = table_rows(found, say)
     body = tuple(tuple(literal(cell.strip()) for cell in row) for row in rows)
     yield Table(say("report.comparison_table"), tuple(map(literal, head)), body, "<" + ">" * len(found.labels),
