@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import field
+from dataclasses import field, replace
 from functools import cached_property
 from itertools import chain
 
@@ -125,9 +125,10 @@ class Equivalent:
 
     @cached_property
     def inertia_extremes(self) -> tuple[Extreme, Extreme]:
-        """Smallest and largest J_e, kg·m², between the positions too, with the angle turned there."""
+        """Smallest and largest J_e, kg·m², between the positions too, with the angle turned there; a sum of squares
+        is not below zero by more than rounding."""
         low, high = self.inertia_at.extremes()
-        return low, high
+        return replace(low, value=max(low.value, 0.0)), high
 
     @property
     def mean_inertia(self) -> float:
