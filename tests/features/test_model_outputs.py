@@ -142,6 +142,16 @@ def test_the_file_keeps_the_formulas(machine: lw.Mechanism) -> None:
     assert [each.name for each in again.outputs["slip"].outputs] == ["slip", "slip.rate"]
 
 
+def test_a_model_built_in_code_names_its_outputs() -> None:
+    model = lw.Model("crank")
+    model.frame(O=(0, 0))
+    model.link("crank", ["O", "A"], length=0.1)
+    model.drive("crank", about="O", speed=10)
+    model.outputs(height="A.y - 20 mm", half="height/2")
+    motion = lw.solve_motion(model.build(), at=[0.5])
+    assert motion.columns()["half [m]"][0] == pytest.approx(0.05 * math.sin(0.5) - 0.01, abs=1e-15)
+
+
 def test_commands_take_the_names(tmp_path: Path) -> None:
     file, table, curves = tmp_path / "m.yaml", tmp_path / "t.csv", tmp_path / "gap.svg"
     file.write_text(TEXT, encoding="utf-8")

@@ -111,6 +111,11 @@ class Model:
         given = {key.rstrip("_"): value for key, value in fields.items()}
         self._section("loads", name, {"kind": kind, **given})
 
+    def outputs(self, **formulas: str) -> None:
+        """Outputs with names of their own, by formulas of places and rates: ``gap="guide - 0.18 m*wheel"``."""
+        for name, formula in formulas.items():
+            self._section("outputs", name, formula)
+
     def build(self) -> Mechanism:
         """The checked mechanism. Raises ModelError with all findings."""
         mechanism, findings = read_model(_node(self._data), "", si=True)

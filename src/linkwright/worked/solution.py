@@ -17,7 +17,7 @@ from linkwright.words import language_of, speaker
 from linkwright.words.sentence import link_said, links_said
 from linkwright.worked.applied_forces import KnownForces
 from linkwright.worked.higher_pairs import closures
-from linkwright.worked.page import Equation, Step
+from linkwright.worked.page import Equation, Step, Written
 from linkwright.worked.places import Places
 from linkwright.worked.points import Movers, check_closure, cut_displacements, place_points
 from linkwright.worked.rates import RateWriter, System
@@ -26,6 +26,7 @@ from linkwright.worked.symbols import Book, tex
 from linkwright.worked.terms import NOTHING, ZERO, Term, symbol, total
 from linkwright.worked.text import page
 from linkwright.worked.wheels import Wheels
+from linkwright.worked.written import latex_symbol, of_file
 
 
 def force_steps(forces: Forces, book: Book, before: int) -> list[Step]:
@@ -47,6 +48,19 @@ def force_steps(forces: Forces, book: Book, before: int) -> list[Step]:
     if book.mechanism.drivers:
         steps.append(power_step(forces, book, known, number + 1))
     return steps
+
+
+def named_step(book: Book, number: int) -> Step:
+    """Outputs that the model names: the formula of each, its value and its rates, where it has some."""
+    step = Step(str(number), book.say("worked.named"))
+    for name, named in book.mechanism.outputs.items():
+        text = of_file(named.expression.text)
+        step.items.append(Written(f"{name} = {text}", (latex_symbol(name), latex_symbol(text))))
+        for output in named.outputs:
+            value = float(book.motion.read(output)[book.index])
+            if np.isfinite(value):
+                step.give(symbol(output.name, latex_symbol(output.name), value), output)
+    return step
 
 
 def power_step(forces: Forces, book: Book, known: KnownForces, number: int) -> Step:
@@ -195,6 +209,8 @@ class _Kinematics:
         for group in self.book.motion.structure.groups:
             number = len({step.number.split(".")[0] for step in found}) + 1
             found += self._group(group, number)
+        if self.book.mechanism.outputs:
+            found.append(named_step(self.book, len({step.number.split(".")[0] for step in found}) + 1))
         return found
 
     def _input(self) -> Step:

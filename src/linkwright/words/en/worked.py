@@ -109,6 +109,7 @@ WORDS = {
     "balance": "Balance of link {link}, force of {joint} on it:",
     "driver_torque": "Moments about {point}: torque of the driver.",
     "shares": "Pins of several links: share of each link",
+    "named": "Outputs that the model names",
     "power": "Check by virtual power",
     "power_terms": "Power of weight, inertia and loads of every link:",
     "power_effort": "The driver's power takes the sum to zero, so its effort once more:",

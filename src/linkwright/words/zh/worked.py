@@ -94,6 +94,7 @@ WORDS = {
     "balance": "构件 {link} 的平衡，求 {joint} 对它的作用力：",
     "driver_torque": "对 {point} 取矩：平衡力矩。",
     "shares": "复合铰链：各构件所受的力",
+    "named": "模型自定义的输出量",
     "power": "用虚功率校核",
     "power_terms": "各构件重力、惯性力与载荷的功率：",
     "power_effort": "驱动功率使总和为零，由此再求平衡力矩（力）：",
