@@ -48,6 +48,11 @@ def test_all_formulas_are_looked_at() -> None:
     assert {each.key for each in found if each.severity == "error"} == {"outputs.one", "outputs.two"}
 
 
+def test_a_structure_without_a_driver_has_no_input() -> None:
+    text = TEXT.replace("driver: {turn: crank, about: O, speed: 60 rpm}\n", "")
+    said(findings(f"{text}  gap: A.y + 1 m*input/(1 rad)\n"), "unknown-name", "outputs.gap")
+
+
 def test_limits_of_a_formula_are_refused() -> None:
     machine = lw.loads(f"{TEXT}  gap: B.x - 2*A.y\n")
     with refused("motion.no_limits_of_formula", name="gap"):

@@ -103,7 +103,9 @@ def _sections(reader: Reader, root: MappingNode, source: str) -> Mechanism:
         drawing=drawn,
         gravity=header.get("gravity") or (0.0, 0.0),
         loads=_loads(reader, root.get("loads")),
-        outputs=read_outputs(reader, root.get("outputs")),
+        outputs=read_outputs(
+            reader, root.get("outputs"), driven=any(root.get(each) for each in ("driver", "drivers"))
+        ),
         cycle=read_cycle(reader, root.get("cycle"), drivers),
         parameters=parameters,
         kinds={name: reader.kinds[name] for name in parameters},

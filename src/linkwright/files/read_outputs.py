@@ -22,11 +22,11 @@ _FIRST = ("dimensionless", "length", "angle", "angular_velocity", "torque")
 _NAME = re.compile(r"[^\W\d]\w*")
 
 
-def read_outputs(reader: Reader, node: Node | None) -> dict[str, NamedOutput]:
-    """The named outputs, in order; each may use those before it."""
+def read_outputs(reader: Reader, node: Node | None, *, driven: bool) -> dict[str, NamedOutput]:
+    """The named outputs, in order; each may use those before it, and of a machine that is ``driven`` the input."""
     mapping = None if node is None else reader.mapping(node, "outputs")
     found: dict[str, NamedOutput] = {}
-    known = _variables(reader) if mapping is not None else {}
+    known = _variables(reader, driven) if mapping is not None else {}
     for entry in mapping.entries if mapping else []:
         name, place = entry.key.text, Place(f"outputs.{entry.key.text}", f"outputs.{entry.key.text}")
         if not _free(reader, entry.key, place, name):
@@ -110,12 +110,12 @@ def _rates(output: Output | None) -> int:
     return 1 if output.kind.endswith("velocity") or output.kind == "named_rate" else 0
 
 
-def _variables(reader: Reader) -> dict[str, tuple[units.Dimension, Output | None]]:
+def _variables(reader: Reader, driven: bool) -> dict[str, tuple[units.Dimension, Output | None]]:
     """What formulas may use: places and rates of links, guides and points, and the input, with their dimensions."""
     found: dict[str, tuple[units.Dimension, Output | None]] = {}
     for name, kind in reader.output_variables().items():
         first = resolve_output(name, reader.names.links, reader.names.sliding)
-        if name == "input" or first is not None:
+        if first is not None or (name == "input" and driven):
             found[name] = kind, first
         if first is None or ".position." in name:
             continue
