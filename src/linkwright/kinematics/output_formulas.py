@@ -50,7 +50,7 @@ def named_course(motion: Motion, name: str) -> dict[str, Floats]:
     for each, output in formula_names(mechanism, named).items():
         for order, values in enumerate(_arrays(motion, angles, output, len(named.outputs))):
             arrays[_place(each, order)] = values
-    program = NumpyProgram(_formula(mechanism, named))
+    program = _formula(mechanism, named)
     numbers = [mechanism.parameters[each] for each in program.program.parameters]
     *rows, nearest = program.run(numbers, arrays, length=motion.steps)
     known = motion.ok & (nearest > ZERO)
@@ -77,10 +77,12 @@ def _place(name: str, order: int) -> str:
     return f"{name}{order * chr(39)}"
 
 
-def _formula(mechanism: Mechanism, named: NamedOutput) -> Program:
+def _formula(mechanism: Mechanism, named: NamedOutput) -> NumpyProgram:
     """The program of a formula and its rates, of what moves in it and of the parameters; and the smallest of what it
     divides by, as a share of the larger of its terms."""
-    return _formulas.get(None, (named, tuple(mechanism.parameters)), lambda: _traced(mechanism, named))
+    return _formulas.get(
+        None, (named, tuple(mechanism.parameters)), lambda: NumpyProgram(_traced(mechanism, named))
+    )
 
 
 def _traced(mechanism: Mechanism, named: NamedOutput) -> Program:
@@ -105,7 +107,7 @@ def _nearest(named: NamedOutput, values: Mapping[str, Scalar]) -> Scalar:
     return found
 
 
-_formulas: Recent[None, Program] = Recent(64)
+_formulas: Recent[None, NumpyProgram] = Recent(64)
 
 
 def traced_course(
@@ -119,5 +121,5 @@ def traced_course(
     }
     own = [name for name in named.expression.names if name in motion.mechanism.parameters]
     inputs |= {name: motion.dimensions(name) for name in own}
-    found = inlined(_formula(motion.mechanism, named), motion.trace, inputs)
+    found = inlined(_formula(motion.mechanism, named).program, motion.trace, inputs)
     return [found[kind] for kind in NAMED[:count]]
