@@ -21,7 +21,7 @@ from linkwright.laws.traced import LiftCurve
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
 
-#: Positions of the cycle; corrections of the lift; share of the output's way by which a trial lift must move it.
+#: Positions of the cycle; corrections of the lift; least change of the output per lift that counts as one.
 _STEPS, _CORRECTIONS, _NO_EFFECT = 1440, 6, 1e-6
 #: A trial lift: share of the machine's size of a follower that slides; rad of one that swings.
 _TRIAL = 1e-3
@@ -118,7 +118,7 @@ class _Search:
         first, last = self._between(zone) if zone is not None else self._quietest(abs(span or 0.0))
         inside = slice(first, last + 1)
         before = float(np.ptp(self.values[inside]))
-        if float(np.abs(self.slope[inside]).min()) * self.trial <= _NO_EFFECT * self.trial:
+        if float(np.abs(self.slope[inside]).min()) <= _NO_EFFECT:
             raise RequestError("cams.compensation_no_effect", output=str(self.output), joint=self.cam.name)
         ends = (float(self.input[first]), float(self.input[last])) if zone is None else self._in_order(zone)
         turns, values = self._angles_at(ends, first, last), self.values
