@@ -82,18 +82,28 @@ def _joints(forces: Forces, link: str) -> Pair:
     return total, moment
 
 
-def _drivers(forces: Forces, link: str) -> Pair:
-    total, moment = _nothing(forces)
-    for name, driver in forces.mechanism.drivers.items():
+def driver_wrenches(forces: Forces, link: str) -> Iterator[tuple[str, Floats, Floats]]:
+    """Drivers of a link, or against it, with the force (n, 2) N in frame axes, at the driven joint, and the couple
+    (n,) N·m that they exert on it; one of both is zero."""
+    mechanism = forces.mechanism
+    for name, driver in mechanism.drivers.items():
         if link not in (driver.link, driver.relative_to):
             continue
         effort = forces.driver_effort(name) * (1.0 if link == driver.link else -1.0)
-        joint = forces.mechanism.joints[driver.joint]
-        if joint.coordinate == "turn":
-            moment = moment + effort
-            continue
-        force = effort[:, None] * forces.guide_direction(driver.joint)
-        total, moment = total + force, moment + _cross(joint.acts_at(forces.motion), force)
+        force, couple = _nothing(forces)
+        if mechanism.joints[driver.joint].coordinate == "turn":
+            yield name, force, effort
+        else:
+            yield name, effort[:, None] * forces.guide_direction(driver.joint), couple
+
+
+def _drivers(forces: Forces, link: str) -> Pair:
+    total, moment = _nothing(forces)
+    for name, force, couple in driver_wrenches(forces, link):
+        total, moment = total + force, moment + couple
+        if force.any():
+            joint = forces.mechanism.joints[forces.mechanism.drivers[name].joint]
+            moment = moment + _cross(joint.acts_at(forces.motion), force)
     return total, moment
 
 

@@ -14,7 +14,7 @@ from linkwright.core.plane import cross
 from linkwright.errors import Finding, LinkwrightError, SelfCheckError
 from linkwright.fields.base import Quantity, Text, given
 from linkwright.kinetostatics.forces import Forces, solve_forces
-from linkwright.kinetostatics.link_balance import applied_rows
+from linkwright.kinetostatics.link_balance import applied_rows, driver_wrenches
 from linkwright.kinetostatics.self_check import LIMIT
 from linkwright.mechanism.mechanism import Link, Mechanism
 from linkwright.parts.base import Block, Result, Row, Value, fault, put, shown
@@ -205,16 +205,9 @@ class LinkStress(Result):
 
     def _driver_forces(self) -> list[PointForce]:
         found = []
-        for name, driver in self.problem.mechanism.drivers.items():
-            if self.problem.link not in (driver.link, driver.relative_to):
-                continue
-            effort = self.forces.driver_effort(name) * (1.0 if driver.link == self.problem.link else -1.0)
-            seat = self._seat(driver.joint)
-            force, couple = np.zeros((len(effort), 2)), effort
-            if driver.joint in self.problem.mechanism.guides:
-                force = self._turned(effort[:, None] * self.forces.guide_direction(driver.joint))
-                couple = np.zeros_like(effort)
-            found.append(PointForce(name, self.axis.nearest(seat)[0], force, seat, couple))
+        for name, force, couple in driver_wrenches(self.forces, self.problem.link):
+            seat = self._seat(self.problem.mechanism.drivers[name].joint)
+            found.append(PointForce(name, self.axis.nearest(seat)[0], self._turned(force), seat, couple))
         return found
 
     def _load_forces(self) -> list[PointForce]:

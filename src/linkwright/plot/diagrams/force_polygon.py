@@ -12,6 +12,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import row_names
 from linkwright.errors import RequestError
 from linkwright.kinetostatics.forces import Forces
+from linkwright.kinetostatics.link_balance import driver_wrenches
 from linkwright.plot.diagrams.axes import significant, unit_of, wrapped
 from linkwright.plot.diagrams.base import DIAGRAMS, Kind, Request
 from linkwright.plot.diagrams.outputs import known_link
@@ -89,7 +90,8 @@ def link_forces(forces: Forces, link: str, index: int) -> list[LinkForce]:
     if not forces.static:
         inertia = -part.mass * forces.motion.link(link).centre.acceleration[index]
         found.append(LinkForce("−m·a", "inertia", inertia))
-    found += _drivers(forces, link, index)
+    for name, force, _ in driver_wrenches(forces, link):
+        found.append(LinkForce(name, "driver", force[index]))
     for name, joint in mechanism.joints.items():
         if link in joint.joined:
             force = forces.reaction(name, on=link)[index]
@@ -101,18 +103,6 @@ def link_forces(forces: Forces, link: str, index: int) -> list[LinkForce]:
 def _load_name(forces: Forces, link: str) -> str:
     names = [name for name, load in forces.mechanism.loads.items() if getattr(load, "on", None) == link]
     return names[0] if len(names) == 1 else "ΣP"
-
-
-def _drivers(forces: Forces, link: str, index: int) -> list[LinkForce]:
-    found = []
-    for name, driver in forces.mechanism.drivers.items():
-        if link not in (driver.link, driver.relative_to):
-            continue
-        if forces.mechanism.joints[driver.joint].coordinate == "slide":
-            sign = 1.0 if link == driver.link else -1.0
-            along = forces.guide_direction(driver.joint)[index]
-            found.append(LinkForce(name, "driver", sign * forces.driver_effort(name)[index] * along))
-    return found
 
 
 @DIAGRAMS.register("force_polygon")

@@ -15,6 +15,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import owners_of
 from linkwright.kinetostatics.applied_wrenches import AppliedWrench, applied_wrenches
 from linkwright.kinetostatics.forces import Forces
+from linkwright.kinetostatics.link_balance import driver_wrenches
 from linkwright.plot.drawing.vectors import NOTHING, force_vectors, link_middle
 from linkwright.plot.force_names import link_numbers
 
@@ -187,15 +188,9 @@ def _own(forces: Forces, link: str, index: int, number: int) -> Iterator[Action]
 def _drivers(forces: Forces, link: str, index: int) -> Iterator[Action]:
     """What drivers exert on the link that they drive, and on the one against which they do."""
     mechanism = forces.mechanism
-    for name, driver in mechanism.drivers.items():
-        if link not in (driver.link, driver.relative_to):
-            continue
-        effort = (1.0 if link == driver.link else -1.0) * float(forces.driver_effort(name)[index])
+    for name, force, couple in driver_wrenches(forces, link):
         low = "d" if len(mechanism.drivers) == 1 else f"d,{name}"
-        joint = mechanism.joints[driver.joint]
+        joint = mechanism.joints[mechanism.drivers[name].joint]
         place = np.asarray(joint.acts_at(forces.motion)[index])
-        if joint.coordinate == "turn":
-            yield _couple("driver", "M", low, place, effort)
-        else:
-            along = np.asarray(forces.guide_direction(driver.joint)[index])
-            yield Action("driver", "F", low, place, effort * along)
+        letter = "M" if joint.coordinate == "turn" else "F"
+        yield Action("driver", letter, low, place, force[index], float(couple[index]))
