@@ -22,7 +22,7 @@ STAGES = (
         "core",
         "engine",
     ),
-    ("fields",),
+    ("fields", "elements"),
     ("laws",),
     ("joints", "drivers", "loads"),
     ("mechanism",),
@@ -94,7 +94,7 @@ def test_an_upward_import_is_found() -> None:
 
     assert found("def late():\n    from linkwright.kinematics import motion", "structure")
     assert found("import linkwright.plot.curves", "metrics")
-    assert not found("from linkwright.structure import text", "kinematics")
+    assert not found("from linkwright.structure import analysis", "kinematics")
 
 
 @pytest.mark.parametrize("package", sorted(STAGE))

@@ -11,7 +11,7 @@ from linkwright.cli.columns import Column, fitting, pick, table
 from linkwright.cli.session import Session
 from linkwright.cli.solve_columns import blocks, efforts, leading, point_keys
 from linkwright.cli.solving import Solved
-from linkwright.structure.text import turned_against
+from linkwright.structure.analysis import turned_against
 from linkwright.words import Say
 from linkwright.words.sentence import in_language
 

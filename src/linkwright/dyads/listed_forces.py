@@ -10,9 +10,9 @@ from linkwright.core.arrays import Floats
 from linkwright.core.outputs import Output
 from linkwright.dyads.listed_numbers import call, number, pair, quoted, series
 from linkwright.dyads.plan import Guide, Step
+from linkwright.elements.topology import Connection
 from linkwright.kinetostatics.link_balance import applied_rows
 from linkwright.mechanism.geometry import centre
-from linkwright.structure.group import Connection
 
 if TYPE_CHECKING:
     from linkwright.dyads.listing import Listing

@@ -16,12 +16,12 @@ from linkwright.core.arrays import Indices
 from linkwright.core.dataclass import dataclass
 from linkwright.dyads.motion import DyadMotion, prp, rpp, rpr, rrp, rrr
 from linkwright.dyads.values import Line, State
+from linkwright.elements.topology import Group, TreeJoint
 from linkwright.errors import LinkwrightError
 from linkwright.joints.lower import SlidingJoint
 from linkwright.kinematics.groups import dyad_shape
 from linkwright.kinematics.motion import Motion
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.structure.group import Group, TreeJoint
 from linkwright.words.sentence import Sentence
 
 #: Share of the mechanism's size up to which a function's positions are those of the solver.

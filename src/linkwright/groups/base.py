@@ -21,8 +21,8 @@ from linkwright.registry import Registry
 from linkwright.units import number
 
 if TYPE_CHECKING:
+    from linkwright.elements.topology import Group
     from linkwright.kinematics.groups import GroupTracer
-    from linkwright.structure.group import Group
     from linkwright.worked.page import Step
     from linkwright.worked.places import Places
     from linkwright.worked.symbols import Spot

@@ -10,7 +10,7 @@ from linkwright.groups.base import DYADS, Chain, Solved
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
-    from linkwright.structure.group import Group
+    from linkwright.elements.topology import Group
     from linkwright.worked.page import Step
     from linkwright.worked.places import Places
     from linkwright.worked.symbols import Spot

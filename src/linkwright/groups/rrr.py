@@ -12,7 +12,7 @@ from linkwright.joints.pose import Rotor
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
-    from linkwright.structure.group import Group
+    from linkwright.elements.topology import Group
     from linkwright.worked.page import Step
     from linkwright.worked.places import Places
     from linkwright.worked.symbols import Spot

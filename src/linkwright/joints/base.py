@@ -13,6 +13,7 @@ from dataclasses import MISSING, fields, replace
 from typing import TYPE_CHECKING, Any, ClassVar, Protocol, Self
 
 from linkwright.core.dataclass import dataclass
+from linkwright.elements.topology import Connection, PairType
 from linkwright.errors import LinkwrightError, Severity
 from linkwright.fields.base import Field, Schema
 from linkwright.registry import Registry
@@ -21,6 +22,7 @@ from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.core.arrays import Floats
+    from linkwright.elements.topology import Group, TreeJoint
     from linkwright.engine.trace import Mask, Scalar
     from linkwright.engine.vector import Vec
     from linkwright.fields.nodes import Mapping as MappingNode
@@ -38,7 +40,6 @@ if TYPE_CHECKING:
     from linkwright.mechanism.mechanism import Link, Mechanism
     from linkwright.structure.constraints import ConstraintGraph
     from linkwright.structure.decompose import Grouping
-    from linkwright.structure.group import Connection, Group, TreeJoint
     from linkwright.worked.wheels import OwnForm, Wheels
 
 Poses = Mapping[str, "Pose"]
@@ -292,6 +293,11 @@ class Joint(ABC):
         """Adds the joint's demands to the graph."""
         raise self.lacks("constrain")
 
+    def between(self, a: str, b: str, driver: str | None = None) -> Connection:
+        """The joint as a connection of two of its links."""
+        pair = PairType(self.kind, self.letter, self.coordinate, self.freedoms, self.higher)
+        return Connection(self.name, pair, a, b, driver)
+
     def connections(self, grouping: Grouping, links: frozenset[str]) -> Iterable[Connection]:
         """The joint as pairs of links, for the group of ``links``."""
         raise self.lacks("connections")
@@ -453,13 +459,7 @@ class HigherPair(Joint):
     def connections(self, grouping: Grouping, links: frozenset[str]) -> Iterable[Connection]:
         if grouping.within(self.joined, links):
             a, b = self.joined
-            yield grouping.connection(self, a, b, None)
-
-
-def carried_steadily(group: Group, cut: Connection) -> bool:
-    """Whether nothing that a group turns carries an end of a cut about, but its first link about its own pin."""
-    about = [step for end in (cut.a, cut.b) for step in group.path(end) if step.free and step.turns]
-    return all(step.child == cut.a for step in about)
+            yield self.between(a, b)
 
 
 class LackingError(LinkwrightError):

@@ -18,10 +18,10 @@ from linkwright.joints.toothed import WheelCut, WheelPair, length
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
+    from linkwright.elements.topology import Connection
     from linkwright.kinematics.dimensions import Dimensions
     from linkwright.kinetostatics.forces import Forces
     from linkwright.mechanism.mechanism import Mechanism
-    from linkwright.structure.group import Connection
 
 
 @JOINTS.register("belt")

@@ -22,12 +22,12 @@ from linkwright.joints.base import (
     Joint,
     LackingError,
     Report,
-    carried_steadily,
 )
 from linkwright.laws.program_fields import ProgramField
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
+    from linkwright.elements.topology import Connection, Group
     from linkwright.joints.cam_cuts import Geometry
     from linkwright.joints.marks import CamContact, Mark
     from linkwright.kinematics.closed_loops import LoopBuilder
@@ -38,7 +38,6 @@ if TYPE_CHECKING:
     from linkwright.laws.traced import LiftCurve
     from linkwright.mechanism.drawing import Drawing
     from linkwright.mechanism.mechanism import Mechanism
-    from linkwright.structure.group import Connection, Group
     from linkwright.worked.wheels import OwnForm, Wheels
 
 TOUCH = ("roller", "knife", "flat")
@@ -259,7 +258,7 @@ class CamJoint(HigherPair):
     @classmethod
     def linear(cls, group: Group, cut: Connection) -> bool:
         """In the follower's coordinate, unless something that the group turns carries it about."""
-        return carried_steadily(group, cut)
+        return group.carried_steadily(cut)
 
     def cut(self, connection: Connection, dimensions: Dimensions) -> Cut:
         from linkwright.joints.cam_cuts import cut

@@ -15,11 +15,11 @@ from linkwright.joints.lower import SlidingJoint
 from linkwright.joints.pose import Pose
 
 if TYPE_CHECKING:
+    from linkwright.elements.topology import Connection
     from linkwright.joints.cam import CamJoint
     from linkwright.kinematics.dimensions import Dimensions
     from linkwright.laws.traced import LiftCurve
     from linkwright.mechanism.mechanism import Mechanism
-    from linkwright.structure.group import Connection
 
 _TURN = 2 * math.pi
 Lift = tuple[Scalar, Scalar, Scalar]

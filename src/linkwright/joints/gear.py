@@ -19,9 +19,9 @@ from linkwright.joints.toothed import FITS, Numbers
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
+    from linkwright.elements.topology import Connection
     from linkwright.kinematics.dimensions import Dimensions
     from linkwright.mechanism.mechanism import Mechanism
-    from linkwright.structure.group import Connection
 
 #: The pressure angle of standard teeth, and the clearance at their bottom in modules (ISO 53): by so much the centres
 #: of involute wheels may be off, as tolerances and sweeps have it, before teeth touch the bottom or let go.

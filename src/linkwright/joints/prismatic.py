@@ -20,12 +20,12 @@ from linkwright.joints.revolute import FRICTION
 from linkwright.words.sentence import Sentence, together
 
 if TYPE_CHECKING:
+    from linkwright.elements.topology import Connection, TreeJoint
     from linkwright.kinematics.closed_loops import Body, LoopBuilder
     from linkwright.kinematics.constraint_system import ConstraintSystem, Place, Row
     from linkwright.kinematics.dimensions import Dimensions
     from linkwright.structure.constraints import ConstraintGraph
     from linkwright.structure.decompose import Grouping
-    from linkwright.structure.group import Connection, TreeJoint
 
 
 @JOINTS.register("prismatic")
@@ -119,7 +119,7 @@ class PrismaticJoint(SlidingJoint):
 
     def connections(self, grouping: Grouping, links: frozenset[str]) -> Iterable[Connection]:
         if grouping.within((self.guide, self.block), links):
-            yield grouping.connection(self, self.guide, self.block, grouping.driver(self.name))
+            yield self.between(self.guide, self.block, grouping.driver(self.name))
 
     # motion -----------------------------------------------------------------------------------
     def hang(self, step: TreeJoint, dimensions: Dimensions) -> Guide:

@@ -26,7 +26,6 @@ from linkwright.joints.base import (
     Poses,
     Report,
     States,
-    carried_steadily,
 )
 from linkwright.joints.gear import CLEARANCE, STANDARD
 from linkwright.joints.lower import SlidingJoint
@@ -35,11 +34,11 @@ from linkwright.joints.toothed import FITS, length, whole
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
+    from linkwright.elements.topology import Connection, Group
     from linkwright.kinematics.constraint_system import ConstraintSystem, Place, Row
     from linkwright.kinematics.dimensions import Dimensions
     from linkwright.mechanism.drawing import Drawing
     from linkwright.mechanism.mechanism import Mechanism
-    from linkwright.structure.group import Connection, Group
 
 
 @JOINTS.register("rack")
@@ -265,7 +264,7 @@ class RackPair(HigherPair):
     @classmethod
     def linear(cls, group: Group, cut: Connection) -> bool:
         """Unless something that the group turns carries the rack or the pinion's centre about."""
-        return carried_steadily(group, cut)
+        return group.carried_steadily(cut)
 
     def contact(self, mechanism: Mechanism) -> Contact:
         angle, at = self.direction - 0.5 * pi, (self.pinion, self.centre)

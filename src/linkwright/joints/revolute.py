@@ -14,12 +14,12 @@ from linkwright.joints.lower import TurningJoint
 from linkwright.joints.pose import Pose, Rotor, State
 
 if TYPE_CHECKING:
+    from linkwright.elements.topology import Connection, TreeJoint
     from linkwright.kinematics.closed_loops import Body, LoopBuilder
     from linkwright.kinematics.constraint_system import ConstraintSystem, Place, Row
     from linkwright.kinematics.dimensions import Dimensions
     from linkwright.structure.constraints import ConstraintGraph
     from linkwright.structure.decompose import Grouping
-    from linkwright.structure.group import Connection, TreeJoint
 
 FRICTION = Quantity("dimensionless", minimum=0, doc="coefficient of Coulomb friction (default 0)")
 
@@ -73,11 +73,11 @@ class RevoluteJoint(TurningJoint):
             if pair <= set(present) and any(link in links for link in pair):
                 a, b = sorted(pair, key=present.index)
                 used.append(b)
-                yield grouping.connection(self, a, b, driver)
+                yield self.between(a, b, driver)
         base = present[0]
         for link in mine:
             if link != base and link not in used:
-                yield grouping.connection(self, base, link, None)
+                yield self.between(base, link)
 
     # motion -----------------------------------------------------------------------------------
     def hang(self, step: TreeJoint, dimensions: Dimensions) -> Pin:

@@ -18,10 +18,10 @@ from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.core.arrays import Floats
+    from linkwright.elements.topology import Connection
     from linkwright.kinematics.dimensions import Dimensions
     from linkwright.kinematics.motion import Motion
     from linkwright.mechanism.mechanism import Mechanism
-    from linkwright.structure.group import Connection
 
 
 @JOINTS.register("rolling")

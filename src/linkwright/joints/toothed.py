@@ -27,6 +27,7 @@ from linkwright.units import number
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
+    from linkwright.elements.topology import Connection
     from linkwright.files.node_reader import Place as Where
     from linkwright.files.reader import Reader
     from linkwright.kinematics.constraint_system import ConstraintSystem, Place, Row
@@ -35,7 +36,6 @@ if TYPE_CHECKING:
     from linkwright.mechanism.mechanism import Mechanism
     from linkwright.structure.constraints import ConstraintGraph
     from linkwright.structure.decompose import Grouping
-    from linkwright.structure.group import Connection
 
 #: A centre distance or a ratio may differ from what the wheels ask for by this share.
 FITS = 1e-6
@@ -150,7 +150,7 @@ class WheelPair(HigherPair):
         if self.name in grouping.redundant or links.isdisjoint(self.turning):
             return
         if grouping.within(self.turning, links):
-            yield grouping.connection(self, *self.links, None)
+            yield self.between(*self.links, None)
 
     # motion -----------------------------------------------------------------------------------
     @abstractmethod

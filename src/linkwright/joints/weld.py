@@ -16,12 +16,12 @@ from linkwright.joints.pose import Pose, Rotor, State
 from linkwright.joints.revolute import Pin
 
 if TYPE_CHECKING:
+    from linkwright.elements.topology import Connection, TreeJoint
     from linkwright.kinematics.closed_loops import Body, LoopBuilder
     from linkwright.kinematics.constraint_system import ConstraintSystem, Place, Row
     from linkwright.kinematics.dimensions import Dimensions
     from linkwright.structure.constraints import ConstraintGraph
     from linkwright.structure.decompose import Grouping
-    from linkwright.structure.group import Connection, TreeJoint
 
 
 @JOINTS.register("weld")
@@ -63,7 +63,7 @@ class WeldJoint(RigidJoint):
 
     def connections(self, grouping: Grouping, links: frozenset[str]) -> Iterable[Connection]:
         if grouping.within(self.links, links):
-            yield grouping.connection(self, *self.links, grouping.driver(self.name))
+            yield self.between(*self.links, grouping.driver(self.name))
 
     # motion -----------------------------------------------------------------------------------
     def hang(self, step: TreeJoint, dimensions: Dimensions) -> Fixed:

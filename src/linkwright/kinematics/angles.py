@@ -9,10 +9,10 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 
 from linkwright.core.inputs import Input
+from linkwright.elements.topology import Group, TreeJoint
 from linkwright.engine.trace import Scalar, angle, nearest_turn
 from linkwright.joints.pose import Pose
 from linkwright.kinematics.dimensions import Dimensions
-from linkwright.structure.group import Group, TreeJoint
 
 
 def turn_state(link: str) -> str:

@@ -9,6 +9,7 @@ from functools import cached_property
 from linkwright.core.dataclass import dataclass
 from linkwright.core.inputs import Input, mode_inputs, turned
 from linkwright.core.outputs import row_names
+from linkwright.elements.topology import Group
 from linkwright.engine.program import Program
 from linkwright.engine.recently_made import Recent
 from linkwright.engine.scalar_backend import ScalarProgram
@@ -20,7 +21,7 @@ from linkwright.kinematics.trace import MotionTrace, trace_motion
 from linkwright.mechanism.drawing import Drawing
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import nearest, offered
-from linkwright.structure.group import Group, Structure
+from linkwright.structure.analysis import Structure
 from linkwright.words.sentence import Sentence, lines
 
 #: Where modes are looked for if the drawn inputs are out of reach: beside them, rad or shares of the size.

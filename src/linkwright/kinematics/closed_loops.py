@@ -22,12 +22,13 @@ import numpy as np
 from linkwright.core.arrays import Complexes, Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.linear_sums import SMALL, LinearSums
+from linkwright.elements.topology import Group
 from linkwright.joints.base import LackingError
 from linkwright.kinematics.angles import counted_links, geared
 from linkwright.kinematics.groups import iterated, whole_form
 from linkwright.mechanism.geometry import mechanism_size
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.structure.group import Group, Structure
+from linkwright.structure.analysis import Structure
 
 #: ``turn`` of a link, ``slide`` of a guide, ``drive`` of a driver, or ``lift`` of a cam.
 Key = tuple[str, str]

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from linkwright.elements.topology import Connection, Group, TreeJoint
 from linkwright.engine.trace import Scalar
 from linkwright.engine.vector import Vec
 from linkwright.joints.base import Cut, Pair
 from linkwright.joints.pose import Pose, Rotor
 from linkwright.kinematics.dimensions import Dimensions
-from linkwright.structure.group import Connection, Group, TreeJoint
 
 
 def cut_of(connection: Connection, dimensions: Dimensions) -> Cut:

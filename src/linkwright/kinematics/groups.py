@@ -7,6 +7,7 @@ from dataclasses import field
 from typing import Any
 
 from linkwright.core.dataclass import dataclass
+from linkwright.elements.topology import Group, TreeJoint
 from linkwright.engine.linear import Matrix, determinant, inverse, product
 from linkwright.engine.recently_made import Recent
 from linkwright.engine.trace import Mask, Scalar, cos, sin, stop
@@ -18,7 +19,7 @@ from linkwright.kinematics.angles import Angles, geared
 from linkwright.kinematics.closure import Coordinate, cut_of, jacobian, pair_of
 from linkwright.kinematics.dimensions import Dimensions, DriverInput
 from linkwright.mechanism.geometry import mechanism_size
-from linkwright.structure.group import Group, Structure, TreeJoint
+from linkwright.structure.analysis import Structure
 
 #: Below this ratio of the square under the root to its best value a position is called singular.
 SINGULAR = 1e-10

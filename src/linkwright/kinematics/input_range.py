@@ -15,6 +15,7 @@ from linkwright.core.given import require
 from linkwright.core.inputs import mode_groups
 from linkwright.core.outputs import row_name
 from linkwright.core.search import edge
+from linkwright.elements.topology import Group
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.branch import FLOOR, Branch
 from linkwright.kinematics.change_points import mark_singular, passages, signs
@@ -26,7 +27,6 @@ from linkwright.kinematics.solver import MotionSolver
 from linkwright.mechanism.geometry import mechanism_size
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import no_such
-from linkwright.structure.group import Group
 from linkwright.words.sentence import Sentence
 
 #: Step of the search: of a turning driver in rad, of a sliding one as share of the mechanism's size; how far a

@@ -20,10 +20,10 @@ from linkwright.units import number
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
+    from linkwright.elements.topology import Group
     from linkwright.kinematics.followed_way import Stop
     from linkwright.kinematics.motion import Motion
     from linkwright.mechanism.mechanism import Mechanism
-    from linkwright.structure.group import Group
 
 
 #: A position this near (rad, m) to where a way ends is itself singular.

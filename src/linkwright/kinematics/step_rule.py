@@ -10,6 +10,7 @@ from dataclasses import field
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.inputs import Input
+from linkwright.elements.topology import TreeJoint
 from linkwright.engine.trace import Mask, Scalar, absolute, maximum, minimum, reciprocal, select
 from linkwright.engine.vector import Vec
 from linkwright.joints.pose import Rotor
@@ -18,7 +19,6 @@ from linkwright.kinematics.closure import Coordinate
 from linkwright.kinematics.groups import Placed, carried, moved, state_name
 from linkwright.kinematics.trace import MotionTrace
 from linkwright.mechanism.geometry import mechanism_size
-from linkwright.structure.group import TreeJoint
 
 #: Largest change of a coordinate in one step, rad or share of the size.
 LARGEST = 0.3

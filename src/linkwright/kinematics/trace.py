@@ -7,6 +7,7 @@ from dataclasses import field
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.inputs import Input
+from linkwright.elements.topology import Group
 from linkwright.engine.trace import Mask, Scalar, Trace, select
 from linkwright.engine.vector import Vec
 from linkwright.joints.pose import FRAME_POSE, FRAME_STATE, Pose, State
@@ -16,7 +17,7 @@ from linkwright.kinematics.groups import GroupTracer, Placed, dyad_shape
 from linkwright.kinematics.rates import RateTracer
 from linkwright.kinematics.rest import moving, pace_name
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.structure.group import Group, Structure
+from linkwright.structure.analysis import Structure
 
 
 @dataclass

@@ -11,7 +11,7 @@ from linkwright.core.arrays import Floats, Indices
 from linkwright.kinematics.closed_loops import LoopBuilder
 from linkwright.kinematics.structure_with_rank import analysed
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.structure.group import Structure
+from linkwright.structure.analysis import Structure
 
 if TYPE_CHECKING:
     from linkwright.kinematics.solver import MotionSolver

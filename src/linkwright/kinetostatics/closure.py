@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from linkwright.elements.topology import Group, TreeJoint
 from linkwright.engine.linear import determinant
 from linkwright.engine.recently_made import Recent
 from linkwright.engine.trace import Scalar, absolute, angle, sqrt
 from linkwright.engine.vector import Vec
 from linkwright.kinematics.outputs import MotionOutputs
 from linkwright.kinetostatics.load_site import guide_state
-from linkwright.structure.group import Group, Structure, TreeJoint
+from linkwright.structure.analysis import Structure
 
 
 def dyads(structure: Structure) -> tuple[Group, ...]:

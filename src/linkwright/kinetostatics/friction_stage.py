@@ -13,6 +13,7 @@ from collections.abc import Mapping, Sequence
 from typing import Protocol
 
 from linkwright.core.dataclass import dataclass
+from linkwright.elements.topology import Connection
 from linkwright.engine.linear import product, solution
 from linkwright.engine.trace import Mask, Scalar, Value, absolute, maximum, select, slope, sqrt, stop
 from linkwright.engine.vector import ZERO, Vec
@@ -20,7 +21,6 @@ from linkwright.kinetostatics.friction import FrictionTerm, FrictionTerms, trace
 from linkwright.kinetostatics.load_site import guide_state
 from linkwright.kinetostatics.trace import ForceTrace, Size
 from linkwright.loads.site import Wrench
-from linkwright.structure.group import Connection
 
 #: Newton's steps, and what the last one may leave, as share of the largest force.
 STEPS, LEFT = 6, 1e-12

@@ -13,6 +13,7 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.inputs import Input
 from linkwright.core.outputs import NAMED, Output
+from linkwright.elements.topology import Group
 from linkwright.engine.tangent import Slopes
 from linkwright.engine.trace import Scalar, Value, absolute, angle, atan, minimum, nearest_turn, select, sqrt
 from linkwright.engine.vector import Vec
@@ -27,7 +28,6 @@ from linkwright.kinetostatics.outputs import ForceOutputs
 from linkwright.kinetostatics.trace import ForceTrace
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
-from linkwright.structure.group import Group
 
 #: What jerks are the rates of.
 _ACCELERATIONS = {

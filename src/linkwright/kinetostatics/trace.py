@@ -13,6 +13,7 @@ from dataclasses import field
 from functools import partial
 
 from linkwright.core.dataclass import dataclass
+from linkwright.elements.topology import Connection, TreeJoint
 from linkwright.engine.linear import product, transposed
 from linkwright.engine.trace import Scalar, absolute
 from linkwright.engine.vector import ZERO, Vec
@@ -23,7 +24,6 @@ from linkwright.kinematics.groups import Placed
 from linkwright.kinematics.trace import MotionTrace
 from linkwright.kinetostatics.load_site import ACTS, TracedSite
 from linkwright.loads.site import Wrench
-from linkwright.structure.group import Connection, TreeJoint
 
 #: The size of the force between the teeth of a pair, from that force.
 Size = Callable[[Connection, Scalar], Scalar]

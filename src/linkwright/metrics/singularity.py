@@ -6,11 +6,11 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import ClassVar
 
+from linkwright.elements.topology import Group
 from linkwright.kinetostatics.closure import closable
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Better, Metric, MetricValue, Number, Remark
 from linkwright.metrics.quantities import shown
-from linkwright.structure.group import Group
 
 #: Below this a dyad is nearer than 10° to a dead point.
 NEAR = 0.17

@@ -15,6 +15,7 @@ from linkwright.cycle_programs.iterated_groups import ITERATIONS
 from linkwright.cycle_programs.limit_stages import constants, limit_stages
 from linkwright.cycle_programs.loaded_cycle import SIZES, along_input
 from linkwright.cycle_programs.traced_outputs import Traced
+from linkwright.elements.topology import Group
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.program import Program
 from linkwright.engine.stage import Stage
@@ -36,7 +37,6 @@ from linkwright.loads.magnitude import magnitude
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.page.dimensions import geometry_addresses
 from linkwright.page.loads import angles, fields, found_again, phases, traced_names
-from linkwright.structure.group import Group
 
 STEPS = 360
 

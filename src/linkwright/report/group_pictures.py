@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from linkwright.core.arrays import Floats
+from linkwright.elements.topology import Group
 from linkwright.plot.drawing.draw import Sheet, laid_out_beside
 from linkwright.plot.drawing.labels import point_labels
 from linkwright.plot.drawing.machine import Part
@@ -14,7 +15,6 @@ from linkwright.plot.drawing.scene import Scene
 from linkwright.plot.svg.element import group
 from linkwright.plot.svg.render import natural_size
 from linkwright.report.machine_results import Case
-from linkwright.structure.group import Group
 
 
 def group_picture(case: Case, chosen: Group) -> str:

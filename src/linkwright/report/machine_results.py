@@ -22,7 +22,7 @@ from linkwright.kinetostatics.table import results_of
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.report.numbers import Heads, without_rounding
 from linkwright.report.settings import Settings, worked_place
-from linkwright.structure.group import Structure
+from linkwright.structure.analysis import Structure
 from linkwright.words import Say, speaker
 from linkwright.words.sentence import in_language, links_said
 

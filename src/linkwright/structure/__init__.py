@@ -5,10 +5,10 @@ from typing import TYPE_CHECKING
 from linkwright.lazy import offer
 
 if TYPE_CHECKING:
+    from linkwright.elements.topology import Connection as Connection
+    from linkwright.elements.topology import Group as Group
+    from linkwright.structure.analysis import Structure as Structure
     from linkwright.structure.decompose import structure as structure
-    from linkwright.structure.group import Connection as Connection
-    from linkwright.structure.group import Group as Group
-    from linkwright.structure.group import Structure as Structure
     from linkwright.structure.mobility import StructureError as StructureError
 
 offer(__name__)

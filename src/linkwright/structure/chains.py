@@ -6,7 +6,7 @@ from collections import Counter, deque
 from collections.abc import Mapping, Sequence, Set
 from heapq import heappop, heappush
 
-from linkwright.structure.group import Connection, Group, TreeJoint
+from linkwright.elements.topology import Connection, Group, TreeJoint
 
 SOLVED = ""
 #: The five dyads by their letters outer, inner, outer, read from either end.

@@ -11,11 +11,11 @@ from collections.abc import Iterable, Set
 
 from linkwright.core.given import require
 from linkwright.drivers.base import Driver
-from linkwright.joints.base import Joint
+from linkwright.elements.topology import Group
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.structure.analysis import Structure
 from linkwright.structure.chains import make_group
 from linkwright.structure.constraints import FRAME, ConstraintGraph
-from linkwright.structure.group import Connection, Group, Structure
 from linkwright.structure.matching import components, maximum_matching
 from linkwright.structure.mobility import counts, explain_excess, explain_free, grubler, islands
 from linkwright.structure.trains import gear_trains
@@ -146,10 +146,6 @@ class Grouping:
         return group
 
     # what a joint asks ------------------------------------------------------------------------
-    def connection(self, joint: Joint, a: str, b: str, driver: str | None) -> Connection:
-        """The joint between two links."""
-        return Connection(joint.name, joint.kind, a, b, driver)
-
     def driver(self, joint: str) -> str | None:
         """Name of the first driver of a joint."""
         return next((driver.name for driver in self.drivers.get(joint, ())), None)

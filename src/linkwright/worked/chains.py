@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import field
 
 from linkwright.core.dataclass import dataclass
-from linkwright.structure.group import Connection, Group, TreeJoint
+from linkwright.elements.topology import Connection, Group, TreeJoint
 from linkwright.worked.symbols import Book, Slide, Spot
 from linkwright.worked.terms import NOWHERE, TWO, ZERO, Pair, Term, cosine, number, sine, symbol
 

@@ -6,8 +6,8 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 
 from linkwright.core.dataclass import dataclass
+from linkwright.elements.topology import Connection, Group, TreeJoint
 from linkwright.joints.base import LackingError
-from linkwright.structure.group import Connection, Group, TreeJoint
 from linkwright.worked.chains import ChainClosure, Closure, chain_closures
 from linkwright.worked.page import Step
 from linkwright.worked.symbols import Book, tex

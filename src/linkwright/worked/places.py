@@ -7,9 +7,9 @@ from collections.abc import Sequence
 
 from linkwright.core.inputs import Input
 from linkwright.core.outputs import Output
+from linkwright.elements.topology import Group, TreeJoint
 from linkwright.groups.base import Dyad
 from linkwright.kinematics.groups import dyad_shape, in_one_step, whole_form
-from linkwright.structure.group import Group, TreeJoint
 from linkwright.worked.chains import ChainClosure, Trail, attach, chain_closures, trail
 from linkwright.worked.higher_pairs import PairClosure, Slid, Turned, is_unknown, pair_closures
 from linkwright.worked.page import Step

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from linkwright.core.outputs import Output
-from linkwright.structure.group import Group, TreeJoint
+from linkwright.elements.topology import Group, TreeJoint
 from linkwright.worked.chains import attach, turned
 from linkwright.worked.higher_pairs import pair_closures
 from linkwright.worked.page import Step

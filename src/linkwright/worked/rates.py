@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
-from linkwright.structure.group import Connection, Group
+from linkwright.elements.topology import Connection, Group
 from linkwright.worked.chains import ChainClosure, Closure, Drift, bends, matrix, unknown_names
 from linkwright.worked.higher_pairs import PairClosure
 from linkwright.worked.page import Step

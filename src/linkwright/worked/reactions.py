@@ -10,9 +10,9 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
+from linkwright.elements.topology import Connection, Group, TreeJoint
 from linkwright.kinematics.groups import in_one_step
 from linkwright.kinetostatics.forces import Forces
-from linkwright.structure.group import Connection, Group, TreeJoint
 from linkwright.worked.applied_forces import Known, KnownForces
 from linkwright.worked.chains import ChainClosure, Closure, attach
 from linkwright.worked.higher_pairs import closures

@@ -8,11 +8,11 @@ from functools import cached_property
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
+from linkwright.elements.topology import TreeJoint
 from linkwright.joints.base import Joint
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import canonical
 from linkwright.mechanism.mechanism import Link
-from linkwright.structure.group import TreeJoint
 from linkwright.words import Say
 from linkwright.worked.terms import NOWHERE, ONE, ZERO, Pair, Term, number, symbol
 

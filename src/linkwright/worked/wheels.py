@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 
 from linkwright.core.outputs import Output
+from linkwright.elements.topology import Connection, Group, TreeJoint
 from linkwright.joints.base import Contact
-from linkwright.structure.group import Connection, Group, TreeJoint
 from linkwright.worked.higher_pairs import PairClosure, Slid, Turned, lever, one_by_one, pair_closures
 from linkwright.worked.page import Step
 from linkwright.worked.places import Places

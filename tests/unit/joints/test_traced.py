@@ -17,11 +17,11 @@ from tests.contract.joints_of_every_kind import KINDS, MODEL, WELDS
 from tests.unit.joints.plain_dimensions import Numbers
 
 import linkwright as lw
+from linkwright.elements.topology import TreeJoint
 from linkwright.engine.trace import Trace
 from linkwright.engine.vector import Vec
 from linkwright.joints.base import JOINTS, Cut
 from linkwright.joints.pose import Pose, Rotor, State
-from linkwright.structure.group import Connection, TreeJoint
 
 Jet = tuple[complex, complex, complex]  # a value with its first two derivatives in time
 
@@ -81,7 +81,7 @@ class Moving:
         name = "pair" if "pair:" in entries else entries.split(":")[0]
         self.joint = self.mechanism.joints[name]
         a, b = self.joint.joined[:2]
-        self.connection = Connection(name, self.joint.kind, a, b)
+        self.connection = self.joint.between(a, b)
         self.dimensions = Numbers(self.mechanism, Trace())
         self.cut: Cut = self.joint.cut(self.connection, self.dimensions)
 
@@ -263,7 +263,7 @@ def test_a_link_hung_on_another_moves_as_the_joint_lets_it(kind: str, child: str
         joint = mechanism.joints["stiff" if kind == "weld" else "slide"]
     a, b = joint.joined[:2]
     parent = "base" if child == "one" else "one"
-    step = TreeJoint(Connection(joint.name, joint.kind, a, b), parent, child)
+    step = TreeJoint(joint.between(a, b), parent, child)
     dimensions = Numbers(mechanism, Trace())
     pair = joint.hang(step, dimensions)
     for t in TIMES:

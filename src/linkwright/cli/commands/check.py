@@ -17,11 +17,12 @@ from linkwright.errors import NO_FILE, Finding, LinkwrightError, ModelError
 from linkwright.words.sentence import Sentence, code_of
 
 if TYPE_CHECKING:
+    from linkwright.elements.topology import Group
     from linkwright.fields.signals import MovingPhase, SwingPhase
     from linkwright.kinematics.motion import Motion
     from linkwright.loads.base import Load
     from linkwright.mechanism.mechanism import Mechanism
-    from linkwright.structure.group import Group, Structure
+    from linkwright.structure.analysis import Structure
 
 #: Positions of the cycle that are tried.
 TRIED = 72

@@ -9,12 +9,12 @@ from collections.abc import Mapping
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
+from linkwright.elements.topology import Connection, TreeJoint
 from linkwright.export.mjcf.text import numbers
 from linkwright.export.results import Results
 from linkwright.kinematics.motion import Motion
 from linkwright.mechanism.mechanism import Link
 from linkwright.plot.drawing.view import placements
-from linkwright.structure.group import Connection, TreeJoint
 
 #: Mass and inertia of links without any, as a share of the largest mass.
 LEAST = 1e-3

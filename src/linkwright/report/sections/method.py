@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import chain
 
+from linkwright.elements.topology import Group
 from linkwright.errors import LinkwrightError
 from linkwright.report.document import Block, Formula, Heading, Paragraph, literal, strong, symbols
 from linkwright.report.formula import formula, width
 from linkwright.report.machine_results import Case
 from linkwright.report.section import section
-from linkwright.structure.group import Group
 from linkwright.worked.chains import Chain, chain_closures
 from linkwright.worked.page import Equation, Note, Relation, Step, Tabulated, Written
 from linkwright.worked.symbols import Book, tex

@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator, Sequence
 from inspect import getdoc
 
+from linkwright.elements.topology import Group
 from linkwright.errors import LinkwrightError
 from linkwright.groups.base import DYADS
 from linkwright.metrics.base import METRICS
@@ -14,7 +15,6 @@ from linkwright.report.machine_results import Case
 from linkwright.report.markdown import own_words
 from linkwright.report.section import section
 from linkwright.report.settings import Settings
-from linkwright.structure.group import Group
 
 
 @section("references", 31.0, common=True)

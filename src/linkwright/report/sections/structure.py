@@ -11,8 +11,8 @@ from linkwright.report.document import Block, Figure, Formula, Paragraph, Table,
 from linkwright.report.group_pictures import group_picture, to_one_scale
 from linkwright.report.machine_results import Case
 from linkwright.report.section import section
+from linkwright.structure.analysis import numeral
 from linkwright.structure.mobility import lower_pairs
-from linkwright.structure.text import numeral
 
 
 @section("structure", 3.0)

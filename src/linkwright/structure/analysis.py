@@ -1,14 +1,66 @@
-"""The structure analysis in sentences and as data."""
+"""The result of the structure analysis, in sentences and as data."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import field
+
+from linkwright.core.dataclass import dataclass
+from linkwright.elements.topology import Connection, Group
 from linkwright.joints.base import JOINTS
-from linkwright.structure.group import Connection, Group, Structure
 from linkwright.structure.mobility import lower_pairs
 from linkwright.structure.trains import GearTrain, written
 from linkwright.words import Say, has, language_of, speaker
 from linkwright.words.characters import cells, padded
 from linkwright.words.sentence import link_said
+
+
+@dataclass(frozen=True)
+class Structure:
+    """Mobility and Assur groups of a mechanism, in solving order.
+
+    ``grubler``: mobility by Grübler's formula, 3n - 2p_L - p_H; ``redundant``: demands on rotations that others
+    make already (joint names), added to it, those of higher pairs also in ``passive``; ``parts``: sets of links
+    that share nothing but the frame (more than one: several mechanisms in one model); ``trains``: ratios of gears and
+    belts with their carriers stopped; ``turned``: of every turning driver the link, the pin and the link
+    against which it turns. See the theory page on structure.
+    """
+
+    grubler: int
+    redundant: tuple[str, ...]
+    drivers: tuple[str, ...]
+    groups: tuple[Group, ...]
+    counts: dict[str, int]
+    parts: tuple[tuple[str, ...], ...] = ()
+    passive: tuple[str, ...] = ()
+    trains: tuple[GearTrain, ...] = ()
+    turned: Mapping[str, tuple[str, str, str]] = field(default_factory=dict)
+
+    @property
+    def mobility(self) -> int:
+        """Number of independent inputs."""
+        return self.grubler + len(self.redundant)
+
+    @property
+    def mechanism_class(self) -> int:
+        """The highest class of its groups."""
+        return max((group.assur_class for group in self.groups), default=1)
+
+    def text(self, language: str = "en") -> str:
+        """The structure analysis as a student would write it, in English (``en``) or Chinese (``zh``)."""
+        return describe(self, language)
+
+    def data(self) -> dict[str, object]:
+        """The same as plain data."""
+        return as_data(self)
+
+    @property
+    def chain(self) -> str:
+        """The groups in solving order: ``RRR(coupler, rocker) + RRP(rod, slider)``."""
+        return " + ".join(f"{group.signature}({', '.join(group.links)})" for group in self.groups)
+
+    def __repr__(self) -> str:
+        return f"Structure(mobility {self.mobility}; {self.chain}; class {self.mechanism_class})"
 
 
 def describe(structure: Structure, language: str = "en") -> str:

@@ -1,14 +1,29 @@
-"""What the structure analysis finds: Assur groups in solving order."""
+"""How links hang together, as plain data: connections, open chains and groups.
+
+A connection carries what is needed of its joint's kind, so that nobody who reads a group looks a kind up.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from dataclasses import field
+from collections.abc import Iterator
 from functools import cached_property
 
 from linkwright.core.dataclass import dataclass
-from linkwright.joints.base import JOINTS
-from linkwright.structure.trains import GearTrain
+
+
+@dataclass(frozen=True)
+class PairType:
+    """A kind of joint as a kinematic pair.
+
+    ``letter`` in signatures; ``coordinate``: what it is measured by as a joint of a chain, ``turn`` (rad), ``slide``
+    (m) or nothing; ``freedoms`` it leaves of three; ``higher``: a pair of one row, which no link hangs on.
+    """
+
+    kind: str
+    letter: str
+    coordinate: str
+    freedoms: int
+    higher: bool
 
 
 @dataclass(frozen=True)
@@ -16,7 +31,7 @@ class Connection:
     """One joint between two links. Prismatic: ``a`` carries the guide, ``b`` the block. Weld: b sits on a."""
 
     joint: str
-    kind: str
+    pair: PairType
     a: str
     b: str
     driver: str | None = None
@@ -26,28 +41,32 @@ class Connection:
         return self.b if link == self.a else self.a
 
     @property
+    def kind(self) -> str:
+        return self.pair.kind
+
+    @property
     def letter(self) -> str:
-        return JOINTS[self.kind].letter
+        return self.pair.letter
 
     @property
     def turns(self) -> bool:
         """Whether its coordinate in a chain is a rotation."""
-        return JOINTS[self.kind].coordinate == "turn"
+        return self.pair.coordinate == "turn"
 
     @property
     def slides(self) -> bool:
         """Whether its coordinate in a chain is a displacement."""
-        return JOINTS[self.kind].coordinate == "slide"
+        return self.pair.coordinate == "slide"
 
     @property
     def rigid(self) -> bool:
         """Whether it leaves no freedom."""
-        return JOINTS[self.kind].freedoms == 0
+        return self.pair.freedoms == 0
 
     @property
     def higher(self) -> bool:
         """Whether it is a higher pair, on which no link hangs."""
-        return JOINTS[self.kind].higher
+        return self.pair.higher
 
 
 @dataclass(frozen=True)
@@ -130,54 +149,7 @@ class Group:
             yield step
             link = step.parent
 
-
-@dataclass(frozen=True)
-class Structure:
-    """Mobility and Assur groups of a mechanism, in solving order.
-
-    ``grubler``: mobility by Grübler's formula, 3n - 2p_L - p_H; ``redundant``: demands on rotations that others
-    make already (joint names), added to it, those of higher pairs also in ``passive``; ``parts``: sets of links
-    that share nothing but the frame (more than one: several mechanisms in one model); ``trains``: ratios of gears and
-    belts with their carriers stopped; ``turned``: of every turning driver the link, the pin and the link
-    against which it turns. See the theory page on structure.
-    """
-
-    grubler: int
-    redundant: tuple[str, ...]
-    drivers: tuple[str, ...]
-    groups: tuple[Group, ...]
-    counts: dict[str, int]
-    parts: tuple[tuple[str, ...], ...] = ()
-    passive: tuple[str, ...] = ()
-    trains: tuple[GearTrain, ...] = ()
-    turned: Mapping[str, tuple[str, str, str]] = field(default_factory=dict)
-
-    @property
-    def mobility(self) -> int:
-        """Number of independent inputs."""
-        return self.grubler + len(self.redundant)
-
-    @property
-    def mechanism_class(self) -> int:
-        """The highest class of its groups."""
-        return max((group.assur_class for group in self.groups), default=1)
-
-    def text(self, language: str = "en") -> str:
-        """The structure analysis as a student would write it, in English (``en``) or Chinese (``zh``)."""
-        from linkwright.structure.text import describe
-
-        return describe(self, language)
-
-    def data(self) -> dict[str, object]:
-        """The same as plain data."""
-        from linkwright.structure.text import as_data
-
-        return as_data(self)
-
-    @property
-    def chain(self) -> str:
-        """The groups in solving order: ``RRR(coupler, rocker) + RRP(rod, slider)``."""
-        return " + ".join(f"{group.signature}({', '.join(group.links)})" for group in self.groups)
-
-    def __repr__(self) -> str:
-        return f"Structure(mobility {self.mobility}; {self.chain}; class {self.mechanism_class})"
+    def carried_steadily(self, cut: Connection) -> bool:
+        """Whether nothing that the group turns carries an end of a cut, but its first link about its own pin."""
+        about = [step for end in (cut.a, cut.b) for step in self.path(end) if step.free and step.turns]
+        return all(step.child == cut.a for step in about)
