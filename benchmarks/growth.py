@@ -12,7 +12,8 @@ import linkwright as lw
 from benchmarks.timing import Candidate, Rounds, in_turns
 from linkwright.engine import machine_code
 from linkwright.engine.cycle import summaries
-from linkwright.engine.ir_kernel import ENTRY, kernel
+from linkwright.engine.ir_kernel import kernel
+from linkwright.engine.ir_module import ENTRY
 from linkwright.engine.lines import Lines
 from linkwright.engine.llvm_backend import available
 from linkwright.engine.program import Program

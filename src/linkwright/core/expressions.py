@@ -98,11 +98,13 @@ class Expression:
     def along(self, values: Mapping[str, Any], name: str, order: int) -> list[trace.Scalar]:
         """Value and derivatives, see ``derivatives``, over numbers and traced values of the free names, of which that
         of ``name`` is traced; NaN where a number in the text is divided by zero."""
+        from linkwright.engine.tangent import slope
+
         found: list[trace.Scalar] = [math.nan] * (order + 1)
         with suppress(ZeroDivisionError):
             found[0] = evaluate(self.tree, values, {**ON_VALUES, "abs": lambda x: x * trace.sign(x)})
             for k in range(order):
-                found[k + 1] = trace.slope(found[k], {values[name]: 1.0})
+                found[k + 1] = slope(found[k], {values[name]: 1.0})
         return found
 
     def switches(self, values: Mapping[str, Any]) -> list[Any]:

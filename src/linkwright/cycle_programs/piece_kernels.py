@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from functools import cache
 
-from linkwright.engine.ir_kernel import Block
+from linkwright.engine.ir_module import Block
 from linkwright.engine.kernel import (
     Kernels,
     Reals,

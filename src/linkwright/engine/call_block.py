@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Floats, Whole
-from linkwright.engine.ir_kernel import Block
+from linkwright.engine.ir_module import Block
 from linkwright.engine.program import Program
 from linkwright.engine.table import Table
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from linkwright.engine.ir_accumulators import AccumulatorWriter
 from linkwright.engine.ir_after_cycle import following_lines
-from linkwright.engine.ir_kernel import ENTRY, Shape, in_blocks, load_block, module_text
 from linkwright.engine.ir_lines import LineWriter
+from linkwright.engine.ir_module import ENTRY, Shape, in_blocks, load_block, module_text
 from linkwright.engine.lines import Lines
 from linkwright.engine.reductions import Accumulation
 

@@ -4,8 +4,9 @@ What straight-line programs cannot say (loops that end on a condition, tables of
 written as plain functions with annotated arguments: ``int``, ``float``, ``Reals`` and ``Wholes`` (addresses of
 doubles and of 64-bit integers; ``address + k`` is the address k entries on). Statements: assignment, ``if``,
 ``while``, ``for … in range``, ``break``, ``continue``, ``return``; a variable keeps the type of its first value.
-``load``, ``ramp`` and ``spread`` give vectors of ``LANES`` doubles (``Vector`` between kernels),
-``kernel_complex`` has complex ones. Python never
+``load``, ``ramp`` and ``spread`` give vectors of ``LANES`` doubles (``Vector`` between kernels), ``fetch`` gives
+complex ones: entries of 2 · ``LANES`` doubles, real parts before imaginary ones; +, - and · take complex numbers,
+vectors and numbers in any mixture. Python never
 runs such a function; it is read, translated to LLVM's language and kept in the cache of machine code. Sums may be
 reordered: results are equal to the bit on one machine, not between machines.
 """
@@ -125,6 +126,43 @@ def marked(value: Vector, index: Vector) -> Vector:
 
 def mark_of(value: float) -> int:
     """The whole number in the last bits."""
+    raise NotImplementedError
+
+
+class Complex:
+    """``LANES`` complex numbers inside a kernel."""
+
+    def __add__(self, other: Complex | Vector | float) -> Complex:
+        raise NotImplementedError
+
+    __radd__ = __sub__ = __rsub__ = __mul__ = __rmul__ = __add__
+
+    def __neg__(self) -> Complex:
+        raise NotImplementedError
+
+
+def fetch(address: Reals, entry: int) -> Complex:
+    """The complex numbers of an entry."""
+    raise NotImplementedError
+
+
+def put(address: Reals, entry: int, value: Complex) -> None:
+    """Writes the complex numbers of an entry."""
+    raise NotImplementedError
+
+
+def inverse(value: Complex) -> Complex:
+    """Reciprocals."""
+    raise NotImplementedError
+
+
+def square(value: Complex) -> Vector:
+    """Squares of the absolute values."""
+    raise NotImplementedError
+
+
+def choose(test: Vector, yes: Complex, no: Complex) -> Complex:
+    """``yes`` where the vectors compared keep the test, else ``no``."""
     raise NotImplementedError
 
 

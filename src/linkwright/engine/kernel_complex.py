@@ -1,54 +1,10 @@
-"""Complex numbers inside kernels: ``LANES`` of them at once, as a pair of vectors.
-
-``fetch`` and ``put`` read and write them by entries of 2 · ``LANES`` doubles, real parts before imaginary ones. The
-operators +, - and · take complex numbers, vectors and numbers in any mixture; ``inverse`` divides.
-"""
+"""How kernels write complex numbers: ``LANES`` of them at once, as a pair of vectors."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from linkwright.engine.late_import import ir
-
-if TYPE_CHECKING:
-    from linkwright.engine.kernel import Reals, Vector
-
-
-class Complex:
-    """``LANES`` complex numbers inside a kernel."""
-
-    def __add__(self, other: Complex | Vector | float) -> Complex:
-        raise NotImplementedError
-
-    __radd__ = __sub__ = __rsub__ = __mul__ = __rmul__ = __add__
-
-    def __neg__(self) -> Complex:
-        raise NotImplementedError
-
-
-def fetch(address: Reals, entry: int) -> Complex:
-    """The complex numbers of an entry."""
-    raise NotImplementedError
-
-
-def put(address: Reals, entry: int, value: Complex) -> None:
-    """Writes the complex numbers of an entry."""
-    raise NotImplementedError
-
-
-def inverse(value: Complex) -> Complex:
-    """Reciprocals."""
-    raise NotImplementedError
-
-
-def square(value: Complex) -> Vector:
-    """Squares of the absolute values."""
-    raise NotImplementedError
-
-
-def choose(test: Vector, yes: Complex, no: Complex) -> Complex:
-    """``yes`` where the vectors compared keep the test, else ``no``."""
-    raise NotImplementedError
 
 
 class ComplexWriter:

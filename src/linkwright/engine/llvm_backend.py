@@ -13,7 +13,8 @@ from linkwright.core.arrays import Floats, Whole
 from linkwright.engine import machine_code
 from linkwright.engine.cache import loaded_code
 from linkwright.engine.call_block import Inputs, SingleCall, address_of, aligned
-from linkwright.engine.ir_kernel import ENTRY, kernel
+from linkwright.engine.ir_kernel import kernel
+from linkwright.engine.ir_module import ENTRY
 from linkwright.engine.lines import Lines
 from linkwright.engine.machine_code import available
 from linkwright.engine.program import Program

@@ -22,9 +22,14 @@ def tangents(replay: Replay, name: str) -> dict[int, Scalar]:
     return found
 
 
-def slope_in_trace(value: Value, seeds: Mapping[Value, Scalar]) -> Scalar:
-    """Derivative of a value along changes of earlier ones (see :func:`~linkwright.engine.trace.slope`)."""
-    return Slopes(seeds)(value)
+def slope(value: Scalar, seeds: Mapping[Value, Scalar]) -> Scalar:
+    """Derivative of a value along given changes of earlier values, in the same trace.
+
+    ``seeds``: values (inputs, or any line) and their rates; what they depend on counts as constant.
+    The result is a value like every other: it can be an output, and be differentiated again.
+    Raises ValueError for values of different traces.
+    """
+    return Slopes(seeds)(value) if isinstance(value, Value) else 0.0
 
 
 class Slopes:

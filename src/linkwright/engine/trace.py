@@ -486,15 +486,3 @@ def sign(x: Scalar) -> Scalar:
 def nearest_turn(x: Scalar, reference: Scalar) -> Scalar:
     """The angle x with as many whole turns as bring it nearest to a reference, at most half a turn off."""
     return x + math.tau * floor((reference - x) * (1.0 / math.tau) + 0.5)
-
-
-def slope(value: Scalar, seeds: Mapping[Value, Scalar]) -> Scalar:
-    """Derivative of a value along given changes of earlier values, in the same trace.
-
-    ``seeds``: values (inputs, or any line) and their rates; what they depend on counts as constant.
-    The result is a value like every other: it can be an output, and be differentiated again.
-    Raises ValueError for values of different traces.
-    """
-    from linkwright.engine.tangent import slope_in_trace
-
-    return slope_in_trace(value, seeds) if isinstance(value, Value) else 0.0

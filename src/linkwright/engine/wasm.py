@@ -15,8 +15,9 @@ from collections.abc import Sequence
 from functools import cache
 from typing import Any
 
-from linkwright.engine.ir_kernel import ENTRY, kernel
+from linkwright.engine.ir_kernel import kernel
 from linkwright.engine.ir_lookup import LOOKUP
+from linkwright.engine.ir_module import ENTRY
 from linkwright.engine.lines import Lines
 from linkwright.engine.machine_code import module_for
 from linkwright.engine.program import Program

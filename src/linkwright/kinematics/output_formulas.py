@@ -19,7 +19,8 @@ from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
 from linkwright.engine.recently_made import Recent
 from linkwright.engine.replay import inlined
-from linkwright.engine.trace import Scalar, Trace, absolute, minimum, slope
+from linkwright.engine.tangent import slope
+from linkwright.engine.trace import Scalar, Trace, absolute, minimum
 from linkwright.kinematics.cycle_angles import CycleAngles
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import output_meant

@@ -15,7 +15,8 @@ from typing import Protocol
 from linkwright.core.dataclass import dataclass
 from linkwright.elements.topology import Connection
 from linkwright.engine.linear import product, solution
-from linkwright.engine.trace import Mask, Scalar, Value, absolute, maximum, select, slope, sqrt, stop
+from linkwright.engine.tangent import slope
+from linkwright.engine.trace import Mask, Scalar, Value, absolute, maximum, select, sqrt, stop
 from linkwright.engine.vector import ZERO, Vec
 from linkwright.kinetostatics.friction import FrictionTerm, FrictionTerms, traced_rate
 from linkwright.kinetostatics.load_site import guide_state

@@ -20,7 +20,7 @@ from tests.unit.engine.random_programs import (
 )
 from tests.unit.engine.sweeps import sweep
 
-from linkwright.engine import ir_kernel, machine_code
+from linkwright.engine import ir_module, machine_code
 from linkwright.engine.llvm_backend import available, compile_program
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
@@ -88,8 +88,8 @@ def vectors(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> 
         return
     here = machine_code.host()
     if request.param == "in blocks":
-        monkeypatch.setattr(ir_kernel, "LARGE", 60)
-        monkeypatch.setattr(ir_kernel, "_BLOCK", 13)
+        monkeypatch.setattr(ir_module, "LARGE", 60)
+        monkeypatch.setattr(ir_module, "_BLOCK", 13)
         apart = dataclasses.replace(here, description=f"{here.description} in blocks")
         monkeypatch.setattr(machine_code, "host", lambda: apart)
         return

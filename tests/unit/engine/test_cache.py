@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from linkwright.engine import cache, machine_code
-from linkwright.engine.ir_kernel import ENTRY
+from linkwright.engine.ir_module import ENTRY
 from linkwright.engine.llvm_backend import available, compile_program
 from linkwright.engine.program import Program
 from linkwright.engine.trace import Trace, sin

@@ -17,7 +17,8 @@ from linkwright.engine.program import Program
 from linkwright.engine.reductions import Reduction
 from linkwright.engine.replay import inlined
 from linkwright.engine.stage import Backend, Run, Stage, code_for
-from linkwright.engine.trace import Scalar, Trace, Value, cos, select, sin, slope, sqrt
+from linkwright.engine.tangent import slope
+from linkwright.engine.trace import Scalar, Trace, Value, cos, select, sin, sqrt
 
 Floats = NDArray[np.float64]
 BACKENDS = ["numpy", pytest.param("llvm", marks=pytest.mark.skipif(not available(), reason="no llvmlite"))]

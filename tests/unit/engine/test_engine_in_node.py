@@ -21,7 +21,8 @@ from linkwright.engine.reductions import KINDS, Reduction
 from linkwright.engine.stage import Stage
 from linkwright.engine.states import states_as_fields
 from linkwright.engine.table import Table
-from linkwright.engine.trace import Trace, angle, cos, exp, floor, log, power, select, sin, slope
+from linkwright.engine.tangent import slope
+from linkwright.engine.trace import Trace, angle, cos, exp, floor, log, power, select, sin
 from linkwright.engine.wasm import wasm_module
 from linkwright.gallery import names
 from linkwright.kinetostatics.run import run_forces

@@ -15,18 +15,22 @@ from linkwright.engine.kernel import (
     Kernels,
     Reals,
     Wholes,
+    choose,
+    fetch,
+    inverse,
     least,
     load,
     lower,
     mark_of,
     marked,
+    put,
     ramp,
     root,
     spread,
+    square,
     store,
     total,
 )
-from linkwright.engine.kernel_complex import choose, fetch, inverse, put, square
 
 pytestmark = pytest.mark.skipif(not machine_code.available(), reason="llvmlite does not run here")
 SHIFT = 3

@@ -15,7 +15,8 @@ from linkwright.engine.program import Program
 from linkwright.engine.reductions import KINDS, VALID_COUNT, Kind, Reduction
 from linkwright.engine.replay import along_input
 from linkwright.engine.table import Table
-from linkwright.engine.trace import Trace, exp, maximum, select, slope, sqrt
+from linkwright.engine.tangent import slope
+from linkwright.engine.trace import Trace, exp, maximum, select, sqrt
 
 BACKENDS = ["numpy", pytest.param("llvm", marks=pytest.mark.skipif(not available(), reason="no llvmlite"))]
 PLAIN = [kind for kind in KINDS if not kind.startswith("at_")]

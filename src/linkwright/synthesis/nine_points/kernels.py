@@ -9,8 +9,21 @@ from __future__ import annotations
 from functools import cache
 from math import sqrt
 
-from linkwright.engine.kernel import Kernels, Reals, higher, load, lower, root, spread, store
-from linkwright.engine.kernel_complex import choose, fetch, inverse, put, square
+from linkwright.engine.kernel import (
+    Kernels,
+    Reals,
+    choose,
+    fetch,
+    higher,
+    inverse,
+    load,
+    lower,
+    put,
+    root,
+    spread,
+    square,
+    store,
+)
 
 #: Doubles of an entry, eight complex numbers; entries of the systems (8 × 9), of their parts, of solutions and rates.
 WIDE, SYSTEM, PARTS, RATES = 16, 72, 96, 16
