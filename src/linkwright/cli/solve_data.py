@@ -11,7 +11,7 @@ from linkwright.cli.solve_columns import leading, point_keys
 from linkwright.cli.solve_remarks import closeness, largest_reactions
 from linkwright.cli.solving import Solved
 from linkwright.core.arrays import largest
-from linkwright.plot.force_names import reaction_pairs
+from linkwright.mechanism.force_names import reaction_pairs
 
 
 def csv_text(solved: Solved, options: argparse.Namespace) -> str:

@@ -17,8 +17,8 @@ from linkwright.errors import LinkwrightError
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces
+from linkwright.mechanism.force_names import reaction_pairs, rubbing_guides
 from linkwright.metrics.analysis import Kind
-from linkwright.plot.force_names import reaction_pairs, rubbing_guides
 from linkwright.words import Say
 from linkwright.words.characters import aligned
 

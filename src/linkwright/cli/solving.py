@@ -24,10 +24,10 @@ from linkwright.kinematics.position_list import MOST
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.kinetostatics.table import results_of
+from linkwright.mechanism.force_names import reaction_pairs
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.cycle_grid import CycleGrid
-from linkwright.plot.force_names import reaction_pairs
 from linkwright.words.sentence import Sentence
 
 Failures = Literal["raise", "mark"]

@@ -28,6 +28,7 @@ from linkwright.files.write import dump
 from linkwright.joints.marks import RackWay, Wheels
 from linkwright.kinematics.cycle import Positions
 from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.placement import placements
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.page.dimensions import dimensions, drawn
@@ -36,7 +37,7 @@ from linkwright.page.loops import loops
 from linkwright.page.programs import PagePrograms
 from linkwright.page.quantities import numbers, point_keys, signals, usual_curves
 from linkwright.plot.drawing.machine import Machine
-from linkwright.plot.drawing.view import fitted, placements
+from linkwright.plot.drawing.view import fitted
 from linkwright.words import LANGUAGES, catalogue, say
 from linkwright.words.sentence import in_language
 

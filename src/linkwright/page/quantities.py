@@ -10,9 +10,9 @@ from linkwright.core.arrays import Floats
 from linkwright.core.json_data import Plain
 from linkwright.core.outputs import KINDS, Output, row_names
 from linkwright.kinematics.names import canonical
+from linkwright.mechanism.force_names import reaction_pairs
 from linkwright.metrics.outputs import mechanism_outputs
 from linkwright.page.programs import PagePrograms
-from linkwright.plot.force_names import reaction_pairs
 from linkwright.words import LANGUAGES, say
 
 #: Numbers over the cycle that are shown of a signal.

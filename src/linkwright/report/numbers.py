@@ -10,9 +10,9 @@ import numpy as np
 
 from linkwright.core.arrays import Floats, largest
 from linkwright.core.outputs import KINDS, RESIDUALS, Output
+from linkwright.mechanism.force_names import link_numbers
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.quantities import SHOWN
-from linkwright.plot.force_names import link_numbers
 from linkwright.report.document import literal
 from linkwright.words import Say
 from linkwright.worked.symbols import tex

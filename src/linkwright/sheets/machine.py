@@ -11,11 +11,11 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.drivers.base import Driver
 from linkwright.kinematics.names import canonical
+from linkwright.mechanism.force_names import link_numbers
 from linkwright.plot.drawing.labels import Label, link_labels, point_labels
 from linkwright.plot.drawing.loads import load_labels, load_marks
 from linkwright.plot.drawing.scene import Scene, laid_out
 from linkwright.plot.drawing.view import View
-from linkwright.plot.force_names import link_numbers
 from linkwright.sheets.labels import TO_UNITS, UNIT, Name, name_of, put
 from linkwright.sheets.panel import Drawn, Panel, drawing_scale, scale_text
 from linkwright.sheets.picture import LEAST, Picture, as_runs, indexed, joined

@@ -5,9 +5,9 @@ from tests.invariants.fourbars import four_bars
 
 import linkwright as lw
 from linkwright.engine.program import Program
+from linkwright.kinematics.placement import placements
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.metrics import Analysis
-from linkwright.plot.drawing.view import placements
 
 
 def programs_of(count: int, monkeypatch: pytest.MonkeyPatch) -> int:

@@ -9,9 +9,10 @@ from typing import Any
 import pytest
 
 import linkwright as lw
+from linkwright.kinematics.placement import placements
 from linkwright.page.glyphs import glyphs
 from linkwright.plot.drawing.machine import Machine
-from linkwright.plot.drawing.view import fitted, placements
+from linkwright.plot.drawing.view import fitted
 
 ENGINE = """
 format: 1

@@ -10,8 +10,8 @@ from tests.every import every
 import linkwright as lw
 from linkwright.joints.cam_shape import CamShape
 from linkwright.joints.marks import Mark
+from linkwright.kinematics.placement import placements
 from linkwright.plot.drawing.vectors import force_vectors
-from linkwright.plot.drawing.view import placements
 
 BASE = 0.07
 

@@ -78,7 +78,8 @@ def _output(name: str) -> str:
 
 
 def _paper_scale(motion: lw.Motion) -> float:
-    from linkwright.plot.drawing.view import fitted, placements
+    from linkwright.kinematics.placement import placements
+    from linkwright.plot.drawing.view import fitted
 
     return fitted(motion, placements(motion)).scale
 

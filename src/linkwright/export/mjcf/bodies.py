@@ -13,8 +13,8 @@ from linkwright.elements.topology import Connection, TreeJoint
 from linkwright.export.mjcf.text import numbers
 from linkwright.export.results import Results
 from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.placement import placements
 from linkwright.mechanism.mechanism import Link
-from linkwright.plot.drawing.view import placements
 
 #: Mass and inertia of links without any, as a share of the largest mass.
 LEAST = 1e-3

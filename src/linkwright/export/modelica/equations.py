@@ -13,7 +13,7 @@ from linkwright.export.results import Results
 from linkwright.joints.base import Joint
 from linkwright.joints.lower import RigidJoint, SlidingJoint
 from linkwright.kinematics.names import canonical
-from linkwright.plot.drawing.view import placements
+from linkwright.kinematics.placement import placements
 
 
 @dataclass

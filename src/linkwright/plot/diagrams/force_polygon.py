@@ -13,6 +13,7 @@ from linkwright.core.outputs import row_names
 from linkwright.errors import RequestError
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.link_balance import driver_wrenches
+from linkwright.mechanism.force_names import link_numbers, reaction_index
 from linkwright.plot.diagrams.axes import significant, unit_of, wrapped
 from linkwright.plot.diagrams.base import DIAGRAMS, Kind, Request
 from linkwright.plot.diagrams.outputs import known_link
@@ -35,7 +36,6 @@ from linkwright.plot.diagrams.scaled_page import (
     text_width,
 )
 from linkwright.plot.diagrams.source import Source
-from linkwright.plot.force_names import link_numbers, reaction_index
 from linkwright.words.sentence import links_said
 
 #: Longest extent of a polygon on the paper, mm, and how many pictures stand in a row.

@@ -8,6 +8,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.search import first_largest
+from linkwright.mechanism.force_names import chosen_pairs
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.reactions import size as magnitude
 from linkwright.plot.diagrams.axes import Legend, Unit, equal, framed, unit_of
@@ -18,7 +19,6 @@ from linkwright.plot.diagrams.outputs import joint_and_link, known_link
 from linkwright.plot.diagrams.picture import COLOURS, FAINT, INK, Axes, Figure, new_figure
 from linkwright.plot.diagrams.reactions import require_forces
 from linkwright.plot.diagrams.source import Source
-from linkwright.plot.force_names import chosen_pairs
 
 
 @DIAGRAMS.register("hodograph")

@@ -11,9 +11,9 @@ from linkwright.errors import RequestError
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import canonical, output_meant, output_of, owners
 from linkwright.kinetostatics.forces import Forces
+from linkwright.mechanism.force_names import reaction_pairs
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.outputs import free_points, mechanism_outputs, output_link
-from linkwright.plot.force_names import reaction_pairs
 
 
 def output_named(mechanism: Mechanism, name: str) -> Output | str:

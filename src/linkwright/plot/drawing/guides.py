@@ -9,8 +9,8 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.joints.lower import SlidingJoint
+from linkwright.kinematics.placement import Placement
 from linkwright.plot.drawing.machine import Machine, Part
-from linkwright.plot.drawing.view import Placement
 from linkwright.plot.symbols.base import SYMBOLS, Vec, points
 from linkwright.plot.symbols.joints import HEIGHT, LENGTH
 

@@ -8,9 +8,9 @@ from collections.abc import Iterator
 import numpy as np
 
 from linkwright.drivers.base import Driver
+from linkwright.kinematics.placement import Placement
 from linkwright.plot.drawing.guides import block_direction, direction, ground_side, is_cylinder, travel
 from linkwright.plot.drawing.machine import Machine, Part, support_direction
-from linkwright.plot.drawing.view import Placement
 from linkwright.plot.symbols.base import SYMBOLS
 from linkwright.plot.symbols.joints import HEIGHT
 

@@ -7,9 +7,9 @@ from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 from linkwright.core.arrays import Floats
+from linkwright.mechanism.force_names import Symbol, link_numbers
 from linkwright.plot.drawing.picture import Box
 from linkwright.plot.drawing.vectors import Arrows, Torques, Vectors, round_length, scale_of, with_unit
-from linkwright.plot.force_names import Symbol, link_numbers
 from linkwright.plot.svg.element import Element
 from linkwright.plot.svg.text import name_width, text_element, width
 from linkwright.plot.symbols.base import SYMBOLS, points

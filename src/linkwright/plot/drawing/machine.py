@@ -12,10 +12,11 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.joints.lower import SlidingJoint, TurningJoint
 from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.placement import Placement
 from linkwright.loads.base import Load
 from linkwright.loads.marks import Mark
 from linkwright.mechanism.mechanism import Link
-from linkwright.plot.drawing.view import Placement, View
+from linkwright.plot.drawing.view import View
 from linkwright.plot.symbols.base import PIN, SYMBOLS, Shape, Vec, points
 
 Layer = Literal["ground", "bodies", "blocks", "pins", "tops", "marks"]

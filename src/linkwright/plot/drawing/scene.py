@@ -10,10 +10,11 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.placement import followed, placements
 from linkwright.plot.drawing.guides import guides, welds
 from linkwright.plot.drawing.inputs import input_arrows
 from linkwright.plot.drawing.machine import LAYERS, Machine, Part, bodies, pins
-from linkwright.plot.drawing.view import DIAGONAL, View, fitted, followed, moved, placements
+from linkwright.plot.drawing.view import DIAGONAL, View, fitted, moved
 from linkwright.plot.drawing.wheels import wheels
 from linkwright.plot.svg.element import Element, group, number, path
 from linkwright.plot.symbols.base import SYMBOLS

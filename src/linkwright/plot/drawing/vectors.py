@@ -16,9 +16,9 @@ from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
 from linkwright.joints.base import HigherPair
 from linkwright.kinematics.names import canonical, find_point
+from linkwright.mechanism.force_names import Symbol, reaction_index, reaction_pairs
 from linkwright.plot.drawing.labels import Label
 from linkwright.plot.drawing.view import View
-from linkwright.plot.force_names import Symbol, reaction_index, reaction_pairs
 from linkwright.plot.symbols.base import EMPTY, SYMBOLS, Shape, joined, vec
 
 if TYPE_CHECKING:

@@ -1,64 +1,20 @@
-"""Where links are at every position, and how the machine's metres become the paper's units."""
+"""How the machine's metres become the paper's units."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 
 import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.core.outputs import row_names
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.motion import Motion
-from linkwright.kinematics.names import canonical
+from linkwright.kinematics.placement import Placement
 from linkwright.plot.symbols.base import Vec
 
 DIAGONAL = 620.0
 SHORTEST_BAR = 26.0
-
-
-@dataclass(frozen=True)
-class Placement:
-    """Origin (n, 2) m and direction of the x axis (n, 2) of a link at every position."""
-
-    origin: Floats
-    direction: Floats
-
-    def world(self, local: Vec) -> Floats:
-        """A point of the link in frame axes, (n, 2) m."""
-        c, s = self.direction[:, 0], self.direction[:, 1]
-        x, y = local
-        return np.stack([self.origin[:, 0] + c * x - s * y, self.origin[:, 1] + s * x + c * y], axis=1)
-
-
-def placements(motion: Motion) -> dict[str, Placement]:
-    """Placement of every link, the frame included."""
-    still = np.zeros((motion.steps, 2))
-    found = {"frame": Placement(still, still + np.array([1.0, 0.0]))}
-    links = motion.mechanism.links
-    first = {name: canonical(motion.mechanism, name, next(iter(link.points))) for name, link in links.items()}
-    wanted = [row_names("direction", name) for name in links]
-    wanted += [row_names("position", point) for point in first.values()]
-    motion.evaluate_together(each for pair in wanted for each in pair)
-    for name, link in links.items():
-        direction = motion.link(name).direction
-        x, y = next(iter(link.points.values()))
-        c, s = direction[:, 0], direction[:, 1]
-        at = motion.point_of(first[name]).position
-        found[name] = Placement(at - np.stack([c * x - s * y, s * x + c * y], axis=1), direction)
-    return found
-
-
-def followed(placed: Mapping[str, Placement], beside: Sequence[tuple[Motion, int]]) -> dict[str, Placement]:
-    """Placements with those at positions of other motions of the same mechanism after them."""
-    rows = [(placements(motion), [index]) for motion, index in beside]
-
-    def of(name: str, part: str) -> Floats:
-        more = [getattr(other[name], part)[row] for other, row in rows]
-        return np.concatenate([getattr(placed[name], part), *more])
-
-    return {name: Placement(of(name, "origin"), of(name, "direction")) for name in placed}
 
 
 @dataclass(frozen=True)

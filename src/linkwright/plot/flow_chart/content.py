@@ -16,8 +16,8 @@ from linkwright.groups.base import DYADS
 from linkwright.joints.cam import CamJoint
 from linkwright.kinematics.groups import dyad_shape, in_one_step, whole_form
 from linkwright.kinematics.motion import Motion
+from linkwright.mechanism.force_names import link_numbers
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.plot.force_names import link_numbers
 from linkwright.words import Say, has, say
 from linkwright.words.sentence import link_said
 

@@ -16,8 +16,8 @@ from linkwright.core.outputs import owners_of
 from linkwright.kinetostatics.applied_wrenches import AppliedWrench, applied_wrenches
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.link_balance import driver_wrenches
+from linkwright.mechanism.force_names import link_numbers
 from linkwright.plot.drawing.vectors import NOTHING, force_vectors, link_middle
-from linkwright.plot.force_names import link_numbers
 
 #: Roles with the classes of their arrows.
 STYLES = {

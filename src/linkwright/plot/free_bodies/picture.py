@@ -11,11 +11,12 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.placement import placements
 from linkwright.plot.drawing.labels import Label, Obstacles, place, written
 from linkwright.plot.drawing.machine import Machine, Part
 from linkwright.plot.drawing.picture import Box, bounds
 from linkwright.plot.drawing.scene import Scene, parts_of
-from linkwright.plot.drawing.view import View, placements
+from linkwright.plot.drawing.view import View
 from linkwright.plot.free_bodies.actions import FreeBody
 from linkwright.plot.free_bodies.arrows import MILLIMETRE, arcs, arranged
 from linkwright.plot.svg.element import Element
