@@ -11,8 +11,9 @@ from linkwright.cams.loading import CamLoading, CamMaterial, CamSpring
 from linkwright.cams.sizes import CamChoice
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import ModelError
-from linkwright.fields.base import Field, Place, Quantity, Reader, Word, given
+from linkwright.fields.base import Field, Quantity, Word, given
 from linkwright.fields.nodes import Node
+from linkwright.fields.reading import Place, Reader
 from linkwright.laws.program_fields import RATES, ProgramField
 from linkwright.laws.smoothest import ORDERS, FoundProgram, Window
 from linkwright.parts.base import fault

@@ -7,8 +7,9 @@ from collections.abc import Mapping
 from typing import Any
 
 from linkwright.core.dataclass import dataclass
-from linkwright.fields.base import Field, Place, Quantity, Reader, Schema, Word, given
+from linkwright.fields.base import Field, Quantity, Schema, Word, given
 from linkwright.fields.nodes import Node
+from linkwright.fields.reading import Place, Reader
 from linkwright.parts.fields import Flag
 
 KINDS = ("roller", "knife", "flat")

@@ -12,23 +12,16 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import field, fields, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import Any
 
 from linkwright import units
 from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import Expression
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar
+from linkwright.fields.reading import Place, Reader
 from linkwright.words import LANGUAGES
 from linkwright.words.sentence import Sentence, Worded
-
-if TYPE_CHECKING:
-    from linkwright.files import node_reader, reader
-
-    Place: TypeAlias = node_reader.Place
-    Reader: TypeAlias = reader.Reader
-else:  # what reads files is imported when one is read
-    Place = Reader = Any
 
 Schema = dict[str, Any]
 

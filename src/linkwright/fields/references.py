@@ -8,18 +8,10 @@ from dataclasses import field
 from typing import Any, ClassVar
 
 from linkwright.core.dataclass import dataclass
-from linkwright.fields.base import (
-    Field,
-    Place,
-    Quantities,
-    Reader,
-    Schema,
-    pair_schema,
-    quantity_schema,
-    written_quantity,
-)
+from linkwright.fields.base import Field, Quantities, Schema, pair_schema, quantity_schema, written_quantity
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar, Sequence
+from linkwright.fields.reading import Place, Reader
 from linkwright.words.sentence import Sentence
 
 

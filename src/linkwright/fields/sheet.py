@@ -6,19 +6,9 @@ from collections.abc import Mapping
 from typing import Any
 
 from linkwright.core.dataclass import dataclass
-from linkwright.fields.base import (
-    Field,
-    Free,
-    Place,
-    Quantities,
-    Quantity,
-    Reader,
-    Schema,
-    Text,
-    Word,
-    table_schema,
-)
+from linkwright.fields.base import Field, Free, Quantities, Quantity, Schema, Text, Word, table_schema
 from linkwright.fields.nodes import Node
+from linkwright.fields.reading import Place, Reader
 from linkwright.fields.tables import ByAddress, Flag, Listed, Table, Whole
 from linkwright.words import LANGUAGES
 

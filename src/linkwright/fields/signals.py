@@ -11,9 +11,7 @@ from linkwright.core.expressions import Expression
 from linkwright.core.outputs import Output
 from linkwright.fields.base import (
     Field,
-    Place,
     Quantities,
-    Reader,
     Schema,
     Word,
     quantity_schema,
@@ -22,6 +20,7 @@ from linkwright.fields.base import (
 )
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node
+from linkwright.fields.reading import Place, Reader
 from linkwright.fields.strokes import PARTS, StrokePart, StrokePartField
 from linkwright.words.sentence import Sentence
 

@@ -6,16 +6,9 @@ from collections.abc import Mapping
 from typing import Any, Literal
 
 from linkwright.core.dataclass import dataclass
-from linkwright.fields.base import (
-    Field,
-    Place,
-    Reader,
-    Schema,
-    pair_schema,
-    quantity_schema,
-    written_quantity,
-)
+from linkwright.fields.base import Field, Schema, pair_schema, quantity_schema, written_quantity
 from linkwright.fields.nodes import Node, Scalar, Sequence
+from linkwright.fields.reading import Place, Reader
 from linkwright.words.sentence import Sentence
 
 PartWord = Literal["first", "last", "free"]

@@ -7,8 +7,9 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from linkwright.core.dataclass import dataclass
-from linkwright.fields.base import Field, Place, Reader, Schema, given_by_file, table_schema
+from linkwright.fields.base import Field, Schema, given_by_file, table_schema
 from linkwright.fields.nodes import Node
+from linkwright.fields.reading import Place, Reader
 from linkwright.words.sentence import Sentence
 
 Make = Callable[..., Any]

@@ -5,23 +5,19 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, Protocol, TypeVar, cast
+from typing import Any, cast
 
-from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, Severity
 from linkwright.fields.base import Field, Text
 from linkwright.fields.form import missing_remedy
 from linkwright.fields.nodes import Entry, Node, Scalar, Sequence, noun
 from linkwright.fields.nodes import Mapping as MappingNode
+from linkwright.fields.reading import K, Place, Reader
 from linkwright.files.syntax import wide_remedy
 from linkwright.registry import PROBABLE, listed, nearest
 from linkwright.units import decimal_comma
 from linkwright.words.sentence import Sentence
 
-if TYPE_CHECKING:
-    from linkwright.files.reader import Reader
-
-K = TypeVar("K", bound="Kind")
 NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
 _WHOLE = re.compile(r"[+-]?\d{1,18}")
 NAME = re.compile(r"[^\W\d][\w'-]*")
@@ -32,15 +28,6 @@ MODES = ("left", "right", "forward", "backward")
 
 #: Findings about one file, at most.
 MOST_FINDINGS = 300
-
-
-class Kind(Protocol):
-    """A kind of elements that a table may be of."""
-
-    @classmethod
-    def fields(cls) -> Mapping[str, Field]:
-        """The keys of the table, without ``kind``."""
-        ...
 
 
 class TooManyFindings(Exception):
@@ -76,24 +63,6 @@ def meant_kind(said: Node | None, kinds: Mapping[str, object]) -> str | None:
     """The kind that a text names, or probably means."""
     text = said.text if isinstance(said, Scalar) else ""
     return text if text in kinds else nearest(text[:100], list(kinds), PROBABLE) if text else None
-
-
-@dataclass(frozen=True)
-class Place:
-    """Where a value stands: ``key`` in the file, ``address`` among the mechanism's dimensions."""
-
-    key: str
-    address: str
-
-    def child(self, name: str) -> Place:
-        """A key below, which counts in the address as well."""
-        return Place(
-            f"{self.key}.{name}" if self.key else name, f"{self.address}.{name}" if self.address else name
-        )
-
-    def outside(self) -> Place:
-        """The same key, where the address leaves out its last name."""
-        return Place(self.key, self.address.rpartition(".")[0])
 
 
 class PlainReader:
@@ -261,7 +230,7 @@ class PlainReader:
                 remedy = missing_remedy(key, each.doc, each.shape())
                 self.finding(mapping, place.child(key), "missing_key", "missing-key", remedy, key_=key)
             elif value is not None:
-                reader = cast("Reader", self)
+                reader = cast(Reader, self)
                 if each.replaced:
                     self.old_key(value, place.child(key), key, each.replaced)
                 found[name] = None if key in split else each.read(reader, value, place.child(key), found)
@@ -295,7 +264,7 @@ class PlainReader:
             return {}
         before, unread = len(self.findings), self.unread
         each, at = fields[missing[0]], place.child(missing[0])
-        value = each.read(cast("Reader", self), unknown[0].value, at, {})
+        value = each.read(cast(Reader, self), unknown[0].value, at, {})
         fits = value is not None or {told.code for told in self.findings[before:]} == {"unknown-name"}
         del self.findings[before:]
         self.unread = unread

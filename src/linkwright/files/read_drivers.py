@@ -12,8 +12,9 @@ from linkwright.errors import Severity
 from linkwright.fields.base import Field
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar
+from linkwright.fields.reading import Place
 from linkwright.fields.references import LinkName
-from linkwright.files.node_reader import NAME, Place, as_meant
+from linkwright.files.node_reader import NAME, as_meant
 from linkwright.files.reader import Reader
 from linkwright.joints.base import Joint, JointName
 from linkwright.mechanism.mechanism import Cycle

@@ -7,8 +7,9 @@ from dataclasses import replace
 
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar, Sequence
-from linkwright.files.node_reader import Place, as_meant, meant_kind
-from linkwright.files.reader import Names, Reader
+from linkwright.fields.reading import Names, Place
+from linkwright.files.node_reader import as_meant, meant_kind
+from linkwright.files.reader import Reader
 from linkwright.joints.base import IMPLIED, JOINTS, Entry, Joint, implied_joint
 from linkwright.mechanism.mechanism import Link
 from linkwright.registry import PROBABLE, nearest
@@ -29,6 +30,8 @@ def scan_joints(reader: Reader, node: Node | None) -> None:
         if kind is not None and kind != IMPLIED:
             reader.names.joints[key] = kind
             reader.names.blocks.setdefault(_word(value, "block"), key)
+    kinds = reader.names.joints
+    reader.names.sliding = [name for name in kinds if JOINTS[kinds[name]].coordinate == "slide"]
 
 
 def _word(node: MappingNode, key: str) -> str:

@@ -8,8 +8,9 @@ from typing import Any
 
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar, Sequence, below
+from linkwright.fields.reading import Place
 from linkwright.fields.references import Coordinates
-from linkwright.files.node_reader import NAME, Place, as_meant
+from linkwright.files.node_reader import NAME, as_meant
 from linkwright.files.reader import Reader
 from linkwright.mechanism.geometry import from_drawing
 from linkwright.mechanism.mechanism import FRAME_FIELDS, LINK_FIELDS, Geometry, Link, Vec

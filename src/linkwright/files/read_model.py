@@ -15,10 +15,11 @@ from linkwright.errors import Finding, QuantityError, Severity
 from linkwright.fields.base import Count, Field, Free, WordedText
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar, below
+from linkwright.fields.reading import Place
 from linkwright.fields.sheet import FIELD as SHEET_SECTION
 from linkwright.files.check_mechanism import check_whole
 from linkwright.files.misplaced import in_place
-from linkwright.files.node_reader import MODES, Place, TooManyFindings
+from linkwright.files.node_reader import MODES, TooManyFindings
 from linkwright.files.read_drivers import read_cycle, read_drivers, scan_input
 from linkwright.files.read_joints import read_joints, scan_joints
 from linkwright.files.read_links import legible, read_drawing, read_frame, read_links, scan_points

@@ -11,8 +11,8 @@ from linkwright.core.expressions import Expression
 from linkwright.core.outputs import KINDS, Output
 from linkwright.errors import QuantityError
 from linkwright.fields.nodes import Node
+from linkwright.fields.reading import Place
 from linkwright.fields.signals import resolve_output
-from linkwright.files.node_reader import Place
 from linkwright.files.reader import Reader
 from linkwright.mechanism.named_output import NamedOutput
 from linkwright.words.sentence import Sentence

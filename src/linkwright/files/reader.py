@@ -6,69 +6,24 @@ import re
 from collections import ChainMap
 from collections.abc import Iterator, MutableMapping
 from contextlib import contextmanager
-from dataclasses import field
 from typing import Literal
 
 from linkwright import units
 from linkwright.core import expressions
-from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import Expression
 from linkwright.core.outputs import Output
 from linkwright.errors import QuantityError
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar, Sequence, noun
+from linkwright.fields.reading import Names, Place
 from linkwright.fields.references import LinkPoint
 from linkwright.fields.signals import resolve_output
-from linkwright.files.node_reader import NUMBER, Place, PlainReader
-from linkwright.joints.base import JOINTS
+from linkwright.files.node_reader import NUMBER, PlainReader
 from linkwright.registry import listed, nearest
 from linkwright.words.sentence import Sentence
 
 #: A name with dots in a text; superscripts belong to units.
 _WORD = re.compile(r"(?![⁰¹²³⁴⁵⁶⁷⁸⁹])[^\W\d](?:(?![⁰¹²³⁴⁵⁶⁷⁸⁹])[\w'-])*(?:\.[^\W\d][\w'-]*)*")
-
-
-@dataclass
-class Names:
-    """The names in a model, known before its values are read.
-
-    ``links`` maps every link, the frame among them, to its points; ``joints`` every joint, the implied pins
-    among them, to its kind; ``pins`` every implied pin to its links, ``blocks`` every block to its guide,
-    ``welded`` a link to the one to which a weld ties it on a pin that it would share.
-    ``illegible`` are the links whose points cannot be read; ``listed`` where the links themselves can be,
-    each under a name of its own.
-    """
-
-    links: dict[str, tuple[str, ...]] = field(default_factory=lambda: {"frame": ()})
-    joints: dict[str, str] = field(default_factory=dict)
-    pins: dict[str, tuple[str, ...]] = field(default_factory=dict)
-    blocks: dict[str, str] = field(default_factory=dict)
-    welded: dict[str, str] = field(default_factory=dict)
-    illegible: set[str] = field(default_factory=set)
-    listed: bool = True
-
-    @property
-    def incomplete(self) -> bool:
-        """Whether pins may be missing, since points cannot be read."""
-        return not self.listed or bool(self.illegible)
-
-    @property
-    def sliding(self) -> list[str]:
-        """The joints with a displacement."""
-        return [name for name, kind in self.joints.items() if JOINTS[kind].coordinate == "slide"]
-
-    _owners: dict[str, list[str]] = field(default_factory=dict)
-
-    def settle(self) -> None:
-        """All links are known: note which have a point of which name."""
-        self._owners = {}
-        for link, points in self.links.items():
-            for point in dict.fromkeys(points):
-                self._owners.setdefault(point, []).append(link)
-
-    def owners(self, point: str) -> list[str]:
-        """The links that have a point of this name."""
-        return self._owners.get(point, [])
 
 
 class Reader(PlainReader):

@@ -27,8 +27,8 @@ if TYPE_CHECKING:
     from linkwright.engine.vector import Vec
     from linkwright.fields.nodes import Mapping as MappingNode
     from linkwright.fields.nodes import Node
-    from linkwright.files.node_reader import Place as Where
-    from linkwright.files.reader import Reader
+    from linkwright.fields.reading import Place as Where
+    from linkwright.fields.reading import Reader
     from linkwright.joints.marks import Following, Mark, WheelSizes
     from linkwright.joints.pose import Pose, Rotor, State
     from linkwright.kinematics.closed_loops import Body, LoopBuilder

@@ -28,8 +28,8 @@ from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.elements.topology import Connection
-    from linkwright.files.node_reader import Place as Where
-    from linkwright.files.reader import Reader
+    from linkwright.fields.reading import Place as Where
+    from linkwright.fields.reading import Reader
     from linkwright.kinematics.constraint_system import ConstraintSystem, Place, Row
     from linkwright.kinematics.dimensions import Dimensions
     from linkwright.mechanism.drawing import Drawing

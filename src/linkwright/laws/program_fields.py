@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError, ModelError, RequestError
-from linkwright.fields.base import Field, Place, Quantities, Quantity, Reader, Schema, Word, table_schema
+from linkwright.fields.base import Field, Quantities, Quantity, Schema, Word, table_schema
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node
+from linkwright.fields.reading import Place, Reader
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:

@@ -24,10 +24,8 @@ from linkwright.core.outputs import Output, RelativeAngle
 from linkwright.fields.base import (
     REQUIRED,
     Field,
-    Place,
     Quantities,
     Quantity,
-    Reader,
     Schema,
     Word,
     given,
@@ -37,6 +35,7 @@ from linkwright.fields.base import (
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node
 from linkwright.fields.nodes import Scalar as ScalarNode
+from linkwright.fields.reading import Place, Reader
 from linkwright.fields.references import (
     LinkName,
     LinkNames,

@@ -10,9 +10,10 @@ from linkwright import units
 from linkwright.core import expressions
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import QuantityError
-from linkwright.fields.base import Field, Place, Reader, Schema
+from linkwright.fields.base import Field, Schema
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar
+from linkwright.fields.reading import Place, Reader
 from linkwright.fields.tables import MOST, ByAddress, Flag, Listed, Make, Named, Table, Whole
 from linkwright.registry import nearest
 from linkwright.words.sentence import Sentence
@@ -125,7 +126,7 @@ def _any(
         return None
     try:
         found, own = _likely(text, likely, reader)
-        reader.used |= found.names
+        reader.used.update(found.names)
         value = float(found.evaluate(reader.values))
     except QuantityError as error:
         reader.quantity_error(error, node, place, text)

@@ -14,9 +14,10 @@ from linkwright.fields.base import Count, Field, Free, Text, Word, table_schema
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node
 from linkwright.fields.nodes import Sequence as SequenceNode
+from linkwright.fields.reading import Place
 from linkwright.fields.sheet import FIELD as SHEET_SECTION
 from linkwright.files.model_file import declared_kind, read_root
-from linkwright.files.node_reader import Place, as_meant
+from linkwright.files.node_reader import as_meant
 from linkwright.files.read_model import FORMAT, TASK_KEYS, read_parameters
 from linkwright.files.reader import Reader
 from linkwright.files.report_schema import report_keys

@@ -8,9 +8,9 @@ from typing import Any, cast
 
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, ModelError, QuantityError
+from linkwright.fields.reading import Place
 from linkwright.fields.sheet import SHEET, WORDS
 from linkwright.files.compose import compose
-from linkwright.files.node_reader import Place
 from linkwright.files.reader import Reader
 from linkwright.files.write import flow
 from linkwright.mechanism.mechanism import Mechanism

@@ -10,8 +10,8 @@ from typing import Any
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import ModelError
 from linkwright.fields.nodes import Mapping as MappingNode
+from linkwright.fields.reading import Place
 from linkwright.files.model_file import read_nodes
-from linkwright.files.node_reader import Place
 from linkwright.files.read_model import HEADER, TASK_KEYS
 from linkwright.files.reader import Reader
 from linkwright.files.source import GALLERY, read_source

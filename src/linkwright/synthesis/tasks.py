@@ -17,10 +17,10 @@ from linkwright.core.given import told
 from linkwright.errors import Finding, ModelError, QuantityError, with_remedy
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar, Sequence
+from linkwright.fields.reading import Place
 from linkwright.files.calculations import refuse_kind
 from linkwright.files.compose import compose
 from linkwright.files.model_file import read_nodes
-from linkwright.files.node_reader import Place
 from linkwright.files.read_model import TASK_KEYS
 from linkwright.files.reader import Reader
 from linkwright.files.source import GALLERY, read_source

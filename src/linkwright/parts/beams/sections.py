@@ -8,8 +8,9 @@ from typing import Any
 
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, RequestError
-from linkwright.fields.base import Field, Place, Quantities, Quantity, Reader, Text
+from linkwright.fields.base import Field, Quantities, Quantity, Text
 from linkwright.fields.nodes import Node
+from linkwright.fields.reading import Place, Reader
 from linkwright.parts.base import fault
 from linkwright.parts.fields import Known, Table
 from linkwright.words.sentence import Sentence

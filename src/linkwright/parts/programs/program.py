@@ -14,9 +14,10 @@ from linkwright.core import expressions
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, LinkwrightError, ModelError, QuantityError
-from linkwright.fields.base import Field, Place, Reader, given
+from linkwright.fields.base import Field, given
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar
+from linkwright.fields.reading import Place, Reader
 from linkwright.parts.base import (
     UNITS,
     Block,

@@ -13,9 +13,10 @@ from numpy.typing import ArrayLike
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding
-from linkwright.fields.base import Place, Quantities, Quantity, Reader, Text, given, quantity_schema
+from linkwright.fields.base import Quantities, Quantity, Text, given, quantity_schema
 from linkwright.fields.nodes import Node
 from linkwright.fields.nodes import Sequence as SequenceNode
+from linkwright.fields.reading import Place, Reader
 from linkwright.parts.base import Block, Problem, Result, Row, Value, fault, number, put, shown, signed
 from linkwright.parts.fields import Either, Listed, Named, Table
 from linkwright.words import Say

@@ -14,9 +14,10 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import Expression, parse
 from linkwright.errors import Finding, QuantityError, RequestError
-from linkwright.fields.base import Place, Quantity, Reader, given
+from linkwright.fields.base import Quantity, given
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node
+from linkwright.fields.reading import Place, Reader
 from linkwright.laws.base import MOTION_LAWS, MotionLaw
 from linkwright.laws.fitting import motion_law
 from linkwright.laws.program_fields import LawField

@@ -14,8 +14,9 @@ import numpy as np
 from linkwright.core.arrays import Complexes, Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, ModelError
-from linkwright.fields.base import GivenByFile, Place, Quantity, Reader, Text, given
+from linkwright.fields.base import GivenByFile, Quantity, Text, given
 from linkwright.fields.nodes import Node
+from linkwright.fields.reading import Place, Reader
 from linkwright.parts.base import Block, Problem, Result, Row, Value, fault, number, put
 from linkwright.parts.fields import AnyQuantity, Listed, Named, Table
 from linkwright.parts.vibration.excitation import (

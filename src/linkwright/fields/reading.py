@@ -1,0 +1,165 @@
+"""What fields and elements see of the reader of a file: values, places of findings, and the names in the model."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from contextlib import AbstractContextManager
+from dataclasses import field
+from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeVar
+
+from linkwright.core.dataclass import dataclass
+
+if TYPE_CHECKING:
+    from linkwright.core.expressions import Expression
+    from linkwright.core.outputs import Output
+    from linkwright.errors import QuantityError, Severity
+    from linkwright.fields.nodes import Mapping as MappingNode
+    from linkwright.fields.nodes import Node
+    from linkwright.units import Dimension
+
+K = TypeVar("K", bound="Kind")
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where a value stands: ``key`` in the file, ``address`` among the mechanism's dimensions."""
+
+    key: str
+    address: str
+
+    def child(self, name: str) -> Place:
+        """A key below, which counts in the address as well."""
+        return Place(
+            f"{self.key}.{name}" if self.key else name, f"{self.address}.{name}" if self.address else name
+        )
+
+    def outside(self) -> Place:
+        """The same key, where the address leaves out its last name."""
+        return Place(self.key, self.address.rpartition(".")[0])
+
+
+@dataclass
+class Names:
+    """The names in a model, known before its values are read.
+
+    ``links`` maps every link, the frame among them, to its points; ``joints`` every joint, the implied pins
+    among them, to its kind, ``sliding`` those with a displacement; ``pins`` every implied pin to its links,
+    ``blocks`` every block to its guide, ``welded`` a link to the one to which a weld ties it on a pin that it
+    would share.
+    ``illegible`` are the links whose points cannot be read; ``listed`` where the links themselves can be,
+    each under a name of its own.
+    """
+
+    links: dict[str, tuple[str, ...]] = field(default_factory=lambda: {"frame": ()})
+    joints: dict[str, str] = field(default_factory=dict)
+    sliding: list[str] = field(default_factory=list)
+    pins: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    blocks: dict[str, str] = field(default_factory=dict)
+    welded: dict[str, str] = field(default_factory=dict)
+    illegible: set[str] = field(default_factory=set)
+    listed: bool = True
+
+    @property
+    def incomplete(self) -> bool:
+        """Whether pins may be missing, since points cannot be read."""
+        return not self.listed or bool(self.illegible)
+
+    _owners: dict[str, list[str]] = field(default_factory=dict)
+
+    def settle(self) -> None:
+        """All links are known: note which have a point of which name."""
+        self._owners = {}
+        for link, points in self.links.items():
+            for point in dict.fromkeys(points):
+                self._owners.setdefault(point, []).append(link)
+
+    def owners(self, point: str) -> list[str]:
+        """The links that have a point of this name."""
+        return self._owners.get(point, [])
+
+
+class Kind(Protocol):
+    """A kind of elements that a table may be of."""
+
+    @classmethod
+    def fields(cls) -> Mapping[str, Any]:
+        """The keys of the table, without ``kind``."""
+        ...
+
+
+class Reader(Protocol):
+    """Values from nodes; a method that reads returns None after it has noted a finding."""
+
+    @property
+    def names(self) -> Names: ...
+    @property
+    def error_count(self) -> int: ...
+    @property
+    def kinds(self) -> dict[str, Dimension]: ...
+    @property
+    def values(self) -> dict[str, float]: ...
+    @property
+    def used(self) -> set[str]: ...
+    @property
+    def broken(self) -> set[str]: ...
+    def error(
+        self,
+        node: Node | None,
+        place: Place | str,
+        message: str,
+        remedy: str = "",
+        code: str = "",
+        *,
+        severity: Severity = "error",
+    ) -> None: ...
+    def finding(
+        self,
+        node: Node | None,
+        place: Place | str,
+        key: str,
+        code: str,
+        remedy: str = "",
+        /,
+        *,
+        severity: Severity = "error",
+        **values: object,
+    ) -> None: ...
+    def old_key(self, node: Node, place: Place, key: str, new: str) -> None: ...
+    def quantity_error(self, error: QuantityError, node: Node, place: Place, text: str) -> None: ...
+    def follows(self, text: str) -> bool: ...
+    def plain_numbers(self, what: str) -> AbstractContextManager[None]: ...
+
+    def mapping(self, node: Node | None, place: Place | str) -> MappingNode | None: ...
+    def items(self, node: Node, place: Place | str, count: int | None, form: str) -> list[Node] | None: ...
+    def free(self, node: Node) -> Any: ...
+    def text(self, node: Node, place: Place | str) -> str | None: ...
+    def name(self, node: Node, place: Place | str, what: str) -> str | None: ...
+    def word(self, node: Node, place: Place | str, choices: Collection[str]) -> str | None: ...
+    def table(self, node: Node, place: Place, fields: Mapping[str, Any]) -> dict[str, Any] | None: ...
+
+    def unknown_keys(
+        self, mapping: MappingNode, place: Place, known: list[str]
+    ) -> tuple[MappingNode, set[str]]: ...
+    def of_kind(
+        self, node: Node, place: Place, kinds: Mapping[str, type[K]], missing: str, remedy: str
+    ) -> tuple[MappingNode, type[K], dict[str, Any]] | None: ...
+
+    def quantity(self, node: Node, place: Place, dimension: str) -> float | None: ...
+    def quantity_text(self, node: Node, place: Place, example: str) -> str | None: ...
+    def formula(
+        self, node: Node, place: Place, dimension: str, variables: dict[str, Any]
+    ) -> Expression | None: ...
+    def magnitude(self, node: Node, place: Place, dimension: str) -> float | Expression | None: ...
+    def within(self, value: float, node: Node, place: Place, largest: float, unit: str) -> float | None: ...
+    def increasing(
+        self, node: Node, place: Place, x_name: str, xs: tuple[float, ...], ys: tuple[float, ...], y_name: str
+    ) -> bool: ...
+
+    def known(self, node: Node, place: Place | str, what: str, name: str, candidates: list[str]) -> bool: ...
+    def point_of(self, node: Node, place: Place | str, name: str, link: str) -> bool: ...
+    def link_point(self, node: Node, place: Place, text: str) -> Any: ...
+    def output(self, node: Node, place: Place, text: str) -> Output | None: ...
+    def over(
+        self, node: MappingNode, place: Place
+    ) -> tuple[Literal["input", "time"] | Output | None, str]: ...
+    def input_dimension(self) -> str: ...
