@@ -25,6 +25,7 @@ from linkwright.engine.reductions import Reduction
 from linkwright.engine.scalar_backend import ScalarProgram
 from linkwright.engine.stage import Stage
 from linkwright.engine.table import Table
+from linkwright.engine.tangent import slope
 
 Floats = NDArray[np.float64]
 needs_compiler = pytest.mark.skipif(not available(), reason="llvmlite is not installed")
@@ -336,11 +337,11 @@ def test_a_slope_in_the_trace_is_a_value_like_others() -> None:
     t = tr.Trace()
     x, a, s = t.position("x"), t.parameter("a"), t.state("s")
     y = tr.exp(a * x) * tr.sin(x) + s * x
-    first = tr.slope(y, {x: 1.0})
-    second = tr.slope(first, {x: 1.0})
-    along = tr.slope(y, {x: 2.0, s: a})
-    mixed = tr.slope(first, {s: 1.0})
-    assert tr.slope(y, {t.field_input("f"): 1.0}) == 0.0
+    first = slope(y, {x: 1.0})
+    second = slope(first, {x: 1.0})
+    along = slope(y, {x: 2.0, s: a})
+    mixed = slope(first, {s: 1.0})
+    assert slope(y, {t.field_input("f"): 1.0}) == 0.0
     assert mixed == 1.0
     program = Program.of(t, {"first": first, "second": second, "along": along})
     at = np.linspace(-1.0, 1.0, 7)
@@ -356,7 +357,7 @@ def test_a_slope_in_the_trace_is_a_value_like_others() -> None:
             got[:, place], [one, two, 2.0 * one + 0.7 * number], rtol=1e-13, atol=1e-13
         )
     with pytest.raises(ValueError):  # noqa: PT011
-        tr.slope(y, {tr.Trace().position("x"): 1.0})
+        slope(y, {tr.Trace().position("x"): 1.0})
 
 
 @pytest.mark.long
