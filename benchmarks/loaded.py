@@ -15,7 +15,7 @@ from linkwright.cycle_programs.metric_cycle import MetricCycle, metric_cycle
 from linkwright.cycle_programs.terms import Asked
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.metrics import METRICS
-from linkwright.metrics.summary import wanted
+from linkwright.metrics.wanted import wanted
 from linkwright.study.sweep_run import Manner, SweepRun
 
 PLAIN, ALL, STUDIED = (

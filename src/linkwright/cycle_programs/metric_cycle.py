@@ -45,8 +45,8 @@ from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinetostatics.forces import solve_forces
 from linkwright.kinetostatics.traced_loads import AlongInput
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.metrics import Analysis, strokes, true_speed
-from linkwright.metrics.summary import Summary, one
+from linkwright.metrics import Analysis
+from linkwright.metrics.summary import STROKES, TRUE_SPEED, Summary, one, output_of, signal_of
 
 #: Designs of one call.
 BLOCK = 2048
@@ -105,7 +105,7 @@ def _metric_cycle(
     opposed, apart = reversing(plain, program)
     turning = (*loads.swinging, *apart)
     if turns:
-        ways = (analysis.output(strokes.output_of(part)) for part in stroke_parts(all_parts(terms)).values())
+        ways = (analysis.output(output_of(part)) for part in stroke_parts(all_parts(terms)).values())
         others = (*opposed, *(each for each in ways if each is not None))
         rubbing = turning if can_have_corners(plain) else turning[:0]
         swinging = others if rubbing else (*turning, *others)
@@ -219,10 +219,10 @@ class MetricCycle:
 
     def _half_on_stroke(self, part: Summary) -> Scalar:
         """Tangent of half a transmission angle while an output goes one way, else the largest one that there is."""
-        output, signal = self.analysis.output(strokes.output_of(part)), strokes.signal_of(part)
+        output, signal = self.analysis.output(output_of(part)), signal_of(part)
         assert output is not None
         rate, _ = rates(self.traced, output)
-        going = rate < 0.0 if part.kind == strokes.KINDS["max"] else rate > 0.0
+        going = rate < 0.0 if part.kind == STROKES["max"] else rate > 0.0
         return select(going, self.traced.named.half_transmission(signal), 1.0)
 
     # values -----------------------------------------------------------------------------------------
@@ -386,7 +386,7 @@ class MetricCycle:
     @cached_property
     def running(self) -> set[str]:
         """The parts that the true speed gives."""
-        return {text for text, part in self.parts.items() if part.kind in true_speed.KINDS}
+        return {text for text, part in self.parts.items() if part.kind in TRUE_SPEED}
 
     def _table(self, cycle: CycleProgram, columns: Mapping[str, Floats]) -> Floats:
         known = {**self.traced.solver.nominal.parameters, **constants(self.traced, self.gauss.count)}

@@ -10,8 +10,7 @@ from linkwright.core.arrays import Flags, Floats
 from linkwright.core.piecewise import POINTS, WEIGHTS, Peak, weights_at, weights_up_to
 from linkwright.cycle_programs.piece_summaries import SIDES, Reduced
 from linkwright.cycle_programs.steady_designs import SMOOTH, SteadyDesigns
-from linkwright.metrics import true_speed
-from linkwright.metrics.summary import Summary
+from linkwright.metrics.summary import TRUE_SPEED, Summary
 
 
 class Seen:
@@ -42,7 +41,7 @@ class Seen:
 
     def summary(self, part: Summary) -> Floats:
         """A summary, (designs,)."""
-        if part.kind in true_speed.KINDS:
+        if part.kind in TRUE_SPEED:
             value, met = self.steady.number(part)
             self.running &= met
             return value
@@ -66,7 +65,7 @@ class Seen:
         """Weights (designs, n) of the Gauss points in a summary, by the names of the fields that take them; none for
         means, whose weights are the widths."""
         self.summary(part)
-        if part.kind in true_speed.KINDS:
+        if part.kind in TRUE_SPEED:
             return self.steady.weights(part)
         if part.kind == "excess":
             return {f"{part.output} excess": self._excess(part.output)}

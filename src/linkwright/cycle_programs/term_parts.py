@@ -10,8 +10,9 @@ from linkwright.cycle_programs.piece_summaries import SIDES
 from linkwright.cycle_programs.terms import Term
 from linkwright.engine.trace import Scalar, absolute, maximum
 from linkwright.kinetostatics.load_site import limit_name
-from linkwright.metrics import Analysis, strokes, true_speed
-from linkwright.metrics.summary import Summary, one
+from linkwright.metrics import Analysis
+from linkwright.metrics.summary import STROKES, TRUE_SPEED, Summary, one, output_of, signal_of
+from linkwright.metrics.true_speed import EFFORT, INERTIA
 
 #: Kinds of summaries that are places of an output's limit.
 PLACES = ("argmax", "argmin")
@@ -33,7 +34,7 @@ def least_of(parts: Iterable[Summary], on_strokes: Mapping[str, Summary]) -> dic
     """Smallest values over the cycle that are those of the two strokes of some output."""
     ways: dict[tuple[str, str], list[str]] = {}
     for text, part in on_strokes.items():
-        ways.setdefault((strokes.signal_of(part), strokes.output_of(part)), []).append(text)
+        ways.setdefault((signal_of(part), output_of(part)), []).append(text)
     both = {signal: (texts[0], texts[1]) for (signal, _), texts in ways.items() if len(texts) == 2}
     return {f"{p.output} {p.kind}": both[p.output] for p in parts if p.kind == "min" and p.output in both}
 
@@ -41,24 +42,24 @@ def least_of(parts: Iterable[Summary], on_strokes: Mapping[str, Summary]) -> dic
 def outputs_of(parts: Iterable[Summary]) -> Iterator[str]:
     """The outputs that summaries are found from, but for the places of limits."""
     for part in parts:
-        if part.kind in true_speed.KINDS:
-            yield from (true_speed.EFFORT, true_speed.INERTIA)
-        elif part.kind in strokes.WAYS:
-            yield strokes.signal_of(part)
+        if part.kind in TRUE_SPEED:
+            yield from (EFFORT, INERTIA)
+        elif part.kind in STROKES.values():
+            yield signal_of(part)
         elif part.kind not in PLACES:
             yield part.output
 
 
 def stroke_parts(texts: Iterable[str]) -> dict[str, Summary]:
     """The parts over the strokes of an output."""
-    return {text: part for text in texts if (part := one(text)).kind in strokes.WAYS}
+    return {text: part for text in texts if (part := one(text)).kind in STROKES.values()}
 
 
 def without_more_limits(each: Term, analysis: Analysis) -> bool:
     """Whether the outputs whose limits a term takes have no others than two, and rest nowhere."""
     parts = [one(text) for text in each.parts]
     words = [part.output for part in parts if part.kind in PLACES]
-    words += [strokes.output_of(part) for part in stroke_parts(each.parts).values()]
+    words += [output_of(part) for part in stroke_parts(each.parts).values()]
     outputs = [output for output in map(analysis.output, words) if output is not None]
     moving = (output for output in outputs if not rests(analysis.motion, output))
     return len(outputs) == sum(len(analysis.limits(output)) == 2 for output in moving)
@@ -67,4 +68,4 @@ def without_more_limits(each: Term, analysis: Analysis) -> bool:
 def without_limits(each: Term, analysis: Analysis) -> bool:
     """Whether a term takes neither limits nor strokes of an output, nor the true speed."""
     kinds = {one(text).kind for text in each.parts}
-    return kinds.isdisjoint((*PLACES, *strokes.WAYS, *true_speed.KINDS))
+    return kinds.isdisjoint((*PLACES, *STROKES.values(), *TRUE_SPEED))

@@ -15,10 +15,10 @@ from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.names import find_point
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import METRICS, Analysis
-from linkwright.metrics.analysis import Extreme
 from linkwright.metrics.base import Metric, MetricValue, Number
 from linkwright.metrics.flywheel import SIZED
 from linkwright.metrics.outputs import turns_fully
+from linkwright.metrics.summary import Extreme
 from linkwright.registry import offered
 
 

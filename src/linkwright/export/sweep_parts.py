@@ -21,7 +21,7 @@ from linkwright.errors import RequestError
 from linkwright.export.base import package
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.base import METRICS
-from linkwright.metrics.summary import wanted
+from linkwright.metrics.wanted import wanted
 from linkwright.study.cluster import connected, current, in_turn
 from linkwright.study.designs import sweep
 from linkwright.study.ranges import Range

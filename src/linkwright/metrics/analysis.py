@@ -12,10 +12,9 @@ import numpy as np
 
 from linkwright.core.arrays import EQUAL, Floats
 from linkwright.core.cached_property import cached_property
-from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output, row_names
 from linkwright.core.piecewise import POINTS, Piecewise, largest, reach, sought
-from linkwright.core.search import first_largest, lowest
+from linkwright.core.search import first_largest
 from linkwright.engine.recently_made import Recent
 from linkwright.kinematics.limits import limit_positions
 from linkwright.kinematics.motion import Motion
@@ -25,14 +24,11 @@ from linkwright.kinetostatics.programs import words_name
 from linkwright.kinetostatics.solver import ForceSolver
 from linkwright.loads.phases import outermost
 from linkwright.loads.signals import Limit
-from linkwright.metrics import strokes, true_speed
 from linkwright.metrics.cycle_grid import PASSED, CycleGrid, cycle_grid
 from linkwright.metrics.outputs import mechanism_outputs
-from linkwright.metrics.range_ends import RangeEnds
-from linkwright.metrics.reached_extremes import extreme_of_part, mean_of_part
-from linkwright.metrics.reached_ways import Ways
-from linkwright.metrics.solved_again import Resolver, in_enough_positions
-from linkwright.metrics.summary import Summary, one
+from linkwright.metrics.reached_extremes import PartlyReached
+from linkwright.metrics.solved_again import in_enough_positions
+from linkwright.metrics.summary import STROKES, TRUE_SPEED, Extreme, Summary, one, signal_of
 
 Result: TypeAlias = "Motion | Forces | Analysis"
 Kind = Literal["max", "min"]
@@ -42,17 +38,19 @@ Columns: TypeAlias = dict[str, tuple[list[float], list[float], list[bool]]]
 _TOGETHER = frozenset({"max", "min", "peak", "mean", "rms"})
 
 
-@dataclass(frozen=True)
-class Extreme:
-    """Largest or smallest value of a signal: ``value``, ``time`` s, ``input`` rad or m (NaN without a driver).
+#: Finds parts of some kinds of one machine.
+Finder: TypeAlias = "Callable[[Sequence[Summary], Analysis], list[Extreme]]"
+_FINDERS: dict[str, Finder] = {}
 
-    ``exact``: found between the solved positions to the machine's resolution of a flat extreme, else a sample.
-    """
 
-    value: float
-    time: float
-    input: float
-    exact: bool
+def finds(*kinds: str) -> Callable[[Finder], Finder]:
+    """Decorator of the function that finds parts of kinds that are no summaries of one output."""
+
+    def filed(finder: Finder) -> Finder:
+        _FINDERS.update(dict.fromkeys(kinds, finder))
+        return finder
+
+    return filed
 
 
 def _first_largest(*found: Extreme) -> Extreme:
@@ -61,7 +59,7 @@ def _first_largest(*found: Extreme) -> Extreme:
     return ordered[first_largest(np.abs([each.value for each in ordered]))]
 
 
-class Analysis:
+class Analysis(PartlyReached):
     """What design numbers are read from: a motion, its forces if they were solved, and what numbers share.
 
     Of a cycle in few positions it is the motion in more of them.
@@ -70,16 +68,14 @@ class Analysis:
     """
 
     def __init__(self, motion: Motion, forces: Forces | None = None) -> None:
-        self.motion = motion
-        self.forces = forces
-        self.resolver = Resolver(motion, forces)
+        super().__init__(motion, forces)
         self.kept: dict[tuple[str, str], Any] = {}
         self._limits: dict[Output, tuple[Limit, ...]] = {}
         self._outermost: dict[Output, list[Limit]] = {}
         self._words: dict[str, None] = {}
         self._rows: dict[str, None] = {}
         self._outputs = motion.solver.programs.meanings
-        self._strokes: dict[Summary, Extreme | None] = {}
+        self._asked: dict[Summary, Extreme | None] = {}
         self._met: dict[str, tuple[int, Columns]] = {}
         self._parts: dict[str, Extreme] = {}
 
@@ -114,16 +110,6 @@ class Analysis:
         return next(iter(self.motion.positions.coordinates.values()))[1]
 
     @property
-    def closed(self) -> bool:
-        """Whether the positions are one closed cycle."""
-        return self.motion.positions.closed
-
-    @property
-    def once(self) -> slice:
-        """The positions without the repeated first one at the end of a closed cycle."""
-        return slice(0, self.motion.steps - self.motion.positions.repeated)
-
-    @property
     def loaded(self) -> bool:
         """Whether anything acts: a load, or mass."""
         mechanism = self.motion.mechanism
@@ -133,11 +119,6 @@ class Analysis:
     def whole(self) -> bool:
         """Whether the positions are one closed cycle and all are reached."""
         return self.closed and self.motion.whole
-
-    @property
-    def partial(self) -> bool:
-        """Whether the positions are those of the drivers' laws, of which not all are reached."""
-        return self.resolver.possible and not self.resolver.whole
 
     def limits(self, output: Output) -> tuple[Limit, ...]:
         """Limit positions of an output, by increasing time; none where the positions follow no law in time."""
@@ -155,23 +136,14 @@ class Analysis:
             self._outermost[output] = outermost(limits) if limits else []
         return self._outermost[output]
 
-    def mean(self, values: Floats) -> float:
-        """Mean over the time of the cycle, of the positions that are reached."""
-        good = np.isfinite(values)
-        if self.closed or good.sum() < 2:
-            return float(np.nanmean(values[self.once]))
-        time, kept = np.abs(self.motion.time[good] - self.motion.time[0]), values[good]
-        span = time[-1] - time[0]
-        return float(np.trapezoid(kept, time) / span) if span else float(np.mean(kept))
-
     def ask(self, parts: Iterable[str]) -> None:
         """Says which summaries will be wanted, so that their outputs are evaluated together."""
         for summary in map(one, parts):
             output = summary.output
-            if summary.kind in strokes.WAYS:
-                output = strokes.signal_of(summary)
-                self._strokes.setdefault(summary)
-            if summary.kind not in true_speed.KINDS and not self._meant(output).of_course:
+            if summary.kind in STROKES.values():
+                output = signal_of(summary)
+                self._asked.setdefault(summary)
+            if summary.kind not in TRUE_SPEED and not self._meant(output).of_course:
                 self._words[words_name(output)] = None
 
     def ask_rows(self, names: Iterable[str]) -> None:
@@ -230,10 +202,8 @@ class Analysis:
 
     def _summarised(self, summary: Summary) -> Extreme:
         kind = summary.kind
-        if kind in true_speed.KINDS:
-            return true_speed.of_machine(summary, self)
-        if kind in strokes.WAYS:
-            return self._on_stroke(summary)
+        if kind in TRUE_SPEED or kind in STROKES.values():
+            return self._found_together(summary, _FINDERS[kind])
         if kind in _TOGETHER and (known := self._known(summary.output, kind)):
             return known
         if kind in ("argmax", "argmin", "range") and (output := self.output(summary.output)):
@@ -257,13 +227,16 @@ class Analysis:
         found = high if kind == "argmax" else low
         return replace(found, value=found.input)
 
-    def _on_stroke(self, part: Summary) -> Extreme:
-        """A part over a stroke, found at once with those of all that were asked for."""
-        found = self._strokes.get(part)
+    def _found_together(self, part: Summary, finder: Finder) -> Extreme:
+        """A part that a finder finds, at once with those of all that were asked for."""
+        found = self._asked.get(part)
         if found is None:
-            missing = [each for each in {**self._strokes, part: None} if self._strokes.get(each) is None]
-            self._strokes |= zip(missing, strokes.of_machine(missing, self), strict=True)
-            found = self._strokes[part]
+            wanted = {**self._asked, part: None}
+            missing = [
+                each for each in wanted if self._asked.get(each) is None and _FINDERS[each.kind] is finder
+            ]
+            self._asked |= zip(missing, finder(missing, self), strict=True)
+            found = self._asked[part]
         assert found is not None
         return found
 
@@ -374,16 +347,6 @@ class Analysis:
         return list(self.ways.ranges(output, zip(self.ends.times, limits, strict=True)))
 
     @cached_property
-    def ways(self) -> Ways:
-        """The motion on all stretches that are reached."""
-        return Ways(self.motion, self.resolver)
-
-    @cached_property
-    def ends(self) -> RangeEnds:
-        """The ends of what is reached."""
-        return RangeEnds(self.motion, self.resolver)
-
-    @cached_property
     def grid(self) -> CycleGrid | None:
         """The cycle at Gauss points; None where not all of it is reached, or nothing lies between its positions."""
         return cycle_grid(self.resolver, self.motion, self.forces, (*self._words, *self._rows))
@@ -398,7 +361,7 @@ class Analysis:
         of = "motion" if self.forces is None else "forces"
         if self.grid is None:
             if self.partial:
-                return mean_of_part(self, signal, of)
+                return self.mean_of_part(signal, of)
             return self.mean(signal(self.forces or self.motion))
         for _, *ends in self.grid.limits_at_changes(signal, of):
             if np.isinf(ends).any():
@@ -438,7 +401,7 @@ class Analysis:
                 return self._past_changes(self.grid, signal, of, sign)
             found = sought(curve, kind, self.grid.function(signal, of))
             return Extreme(found.value, found.place, self.resolver.input_at(found.place), True)
-        return extreme_of_part(self, signal, sign, of, sample)
+        return self.extreme_of_part(signal, sign, of, sample)
 
     def _past_changes(
         self, grid: CycleGrid, signal: Callable[[Any], Floats], of: str, sign: float
@@ -490,17 +453,6 @@ class Analysis:
         first = Extreme(sign * float(values[best]), at, self.resolver.input_at(at), True)
         low, high = time[[max(best - 1, 0)]], time[[min(best + 1, len(time) - 1)]]
         return self.narrowed(signal, low, high, sign, first)
-
-    def narrowed(
-        self, signal: Callable[[Floats], Floats], low: Floats, high: Floats, sign: float, first: Extreme
-    ) -> Extreme:
-        """The best of some brackets of a signal, of which ``sign`` makes the largest the extreme, and a sample."""
-        places, least = lowest(lambda time: -signal(time.ravel()).reshape(time.shape), low, high)
-        best = first_largest(-least)
-        if not -least[best] > sign * first.value:
-            return Extreme(first.value, first.time, first.input, True)
-        time = float(places[best])
-        return Extreme(-sign * float(least[best]), time, self.resolver.input_at(time), True)
 
 
 _known: Recent[Motion | Forces, Analysis] = Recent(8)

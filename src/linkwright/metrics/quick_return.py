@@ -11,8 +11,9 @@ import numpy as np
 
 from linkwright.core.outputs import Output
 from linkwright.engine.trace import Scalar, floor, maximum
-from linkwright.metrics.analysis import Analysis, Extreme
+from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Metric, Number
+from linkwright.metrics.summary import Extreme
 
 
 @METRICS.register("quick_return_ratio")

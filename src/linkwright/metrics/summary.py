@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from functools import lru_cache
 
 import numpy as np
 
 from linkwright.core.arrays import Floats, Whole
 from linkwright.core.dataclass import dataclass
-from linkwright.core.given import one_or_more
 from linkwright.engine.reductions import Reduction
 from linkwright.errors import RequestError
-from linkwright.kinematics.names import PHRASES
 from linkwright.kinetostatics.named_outputs import Quantity
-from linkwright.registry import offered
 
 #: Kinds of summaries, and the engine's reductions they need.
 KINDS: Mapping[str, tuple[str, ...]] = {
@@ -27,6 +24,11 @@ KINDS: Mapping[str, tuple[str, ...]] = {
     "argmin": ("argmin",),
     "argmax": ("argmax",),
 }
+#: Kinds of parts on the strokes of an output, by the limits with which these begin: the smallest value of a signal
+#: while the output goes one way (``transmission_angle B on jaw.angle falling``).
+STROKES = {"max": "falling", "min": "rising"}
+#: Kinds of parts that the true speed over the cycle gives.
+TRUE_SPEED = ("fastest", "slowest", "fluctuation", "size")
 _GROWING = frozenset({"min", "max", "range", "peak", "argmin", "argmax"})
 
 
@@ -47,19 +49,27 @@ class Summary:
         return f"{self.output} {self.kind}".rstrip()
 
 
-def wanted(outputs: Iterable[str | tuple[str, str]]) -> tuple[Summary, ...]:
-    """Summaries from pairs (output, kind), or texts ``output kind``; an output alone means its min and max, the name
-    of a design number that number.
+@dataclass(frozen=True)
+class Extreme:
+    """Largest or smallest value of a signal: ``value``, ``time`` s, ``input`` rad or m (NaN without a driver).
 
-    Raises LinkwrightError for an unknown kind, and where nothing is asked.
+    ``exact``: found between the solved positions to the machine's resolution of a flat extreme, else a sample.
     """
-    found: dict[Summary, None] = {}
-    for each in one_or_more(outputs):
-        for summary in _one(each):
-            found[summary] = None
-    if not found:
-        raise RequestError("study.no_outputs")
-    return tuple(found)
+
+    value: float
+    time: float
+    input: float
+    exact: bool
+
+
+def signal_of(part: Summary) -> str:
+    """The signal of a part on strokes, whose smallest value is sought."""
+    return part.output.rpartition(" on ")[0]
+
+
+def output_of(part: Summary) -> str:
+    """The output of a part on strokes that goes one way."""
+    return part.output.rpartition(" on ")[2]
 
 
 @lru_cache(1024)
@@ -67,43 +77,6 @@ def one(text: str) -> Summary:
     """The one summary that a text ``output kind`` means."""
     output, _, kind = text.rpartition(" ")
     return Summary(output, kind)
-
-
-def is_summary(name: str) -> bool:
-    """Whether a text is a summary of an output, ``driver.effort rms``, not a metric, ``limit_position jaw max``."""
-    ends = any(sign in name and name.rpartition(sign)[2] in KINDS for sign in " .")
-    first = name.partition(" ")[0]
-    return ends and (first in PHRASES or first not in _metrics())
-
-
-def is_metric(name: str) -> bool:
-    """Whether a text means a registered design number, not a summary of the output of the same name."""
-    return name.partition(" ")[0] in _metrics() and not is_summary(name)
-
-
-def _metrics() -> Collection[str]:
-    from linkwright.metrics.base import METRICS
-
-    return METRICS
-
-
-def _one(each: str | tuple[str, str]) -> list[Summary]:
-    if isinstance(each, str):
-        if is_metric(each):
-            return [Summary(each, "")]
-        output, _, kind = each.rpartition(" ")
-        if not output or kind not in KINDS:
-            output, dot, kind = each.rpartition(".")
-            if not dot or kind not in KINDS:
-                return [Summary(each, "min"), Summary(each, "max")]
-        return [Summary(output, kind)]
-    if not isinstance(each, tuple | list) or len(each) != 2:
-        raise RequestError("study.no_output_name", given=repr(each)[:60])
-    output, kind = each
-    if kind not in KINDS:
-        hint = offered(kind, KINDS, "names.one_of")
-        raise RequestError("study.no_summary", output=output, kind=kind, hint=hint)
-    return [Summary(output, kind)]
 
 
 def reductions(summaries: Iterable[Summary], quantities: Mapping[str, Quantity]) -> list[Reduction]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from math import radians
 from typing import ClassVar
@@ -10,11 +10,11 @@ from typing import ClassVar
 from linkwright.core.outputs import Output
 from linkwright.elements.topology import Group
 from linkwright.kinetostatics.closure import dyads
-from linkwright.metrics.analysis import Analysis
+from linkwright.metrics.analysis import Analysis, finds
 from linkwright.metrics.base import METRICS, Better, Metric, Number, Remark
 from linkwright.metrics.outputs import output_link
 from linkwright.metrics.quantities import shown
-from linkwright.metrics.strokes import KINDS
+from linkwright.metrics.summary import STROKES, Extreme, Summary, output_of, signal_of
 
 LIMIT = radians(40)
 SOURCE = "VDI 2123; Volmer, Getriebetechnik; TU Chemnitz, Getriebelexika: not below about 40°"
@@ -61,7 +61,7 @@ class TransmissionAngleOfStroke(TransmissionAngle):
             for first, last in pairwise([*analysis.limits(output)[:2], analysis.limits(output)[0]]):
                 signal = f"transmission_angle {group.name} on {output.owner}.{output.kind}"
                 subject = f"{group.name}: {output} {first.kind}→{last.kind}"
-                yield Number(subject, (f"{signal} {KINDS[first.kind]}",))
+                yield Number(subject, (f"{signal} {STROKES[first.kind]}",))
 
 
 def _driven_dyads(analysis: Analysis) -> list[tuple[Group, Output]]:
@@ -72,4 +72,37 @@ def _driven_dyads(analysis: Analysis) -> list[tuple[Group, Output]]:
         for group in dyads(motion.structure)
         for output in analysis.outputs
         if output_link(motion.mechanism, output) in group.links and len(analysis.limits(output)) >= 2
+    ]
+
+
+@finds(*STROKES.values())
+def on_strokes(parts: Sequence[Summary], analysis: Analysis) -> list[Extreme]:
+    """Such parts of one machine, each the smallest of all its strokes that way: of the stroke in which it lies the
+    smallest of the cycle."""
+    found: dict[tuple[Summary, int], Extreme | None] = {}
+    period, sought = analysis.motion.positions.period or 0.0, []
+    for part in parts:
+        lowest = analysis.part(f"{signal_of(part)} min")
+        for k, (start, end) in enumerate(_strokes(part, analysis, period)):
+            found[part, k] = lowest
+            if not lowest.exact or not any(start <= lowest.time + lap <= end for lap in (0.0, period)):
+                sought.append(((part, k), (analysis.signal(signal_of(part)), (start, end))))
+    of = "motion" if analysis.forces is None else "forces"
+    smallest = analysis.extremes_between("min", [wanted for _, wanted in sought], of)
+    found |= zip((key for key, _ in sought), smallest, strict=True)
+    return [
+        min((one for (each, _), one in found.items() if each == part and one), key=lambda one: one.value)
+        for part in parts
+    ]
+
+
+def _strokes(part: Summary, analysis: Analysis, period: float) -> list[tuple[float, float]]:
+    """The beginning and the end, s, of every stroke that way."""
+    output = analysis.output(output_of(part))
+    assert output is not None
+    limits = analysis.limits(output)
+    return [
+        (first.time, last.time + (0.0 if last.time > first.time else period))
+        for first, last in pairwise([*limits, limits[0]])
+        if STROKES[first.kind] == part.kind
     ]

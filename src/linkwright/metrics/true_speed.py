@@ -7,18 +7,16 @@ flywheel with which the true speed fluctuates by just that.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
 
-from linkwright.metrics.summary import Summary
+from linkwright.kinetostatics.forces import Forces
+from linkwright.machine.equivalent import Equivalent, equivalent
+from linkwright.machine.flywheel import flywheel_inertia
+from linkwright.machine.speed import SteadyCycle
+from linkwright.metrics.analysis import Analysis, finds
+from linkwright.metrics.summary import TRUE_SPEED, Extreme, Summary
 
-if TYPE_CHECKING:
-    from linkwright.kinetostatics.forces import Forces
-    from linkwright.machine.equivalent import Equivalent
-    from linkwright.machine.speed import SteadyCycle
-    from linkwright.metrics.analysis import Analysis, Extreme
-
-#: Kinds of these parts, and the outputs that the true speed follows from.
-KINDS = ("fastest", "slowest", "fluctuation", "size")
+#: The outputs that the true speed follows from.
 EFFORT, INERTIA = "input_torque", "equivalent_inertia"
 
 
@@ -28,11 +26,13 @@ def required(part: Summary) -> float | None:
     return float(number) if number else None
 
 
-def of_machine(part: Summary, analysis: Analysis) -> Extreme:
-    """Such a part of one machine; raises LinkwrightError where it would stop, or does not run steadily."""
-    from linkwright.machine.flywheel import flywheel_inertia
-    from linkwright.metrics.analysis import Extreme
+@finds(*TRUE_SPEED)
+def of_machine(parts: Sequence[Summary], analysis: Analysis) -> list[Extreme]:
+    """Such parts of one machine; raises LinkwrightError where it would stop, or does not run steadily."""
+    return [_of_machine(part, analysis) for part in parts]
 
+
+def _of_machine(part: Summary, analysis: Analysis) -> Extreme:
     assert analysis.forces is not None
     reduced, cycle = steady_cycle(analysis.forces)
     size, fluctuation, nan = 0.0, required(part), float("nan")
@@ -49,10 +49,6 @@ def of_machine(part: Summary, analysis: Analysis) -> Extreme:
 
 def steady_cycle(forces: Forces) -> tuple[Equivalent, SteadyCycle]:
     """The machine reduced to its input, and its cycles of steady running, found once; raises as ``equivalent``."""
-    from linkwright.machine.equivalent import equivalent
-    from linkwright.machine.speed import SteadyCycle
-    from linkwright.metrics.analysis import Analysis
-
     kept = Analysis.of(forces).kept
     if ("running", "") not in kept:
         reduced = equivalent(forces)

@@ -22,7 +22,8 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.base import Number
 from linkwright.metrics.evaluate import unloaded
 from linkwright.metrics.outputs import mechanism_outputs, usual_output
-from linkwright.metrics.summary import is_summary, one, wanted
+from linkwright.metrics.summary import one
+from linkwright.metrics.wanted import is_summary, wanted
 from linkwright.optimisation.paths import PathErrors
 from linkwright.optimisation.problem import Problem
 from linkwright.study.alternatives import Alternative

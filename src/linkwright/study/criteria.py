@@ -13,7 +13,7 @@ from linkwright.errors import LinkwrightError, RequestError
 from linkwright.metrics import METRICS, Metric, MetricValue
 from linkwright.metrics.base import Number
 from linkwright.metrics.flywheel import SIZED
-from linkwright.metrics.summary import is_summary, wanted
+from linkwright.metrics.wanted import is_summary, wanted
 from linkwright.registry import offered
 from linkwright.study.alternatives import Alternative
 from linkwright.words import say

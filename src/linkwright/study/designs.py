@@ -24,7 +24,8 @@ from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinetostatics.named_outputs import Quantity
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.metrics.summary import Summary, wanted
+from linkwright.metrics.summary import Summary
+from linkwright.metrics.wanted import wanted
 from linkwright.study.cluster import current, in_order, in_turn
 from linkwright.study.design_numbers import numbers_of
 from linkwright.study.failures import Failure, explained

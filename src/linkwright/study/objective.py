@@ -45,7 +45,8 @@ from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.named_outputs import Quantity
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.metrics.summary import KINDS, Summary, is_metric, reductions, wanted
+from linkwright.metrics.summary import KINDS, Summary, reductions
+from linkwright.metrics.wanted import is_metric, wanted
 from linkwright.study.design_numbers import Numbers
 from linkwright.study.objective_terms import PathError, Terms, number_of_points, weighted
 from linkwright.study.varied_dimensions import checked_addresses, refuse_moved_positions

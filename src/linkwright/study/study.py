@@ -26,7 +26,7 @@ from linkwright.machine.flywheel import FLUCTUATION, flywheel_inertia
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.evaluate import unloaded
 from linkwright.metrics.outputs import usual_output
-from linkwright.metrics.summary import is_summary
+from linkwright.metrics.wanted import is_summary
 from linkwright.registry import offered
 from linkwright.study.alternatives import Alternative, output_of_machine
 from linkwright.study.cluster import current, in_turn

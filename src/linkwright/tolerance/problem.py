@@ -18,7 +18,7 @@ from linkwright.fields.base import Quantity, Text, Word, given
 from linkwright.kinematics.names import output_meant
 from linkwright.mechanism.mechanism import Link, Mechanism
 from linkwright.metrics.base import METRICS
-from linkwright.metrics.summary import is_metric, wanted
+from linkwright.metrics.wanted import is_metric, wanted
 from linkwright.parts.base import fault, si_unit
 from linkwright.parts.fields import AnyQuantity, ByAddress, Either, Listed, Named, Table, Whole
 from linkwright.parts.mechanism_field import MECHANISM, OfMechanism

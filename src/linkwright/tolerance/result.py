@@ -12,7 +12,8 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError, ModelError
 from linkwright.kinetostatics.forces import Forces
-from linkwright.metrics.summary import Summary, wanted
+from linkwright.metrics.summary import Summary
+from linkwright.metrics.wanted import wanted
 from linkwright.parts.base import PERCENT, Block, Result, Row, fault, put, shown
 from linkwright.study.designs import Sweep, sweep
 from linkwright.study.sensitivity import Sensitivity, sensitivity

@@ -9,7 +9,8 @@ from linkwright.machine.energy import EnergyFluctuation
 from linkwright.machine.equivalent import Equivalent, equivalent
 from linkwright.machine.running import SteadyRunning
 from linkwright.machine.speed import SpeedCurve
-from linkwright.metrics.analysis import Analysis, Extreme, Kind
+from linkwright.metrics.analysis import Analysis, Kind
+from linkwright.metrics.summary import Extreme
 from linkwright.metrics.true_speed import steady_cycle
 from linkwright.plot.diagrams.axes import significant, unit_of
 from linkwright.plot.diagrams.base import DIAGRAMS, Request

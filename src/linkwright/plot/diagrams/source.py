@@ -18,7 +18,8 @@ from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.machine.running import SteadyRunning, steady_running
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.metrics.analysis import Analysis, Extreme, Kind
+from linkwright.metrics.analysis import Analysis, Kind
+from linkwright.metrics.summary import Extreme
 from linkwright.plot.diagrams.axes import Unit, unit_of
 from linkwright.words import Say
 from linkwright.words.characters import one_line
