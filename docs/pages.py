@@ -23,7 +23,7 @@ from typing import Any
 
 import linkwright as lw
 from linkwright import gallery
-from linkwright.core.plot_method import Plotted
+from linkwright.core.attached import Plotted
 from linkwright.errors import LinkwrightError
 from linkwright.validation.validate import validate
 from linkwright.words import say

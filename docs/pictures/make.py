@@ -4,12 +4,12 @@ from pathlib import Path
 from typing import Any
 
 import linkwright as lw
+from linkwright.pictures.drawing import bounds, document
+from linkwright.pictures.svg.element import group
+from linkwright.pictures.svg.text import text_element
+from linkwright.pictures.symbols.base import SYMBOLS
 from linkwright.plot.animation import animate
 from linkwright.plot.drawing import draw
-from linkwright.plot.drawing.picture import bounds, document
-from linkwright.plot.svg.element import group
-from linkwright.plot.svg.text import text_element
-from linkwright.plot.symbols.base import SYMBOLS
 
 HERE = Path(__file__).parent
 STILL: dict[str, tuple[str, dict[str, Any]]] = {

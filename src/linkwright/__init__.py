@@ -1,5 +1,6 @@
 """Linkwright: analysis and design of planar machines."""
 
+from linkwright.core.attached import ATTACHED
 from linkwright.lazy import offer
 
 TYPE_CHECKING = False  # type checkers take it for true
@@ -71,12 +72,12 @@ if TYPE_CHECKING:
     from linkwright.optimisation.optimum import Optimum as Optimum
     from linkwright.page.living import LivingPage as LivingPage
     from linkwright.page.living import living_page as living_page
+    from linkwright.pictures.diagram import Diagram as Diagram
+    from linkwright.pictures.drawing import Drawing as Drawing
     from linkwright.plot.animation import Animation as Animation
     from linkwright.plot.animation import animate as animate
     from linkwright.plot.diagrams.diagram_by_name import plot as plot
-    from linkwright.plot.diagrams.picture import Diagram as Diagram
     from linkwright.plot.drawing.draw import draw as draw
-    from linkwright.plot.drawing.picture import Drawing as Drawing
     from linkwright.report.report import Report as Report
     from linkwright.report.report import report as report
     from linkwright.sheets.sheet import Sheet as Sheet
@@ -116,6 +117,17 @@ if TYPE_CHECKING:
     from linkwright.worked.solution import worked as worked
 
 __version__ = "0.2.0"
+
+ATTACHED.update(
+    {
+        "Forces._repr_svg_": "linkwright.plot.drawing.draw:picture_of",
+        "Mechanism._repr_svg_": "linkwright.plot.drawing.draw:picture_of",
+        "Mechanism.structure": "linkwright.structure.decompose:structure",
+        "Motion._repr_svg_": "linkwright.plot.drawing.draw:picture_of",
+        "Plotted.plot": "linkwright.plot.diagrams.diagram_by_name:plot",
+        "Problem.sketch": "linkwright.plot.sketches.base:sketch",
+    }
+)
 
 #: Public names by the module that has them.
 PUBLIC = offer(__name__)

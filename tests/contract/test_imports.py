@@ -21,6 +21,7 @@ STAGES = (
         "gallery",
         "core",
         "engine",
+        "pictures",
     ),
     ("fields", "elements"),
     ("laws",),
@@ -40,13 +41,7 @@ STAGES = (
 )
 STAGE = {package: number for number, packages in enumerate(STAGES) for package in packages}
 FRONT = STAGE["report"]
-NOTEBOOK = "linkwright.plot.drawing.draw"
-PLOT = "linkwright.plot.plot"
-LEADS_ON = {  # what methods import when they are called: structure(), plot(), sketch(), drawings of notebooks
-    "core/plot_method.py": {PLOT, "linkwright.plot.sketches.base"},
-    "mechanism/mechanism.py": {"linkwright.structure", NOTEBOOK},
-    "kinematics/motion.py": {NOTEBOOK},
-    "kinetostatics/forces.py": {NOTEBOOK},
+LEADS_ON = {  # what methods import when they are called: plot(), drawings of notebooks
     "cams/result.py": {"linkwright.plot.cams", "linkwright.export.dxf.cams"},
     "gears/pair.py": {"linkwright.plot.gears", "linkwright.export.dxf.gears"},
     "gears/rack.py": {"linkwright.plot.gears", "linkwright.export.dxf.gears"},
@@ -70,7 +65,11 @@ KNOWN_TO_ENGINE = (
     "linkwright.core.spline",
 )
 ENGINE = [module for module in MODULES if package_of(module) == "engine"]
-ANALYSIS = [module for module in MODULES if STAGE.get(package_of(module), FRONT) < FRONT]
+ANALYSIS = [
+    module
+    for module in MODULES
+    if package_of(module) != "pictures" and STAGE.get(package_of(module), FRONT) < FRONT
+]
 
 
 def upward(imported: Iterable[tuple[int, str]], package: str) -> list[str]:

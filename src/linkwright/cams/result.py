@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from linkwright.cams.cam import Cam
     from linkwright.cams.curves import CamCurve, Contact
     from linkwright.cams.loading import CamLoading
-    from linkwright.plot.drawing.picture import Drawing
+    from linkwright.pictures.drawing import Drawing
 
 #: Places of the curves.
 POINTS = 1440

@@ -12,7 +12,7 @@ from linkwright.cli.session import Session
 from linkwright.words.characters import cell_text
 
 if TYPE_CHECKING:
-    from linkwright.core.plot_method import Plotted
+    from linkwright.core.attached import Plotted
     from linkwright.study.compare import Comparison
 
 

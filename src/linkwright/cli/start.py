@@ -95,7 +95,7 @@ def _command(name: str, arguments: list[str], session: Session) -> int:
     options = parser.read(arguments)
     if not getattr(options, "fonts", ()):
         return commands.command(name).run(options, session)
-    from linkwright.plot.svg.fonts import font_files, more_fonts
+    from linkwright.pictures.svg.fonts import font_files, more_fonts
 
     with about("--fonts", UsageError, RequestError):
         fonts = font_files(options.fonts)

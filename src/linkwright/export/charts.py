@@ -14,8 +14,8 @@ from linkwright.core.outputs import PLACES, Output
 from linkwright.export.results import Results
 from linkwright.export.tables import Column
 from linkwright.mechanism.force_names import reaction_pairs
+from linkwright.pictures.diagram import COLOURS
 from linkwright.plot.diagrams.outputs import joint_and_link, loaded, main_outputs
-from linkwright.plot.diagrams.picture import COLOURS
 from linkwright.words import say
 from linkwright.words.characters import printable
 

@@ -19,7 +19,7 @@ from linkwright.gears.involute import angle_of_involute, involute
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
-    from linkwright.plot.drawing.picture import Drawing
+    from linkwright.pictures.drawing import Drawing
 
 
 def gear_pair(

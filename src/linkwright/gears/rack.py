@@ -14,7 +14,7 @@ from linkwright.errors import RequestError
 from linkwright.gears.gear import TOOTH, require_ranges
 
 if TYPE_CHECKING:
-    from linkwright.plot.drawing.picture import Drawing
+    from linkwright.pictures.drawing import Drawing
 
 
 @dataclass(frozen=True)

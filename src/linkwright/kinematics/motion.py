@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 
 from linkwright.core.arrays import Floats, Indices
+from linkwright.core.attached import Plotted, attached
 from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import KINDS, NAMED, SLIDE, Output, row_name
-from linkwright.core.plot_method import Plotted
 from linkwright.core.read_only import FrozenDict, locked
 from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import Positions
@@ -382,11 +382,10 @@ class Motion(Plotted):
 
         return dataframe(self.columns(), index=input_column(self))
 
+    @attached
     def _repr_svg_(self) -> str | None:
         """The drawing, as notebooks show it; None where it cannot be put together."""
-        from linkwright.plot.drawing.draw import picture_of
-
-        return picture_of(self)
+        raise NotImplementedError
 
     def __repr__(self) -> str:
         failed = self.steps - int(self.ok.sum())

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from linkwright.core.arrays import Floats
+from linkwright.core.attached import Plotted, attached
 from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import require
 from linkwright.core.outputs import kind_of, row_name, row_names
-from linkwright.core.plot_method import Plotted
 from linkwright.core.read_only import locked
 from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import over_cycle
@@ -267,11 +267,10 @@ class Forces(Plotted):
             values[:, ~self.motion.ok] = np.nan
         return values
 
+    @attached
     def _repr_svg_(self) -> str | None:
         """The drawing, as notebooks show it; None where it cannot be put together."""
-        from linkwright.plot.drawing.draw import picture_of
-
-        return picture_of(self)
+        raise NotImplementedError
 
     def __repr__(self) -> str:
         joints = ", ".join(self.mechanism.joints)

@@ -6,9 +6,9 @@ import cmath
 from collections.abc import Mapping
 from dataclasses import replace
 
+from linkwright.core.attached import Plotted
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import real, require
-from linkwright.core.plot_method import Plotted
 from linkwright.core.read_only import Frozen
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.joints.base import Joint

@@ -7,9 +7,9 @@ from dataclasses import field, replace
 
 import numpy as np
 
+from linkwright.core.attached import Plotted
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import real, require
-from linkwright.core.plot_method import Plotted
 from linkwright.errors import LinkwrightError
 from linkwright.kinetostatics.forces import Forces
 from linkwright.machine.energy import EnergyFluctuation

@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Floats
+from linkwright.core.attached import Plotted
 from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import Expression, parse
 from linkwright.core.piecewise import Integral, Piecewise, sought
-from linkwright.core.plot_method import Plotted
 from linkwright.errors import LinkwrightError
 
 TURN = 2 * np.pi

@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import field, fields
 from typing import TYPE_CHECKING, Any, Literal
 
+from linkwright.core.attached import attached
 from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import require
@@ -357,11 +358,10 @@ class Mechanism(Frozen):
             return Worded({**own, **text.texts})
         return Worded({**dict.fromkeys(LANGUAGES, text), **own}) if own else text
 
+    @attached
     def structure(self) -> Any:
         """Mobility and Assur groups of the mechanism (see ``linkwright.structure``)."""
-        from linkwright.structure import structure
-
-        return structure(self)
+        raise NotImplementedError
 
     @property
     def steady(self) -> bool:
@@ -374,11 +374,10 @@ class Mechanism(Frozen):
         """Whether there is anything that joints would have to carry: loads, masses or moments of inertia."""
         return bool(self.loads) or any(link.mass or link.inertia for link in self.links.values())
 
+    @attached
     def _repr_svg_(self) -> str | None:
         """The drawing, as notebooks show it; None where it cannot be put together."""
-        from linkwright.plot.drawing.draw import picture_of
-
-        return picture_of(self)
+        raise NotImplementedError
 
     def link(self, name: str) -> Link:
         """The link of that name, the frame included; raises for an unknown name."""

@@ -10,10 +10,10 @@ from operator import mul
 import numpy as np
 
 from linkwright.core.arrays import Floats
+from linkwright.core.attached import Plotted
 from linkwright.core.dataclass import dataclass
 from linkwright.core.piecewise import increasing
 from linkwright.core.plane import cross, crossings
-from linkwright.core.plot_method import Plotted
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import Forces

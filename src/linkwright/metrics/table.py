@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
+from linkwright.core.attached import Plotted
 from linkwright.core.html import html_table
-from linkwright.core.plot_method import Plotted
 from linkwright.errors import RequestError
 from linkwright.metrics.base import CELLS, METRICS, MetricValue
 from linkwright.metrics.quantities import number, shown_unit

@@ -11,8 +11,8 @@ import numpy as np
 
 from linkwright import units
 from linkwright.core.arrays import Floats
+from linkwright.core.attached import Plotted
 from linkwright.core.dataclass import dataclass
-from linkwright.core.plot_method import Plotted
 from linkwright.core.read_only import Frozen
 from linkwright.errors import LinkwrightError
 from linkwright.files.document import Document

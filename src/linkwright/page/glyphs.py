@@ -23,11 +23,11 @@ from linkwright.kinematics.names import canonical
 from linkwright.loads.base import Load
 from linkwright.loads.marks import Press, Turn
 from linkwright.mechanism.mechanism import Link
+from linkwright.pictures.symbols.base import PIN, SYMBOLS, Shape, Vec
 from linkwright.plot.drawing.guides import clear_shift, ground_side, is_cylinder, travel, welds
 from linkwright.plot.drawing.inputs import input_arrows
 from linkwright.plot.drawing.loads import named_points, pressing
 from linkwright.plot.drawing.machine import Machine, Part, bodies, flat, support_direction
-from linkwright.plot.symbols.base import PIN, SYMBOLS, Shape, Vec
 
 _LENGTHS = 2
 
@@ -264,7 +264,7 @@ def _tied(machine: Machine, part: Part, point: str | None = None) -> Plain:
 
 
 def _shifted(shape: Shape, at: Vec) -> Shape:
-    from linkwright.plot.svg.element import group
+    from linkwright.pictures.svg.element import group
 
     return Shape((group(shape.elements, transform=f"translate({-at[0]:.2f} {-at[1]:.2f})"),))
 

@@ -15,8 +15,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.core.arrays import Floats
+from linkwright.core.attached import Plotted, attached
 from linkwright.core.dataclass import dataclass
-from linkwright.core.plot_method import Plotted, Sketched
 from linkwright.errors import Finding, ModelError
 from linkwright.fields.base import Field, GivenByFile, given_by_file
 from linkwright.metrics.quantities import SHOWN
@@ -29,6 +29,8 @@ from linkwright.worked.written import filled, latex, latex_symbol, normal, plain
 
 if TYPE_CHECKING:
     from typing import Self
+
+    from linkwright.pictures.drawing import Drawing
 
 
 #: Dimensions that only these results have, with their SI units.
@@ -111,7 +113,7 @@ class Heading:
 HEADING = ("name", "source", *(each.name for each in fields(Heading)))
 
 
-class Problem(Heading, Sketched, ABC):
+class Problem(Heading, ABC):
     """One calculation as the file or the code gave it; subclasses are frozen dataclasses in SI units.
 
     ``kind`` is its name in files, ``fields`` the keys of its file beside the heading: its own attributes.
@@ -134,6 +136,14 @@ class Problem(Heading, Sketched, ABC):
     @abstractmethod
     def solve(self) -> Result:
         """The result. Raises ModelError with all findings."""
+
+    @attached
+    def sketch(self, language: str = "en") -> Drawing | None:
+        """The sketch of what is given, with supports, loads and dimensions; None where its kind has none.
+
+        Raises LinkwrightError where it cannot be drawn.
+        """
+        raise NotImplementedError
 
     def given(self) -> Mapping[str, Any]:
         """What is given as plain data: as the file says it, or as one would say what was changed since."""

@@ -20,6 +20,9 @@ from linkwright.kinematics.names import point_key, result_meant
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.table import results_of
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.pictures.drawing import Box, bounds, document
+from linkwright.pictures.svg.element import Element, circle, group
+from linkwright.pictures.svg.render import png
 from linkwright.plot.diagrams.source import Source
 from linkwright.plot.drawing.draw import Names, all_arrows, solved
 from linkwright.plot.drawing.frames import frame_indices, key_indices, usual_seconds
@@ -28,12 +31,9 @@ from linkwright.plot.drawing.legend import Legend
 from linkwright.plot.drawing.loads import load_marks, moving_springs
 from linkwright.plot.drawing.moving import moving_links, moving_torques, moving_vectors, shift_text, shifted
 from linkwright.plot.drawing.panel import Panel, panel
-from linkwright.plot.drawing.picture import Box, bounds, document
 from linkwright.plot.drawing.scene import Scene, laid_out
 from linkwright.plot.drawing.vectors import Arrows, scale_of
 from linkwright.plot.drawing.video import gif, mp4
-from linkwright.plot.svg.element import Element, circle, group
-from linkwright.plot.svg.render import png
 from linkwright.whole_files import refuse_target, write_whole
 from linkwright.words import say
 from linkwright.words.sentence import in_language

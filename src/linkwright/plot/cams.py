@@ -11,9 +11,9 @@ import numpy as np
 from linkwright.cams.curves import RollerCurve
 from linkwright.core.arrays import Floats
 from linkwright.errors import require_language
-from linkwright.plot.drawing.picture import Drawing, bounds, captioned
-from linkwright.plot.svg.element import Element, circle, path
-from linkwright.plot.symbols.base import SYMBOLS, Shape, joined, vec, way
+from linkwright.pictures.drawing import Drawing, bounds, captioned
+from linkwright.pictures.svg.element import Element, circle, path
+from linkwright.pictures.symbols.base import SYMBOLS, Shape, joined, vec, way
 from linkwright.words import say
 
 if TYPE_CHECKING:

@@ -9,9 +9,9 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.errors import require_language
-from linkwright.plot.drawing.picture import Box, Drawing, bounds, captioned
-from linkwright.plot.svg.element import Element, circle, element, path, path_data
-from linkwright.plot.symbols.base import points, ring, vec
+from linkwright.pictures.drawing import Box, Drawing, bounds, captioned
+from linkwright.pictures.svg.element import Element, circle, element, path, path_data
+from linkwright.pictures.symbols.base import points, ring, vec
 from linkwright.words import say
 from linkwright.words.sentence import Sentence
 

@@ -6,14 +6,14 @@ from collections.abc import Sequence
 
 from linkwright.core.arrays import Floats
 from linkwright.elements.topology import Group
+from linkwright.pictures.drawing import bounds, document
+from linkwright.pictures.svg.element import group
+from linkwright.pictures.svg.render import natural_size
 from linkwright.plot.drawing.draw import Sheet, laid_out_beside
 from linkwright.plot.drawing.labels import point_labels
 from linkwright.plot.drawing.machine import Part
-from linkwright.plot.drawing.picture import bounds, document
 from linkwright.plot.drawing.positions import Shown
 from linkwright.plot.drawing.scene import Scene
-from linkwright.plot.svg.element import group
-from linkwright.plot.svg.render import natural_size
 from linkwright.report.machine_results import Case
 
 
@@ -60,7 +60,7 @@ def _belongs(scene: Scene, part: Part, chosen: Group) -> bool:
 
 
 def _corners(box: tuple[float, float, float, float]) -> list[Floats]:
-    from linkwright.plot.symbols.base import points
+    from linkwright.pictures.symbols.base import points
 
     left, top, right, bottom = box
     return [points([(left - 10.0, top - 10.0), (right + 10.0, bottom + 10.0)])]

@@ -29,7 +29,7 @@ from linkwright.words.sentence import in_language, links_said
 if TYPE_CHECKING:
     from linkwright.machine.running import SteadyRunning
     from linkwright.metrics.table import MetricsTable
-    from linkwright.plot.diagrams.picture import Diagram
+    from linkwright.pictures.diagram import Diagram
     from linkwright.worked.solution import Worked
 
 STEPS = 360

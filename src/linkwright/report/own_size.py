@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from linkwright.plot.drawing.picture import PIXELS
-from linkwright.plot.svg.render import natural_size
+from linkwright.pictures.drawing import PIXELS
+from linkwright.pictures.svg.render import natural_size
 from linkwright.report.typst_pages import TEXT
 
 

@@ -11,7 +11,7 @@ from urllib.parse import unquote
 
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError
-from linkwright.plot.svg.render import natural_size, png
+from linkwright.pictures.svg.render import natural_size, png
 
 #: Endings of pictures, and the name of their form; largest file, bytes.
 FORMS = {".png": "png", ".jpg": "jpeg", ".jpeg": "jpeg", ".svg": "svg"}

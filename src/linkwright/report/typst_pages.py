@@ -10,8 +10,8 @@ from typing import Any
 from unicodedata import category
 
 from linkwright.errors import LinkwrightError
-from linkwright.plot.svg.fonts import check_fonts, given_fonts
-from linkwright.plot.svg.render import natural_size
+from linkwright.pictures.svg.fonts import check_fonts, given_fonts
+from linkwright.pictures.svg.render import natural_size
 from linkwright.report.document import (
     Block,
     Code,

@@ -89,7 +89,7 @@ def add_cover(file: Any, cover: Cover) -> None:
         return made
 
     if cover.logo:
-        from linkwright.plot.svg.render import png
+        from linkwright.pictures.svg.render import png
 
         made = line("", 12, 24)
         picture = made.runs[0].add_picture(io.BytesIO(png(cover.logo, width=800)), width=Inches(LOGO))

@@ -10,7 +10,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.export.dxf.sheet import STYLE, content_of, new_document
-from linkwright.plot.svg.fonts import needs_chinese
+from linkwright.pictures.svg.fonts import needs_chinese
 from linkwright.sheets.paper import Paper
 from linkwright.sheets.picture import CAPITAL, Circle, Item, Line, Text
 from linkwright.sheets.svg import width_of

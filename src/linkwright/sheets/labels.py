@@ -8,9 +8,9 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.pictures.svg.text import split_index
+from linkwright.pictures.symbols.base import vec
 from linkwright.plot.drawing.labels import Label, Obstacles, place
-from linkwright.plot.svg.text import split_index
-from linkwright.plot.symbols.base import vec
 from linkwright.sheets.picture import CAPITAL, TEXT, Circle, Line, Picture, Runs, as_runs
 
 #: Millimetres of the sheet per unit in which symbols and labels are laid out: a pin of 10 units is 3 mm wide.

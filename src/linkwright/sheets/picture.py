@@ -12,8 +12,8 @@ from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.plot.svg.fonts import needs_chinese
-from linkwright.plot.svg.text import width as text_width
+from linkwright.pictures.svg.fonts import needs_chinese
+from linkwright.pictures.svg.text import width as text_width
 from linkwright.sheets.paper import Box
 
 #: Kinds of lines after GB/T 4457.4 and ISO 128-2: ``frame`` and ``thick`` are wide, the others have half their width;

@@ -1,12 +1,12 @@
-"""A machine's drawing on a sheet: the symbols of plot/symbols in the lines of GB/T 4457.4."""
+"""A machine's drawing on a sheet: the symbols of pictures/symbols in the lines of GB/T 4457.4."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 
+from linkwright.pictures.svg.element import Element
+from linkwright.pictures.svg.strokes import strokes
 from linkwright.plot.drawing.scene import Scene
-from linkwright.plot.svg.element import Element
-from linkwright.plot.svg.strokes import strokes
 from linkwright.sheets.labels import TO_UNITS
 from linkwright.sheets.picture import Circle, Fill, Line, Pen, Picture
 

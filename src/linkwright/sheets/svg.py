@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from linkwright.plot.svg.element import Element, element, number, path
-from linkwright.plot.svg.text import FAMILY_LIST
+from linkwright.pictures.svg.element import Element, element, number, path
+from linkwright.pictures.svg.text import FAMILY_LIST
 from linkwright.sheets.paper import Paper
 from linkwright.sheets.picture import INDEX, Circle, Item, Line, Text
 

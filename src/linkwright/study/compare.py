@@ -7,10 +7,10 @@ from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from linkwright.core.attached import Plotted
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import real, require
 from linkwright.core.html import html_table
-from linkwright.core.plot_method import Plotted
 from linkwright.core.progress import current_progress
 from linkwright.core.read_only import Frozen
 from linkwright.errors import LinkwrightError, RequestError, with_remedy

@@ -10,11 +10,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Flags, Floats, Whole
+from linkwright.core.attached import Plotted
 from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import one_of, require, whole
 from linkwright.core.html import columns_html
-from linkwright.core.plot_method import Plotted
 from linkwright.core.progress import Progress, current_progress, part_of
 from linkwright.core.read_only import Frozen
 from linkwright.engine.machine_code import available

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Literal, get_args
 import numpy as np
 
 from linkwright.core.arrays import Floats
+from linkwright.core.attached import Plotted
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import one_of, one_or_more, require
 from linkwright.core.html import html_table
-from linkwright.core.plot_method import Plotted
 from linkwright.core.read_only import Frozen, locked
 from linkwright.cycle_programs.known_loads import known_loads
 from linkwright.cycle_programs.slopes import Slopes

@@ -11,10 +11,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Flags, Floats, Indices
+from linkwright.core.attached import Plotted
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import require
 from linkwright.core.html import columns_html
-from linkwright.core.plot_method import Plotted
 from linkwright.core.progress import Progress, current_progress, part_of
 from linkwright.core.read_only import Frozen
 from linkwright.cycle_programs.terms import Asked

@@ -12,9 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.core.arrays import Complexes, Flags, Floats, Whole
+from linkwright.core.attached import Plotted
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import real
-from linkwright.core.plot_method import Plotted
 from linkwright.errors import LinkwrightError
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.synthesis.linkage import Linkage

@@ -95,7 +95,7 @@ def test_interruption_leaves_no_file(
         if seen:
             raise KeyboardInterrupt
         seen.append(svg)
-        from linkwright.plot.svg.render import png
+        from linkwright.pictures.svg.render import png
 
         return png(svg, width=100)
 

@@ -10,8 +10,8 @@ from tests import store
 from tests.every import every
 from tests.refusals import refused
 
+from linkwright.pictures import diagram as picture
 from linkwright.plot import plot
-from linkwright.plot.diagrams import picture
 from linkwright.plot.diagrams.axes import round_up, significant, unit_of
 from linkwright.plot.diagrams.base import DIAGRAMS, RESULT_DIAGRAMS
 from linkwright.plot.diagrams.outputs import main_output, output_named
@@ -80,7 +80,7 @@ def test_the_regular_face_of_a_collection_that_was_installed_after_the_list(
     stale.ttflist = [font for font in font_manager.fontManager.ttflist if font.name == "DejaVu Sans"]
     monkeypatch.setattr(font_manager, "fontManager", stale)
     monkeypatch.setattr(
-        "linkwright.plot.diagrams.picture.installed_chinese", lambda: tuple(sorted(tmp_path.iterdir()))
+        "linkwright.pictures.diagram.installed_chinese", lambda: tuple(sorted(tmp_path.iterdir()))
     )
     chosen = picture.chinese_font()
     assert chosen is not None

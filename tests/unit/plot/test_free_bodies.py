@@ -8,10 +8,10 @@ from tests import store
 from tests.every import every
 
 import linkwright as lw
+from linkwright.pictures.svg.text import width
 from linkwright.plot.flow_chart.layout import fold
 from linkwright.plot.free_bodies.actions import free_bodies, idle_loads
 from linkwright.plot.free_bodies.picture import round_scale
-from linkwright.plot.svg.text import width
 
 LOADED = [name for name in store.names() if store.machine(name).has_loads]
 

@@ -6,9 +6,9 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from linkwright.pictures.svg.text import name_width, split_index, width
 from linkwright.plot.drawing.labels import Label, Obstacles, place
 from linkwright.plot.drawing.legend import Legend
-from linkwright.plot.svg.text import name_width, split_index, width
 
 
 def overlap(a: tuple[float, ...], b: tuple[float, ...]) -> bool:

@@ -6,9 +6,9 @@ import xml.etree.ElementTree as ET
 import numpy as np
 import pytest
 
-from linkwright.plot.drawing.style import CSS
-from linkwright.plot.svg.element import element, group, number
-from linkwright.plot.symbols.base import SYMBOLS, hatching, placed
+from linkwright.pictures.style import CSS
+from linkwright.pictures.svg.element import element, group, number
+from linkwright.pictures.symbols.base import SYMBOLS, hatching, placed
 
 NEEDED = {
     "fixed_pivot", "pin", "slider", "ground_guide", "moving_guide", "weld", "plate", "gear", "rack", "cam",

@@ -5,7 +5,7 @@ import re
 import pytest
 from tests.every import every
 
-from linkwright.plot.svg.render import natural_size
+from linkwright.pictures.svg.render import natural_size
 from linkwright.report.document import Document, Figure, Heading
 from linkwright.report.report import report
 from linkwright.report.typst_pages import compiled, pages

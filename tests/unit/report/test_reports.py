@@ -20,7 +20,7 @@ from linkwright.files.schema import json_schema
 from linkwright.joints.cam import CamJoint
 from linkwright.joints.cam_shape import CamShape
 from linkwright.mechanism.force_names import reaction_pairs
-from linkwright.plot.svg.render import natural_size
+from linkwright.pictures.svg.render import natural_size
 from linkwright.report.document import Figure, Formula, Heading, Paragraph, Table, plain
 from linkwright.report.machine_results import Case
 from linkwright.report.numbers import typeset, without_rounding

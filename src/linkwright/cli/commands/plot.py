@@ -16,7 +16,7 @@ from linkwright.errors import LinkwrightError, about
 
 if TYPE_CHECKING:
     from linkwright.kinematics.motion import Motion
-    from linkwright.plot.diagrams.picture import Diagram
+    from linkwright.pictures.diagram import Diagram
 
 ENDINGS = (".svg", ".pdf", ".png")
 STEPS = 720

@@ -14,13 +14,13 @@ from linkwright.core.arrays import Floats
 from linkwright.errors import RequestError
 from linkwright.export.base import package
 from linkwright.export.results import Results
+from linkwright.pictures.svg.strokes import Stroke, strokes
+from linkwright.pictures.symbols.base import PIN, Vec, points
 from linkwright.plot.drawing.dimensions import Dimensioned, dimension_lines
 from linkwright.plot.drawing.labels import Candidate, Label, Obstacles, link_labels, place, point_labels
 from linkwright.plot.drawing.machine import Part
 from linkwright.plot.drawing.scene import laid_out
 from linkwright.plot.drawing.view import moved
-from linkwright.plot.svg.strokes import Stroke, strokes
-from linkwright.plot.symbols.base import PIN, Vec, points
 from linkwright.words.characters import one_line
 
 #: Layers with their colours (numbers of the AutoCAD colour index), each with a contrast of 3 or more on a white, a

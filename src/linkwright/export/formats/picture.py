@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 from linkwright.export.base import FORMATS, Format
 from linkwright.export.results import Results
+from linkwright.pictures.svg import render
 from linkwright.plot.drawing import draw
-from linkwright.plot.svg import render
 
 
 def svg(

@@ -11,7 +11,7 @@ import numpy as np
 from linkwright.core.arrays import Floats, largest
 from linkwright.core.dataclass import dataclass
 from linkwright.metrics.quantities import SHOWN
-from linkwright.plot.diagrams.picture import INK, Axes, Figure
+from linkwright.pictures.diagram import INK, Axes, Figure
 from linkwright.units import si_unit
 from linkwright.words.characters import printable
 

@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 from linkwright.core.dataclass import dataclass
 from linkwright.machine.flywheel import FLUCTUATION
-from linkwright.plot.diagrams.picture import Figure
-from linkwright.plot.drawing.picture import Drawing
+from linkwright.pictures.diagram import Figure
+from linkwright.pictures.drawing import Drawing
 from linkwright.registry import Registry
 from linkwright.words import Say, say
 from linkwright.words.sentence import in_language

@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 
 from linkwright.core.arrays import Flags, Floats
+from linkwright.pictures.diagram import Axes
 from linkwright.plot.diagrams.axes import round_up, significant
 from linkwright.plot.diagrams.marks import acting
 from linkwright.plot.diagrams.names import Name, Names
-from linkwright.plot.diagrams.picture import Axes
 from linkwright.plot.diagrams.source import InputAxis, Source
 
 

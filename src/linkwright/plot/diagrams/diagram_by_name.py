@@ -5,16 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any, TypeAlias, cast
 
+from linkwright.core.attached import Plotted
 from linkwright.core.given import real, require
-from linkwright.core.plot_method import Plotted
 from linkwright.errors import RequestError, about, require_language
 from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import Forces
 from linkwright.machine.flywheel import FLUCTUATION
 from linkwright.machine.running import SteadyRunning
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.pictures.diagram import Diagram, style
 from linkwright.plot.diagrams.base import DIAGRAMS, RESULT_DIAGRAMS, Request
-from linkwright.plot.diagrams.picture import Diagram, style
 from linkwright.plot.diagrams.source import Result, Source
 from linkwright.registry import listed
 from linkwright.units import parse

@@ -12,10 +12,10 @@ from linkwright.machine.speed import SpeedCurve
 from linkwright.metrics.analysis import Analysis, Kind
 from linkwright.metrics.summary import Extreme
 from linkwright.metrics.true_speed import steady_cycle
+from linkwright.pictures.diagram import COLOURS
 from linkwright.plot.diagrams.axes import significant, unit_of
 from linkwright.plot.diagrams.base import DIAGRAMS, Request
 from linkwright.plot.diagrams.panels import Curve, Level, OverInput, Panel, with_mean
-from linkwright.plot.diagrams.picture import COLOURS
 from linkwright.plot.diagrams.source import Extremes, InputAxis, Source
 
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from linkwright.errors import RequestError
+from linkwright.pictures.drawing import Drawing
 from linkwright.plot.diagrams.base import DIAGRAMS, Kind, Request
 from linkwright.plot.diagrams.source import Source
-from linkwright.plot.drawing.picture import Drawing
 from linkwright.plot.flow_chart.content import flow_chart_steps
 from linkwright.plot.flow_chart.picture import flow_chart_pages
 

@@ -14,10 +14,10 @@ from linkwright.errors import RequestError
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.link_balance import driver_wrenches
 from linkwright.mechanism.force_names import link_numbers, reaction_index
+from linkwright.pictures.diagram import COLOURS, Axes, Figure
 from linkwright.plot.diagrams.axes import significant, unit_of, wrapped
 from linkwright.plot.diagrams.base import DIAGRAMS, Kind, Request
 from linkwright.plot.diagrams.outputs import known_link
-from linkwright.plot.diagrams.picture import COLOURS, Axes, Figure
 from linkwright.plot.diagrams.position import draw_position, name_position, position_cell
 from linkwright.plot.diagrams.reactions import require_forces
 from linkwright.plot.diagrams.scaled_page import (

@@ -15,8 +15,8 @@ from linkwright.kinematics.limits import limit_positions
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.loads.over_cycle import activity
 from linkwright.metrics.analysis import Kind
+from linkwright.pictures.diagram import INK, Axes
 from linkwright.plot.diagrams.axes import Unit
-from linkwright.plot.diagrams.picture import INK, Axes
 from linkwright.plot.diagrams.source import Source
 
 if TYPE_CHECKING:

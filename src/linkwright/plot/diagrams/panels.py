@@ -11,6 +11,7 @@ import numpy as np
 from linkwright.core.arrays import Floats, largest
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
+from linkwright.pictures.diagram import COLOURS, FAINT, INK, SHADE, Axes, Figure, new_figure
 from linkwright.plot.diagrams.axes import Legend, Unit, framed, label_input, unit_of
 from linkwright.plot.diagrams.base import Kind, Request
 from linkwright.plot.diagrams.marks import (
@@ -21,7 +22,6 @@ from linkwright.plot.diagrams.marks import (
     phase_marks,
     through_peaks,
 )
-from linkwright.plot.diagrams.picture import COLOURS, FAINT, INK, SHADE, Axes, Figure, new_figure
 from linkwright.plot.diagrams.source import Extremes, InputAxis, Source
 from linkwright.words import Say
 

@@ -9,9 +9,9 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.pictures.diagram import INK, Axes, Figure
+from linkwright.pictures.svg.text import split_index
 from linkwright.plot.diagrams.axes import round_up
-from linkwright.plot.diagrams.picture import INK, Axes, Figure
-from linkwright.plot.svg.text import split_index
 
 INCH = 25.4
 #: Space around a picture, and above it for its title, mm.

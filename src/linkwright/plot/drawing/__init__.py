@@ -1,4 +1,4 @@
 """The kinematic drawing: ``draw(motion)`` gives a Drawing with ``.svg`` and ``.save(path)``."""
 
+from linkwright.pictures.drawing import Drawing as Drawing
 from linkwright.plot.drawing.draw import draw as draw
-from linkwright.plot.drawing.picture import Drawing as Drawing

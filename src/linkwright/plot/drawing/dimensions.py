@@ -11,11 +11,11 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
 from linkwright.kinematics.names import find_point
+from linkwright.pictures.symbols.base import SYMBOLS, Shape, Vec, placed, points, vec, way
 from linkwright.plot.drawing.guides import direction, line_start
 from linkwright.plot.drawing.labels import Label, Obstacles
 from linkwright.plot.drawing.machine import Machine
 from linkwright.plot.drawing.view import moved
-from linkwright.plot.symbols.base import SYMBOLS, Shape, Vec, placed, points, vec, way
 
 Dimension = str | tuple[str, str]
 _OFFSETS = (24.0, -24.0, 40.0, -40.0, 58.0, -58.0)

@@ -14,11 +14,13 @@ from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.output_limits import limits_of
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.pictures.drawing import Drawing, bounds, document
+from linkwright.pictures.svg.element import Element, group
+from linkwright.pictures.symbols.base import points
 from linkwright.plot.drawing.dimensions import Dimension, dimension_lines
 from linkwright.plot.drawing.labels import Label, Obstacles, link_labels, place, point_labels, written
 from linkwright.plot.drawing.legend import Legend
 from linkwright.plot.drawing.loads import load_labels, load_marks, unmarked
-from linkwright.plot.drawing.picture import Drawing, bounds, document
 from linkwright.plot.drawing.positions import At, Shown, at_input, at_time, with_limits
 from linkwright.plot.drawing.scene import Scene, laid_out
 from linkwright.plot.drawing.vectors import (
@@ -30,8 +32,6 @@ from linkwright.plot.drawing.vectors import (
     scale_of,
 )
 from linkwright.plot.drawing.view import DIAGONAL
-from linkwright.plot.svg.element import Element, group
-from linkwright.plot.symbols.base import points
 from linkwright.words import say
 from linkwright.words.sentence import Sentence, in_language
 

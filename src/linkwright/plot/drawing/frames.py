@@ -8,8 +8,8 @@ from linkwright.core.arrays import Floats
 from linkwright.errors import LinkwrightError
 from linkwright.joints.lower import SlidingJoint
 from linkwright.kinematics.motion import Motion
+from linkwright.pictures.symbols.base import LINE, Vec
 from linkwright.plot.drawing.machine import Machine
-from linkwright.plot.symbols.base import LINE, Vec
 
 
 def frame_indices(motion: Motion, frames: int) -> list[int]:

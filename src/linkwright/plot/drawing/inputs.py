@@ -9,10 +9,10 @@ import numpy as np
 
 from linkwright.drivers.base import Driver
 from linkwright.kinematics.placement import Placement
+from linkwright.pictures.symbols.base import SYMBOLS
+from linkwright.pictures.symbols.joints import HEIGHT
 from linkwright.plot.drawing.guides import block_direction, direction, ground_side, is_cylinder, travel
 from linkwright.plot.drawing.machine import Machine, Part, support_direction
-from linkwright.plot.symbols.base import SYMBOLS
-from linkwright.plot.symbols.joints import HEIGHT
 
 RADIUS = 21.0
 

@@ -14,13 +14,13 @@ import numpy as np
 
 from linkwright.core.arrays import Flags, Floats, Whole
 from linkwright.core.dataclass import dataclass
+from linkwright.pictures.svg.element import Element, element, number
+from linkwright.pictures.svg.text import name_width, split_index, text_element
+from linkwright.pictures.symbols.arrows import BEHIND, NARROW
+from linkwright.pictures.symbols.base import Vec, points, vec, way
 from linkwright.plot.drawing.machine import Machine, flat
 from linkwright.plot.drawing.scene import Scene
 from linkwright.plot.drawing.view import moved
-from linkwright.plot.svg.element import Element, element, number
-from linkwright.plot.svg.text import name_width, split_index, text_element
-from linkwright.plot.symbols.arrows import BEHIND, NARROW
-from linkwright.plot.symbols.base import Vec, points, vec, way
 
 _STEPS = (0.0, 5.0, 11.0, 19.0, 30.0, 44.0)
 _WAYS = tuple((math.cos(a), math.sin(a)) for a in np.radians(np.arange(-45, 315, 22.5)))

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 
 from linkwright.core.arrays import Floats
 from linkwright.mechanism.force_names import Symbol, link_numbers
-from linkwright.plot.drawing.picture import Box
+from linkwright.pictures.drawing import Box
+from linkwright.pictures.svg.element import Element
+from linkwright.pictures.svg.text import name_width, text_element, width
+from linkwright.pictures.symbols.base import SYMBOLS, points
 from linkwright.plot.drawing.vectors import Arrows, Torques, Vectors, round_length, scale_of, with_unit
-from linkwright.plot.svg.element import Element
-from linkwright.plot.svg.text import name_width, text_element, width
-from linkwright.plot.symbols.base import SYMBOLS, points
 from linkwright.words import say
 from linkwright.words.characters import pieces
 from linkwright.words.sentence import Sentence, links_said

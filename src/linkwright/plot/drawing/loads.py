@@ -9,14 +9,14 @@ from linkwright.fields.references import PointName
 from linkwright.joints.base import JointName
 from linkwright.loads.base import LinkPoint, Load
 from linkwright.loads.marks import Press, Push, Turn
+from linkwright.pictures.svg.element import Element
+from linkwright.pictures.symbols.base import EMPTY, SYMBOLS, Shape, Vec, joined
+from linkwright.pictures.symbols.joints import HEIGHT, LENGTH
 from linkwright.plot.drawing.guides import clear_shift, is_cylinder
 from linkwright.plot.drawing.labels import LINK_SIZE, Label
 from linkwright.plot.drawing.machine import Machine
 from linkwright.plot.drawing.moving import moving_lines
 from linkwright.plot.drawing.scene import Scene
-from linkwright.plot.svg.element import Element
-from linkwright.plot.symbols.base import EMPTY, SYMBOLS, Shape, Vec, joined
-from linkwright.plot.symbols.joints import HEIGHT, LENGTH
 
 PUSH = 52.0
 GAP, BLOCK_GAP = 7.0, 19.0

@@ -16,8 +16,8 @@ from linkwright.kinematics.placement import Placement
 from linkwright.loads.base import Load
 from linkwright.loads.marks import Mark
 from linkwright.mechanism.mechanism import Link
+from linkwright.pictures.symbols.base import PIN, SYMBOLS, Shape, Vec, points
 from linkwright.plot.drawing.view import View
-from linkwright.plot.symbols.base import PIN, SYMBOLS, Shape, Vec, points
 
 Layer = Literal["ground", "bodies", "blocks", "pins", "tops", "marks"]
 LAYERS: tuple[Layer, ...] = ("ground", "bodies", "blocks", "pins", "tops", "marks")

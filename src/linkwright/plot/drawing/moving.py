@@ -7,11 +7,11 @@ from collections.abc import Sequence
 import numpy as np
 
 from linkwright.core.arrays import Floats
+from linkwright.pictures.svg.element import Element, coordinates, element, group, number
+from linkwright.pictures.symbols.arrows import arrow_points
+from linkwright.pictures.symbols.base import SYMBOLS
 from linkwright.plot.drawing.scene import Scene
 from linkwright.plot.drawing.vectors import Torques, Vectors
-from linkwright.plot.svg.element import Element, coordinates, element, group, number
-from linkwright.plot.symbols.arrows import arrow_points
-from linkwright.plot.symbols.base import SYMBOLS
 
 
 def animate_element(attribute: str, values: Sequence[str], seconds: float) -> Element:

@@ -9,11 +9,11 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
+from linkwright.pictures.drawing import Box
+from linkwright.pictures.svg.element import Element, element, path
+from linkwright.pictures.svg.text import text_element, width
+from linkwright.pictures.symbols.base import points
 from linkwright.plot.diagrams.axes import significant, unit_of
-from linkwright.plot.drawing.picture import Box
-from linkwright.plot.svg.element import Element, element, path
-from linkwright.plot.svg.text import text_element, width
-from linkwright.plot.symbols.base import points
 from linkwright.words import has, say
 
 HEIGHT, GAP, SIZE = 78.0, 26.0, 12.0

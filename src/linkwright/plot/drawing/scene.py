@@ -11,13 +11,13 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.placement import followed, placements
+from linkwright.pictures.svg.element import Element, group, number, path
+from linkwright.pictures.symbols.base import SYMBOLS
 from linkwright.plot.drawing.guides import guides, welds
 from linkwright.plot.drawing.inputs import input_arrows
 from linkwright.plot.drawing.machine import LAYERS, Machine, Part, bodies, pins
 from linkwright.plot.drawing.view import DIAGONAL, View, fitted, moved
 from linkwright.plot.drawing.wheels import wheels
-from linkwright.plot.svg.element import Element, group, number, path
-from linkwright.plot.symbols.base import SYMBOLS
 
 
 @dataclass(frozen=True)

@@ -17,9 +17,9 @@ from linkwright.errors import RequestError
 from linkwright.joints.base import HigherPair
 from linkwright.kinematics.names import canonical, find_point
 from linkwright.mechanism.force_names import Symbol, reaction_index, reaction_pairs
+from linkwright.pictures.symbols.base import EMPTY, SYMBOLS, Shape, joined, vec
 from linkwright.plot.drawing.labels import Label
 from linkwright.plot.drawing.view import View
-from linkwright.plot.symbols.base import EMPTY, SYMBOLS, Shape, joined, vec
 
 if TYPE_CHECKING:
     from linkwright.kinematics.motion import Motion

@@ -9,8 +9,8 @@ from dataclasses import replace
 import numpy as np
 
 from linkwright.joints.marks import Mark
+from linkwright.pictures.symbols.base import SYMBOLS, Shape
 from linkwright.plot.drawing.machine import Machine, Part
-from linkwright.plot.symbols.base import SYMBOLS, Shape
 
 #: A rack goes on beyond the last place of its pinion, units of the paper.
 BEYOND = 14.0

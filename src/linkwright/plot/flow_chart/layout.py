@@ -14,8 +14,8 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.pictures.svg.text import width
 from linkwright.plot.flow_chart.content import Node, Shape
-from linkwright.plot.svg.text import width
 from linkwright.words.characters import pieces
 
 #: Height of letters and of lines, widest text of a symbol, of a decision, of what stands aside.

@@ -6,13 +6,13 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from linkwright.plot.drawing.picture import document
+from linkwright.pictures.drawing import document
+from linkwright.pictures.svg.element import Element, circle, element, path
+from linkwright.pictures.svg.text import sentence_element
+from linkwright.pictures.symbols.arrows import head
+from linkwright.pictures.symbols.base import points, vec, way
 from linkwright.plot.flow_chart.content import Node
 from linkwright.plot.flow_chart.layout import BARS, LEAN, LINE, RADIUS, SIZE, Box, Page, fold, laid_out
-from linkwright.plot.svg.element import Element, circle, element, path
-from linkwright.plot.svg.text import sentence_element
-from linkwright.plot.symbols.arrows import head
-from linkwright.plot.symbols.base import points, vec, way
 
 #: Printed width of a unit, mm: two columns fill the width of an A4 page's text, and letters have 8.5 points.
 MILLIMETRE = 0.23

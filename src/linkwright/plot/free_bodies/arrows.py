@@ -10,12 +10,12 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.pictures.svg.element import Element, group, path
+from linkwright.pictures.symbols.base import SYMBOLS, Shape, points, vec
 from linkwright.plot.drawing.labels import Label
 from linkwright.plot.drawing.vectors import NAME_SIZE
 from linkwright.plot.drawing.view import View
 from linkwright.plot.free_bodies.actions import STYLES, Action
-from linkwright.plot.svg.element import Element, group, path
-from linkwright.plot.symbols.base import SYMBOLS, Shape, points, vec
 
 #: Printed width of a unit of the paper, mm.
 MILLIMETRE = 0.25

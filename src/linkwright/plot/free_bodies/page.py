@@ -10,15 +10,15 @@ import numpy as np
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError
 from linkwright.kinetostatics.forces import Forces
-from linkwright.plot.drawing.picture import document
+from linkwright.pictures.drawing import document
+from linkwright.pictures.svg.element import Element, group, number, path
+from linkwright.pictures.svg.text import sentence_element, text_element
+from linkwright.pictures.symbols.base import points
 from linkwright.plot.drawing.vectors import with_unit
 from linkwright.plot.flow_chart.layout import fold
 from linkwright.plot.free_bodies.actions import STYLES, Action, FreeBody, free_bodies
 from linkwright.plot.free_bodies.arrows import MILLIMETRE, SHORT, STUB
 from linkwright.plot.free_bodies.picture import BodyPicture, LinkShapes, body_picture, round_scale
-from linkwright.plot.svg.element import Element, group, number, path
-from linkwright.plot.svg.text import sentence_element, text_element
-from linkwright.plot.symbols.base import points
 from linkwright.words import Say
 from linkwright.words.sentence import link_said
 

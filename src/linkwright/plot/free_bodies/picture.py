@@ -12,15 +12,15 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.placement import placements
+from linkwright.pictures.drawing import Box, bounds
+from linkwright.pictures.svg.element import Element
+from linkwright.pictures.symbols.base import SYMBOLS, points
 from linkwright.plot.drawing.labels import Label, Obstacles, place, written
 from linkwright.plot.drawing.machine import Machine, Part
-from linkwright.plot.drawing.picture import Box, bounds
 from linkwright.plot.drawing.scene import Scene, parts_of
 from linkwright.plot.drawing.view import View
 from linkwright.plot.free_bodies.actions import FreeBody
 from linkwright.plot.free_bodies.arrows import MILLIMETRE, arcs, arranged
-from linkwright.plot.svg.element import Element
-from linkwright.plot.symbols.base import SYMBOLS, points
 
 #: Longest link and longest arrow, mm: the first pair with which a picture fits its place is taken, the last at most.
 SIZES = (

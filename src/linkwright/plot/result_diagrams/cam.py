@@ -9,8 +9,8 @@ import numpy as np
 from linkwright.cams.report import RATES
 from linkwright.cams.result import CamDesign, Extreme
 from linkwright.errors import RequestError
+from linkwright.pictures.diagram import FAINT, INK, Figure
 from linkwright.plot.diagrams.base import Request, result_diagram
-from linkwright.plot.diagrams.picture import FAINT, INK, Figure
 from linkwright.plot.result_diagrams.part_axes import Line, Pane, fitted, panes, plane
 
 #: Points of the coloured profile, and speeds of the vibration's diagram.

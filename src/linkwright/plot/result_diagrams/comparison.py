@@ -8,10 +8,10 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.errors import RequestError
+from linkwright.pictures.diagram import INK, Figure, new_figure
 from linkwright.plot.diagrams.axes import Legend, equal, framed, unit_of
 from linkwright.plot.diagrams.base import Request, result_diagram
 from linkwright.plot.diagrams.panels import Curve, Panel, look, stacked
-from linkwright.plot.diagrams.picture import INK, Figure, new_figure
 from linkwright.plot.diagrams.source import InputAxis, Source
 from linkwright.registry import offered
 from linkwright.study.compare import Comparison

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from linkwright.metrics.coupler_curve import CouplerCurve
+from linkwright.pictures.diagram import COLOURS, Figure, new_figure
 from linkwright.plot.diagrams.axes import Legend, framed, unit_of
 from linkwright.plot.diagrams.base import Request, result_diagram
-from linkwright.plot.diagrams.picture import COLOURS, Figure, new_figure
 
 
 @result_diagram("coupler_curve", CouplerCurve)

@@ -7,9 +7,9 @@ import numpy as np
 from linkwright.errors import RequestError
 from linkwright.metrics.base import METRICS, MetricValue
 from linkwright.metrics.table import MetricsTable
+from linkwright.pictures.diagram import COLOURS, FAINT, Axes, Figure, new_figure
 from linkwright.plot.diagrams.axes import Legend, Unit, framed, unit_of
 from linkwright.plot.diagrams.base import Request, result_diagram
-from linkwright.plot.diagrams.picture import COLOURS, FAINT, Axes, Figure, new_figure
 from linkwright.words.sentence import Sentence
 
 #: Height of a row of dots and of an axis with its label, inches.

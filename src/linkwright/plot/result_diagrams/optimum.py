@@ -8,8 +8,8 @@ import numpy as np
 
 from linkwright.optimisation.optimum import Optimum
 from linkwright.optimisation.report import label, shown_unit
+from linkwright.pictures.diagram import COLOURS, INK, Figure, new_figure
 from linkwright.plot.diagrams.base import Request, result_diagram
-from linkwright.plot.diagrams.picture import COLOURS, INK, Figure, new_figure
 from linkwright.words import say
 from linkwright.words.sentence import in_language
 

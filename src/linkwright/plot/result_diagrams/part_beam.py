@@ -6,8 +6,8 @@ import numpy as np
 
 from linkwright.parts.beams.beam import BeamLine
 from linkwright.parts.beams.link import LinkStress
+from linkwright.pictures.diagram import Figure
 from linkwright.plot.diagrams.base import Request, result_diagram
-from linkwright.plot.diagrams.picture import Figure
 from linkwright.plot.result_diagrams.part_axes import Line, Pane, panes
 
 PANES = (("V", "shear [N]", "force"), ("M", "moment [N·m]", "torque"), ("θ", "slope [rad]", "slope"),

@@ -15,8 +15,8 @@ from linkwright.parts.statics.point import PointEquilibrium
 from linkwright.parts.statics.rotor import RotorBalance
 from linkwright.parts.statics.structure import StructureForces
 from linkwright.parts.statics.wedge import WedgeForces
+from linkwright.pictures.diagram import COLOURS, INK, Axes, Figure
 from linkwright.plot.diagrams.base import Request, result_diagram
-from linkwright.plot.diagrams.picture import COLOURS, INK, Axes, Figure
 from linkwright.plot.result_diagrams.part_axes import Line, Pane, arrow, fitted, line_of, panes, plane, point
 from linkwright.words import say
 

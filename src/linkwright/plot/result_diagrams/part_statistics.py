@@ -7,10 +7,10 @@ from collections.abc import Mapping
 import numpy as np
 
 from linkwright.parts.statistics.samples import Statistics
+from linkwright.pictures.diagram import COLOURS, FAINT, Axes, Figure, new_figure
 from linkwright.plot.diagrams.axes import framed
 from linkwright.plot.diagrams.base import Request, result_diagram
 from linkwright.plot.diagrams.panels import DASHES
-from linkwright.plot.diagrams.picture import COLOURS, FAINT, Axes, Figure, new_figure
 
 
 @result_diagram("samples", Statistics)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from linkwright.parts.trajectories.conveyor import Transport
 from linkwright.parts.trajectories.particle import Flight
+from linkwright.pictures.diagram import COLOURS, Figure
 from linkwright.plot.diagrams.base import Request, result_diagram
-from linkwright.plot.diagrams.picture import COLOURS, Figure
 from linkwright.plot.result_diagrams.part_axes import Line, Pane, fitted, panes, plane
 
 

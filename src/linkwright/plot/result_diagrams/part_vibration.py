@@ -9,8 +9,8 @@ import numpy as np
 from linkwright.parts.vibration.follower import FollowerVibration
 from linkwright.parts.vibration.mounts import TITLES, Shaken
 from linkwright.parts.vibration.system import Vibration
+from linkwright.pictures.diagram import Figure
 from linkwright.plot.diagrams.base import Request, result_diagram
-from linkwright.plot.diagrams.picture import Figure
 from linkwright.plot.result_diagrams.part_axes import Line, Pane, panes
 
 

@@ -10,10 +10,10 @@ from linkwright import units
 from linkwright.core.arrays import Floats
 from linkwright.errors import RequestError
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.pictures.diagram import COLOURS, Figure, new_figure
 from linkwright.plot.diagrams.axes import Legend, framed
 from linkwright.plot.diagrams.base import Request, result_diagram
 from linkwright.plot.diagrams.panels import Curve, Panel, look, stacked
-from linkwright.plot.diagrams.picture import COLOURS, Figure, new_figure
 from linkwright.plot.diagrams.source import InputAxis
 from linkwright.plot.result_diagrams.design_table import chosen
 from linkwright.study.ranges import dimension_of

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from linkwright.core.arrays import Floats
+from linkwright.pictures.diagram import COLOURS, FAINT, Figure, new_figure
 from linkwright.plot.diagrams.axes import framed
 from linkwright.plot.diagrams.base import Request, result_diagram
-from linkwright.plot.diagrams.picture import COLOURS, FAINT, Figure, new_figure
 from linkwright.synthesis.report import title_said
 from linkwright.synthesis.result import Synthesis
 from linkwright.words import say, speaker

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from linkwright.pictures.diagram import Figure
 from linkwright.plot.diagrams.base import Request, result_diagram
-from linkwright.plot.diagrams.picture import Figure
 from linkwright.plot.result_diagrams.design_space import draw_designs
 from linkwright.plot.result_diagrams.design_table import DesignTable, chosen, measure, varied
 from linkwright.study.criteria import criterion

@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 
 from linkwright.core.arrays import Complexes, Floats
+from linkwright.pictures.diagram import COLOURS, FAINT, INK, Axes, Figure, new_figure
 from linkwright.plot.diagrams.axes import Legend, framed
 from linkwright.plot.diagrams.base import Request, result_diagram
-from linkwright.plot.diagrams.picture import COLOURS, FAINT, INK, Axes, Figure, new_figure
 from linkwright.plot.diagrams.position import draw_support
 from linkwright.synthesis.report import title_said
 from linkwright.synthesis.result import Candidate, Synthesis

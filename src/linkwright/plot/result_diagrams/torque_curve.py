@@ -6,9 +6,9 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.machine.torque_curve import TorqueCurve
+from linkwright.pictures.diagram import Figure
 from linkwright.plot.diagrams.base import Request, result_diagram
 from linkwright.plot.diagrams.panels import Curve, stacked, with_mean
-from linkwright.plot.diagrams.picture import Figure
 from linkwright.plot.diagrams.source import InputAxis
 
 STEPS = 720

@@ -13,10 +13,10 @@ from numpy.typing import ArrayLike
 from linkwright.core.arrays import Floats
 from linkwright.errors import require_language
 from linkwright.parts.base import Problem
+from linkwright.pictures.drawing import Drawing, bounds, document
+from linkwright.pictures.svg.element import Element, element, group, path
+from linkwright.pictures.symbols.base import SYMBOLS, Shape, Vec, placed, points, vec
 from linkwright.plot.drawing.labels import Label, Obstacles, place, written
-from linkwright.plot.drawing.picture import Drawing, bounds, document
-from linkwright.plot.svg.element import Element, element, group, path
-from linkwright.plot.symbols.base import SYMBOLS, Shape, Vec, placed, points, vec
 from linkwright.registry import Registry
 
 #: Size of the letters of a sketch; room that a drawing takes, across and down.

@@ -6,7 +6,7 @@ import numpy as np
 
 from linkwright.parts.base import shown
 from linkwright.parts.beams.beam import Beam, BeamLoad, BeamSupport
-from linkwright.plot.drawing.picture import Drawing
+from linkwright.pictures.drawing import Drawing
 from linkwright.plot.sketches.base import WIDE, Paper, roller_support, sketched
 from linkwright.words import say as words
 

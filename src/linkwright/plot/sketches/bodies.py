@@ -9,10 +9,10 @@ from linkwright.parts.base import shown
 from linkwright.parts.mechanism_field import OfMechanism
 from linkwright.parts.statics.body import RigidBody, Support
 from linkwright.parts.statics.forces import spatial
-from linkwright.plot.drawing.picture import Drawing
+from linkwright.pictures.drawing import Drawing
+from linkwright.pictures.symbols.base import Vec, vec
 from linkwright.plot.sketches.base import Paper, roller_support, scale_of, sketched
 from linkwright.plot.sketches.forces import AXIS, ISOMETRIC, LONGEST, SHORTEST, axes
-from linkwright.plot.symbols.base import Vec, vec
 
 #: Length of a rod or rope to the ground; room for the body.
 ROD, ROOM = 62.0, 340.0

@@ -9,7 +9,7 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.parts.base import shown
 from linkwright.parts.statics.forces import ForceSystem, spatial
-from linkwright.plot.drawing.picture import Drawing
+from linkwright.pictures.drawing import Drawing
 from linkwright.plot.sketches.base import Paper, scale_of, sketched
 
 #: Longest and shortest arrow, length of the axes, room for the points of application.

@@ -10,9 +10,9 @@ from linkwright.core.arrays import Floats
 from linkwright.parts.base import shown
 from linkwright.parts.statics.belt import Belt
 from linkwright.parts.statics.wedge import Wedge
-from linkwright.plot.drawing.picture import Drawing
+from linkwright.pictures.drawing import Drawing
+from linkwright.pictures.symbols.base import vec
 from linkwright.plot.sketches.base import Paper, direction_text, sketched
-from linkwright.plot.symbols.base import vec
 
 #: Radius of a drum, free length of a belt, length of a wedge and height of its load.
 RADIUS, FREE, WEDGE, LOAD = 84.0, 96.0, 300.0, 90.0

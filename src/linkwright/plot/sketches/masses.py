@@ -8,10 +8,10 @@ from linkwright.parts.base import number, shown
 from linkwright.parts.vibration.excitation import STRAIGHT, TURNING
 from linkwright.parts.vibration.follower import FollowerSpring
 from linkwright.parts.vibration.system import GROUND, Tie, VibratingSystem
+from linkwright.pictures.drawing import Drawing
+from linkwright.pictures.symbols.base import Vec
 from linkwright.plot.drawing.labels import Label
-from linkwright.plot.drawing.picture import Drawing
 from linkwright.plot.sketches.base import Paper, sketched
-from linkwright.plot.symbols.base import Vec
 
 #: Width and height of a mass, gap between masses, height between springs side by side.
 WIDTH, HEIGHT, GAP, ROW = 78.0, 62.0, 104.0, 28.0

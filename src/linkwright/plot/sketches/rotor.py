@@ -7,7 +7,7 @@ import math
 
 from linkwright.parts.base import shown
 from linkwright.parts.statics.rotor import Rotor
-from linkwright.plot.drawing.picture import Drawing
+from linkwright.pictures.drawing import Drawing
 from linkwright.plot.sketches.base import Paper, direction_text, sketched
 
 #: Largest radius on the paper, length of the shaft between the outermost places, gap between both views.

@@ -8,7 +8,7 @@ import numpy as np
 
 from linkwright.parts.base import shown
 from linkwright.parts.trajectories.particle import Particle
-from linkwright.plot.drawing.picture import Drawing
+from linkwright.pictures.drawing import Drawing
 from linkwright.plot.sketches.base import Paper, direction_text, sketched
 
 #: Length of the ground, of the velocity's arrow and of the axis at the start, height of a start above the ground.

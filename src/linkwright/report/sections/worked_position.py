@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 from linkwright.errors import LinkwrightError
 from linkwright.kinetostatics.forces import Forces
+from linkwright.pictures.svg.render import natural_size
 from linkwright.plot.diagrams.force_polygon import link_forces
-from linkwright.plot.svg.render import natural_size
 from linkwright.report.document import Block, Figure, Formula, Heading, Paragraph, Table, literal, symbols
 from linkwright.report.machine_results import Case
 from linkwright.report.section import section

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.plot.symbols.base import SYMBOLS, Vec, vec
+from linkwright.pictures.symbols.base import SYMBOLS, Vec, vec
 from linkwright.sheets.labels import TO_UNITS
 from linkwright.sheets.picture import Picture
 from linkwright.sheets.scene import draw_elements

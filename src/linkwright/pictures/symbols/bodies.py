@@ -9,8 +9,8 @@ from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Floats
 from linkwright.core.plane import convex_hull
-from linkwright.plot.svg.element import circle, path
-from linkwright.plot.symbols.base import SYMBOLS, Shape, Vec, around, placed, points, ring
+from linkwright.pictures.svg.element import circle, path
+from linkwright.pictures.symbols.base import SYMBOLS, Shape, Vec, around, placed, points, ring
 
 
 @SYMBOLS.register("bar")

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from linkwright.plot.svg.text import FAMILY_LIST
-from linkwright.plot.symbols.base import LINE
+from linkwright.pictures.svg.text import FAMILY_LIST
+from linkwright.pictures.symbols.base import LINE
 
 INK, GROUND, BLUE, RED, GREEN, ORANGE, PURPLE, TEAL = (
     "#1c2733", "#5b6672", "#1565c0", "#c62828", "#2e7d32", "#d9730d", "#7b1fa2", "#00838f",

@@ -14,9 +14,9 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError, RequestError
-from linkwright.plot.drawing.picture import PIXELS, Drawing
-from linkwright.plot.svg.fonts import given_fonts, installed_chinese
-from linkwright.plot.svg.render import MOST_PIXELS, natural_size, pdf, png
+from linkwright.pictures.drawing import PIXELS, Drawing
+from linkwright.pictures.svg.fonts import given_fonts, installed_chinese
+from linkwright.pictures.svg.render import MOST_PIXELS, natural_size, pdf, png
 from linkwright.whole_files import refuse_target, write_whole
 from linkwright.words.sentence import Sentence
 

@@ -11,11 +11,11 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import real
 from linkwright.errors import RequestError
-from linkwright.plot.drawing.style import CSS
-from linkwright.plot.svg.element import Element, element, number
-from linkwright.plot.svg.render import png, save_picture
-from linkwright.plot.svg.text import text_element
-from linkwright.plot.svg.text import width as text_width
+from linkwright.pictures.style import CSS
+from linkwright.pictures.svg.element import Element, element, number
+from linkwright.pictures.svg.render import png, save_picture
+from linkwright.pictures.svg.text import text_element
+from linkwright.pictures.svg.text import width as text_width
 from linkwright.whole_files import refuse_target
 
 MARGIN, SIZE = 12.0, 13.0

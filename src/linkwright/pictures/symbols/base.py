@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.plot.svg.element import Element
+from linkwright.pictures.svg.element import Element
 from linkwright.registry import Registry
 
 Vec = tuple[float, float]
@@ -37,7 +37,7 @@ class Shape:
 
 EMPTY = Shape(())
 Symbol = Callable[..., Shape]
-SYMBOLS: Registry[Symbol] = Registry("symbol", "linkwright.plot.symbols")
+SYMBOLS: Registry[Symbol] = Registry("symbol", "linkwright.pictures.symbols")
 
 
 def joined(shapes: Iterable[Shape]) -> Shape:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import unicodedata
 
-from linkwright.plot.svg.element import Attribute, Element, element
+from linkwright.pictures.svg.element import Attribute, Element, element
 
 NARROW = frozenset("iljfI.,:;'|![]() ")
 WIDE = frozenset("mwMW@%")

@@ -7,8 +7,8 @@ import math
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.plot.svg.element import Element, path
-from linkwright.plot.symbols.base import EMPTY, SYMBOLS, Shape, Vec, around, placed, points, vec, way
+from linkwright.pictures.svg.element import Element, path
+from linkwright.pictures.symbols.base import EMPTY, SYMBOLS, Shape, Vec, around, placed, points, vec, way
 
 HEAD = 9.0
 #: Lengths up to which dimensions have their heads outside, and how far their lines go on behind them there.

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from linkwright.errors import LinkwrightError, RequestError
-from linkwright.plot.svg.fonts import (
+from linkwright.pictures.svg.fonts import (
     check_fonts,
     chinese_fonts,
     font_files,

@@ -7,8 +7,8 @@ import math
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.plot.svg.element import circle, element, path
-from linkwright.plot.symbols.base import SYMBOLS, Shape, Vec, around, placed, points, ring, way
+from linkwright.pictures.svg.element import circle, element, path
+from linkwright.pictures.symbols.base import SYMBOLS, Shape, Vec, around, placed, points, ring, way
 
 #: Coils of a spring, and half of their width.
 COILS, HEIGHT = 6, 7.0

@@ -10,7 +10,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.plot.svg.element import Element
+from linkwright.pictures.svg.element import Element
 
 _PATH = re.compile(r"[MLHVhvAZ]|-?\d*\.?\d+")
 _MOVE = re.compile(r"(translate|rotate)\(([^)]*)\)")

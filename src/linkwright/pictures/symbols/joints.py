@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from linkwright.plot.svg.element import circle, element, number, path
-from linkwright.plot.symbols.base import PIN, SYMBOLS, Shape, Vec, hatching, joined, placed, points, ring
+from linkwright.pictures.svg.element import circle, element, number, path
+from linkwright.pictures.symbols.base import PIN, SYMBOLS, Shape, Vec, hatching, joined, placed, points, ring
 
 
 @SYMBOLS.register("pin")

@@ -1,0 +1,1 @@
+"""Finished pictures: SVG, symbols, drawings and diagrams that are saved and shown."""
