@@ -57,7 +57,7 @@ class Tape(HigherPair):
 
     def connections(self, grouping, links):
         if self.name not in grouping.redundant and grouping.within(self.turning, links):
-            yield grouping.connection(self, *self.links, None)
+            yield self.between(*self.links)
 
     def _factors(self):
         a, b = self.radii

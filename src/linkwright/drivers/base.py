@@ -10,13 +10,11 @@ from typing import TYPE_CHECKING, ClassVar
 
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.late_import import numpy as np
-from linkwright.errors import LinkwrightError
 from linkwright.registry import Registry
 
 if TYPE_CHECKING:
     from linkwright.core.arrays import Floats
     from linkwright.engine.trace import Scalar
-    from linkwright.export.modelica.laws import LawText
     from linkwright.fields.base import Field
 
     Array = Floats
@@ -66,10 +64,6 @@ class Law(ABC):
         """The times (s) at which a law of constant speed has coordinates; 0 where it rests."""
         start, speed = self.at(0.0), self.constant_speed
         return np.asarray((coordinate - start) / speed if speed else 0.0 * np.asarray(coordinate))
-
-    def modelica(self, write: LawText) -> str:
-        """The coordinate as a Modelica expression of ``time``, of operations that tools can differentiate."""
-        raise LinkwrightError("export.no_law", law=self.key)
 
     def dimensions(self) -> Mapping[str, float]:
         """Names of the law's dimensions within the driver (``speed``) with their SI values."""

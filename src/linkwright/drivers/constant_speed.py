@@ -14,7 +14,6 @@ from linkwright.fields.base import Field, Quantity
 if TYPE_CHECKING:
     from linkwright.drivers.base import Array
     from linkwright.engine.trace import Scalar
-    from linkwright.export.modelica.laws import LawText
 
 
 @LAWS.register("speed")
@@ -28,9 +27,6 @@ class ConstantSpeed(Law):
     speed: float
     start: float = 0.0
     rotary: bool = True
-
-    def modelica(self, write: LawText) -> str:
-        return write.straight(self.start, self.speed)
 
     def coordinate(self, t: Array) -> tuple[Array, Array, Array]:
         return self.start + self.speed * t, self.speed + 0.0 * t, 0.0 * t

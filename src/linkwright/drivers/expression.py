@@ -15,7 +15,6 @@ if TYPE_CHECKING:
     from linkwright.core.arrays import Flags
     from linkwright.drivers.base import Array
     from linkwright.engine.trace import Scalar
-    from linkwright.export.modelica.laws import LawText
 
 #: Places between which an expression goes over to another formula once at most.
 LOOKS = 721
@@ -30,9 +29,6 @@ class ExpressionLaw(Law):
     expression: Expression
     parameters: Mapping[str, float] = field(default_factory=dict)
     rotary: bool = True
-
-    def modelica(self, write: LawText) -> str:
-        return write.expression(self.expression.tree, self.parameters)
 
     def coordinate(self, t: Array) -> tuple[Array, Array, Array]:
         values = {**self.parameters, "t": t}

@@ -14,7 +14,6 @@ from linkwright.fields.base import Field, TimeTable, TimeTableValues
 if TYPE_CHECKING:
     from linkwright.core.spline import Spline
     from linkwright.drivers.base import Array
-    from linkwright.export.modelica.laws import LawText
 
 
 @LAWS.register("table")
@@ -31,9 +30,6 @@ class TableLaw(Law):
     positions: tuple[float, ...]
     interpolation: str = "cubic"
     rotary: bool = True
-
-    def modelica(self, write: LawText) -> str:
-        return write.pieces(self, self.times, self.interpolation)
 
     def coordinate(self, t: Array) -> tuple[Array, Array, Array]:
         import numpy as np

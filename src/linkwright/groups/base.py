@@ -16,16 +16,13 @@ from typing import TYPE_CHECKING, Protocol
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.trace import Scalar
 from linkwright.engine.vector import Vec
-from linkwright.joints.pose import Rotor
+from linkwright.joints.pose import Pose, Rotor
 from linkwright.registry import Registry
 from linkwright.units import number
 
 if TYPE_CHECKING:
+    from linkwright.elements.model import Sizes
     from linkwright.elements.topology import Group
-    from linkwright.kinematics.groups import GroupTracer
-    from linkwright.worked.page import Step
-    from linkwright.worked.places import Places
-    from linkwright.worked.symbols import Spot
 
 
 @dataclass(frozen=True)
@@ -66,12 +63,6 @@ class Dyad(Protocol):
         """Positions; ``mode`` is +1 for the first of ``words`` and -1 for the second."""
         ...
 
-    def work(
-        self, write: Places, step: Step, group: Group, ends: tuple[str, str], tip: Spot, mode: int
-    ) -> None:
-        """Writes the formulas of the positions in worked solutions; a class without it gets the closure's check."""
-        ...
-
     def at_end(self, facts: Mapping[str, float]) -> str:
         """How the group stands where the range of the input ends; a class without it is called singular."""
         ...
@@ -79,6 +70,15 @@ class Dyad(Protocol):
     def explain(self, facts: Mapping[str, float]) -> str:
         """Why the group cannot be assembled, from the facts at that position; a ``Sentence`` has other languages."""
         ...
+
+
+class Tracer(Protocol):
+    """What the closed form of a whole group sees: poses of links solved before, and the traced dimensions."""
+
+    @property
+    def poses(self) -> Mapping[str, Pose]: ...
+    @property
+    def dimensions(self) -> Sizes: ...
 
 
 class WholeGroup(Protocol):
@@ -96,7 +96,7 @@ class WholeGroup(Protocol):
         """Whether this is the closed form of a group."""
         ...
 
-    def place(self, tracer: GroupTracer, group: Group) -> Solved:
+    def place(self, tracer: Tracer, group: Group) -> Solved:
         """The unknowns, what stands under the root (negative out of reach), and facts for ``explain``."""
         ...
 

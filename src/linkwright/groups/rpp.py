@@ -3,17 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
 
 from linkwright.engine.trace import Scalar, reciprocal
 from linkwright.groups.base import DYADS, Chain, Solved
 from linkwright.words.sentence import Sentence
-
-if TYPE_CHECKING:
-    from linkwright.elements.topology import Group
-    from linkwright.worked.page import Step
-    from linkwright.worked.places import Places
-    from linkwright.worked.symbols import Spot
 
 
 @DYADS.register("RPP")
@@ -46,8 +39,3 @@ class RPP:
 
     def explain(self, facts: Mapping[str, float]) -> Sentence:
         return Sentence("outcome.rpp_parallel", sine=f"{facts['sine']:.1e}")
-
-    def work(
-        self, write: Places, step: Step, group: Group, ends: tuple[str, str], tip: Spot, mode: int
-    ) -> None:
-        write.slides(step, group, ends, tip, mode, apart=False)

@@ -4,18 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from math import sqrt as root_of
-from typing import TYPE_CHECKING
 
 from linkwright.engine.trace import Scalar, reciprocal, sqrt
 from linkwright.groups.base import DYADS, Chain, Solved, shown_length
 from linkwright.joints.pose import Rotor
 from linkwright.words.sentence import Sentence
-
-if TYPE_CHECKING:
-    from linkwright.elements.topology import Group
-    from linkwright.worked.page import Step
-    from linkwright.worked.places import Places
-    from linkwright.worked.symbols import Spot
 
 
 @DYADS.register("RPR")
@@ -63,8 +56,3 @@ class RPR:
             offset=shown_length(offset),
             missing=shown_length(offset - distance),
         )
-
-    def work(
-        self, write: Places, step: Step, group: Group, ends: tuple[str, str], tip: Spot, mode: int
-    ) -> None:
-        write.rpr(step, group, ends, tip, mode)

@@ -22,6 +22,7 @@ from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.core.arrays import Floats
+    from linkwright.elements.model import Sizes
     from linkwright.elements.topology import Group, TreeJoint
     from linkwright.engine.trace import Mask, Scalar
     from linkwright.engine.vector import Vec
@@ -339,7 +340,7 @@ class Joint(ABC):
         """What does not fit, where :meth:`fits` is false."""
         return None
 
-    def slide_direction(self, dimensions: Dimensions) -> Vec:
+    def slide_direction(self, dimensions: Sizes) -> Vec:
         """Unit vector along which point ``at`` of link ``block`` slides from ``through``, in the axes of ``guide``;
         of kinds with a displacement, which have these four as fields."""
         raise self.lacks("slide_direction")

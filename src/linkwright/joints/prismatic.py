@@ -20,6 +20,7 @@ from linkwright.joints.revolute import FRICTION
 from linkwright.words.sentence import Sentence, together
 
 if TYPE_CHECKING:
+    from linkwright.elements.model import Sizes
     from linkwright.elements.topology import Connection, TreeJoint
     from linkwright.kinematics.closed_loops import Body, LoopBuilder
     from linkwright.kinematics.constraint_system import ConstraintSystem, Place, Row
@@ -140,7 +141,7 @@ class PrismaticJoint(SlidingJoint):
             dimensions(f"{self.name}.offset"),
         )
 
-    def slide_direction(self, dimensions: Dimensions) -> Vec:
+    def slide_direction(self, dimensions: Sizes) -> Vec:
         if self.direction_points is None:
             return dimensions.unit(f"{self.name}.direction")
         start, end = (dimensions.point(self.guide, name) for name in self.direction_points)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
@@ -13,7 +13,6 @@ from linkwright.engine.recently_made import Recent
 from linkwright.laws.traced import horner, row_at
 
 if TYPE_CHECKING:
-    from linkwright.drivers.base import Law
     from linkwright.engine.trace import Scalar
 
 _legendre = np.polynomial.legendre
@@ -29,6 +28,13 @@ _ONCE, _TWICE = (
 #: How near polynomials come to the law and its rates, as shares of the largest; what is rounding in a coefficient;
 #: the most halvings of a piece.
 _FINE, _NOTHING, _HALVINGS = 2e-14, 2e-15, 10
+
+
+class Law(Protocol):
+    """A coordinate over time, as the laws of drivers are."""
+
+    def coordinate(self, t: Floats) -> tuple[Floats, Floats, Floats]: ...
+    def breaks(self, start: float, end: float) -> Floats: ...
 
 
 @dataclass(frozen=True)

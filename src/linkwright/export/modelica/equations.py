@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import field
 
 from linkwright.core.dataclass import dataclass
-from linkwright.export.modelica.laws import LawText
+from linkwright.export.modelica.laws import law_text
 from linkwright.export.modelica.names import Names, number, quoted
 from linkwright.export.results import Results
 from linkwright.joints.base import Joint
@@ -186,7 +186,7 @@ class Equations:
         rotary = self.motion.positions.rotary[name]
         start = self.motion.inputs[name][self.index]
         self.unknown(f"{me}_q", "rad" if rotary else "m", start, f"coordinate of the driver {name}")
-        self.text.equations.append(f"{me}_q = {driver.law.modelica(LawText(begin, end))};")
+        self.text.equations.append(f"{me}_q = {law_text(driver.law, begin, end)};")
         if not rotary:
             self.text.equations.append(f"{self.names.of('guide', driver.joint)}_s = {me}_q;")
             return

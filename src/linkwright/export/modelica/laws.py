@@ -2,53 +2,58 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from functools import singledispatch
 from itertools import pairwise
 from typing import assert_never
 
 import numpy as np
 
-from linkwright.core.dataclass import dataclass
 from linkwright.core.expression_tree import Binary, Call, Negative, Node, Number, Variable
 from linkwright.drivers.base import Law
+from linkwright.drivers.constant_speed import ConstantSpeed
+from linkwright.drivers.expression import ExpressionLaw
+from linkwright.drivers.table import TableLaw
+from linkwright.errors import LinkwrightError
 from linkwright.export.modelica.names import number
 
 
-@dataclass(frozen=True)
-class LawText:
-    """Writes laws between two times, s, in terms of ``time``."""
+@singledispatch
+def law_text(law: Law, begin: float, end: float) -> str:
+    """A law between two times, s, as an expression of ``time``, of operations that tools can differentiate."""
+    raise LinkwrightError("export.no_law", law=law.key)
 
-    begin: float
-    end: float
 
-    def straight(self, start: float, speed: float) -> str:
-        """start + speed t."""
-        return f"{number(start)} + ({number(speed)})*time"
+@law_text.register
+def _(law: ConstantSpeed, begin: float, end: float) -> str:
+    return f"{number(law.start)} + ({number(law.speed)})*time"
 
-    def expression(self, tree: Node, parameters: Mapping[str, float]) -> str:
-        """An expression of t and of parameters, which are put in."""
-        return formula(tree, {**{name: number(value) for name, value in parameters.items()}, "t": "time"})
 
-    def pieces(self, law: Law, times: Sequence[float], interpolation: str) -> str:
-        """A law by cubic pieces between times, ``linear`` ones or those that repeat (``periodic``)."""
-        nodes = np.asarray(times)
-        if interpolation == "periodic":
-            period = nodes[-1] - nodes[0]
-            first = np.floor((self.begin - nodes[0]) / period)
-            last = np.ceil((self.end - nodes[0]) / period)
-            turns = np.arange(first, max(last, first + 1))
-            nodes = np.unique(np.concatenate([nodes + turn * period for turn in turns]))
-        rows = np.stack([nodes, *law.coordinate(nodes)], axis=1)
-        texts = []
-        for (left, q, qd, qdd), (right, _, _, qdd_next) in pairwise(rows):
-            third = (qdd_next - qdd) / (6 * (right - left)) if interpolation != "linear" else 0.0
-            x = f"(time - ({number(left)}))"
-            a, b, c, d = (f"({number(each)})" for each in (q, qd, qdd / 2, third))
-            texts.append((right, f"({a} + {x}*({b} + {x}*({c} + {x}*{d})))"))
-        text = texts[-1][1]
-        for right, piece in reversed(texts[:-1]):
-            text = f"(if time < {number(right)} then {piece} else {text})"
-        return text
+@law_text.register
+def _(law: ExpressionLaw, begin: float, end: float) -> str:
+    parameters = {name: number(value) for name, value in law.parameters.items()}
+    return formula(law.expression.tree, {**parameters, "t": "time"})
+
+
+@law_text.register
+def _(law: TableLaw, begin: float, end: float) -> str:
+    """By cubic pieces between the times of the table, straight ones of a linear one."""
+    nodes = np.asarray(law.times)
+    if law.interpolation == "periodic":
+        period = nodes[-1] - nodes[0]
+        first, last = np.floor((begin - nodes[0]) / period), np.ceil((end - nodes[0]) / period)
+        turns = np.arange(first, max(last, first + 1))
+        nodes = np.unique(np.concatenate([nodes + turn * period for turn in turns]))
+    rows = np.stack([nodes, *law.coordinate(nodes)], axis=1)
+    texts = []
+    for (left, q, qd, qdd), (right, _, _, qdd_next) in pairwise(rows):
+        third = (qdd_next - qdd) / (6 * (right - left)) if law.interpolation != "linear" else 0.0
+        x = f"(time - ({number(left)}))"
+        a, b, c, d = (f"({number(each)})" for each in (q, qd, qdd / 2, third))
+        texts.append((right, f"({a} + {x}*({b} + {x}*({c} + {x}*{d})))"))
+    text = texts[-1][1]
+    for right, piece in reversed(texts[:-1]):
+        text = f"(if time < {number(right)} then {piece} else {text})"
+    return text
 
 
 def formula(node: Node, names: dict[str, str]) -> str:

@@ -7,7 +7,7 @@ starting position and cannot change to another way of putting the mechanism toge
 from __future__ import annotations
 
 from linkwright.export.modelica.equations import Equations, Text
-from linkwright.export.modelica.laws import LawText
+from linkwright.export.modelica.laws import law_text
 from linkwright.export.modelica.names import number, quoted
 from linkwright.export.results import Results
 from linkwright.joints.base import Joint
@@ -135,7 +135,7 @@ class Rates:
         self.model.unknown(f"{me}_q", "rad" if rotary else "m", start, f"coordinate of the driver {name}")
         rate = quoted(f"rate of the driver {name}")
         self.model.text.unknowns.append(f'Real {me}_q_w(unit="{"rad/s" if rotary else "m/s"}") {rate};')
-        law = driver.law.modelica(LawText(float(self.motion.time.min()), float(self.motion.time.max())))
+        law = law_text(driver.law, float(self.motion.time.min()), float(self.motion.time.max()))
         self.model.text.equations += [f"{me}_q = {law};", f"{me}_q_w = der({me}_q);"]
         if not rotary:
             slide = self.model.names.of("guide", driver.joint)

@@ -1,0 +1,220 @@
+"""Closed forms of dyads in worked solutions, by their types."""
+
+from __future__ import annotations
+
+import math
+from functools import cached_property, singledispatch
+
+from linkwright.core.dataclass import dataclass
+from linkwright.elements.topology import Group, TreeJoint
+from linkwright.groups.prp import PRP
+from linkwright.groups.rpp import RPP
+from linkwright.groups.rpr import RPR
+from linkwright.groups.rrp import RRP
+from linkwright.groups.rrr import RRR
+from linkwright.worked.chains import Trail, attach, trail
+from linkwright.worked.page import Step
+from linkwright.worked.placing import Placing
+from linkwright.worked.symbols import Book, Spot, tex
+from linkwright.worked.terms import FOUR, NOWHERE, TWO, ZERO, Pair, Term, direction, root, symbol
+
+
+@dataclass(frozen=True)
+class DyadWriter:
+    """The pieces of which closed forms of dyads are written: chains to the cut, lengths, distances, roots.
+
+    ``ends``: the links that meet in the cut, that of chain a first; ``mode``: +1 or -1.
+    """
+
+    placing: Placing
+    step: Step
+    group: Group
+    ends: tuple[str, str]
+    mode: int
+
+    @property
+    def book(self) -> Book:
+        return self.placing.book
+
+    @cached_property
+    def tip(self) -> Spot:
+        """The inner joint, where the group is cut."""
+        cut = self.group.cuts[0]
+        return self.book.spot(cut.a, cut.joint)
+
+    def _steps(self, end: str) -> list[TreeJoint]:
+        return list(reversed(list(self.group.path(end))))
+
+    def arm(self, end: str) -> tuple[Spot, TreeJoint, Trail]:
+        """Pin, its joint and the way to the cut, for a chain that begins with a free pin."""
+        steps = self._steps(end)
+        pivot = self.book.spot(steps[0].parent, steps[0].joint)
+        way = trail(self.book, steps[1:], steps[0].child, steps[0].joint, self.tip.key, local=True)
+        return pivot, steps[0], way
+
+    def length(self, pivot: Spot, reach: Pair) -> tuple[Term, Term]:
+        """Distance from pin to cut and the angle under which the link's axes see it."""
+        sub = f"{pivot.label}{self.tip.label}"
+        ahead, aside = reach.x, reach.y
+        size = symbol(f"l_{sub}", f"l_{{{tex(sub)}}}", math.hypot(ahead.value, aside.value))
+        if aside.is_zero and ahead.op == "symbol":
+            if ahead.plain[:2] in ("l_", "u_"):
+                self.step.give(size, "m")
+            else:
+                self.step.find(size, ahead if ahead.amount > 0 else -ahead, "m")
+            return size, ZERO if ahead.amount > 0 else self.book.degrees(math.pi)
+        parts = []
+        for name, part in (("u", ahead), ("w", aside)):
+            if part.is_zero:
+                parts.append(ZERO)
+                continue
+            term = symbol(f"{name}_{sub}", f"{name}_{{{tex(sub)}}}", part.value)
+            parts.append(
+                self.step.give(term, "m") if part.op == "symbol" else self.step.find(term, part, "m")
+            )
+        self.step.find(size, root(parts[0].squared + parts[1].squared), "m")
+        lean = direction(parts[1], parts[0])
+        own = symbol(f"ε_{sub}", rf"\varepsilon_{{{tex(sub)}}}", lean.value, degrees=True)
+        return size, self.step.find(own, lean, "°")
+
+    def apart(self, p: Spot, q: Pair) -> tuple[Pair, Term]:
+        """The vector d from P to Q and the square of its length."""
+        d = q - p.place
+        named = Pair(symbol("d_x", "d_x", d.x.value), symbol("d_y", "d_y", d.y.value))
+        self.step.find(named.x, d.x, "m")
+        self.step.find(named.y, d.y, "m")
+        square = named.x.squared + named.y.squared
+        return named, self.step.find(symbol("d²", "d^2", square.value), square, "m²")
+
+    def root(self, square: Term, unit: str) -> Term:
+        value = square.value
+        rho = symbol("ρ", r"\rho", math.sqrt(max(value, 0.0)))
+        return self.step.find(rho, root(square), unit)
+
+    def note_mode(self, key: str, *spots: Spot) -> None:
+        p, q, b = (spot.label for spot in spots)
+        self.step.say(self.book.say(f"worked.{key}_{'plus' if self.mode > 0 else 'minus'}", p=p, q=q, b=b))
+
+    def frame_chain(self, end: str, name: str) -> tuple[Pair, Trail]:
+        """Where the cut would be with the slides at zero, for a chain of guides."""
+        steps = self._steps(end)
+        if not steps:
+            return self.tip.place, Trail()
+        for joint in steps:
+            self.placing.follow(self.step, joint)
+            if joint.slides:
+                self.placing.guide(self.step, joint.joint)
+        start = attach(steps[0], steps[0].parent, self.book)
+        base = self.book.spot(steps[0].parent, start)
+        way = trail(self.book, steps, steps[0].parent, start, self.tip.key, local=False)
+        zero = Pair(
+            symbol(f"x_{name}", f"x_{{{name}}}", (base.place.x + way.reach.x).value),
+            symbol(f"y_{name}", f"y_{{{name}}}", (base.place.y + way.reach.y).value),
+        )
+        if way.reach == NOWHERE:
+            return base.place, way
+        self.step.say(self.book.say("worked.zero_slide", name=name, b=self.tip.label))
+        self.step.find(zero.x, base.place.x + way.reach.x, "m")
+        self.step.find(zero.y, base.place.y + way.reach.y, "m")
+        return zero, way
+
+
+@singledispatch
+def write_dyad(dyad: object, write: DyadWriter) -> bool:
+    """Writes the positions of a dyad by its closed form; False of one whose form is not known here."""
+    return False
+
+
+@write_dyad.register
+def _(dyad: RRR, write: DyadWriter) -> bool:
+    step, tip, mode = write.step, write.tip, write.mode
+    (p, first, way_1), (q, second, way_2) = (write.arm(end) for end in write.ends)
+    r1, lean_1 = write.length(p, way_1.reach)
+    r2, lean_2 = write.length(q, way_2.reach)
+    d, dd = write.apart(p, q.place)
+    t_is = dd + r1.squared - r2.squared
+    t = step.find(symbol("t", "t", t_is.value), t_is, "m²")
+    rho = write.root(FOUR * r1.squared * dd - t.squared, "m²")
+    write.note_mode("mode_rrr", p, q, tip)
+    side = d.perp.times(rho)
+    turn = d.times(t) + side if mode > 0 else d.times(t) - side
+    b = Pair(p.place.x + turn.x / (TWO * dd), p.place.y + turn.y / (TWO * dd))
+    write.placing.point(step, tip, b)
+    for joint, pivot, lean in ((first, p, lean_1), (second, q, lean_2)):
+        arm = tip.place - pivot.place
+        write.placing.angle(step, joint.child, direction(arm.y, arm.x) - lean)
+    return True
+
+
+@write_dyad.register
+def _(dyad: RRP, write: DyadWriter) -> bool:
+    step, tip, mode = write.step, write.tip, write.mode
+    p, joint, way_1 = write.arm(write.ends[0])
+    r, lean = write.length(p, way_1.reach)
+    zero, way = write.frame_chain(write.ends[1], f"{tip.label}0")
+    guide, n, _ = way.slides[0]
+    f = p.place - zero
+    h = step.find(symbol("h", "h", n.cross(f).value), n.cross(f), "m")
+    along = step.find(symbol("f", "f", n.dot(f).value), n.dot(f), "m")
+    rho = write.root(r.squared - h.squared, "m")
+    write.note_mode("mode_rrp", p, p, tip)
+    slide = write.book.slide(guide.joint)
+    ahead = (mode > 0) == (guide.child == guide.connection.b)  # words are seen along the guide of the file
+    write.placing.displacement(step, slide, along + rho if ahead else along - rho)
+    write.placing.point(step, tip, zero + n.times(slide.s))
+    arm = tip.place - p.place
+    write.placing.angle(step, joint.child, direction(arm.y, arm.x) - lean)
+    return True
+
+
+@write_dyad.register
+def _(dyad: RPR, write: DyadWriter) -> bool:
+    step, tip, mode = write.step, write.tip, write.mode
+    p, joint, way = write.arm(write.ends[0])
+    guide, m, heading = way.slides[0]
+    aside, ahead = m.cross(way.reach), m.dot(way.reach)
+    e = ZERO if aside.is_zero else step.find(symbol("e", "e", aside.value), aside, "m")
+    b = ZERO if ahead.is_zero else step.find(symbol("b", "b", ahead.value), ahead, "m")
+    d, dd = write.apart(p, tip.place)
+    rho = write.root(dd - e.squared, "m")
+    write.note_mode("mode_rpr", p, tip, tip)
+    reach = rho if mode > 0 else -rho
+    slide = write.book.slide(guide.joint)
+    write.placing.displacement(step, slide, reach - b)
+    cosine_is, sine_is = (reach * d.x + e * d.y) / dd, (reach * d.y - e * d.x) / dd
+    nx = step.find(symbol("n_x", "n_x", cosine_is.value), cosine_is, "")
+    ny = step.find(symbol("n_y", "n_y", sine_is.value), sine_is, "")
+    write.placing.angle(step, joint.child, direction(ny, nx) - heading)
+    return True
+
+
+def _slides(write: DyadWriter, *, apart: bool) -> bool:
+    """PRP (a slide in each chain) and RPP (both in one)."""
+    step, tip = write.step, write.tip
+    zero_1, way_1 = write.frame_chain(write.ends[0], f"{tip.label}1")
+    zero_2, way_2 = write.frame_chain(write.ends[1], f"{tip.label}2")
+    (g1, n1, _), (g2, n2, _) = [*way_1.slides, *way_2.slides]
+    f = zero_2 - zero_1
+    f = Pair(
+        step.find(symbol("f_x", "f_x", f.x.value), f.x, "m"),
+        step.find(symbol("f_y", "f_y", f.y.value), f.y, "m"),
+    )
+    sine_is = n1.cross(n2)
+    det = step.find(symbol("k", "k", sine_is.value), sine_is, "")
+    write.placing.displacement(step, write.book.slide(g1.joint), f.cross(n2) / det)
+    write.placing.displacement(
+        step, write.book.slide(g2.joint), (f.cross(n1) if apart else n1.cross(f)) / det
+    )
+    if apart:
+        write.placing.point(step, tip, zero_1 + n1.times(write.book.slide(g1.joint).s))
+    return True
+
+
+@write_dyad.register
+def _(dyad: PRP, write: DyadWriter) -> bool:
+    return _slides(write, apart=True)
+
+
+@write_dyad.register
+def _(dyad: RPP, write: DyadWriter) -> bool:
+    return _slides(write, apart=False)
