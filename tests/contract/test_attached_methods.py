@@ -40,15 +40,13 @@ def test_the_code_takes_what_is_declared(name: str, module: str) -> None:
     code = loaded(ATTACHED[name])
     found = inspect.getattr_static(getattr(importlib.import_module(module), owner), method)
     taken = inspect.signature(getattr(found, "fget", None) or found).parameters.values()
-    values = [object() if each.default is each.empty else each.default for each in taken
-              if each.kind is each.POSITIONAL_OR_KEYWORD]  # fmt: skip
-    named = {each.name: None for each in taken if each.kind is each.KEYWORD_ONLY}
-    assert inspect.signature(code).bind(*values, **named)
-    defaults = {each.name: each.default for each in taken if each.default is not each.empty}
-    own = inspect.signature(code).parameters
-    assert {
-        each: own[each].default for each in defaults if own[each].default is not inspect.Parameter.empty
-    }.items() <= (defaults.items())
+    own, empty = inspect.signature(code), inspect.Parameter.empty
+    assert own.bind(*(each.name for each in taken if each.kind is each.POSITIONAL_OR_KEYWORD),
+                    **{each.name: each.name for each in taken if each.kind is each.KEYWORD_ONLY})  # fmt: skip
+    defaults = [
+        (each.default, own.parameters[each.name].default) for each in taken if each.name in own.parameters
+    ]
+    assert all(first == second for first, second in defaults if second is not empty)
 
 
 def test_attached_methods_work() -> None:
