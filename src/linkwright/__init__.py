@@ -1,5 +1,6 @@
 """Linkwright: analysis and design of planar machines."""
 
+from linkwright.core import VERSION
 from linkwright.core.attached import ATTACHED
 from linkwright.lazy import offer
 
@@ -116,7 +117,7 @@ if TYPE_CHECKING:
     from linkwright.worked.solution import Worked as Worked
     from linkwright.worked.solution import worked as worked
 
-__version__ = "0.2.0"
+__version__ = VERSION
 
 ATTACHED.update(
     {
@@ -125,7 +126,10 @@ ATTACHED.update(
         "Mechanism.structure": "linkwright.structure.decompose:structure",
         "Motion._repr_svg_": "linkwright.plot.drawing.draw:picture_of",
         "Plotted.plot": "linkwright.plot.diagrams.diagram_by_name:plot",
+        "Optimum.text": "linkwright.optimisation.report:text",
         "Problem.sketch": "linkwright.plot.sketches.base:sketch",
+        "Synthesis.worked": "linkwright.synthesis.steps.solution:worked",
+        "Variants.files": "linkwright.course.questions:files_of",
     }
 )
 

@@ -5,10 +5,11 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from functools import partial
 from typing import Literal
 
 from linkwright.core.dataclass import dataclass
-from linkwright.words import LANGUAGES, has, say
+from linkwright.words import LANGUAGES, Say, has, say
 from linkwright.words.sentence import Sentence, code_of, in_language, values_of
 
 Severity = Literal["error", "warning", "note"]
@@ -97,6 +98,10 @@ class RequestError(LinkwrightError):
     """What was asked for does not exist or is out of range: the call is wrong, not the model."""
 
 
+class UnknownName(RequestError, KeyError):
+    """A name that no registered element has."""
+
+
 class ModelError(LinkwrightError):
     """A model that cannot be used; ``findings`` lists every remark, not only the first."""
 
@@ -143,9 +148,15 @@ class QuantityError(LinkwrightError):
 
 
 def require_language(language: str) -> None:
-    """Raises RequestError for a language without words."""
+    """Raises UnknownName for a language without words."""
     if language not in LANGUAGES:
-        raise RequestError("names.no_language", language=language, languages=tuple(LANGUAGES))
+        raise UnknownName("names.no_language", language=language, languages=tuple(LANGUAGES))
+
+
+def speaker(language: str) -> Say:
+    """``say`` for one language: ``speaker("zh")("cli.error")``; raises UnknownName for one without words."""
+    require_language(language)
+    return partial(say, language=language)
 
 
 @contextmanager

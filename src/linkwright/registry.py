@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Generic, TypeVar, cast
 
 from linkwright.core.entry_points import loaded, modules_within, offered_by_packages
-from linkwright.errors import LinkwrightError, RequestError
+from linkwright.errors import LinkwrightError, UnknownName
 from linkwright.words.sentence import Sentence
 from linkwright.words.synonyms import nearest_in_meaning
 
@@ -140,10 +140,6 @@ def _shown(names: tuple[str, ...]) -> tuple[str, ...]:
 def no_such(noun: str, name: str, known: Iterable[str]) -> Sentence:
     """The sentence for a name that does not exist, or is none; ``noun`` is a key of the catalogue's ``nouns``."""
     return Sentence("names.no_such", noun=Sentence(f"nouns.{noun}"), name=name, hint=offered(name, known))
-
-
-class UnknownName(RequestError, KeyError):
-    """A name that no registered element has."""
 
 
 def nearest(

@@ -8,6 +8,7 @@ from importlib.util import find_spec
 from linkwright.cli import commands
 from linkwright.cli.parser import CommandParser, Options, add_common
 from linkwright.cli.session import Session
+from linkwright.core import VERSION
 from linkwright.words import Say
 from linkwright.words.characters import aligned_within
 
@@ -66,8 +67,6 @@ def version(session: Session) -> None:
     from importlib.metadata import PackageNotFoundError
     from importlib.metadata import version as version_of
 
-    from linkwright import __version__
-
     found = {}
     for package in ("numpy", "llvmlite"):
         try:
@@ -76,11 +75,11 @@ def version(session: Session) -> None:
             found[package] = None
     python = ".".join(map(str, sys.version_info[:3]))
     if session.json:
-        session.show_data({"linkwright": __version__, "python": python, **found})
+        session.show_data({"linkwright": VERSION, "python": python, **found})
         return
     say = session.say
     numpy = found["numpy"] or say("cli.not_installed")
-    session.show(say("cli.version", version=__version__, python=python, numpy=numpy))
+    session.show(say("cli.version", version=VERSION, python=python, numpy=numpy))
     compiled = found["llvmlite"]
     session.show(say("cli.llvmlite_there", version=compiled) if compiled else say("cli.llvmlite_missing"))
 

@@ -13,8 +13,8 @@ from linkwright.cli.errors import OutputError, UsageError
 from linkwright.cli.help import command_parser, overview, version
 from linkwright.cli.parser import did_you_mean
 from linkwright.cli.session import Session
-from linkwright.errors import NO_FILE, LinkwrightError, ModelError, RequestError, about
-from linkwright.words import LANGUAGES, speaker
+from linkwright.errors import NO_FILE, LinkwrightError, ModelError, RequestError, about, speaker
+from linkwright.words import LANGUAGES
 from linkwright.words.sentence import Sentence
 
 FINE, FAULTY, MISUSED, INTERRUPTED = 0, 1, 2, 130

@@ -12,8 +12,7 @@ from typing import Any
 from linkwright.core.dataclass import dataclass
 from linkwright.course.key import read_key
 from linkwright.course.variants import close
-from linkwright.errors import LinkwrightError, RequestError
-from linkwright.words import speaker
+from linkwright.errors import LinkwrightError, RequestError, speaker
 from linkwright.words.sentence import in_language, reason_of
 
 #: Letters of an answer that a sentence repeats.

@@ -17,11 +17,11 @@ from linkwright.course.mistakes import RPM, passed
 from linkwright.course.task import Question
 from linkwright.course.variants import Variant, Variants
 from linkwright.drivers.base import Law
-from linkwright.errors import RequestError
+from linkwright.errors import RequestError, speaker
 from linkwright.files.write import to_data
 from linkwright.plot.drawing.draw import draw
 from linkwright.plot.drawing.view import DIAGONAL
-from linkwright.words import Say, speaker
+from linkwright.words import Say
 
 #: Width of the pictures of questions, pixels.
 PICTURE = 640
@@ -31,7 +31,7 @@ TALLEST, LOWEST, ROOM, ROW, SHARE = 110.0, 30.0, 196.0, 5.0, 0.8
 Files = dict[str, bytes]
 
 
-def files_of(found: Variants, forms: Sequence[str], language: str) -> Files:
+def files_of(found: Variants, forms: Sequence[str] = (), language: str = "en") -> Files:
     """The files of the forms asked for; all where none is named."""
     chosen = tuple(forms) or tuple(FORMS)
     for form in chosen:

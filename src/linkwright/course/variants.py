@@ -13,6 +13,7 @@ from typing import Any, Literal
 
 import numpy as np
 
+from linkwright.core.attached import attached
 from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import require, whole
@@ -122,11 +123,10 @@ class Variants:
             ],
         }
 
+    @attached
     def files(self, forms: Sequence[str] = (), language: str = "en") -> dict[str, bytes]:
         """Contents by path: ``sheets.pdf``, ``key.json``, ``key.csv``, ``prairielearn/…``, ``moodle.xml``, …"""
-        from linkwright.course.questions import files_of
-
-        return files_of(self, forms, language)
+        raise NotImplementedError
 
     def save(
         self, folder: str | Path, forms: Sequence[str] = (), language: str = "en", *, force: bool = False

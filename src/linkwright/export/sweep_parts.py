@@ -12,6 +12,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
+from linkwright.core import VERSION
 from linkwright.core.arrays import Floats
 from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
@@ -75,12 +76,10 @@ class Plan:
     @property
     def digest(self) -> str:
         """What finished parts must agree with."""
-        from linkwright import __version__
-
         known = sorted(self.mechanism.dimensions().items()), sorted(self.mechanism.assembly.items())
         values = [(each.address, each.values.tobytes()) for each in self.ranges]
         said = (known, sorted(map(repr, self.mechanism.loads.items())), values, self.outputs, self.sampling,
-                self.designs, self.seed, self.steps, self.part, __version__)  # fmt: skip
+                self.designs, self.seed, self.steps, self.part, VERSION)  # fmt: skip
         return hashlib.blake2b(repr(said).encode(), digest_size=16).hexdigest()
 
 

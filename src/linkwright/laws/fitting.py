@@ -6,10 +6,10 @@ from typing import Any
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import require_pair
-from linkwright.errors import RequestError
+from linkwright.errors import RequestError, UnknownName
 from linkwright.laws.base import END_KINDS, MOTION_LAWS, Ends, MotionLaw
 from linkwright.laws.derived_laws import Backwards, Portion, Shifted
-from linkwright.registry import UnknownName, no_such
+from linkwright.registry import no_such
 
 
 def motion_law(

@@ -10,7 +10,7 @@ import numpy as np
 from linkwright.core.attached import Plotted
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import real, require
-from linkwright.errors import LinkwrightError
+from linkwright.errors import LinkwrightError, speaker
 from linkwright.kinetostatics.forces import Forces
 from linkwright.machine.energy import EnergyFluctuation
 from linkwright.machine.equivalent import Equivalent, steady_rate
@@ -20,7 +20,7 @@ from linkwright.machine.speed import SpeedCurve
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.quantities import shown
 from linkwright.metrics.true_speed import steady_cycle
-from linkwright.words import Say, speaker
+from linkwright.words import Say
 from linkwright.words.sentence import Sentence
 
 DIMENSIONS = {

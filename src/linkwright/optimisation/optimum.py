@@ -11,7 +11,7 @@ import numpy as np
 
 from linkwright import units
 from linkwright.core.arrays import Floats
-from linkwright.core.attached import Plotted
+from linkwright.core.attached import Plotted, attached
 from linkwright.core.dataclass import dataclass
 from linkwright.core.read_only import Frozen
 from linkwright.errors import LinkwrightError
@@ -106,11 +106,10 @@ class Optimum(Plotted, Frozen):
 
         return write_whole(path, self.model_text(index).encode(), force=force)
 
+    @attached
     def text(self, language: str = "en") -> str:
         """Variables and numbers beside the start, and what to know about them."""
-        from linkwright.optimisation.report import report
-
-        return "\n".join(report(self, language))
+        raise NotImplementedError
 
     def data(self) -> dict[str, Any]:
         """Plain data, SI."""

@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 
 from linkwright import units
+from linkwright.errors import speaker
 from linkwright.optimisation.measures import is_metric
 from linkwright.optimisation.optimum import Choice, Optimum
 from linkwright.study.criteria import criterion
-from linkwright.words import Say, say, speaker
+from linkwright.words import Say, say
 from linkwright.words.characters import aligned
 from linkwright.words.titles import title_said
 
@@ -16,7 +17,7 @@ from linkwright.words.titles import title_said
 LISTED = 24
 
 
-def report(found: Optimum, language: str) -> list[str]:
+def text(found: Optimum, language: str = "en") -> str:
     """Title, the best design beside the start, the front, and notes."""
     tell = speaker(language)
     name = title_said(found.problem.mechanism.name, language)
@@ -40,7 +41,7 @@ def report(found: Optimum, language: str) -> list[str]:
     lines += [tell("optimize.no_effect", address=each) for each in found.without_effect]
     if found.interrupted:
         lines.append(tell("study.interrupted", path=found.state))
-    return lines
+    return "\n".join(lines)
 
 
 def _goals(found: Optimum, language: str) -> str:

@@ -28,9 +28,9 @@ if TYPE_CHECKING:
     from linkwright.parts.statics.belt import Belt as Belt
     from linkwright.parts.statics.body import RigidBody as RigidBody
     from linkwright.parts.statics.body import Support as Support
+    from linkwright.parts.statics.force_system import ForceSystem as ForceSystem
     from linkwright.parts.statics.forces import Along as Along
     from linkwright.parts.statics.forces import Force as Force
-    from linkwright.parts.statics.forces import ForceSystem as ForceSystem
     from linkwright.parts.statics.rotor import BalancingPlane as BalancingPlane
     from linkwright.parts.statics.rotor import HeavyPoint as HeavyPoint
     from linkwright.parts.statics.rotor import Rotor as Rotor
@@ -50,6 +50,6 @@ if TYPE_CHECKING:
     from linkwright.parts.vibration.system import VibratingSystem as VibratingSystem
     from linkwright.tolerance.problem import Clearance as Clearance
     from linkwright.tolerance.problem import Tolerance as Tolerance
-    from linkwright.tolerance.problem import ToleranceStudy as ToleranceStudy
+    from linkwright.tolerance.study import ToleranceStudy as ToleranceStudy
 
 offer(__name__)

@@ -17,11 +17,11 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from linkwright.core.arrays import Floats
 from linkwright.core.attached import Plotted, attached
 from linkwright.core.dataclass import dataclass
-from linkwright.errors import Finding, ModelError
+from linkwright.errors import Finding, ModelError, speaker
 from linkwright.fields.base import Field, GivenByFile, given_by_file
 from linkwright.metrics.quantities import SHOWN
 from linkwright.units import FURTHER, SI_UNITS, Dimension, si_symbol
-from linkwright.words import Say, speaker
+from linkwright.words import Say
 from linkwright.words.characters import aligned
 from linkwright.words.sentence import Sentence
 from linkwright.worked.page import Equation, Step

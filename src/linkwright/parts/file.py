@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 KINDS: Mapping[str, str] = {
     "beam": "linkwright.parts.beams.beam.Beam",
     "link_bending": "linkwright.parts.beams.link.LinkBending",
-    "forces": "linkwright.parts.statics.forces.ForceSystem",
+    "forces": "linkwright.parts.statics.force_system.ForceSystem",
     "rigid_body": "linkwright.parts.statics.body.RigidBody",
     "belt": "linkwright.parts.statics.belt.Belt",
     "wedge": "linkwright.parts.statics.wedge.Wedge",
@@ -43,7 +43,7 @@ KINDS: Mapping[str, str] = {
     "mounts": "linkwright.parts.vibration.mounts.Mounts",
     "statistics": "linkwright.parts.statistics.samples.Samples",
     "program": "linkwright.parts.programs.program.Program",
-    "tolerance": "linkwright.tolerance.problem.ToleranceStudy",
+    "tolerance": "linkwright.tolerance.study.ToleranceStudy",
     "trajectory": "linkwright.parts.trajectories.particle.Particle",
     "throw": "linkwright.parts.trajectories.conveyor.Conveyor",
 }

@@ -11,7 +11,7 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
-from linkwright.errors import LinkwrightError
+from linkwright.errors import LinkwrightError, speaker
 from linkwright.kinematics.cycle import at_inputs
 from linkwright.kinematics.limits import LimitPosition
 from linkwright.kinematics.motion import Motion
@@ -23,7 +23,7 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.report.numbers import Heads, without_rounding
 from linkwright.report.settings import Settings, worked_place
 from linkwright.structure.analysis import Structure
-from linkwright.words import Say, speaker
+from linkwright.words import Say
 from linkwright.words.sentence import in_language, links_said
 
 if TYPE_CHECKING:

@@ -11,7 +11,7 @@ from pathlib import Path
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import require
 from linkwright.core.progress import Progress, current_progress, reporting
-from linkwright.errors import RequestError, about, require_language
+from linkwright.errors import RequestError, about, require_language, speaker
 from linkwright.files.model_file import load
 from linkwright.files.source import GALLERY
 from linkwright.mechanism.mechanism import Mechanism
@@ -24,7 +24,6 @@ from linkwright.report.order import Calculation, chosen, parts
 from linkwright.report.settings import settings, worked_place
 from linkwright.synthesis.task_file import TaskFile, task_file
 from linkwright.whole_files import refuse_target, write_whole
-from linkwright.words import speaker
 from linkwright.words.sentence import Sentence
 from linkwright.words.titles import title_said
 

@@ -5,14 +5,13 @@ A section is one function, registered under its name; its title is the word ``re
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import field
 from typing import TypeVar
 
 from linkwright.core.dataclass import dataclass
 from linkwright.registry import Registry
 from linkwright.report.document import Block
-from linkwright.report.machine_results import Case
 
 
 @dataclass(frozen=True)
@@ -26,7 +25,7 @@ class Section:
     rank: float
     optional: bool
     common: bool
-    blocks: Callable[[Sequence[Case]], Iterator[Block]] = field(repr=False)
+    blocks: Callable[..., Iterator[Block]] = field(repr=False)
 
 
 #: What makes the blocks of a section, of a case or of all cases.

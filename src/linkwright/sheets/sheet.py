@@ -10,7 +10,7 @@ from typing import Any
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import require
-from linkwright.errors import LinkwrightError, RequestError, require_language
+from linkwright.errors import LinkwrightError, RequestError, require_language, speaker
 from linkwright.files.model_file import load
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.parts.base import Problem
@@ -25,7 +25,6 @@ from linkwright.sheets.settings import Placed, Settings, settings
 from linkwright.sheets.svg import svg
 from linkwright.sheets.title_block import TitleBlock, gb_block, iso_block, school_block
 from linkwright.whole_files import refuse_target, write_whole
-from linkwright.words import speaker
 from linkwright.words.sentence import in_language
 from linkwright.words.titles import title_said
 

@@ -7,10 +7,11 @@ from dataclasses import field
 
 from linkwright.core.dataclass import dataclass
 from linkwright.elements.topology import Connection, Group
+from linkwright.errors import speaker
 from linkwright.joints.base import JOINTS
 from linkwright.structure.mobility import lower_pairs
 from linkwright.structure.trains import GearTrain, written
-from linkwright.words import Say, has, language_of, speaker
+from linkwright.words import Say, has, language_of
 from linkwright.words.characters import cells, padded
 from linkwright.words.sentence import link_said
 

@@ -13,7 +13,7 @@ from linkwright.core.given import real, require
 from linkwright.core.html import html_table
 from linkwright.core.progress import current_progress
 from linkwright.core.read_only import Frozen
-from linkwright.errors import LinkwrightError, RequestError, with_remedy
+from linkwright.errors import LinkwrightError, RequestError, speaker, with_remedy
 from linkwright.kinematics.outcome import PositionError
 from linkwright.machine.flywheel import FLUCTUATION
 from linkwright.mechanism.mechanism import Mechanism
@@ -22,7 +22,6 @@ from linkwright.study.alternatives import Alternative, alternatives
 from linkwright.study.criteria import USUAL, Criterion, Measured, criteria, numbers_of
 from linkwright.study.overlay import Overlay, overlays
 from linkwright.units import si_unit
-from linkwright.words import speaker
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:

@@ -6,10 +6,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from linkwright.errors import speaker
 from linkwright.metrics.quantities import SHOWN, shown
 from linkwright.study.alternatives import Alternative
 from linkwright.study.criteria import criterion
-from linkwright.words import Say, speaker
+from linkwright.words import Say
 from linkwright.words.characters import aligned_within
 from linkwright.words.sentence import in_language
 

@@ -18,6 +18,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
+from linkwright.core import VERSION
 from linkwright.core.progress import Progress, current_progress, reporting
 from linkwright.errors import RequestError
 from linkwright.whole_files import refuse_target, write_new
@@ -60,9 +61,7 @@ def kept_in(
         Interrupted: a KeyboardInterrupt, with the file that has all finished parts.
         RequestError: a file of other work, or one that cannot be read or written.
     """
-    from linkwright import __version__
-
-    kept = Kept(None if path is None else Path(path), name, identity(__version__, *asked))
+    kept = Kept(None if path is None else Path(path), name, identity(VERSION, *asked))
     token = _current.set(kept)
     try:
         with reporting(progress or current_progress()):

@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from linkwright.errors import speaker
 from linkwright.metrics.quantities import number, shown, shown_unit
 from linkwright.study.criteria import criterion
-from linkwright.words import Say, speaker
+from linkwright.words import Say
 from linkwright.words.characters import aligned_within
 from linkwright.words.sentence import in_language
 

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from inspect import signature
 
+from linkwright.core.dataclass import dataclass
 from linkwright.synthesis.free_curve.generate import free_curve
 from linkwright.synthesis.function_generation.generate import function_generation
 from linkwright.synthesis.motion_generation.generate import motion_generation
@@ -21,7 +23,45 @@ from linkwright.synthesis.requirements.slider_crank import (
 from linkwright.synthesis.requirements.straight_line import straight_line
 from linkwright.synthesis.requirements.toggle import toggle
 from linkwright.synthesis.result import Synthesis, refuse
-from linkwright.synthesis.tasks import Task
+
+#: The form of each demand, the same in all tasks.
+FORMS: Mapping[str, str] = {
+    name: form
+    for form, names in {
+        "length": "stroke offset frame rocker rod distance length deviation bound file_unit rounding",
+        "angle": "swing_angle crank_angle transmission_angle input_zero output_zero direction",
+        "number": "rod_ratio offset_ratio quick_return_ratio link_ratio force_ratio gear_ratio size error seconds",
+        "count": "count seed joints",
+        "flag": "scale_free turning least_squares equation_error phase closed",
+        "word": "kind linkage",
+        "file": "file",
+        "point": "pivot",
+        "points": "points fixed_pivots moving_pivots",
+        "window": "within pivot_line",
+        "poses": "poses",
+        "angles": "angles inputs outputs",
+        "lengths": "places",
+    }.items()
+    for name in names.split()
+}
+
+
+@dataclass(frozen=True)
+class Task:
+    """``run`` takes the demands as keywords, and some tasks a ``progress``, which is none."""
+
+    run: Callable[..., Synthesis]
+
+    @property
+    def demands(self) -> Mapping[str, str]:
+        """The demands with their forms."""
+        return {name: FORMS[name] for name in signature(self.run).parameters if name != "progress"}
+
+    @property
+    def needed(self) -> tuple[str, ...]:
+        """The demands that must be given: those without a default."""
+        given = signature(self.run).parameters
+        return tuple(name for name, each in given.items() if each.default is each.empty)
 
 
 def slider_crank(

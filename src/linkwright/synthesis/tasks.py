@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
-from inspect import signature
+from collections.abc import Mapping
 from os import PathLike
 from os.path import exists
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from linkwright import units
-from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import amount
 from linkwright.core.given import told
 from linkwright.errors import Finding, ModelError, QuantityError, with_remedy
@@ -27,6 +25,9 @@ from linkwright.files.source import GALLERY, read_source
 from linkwright.registry import listed, nearest
 from linkwright.synthesis.result import Synthesis, note, refuse
 from linkwright.words.sentence import Sentence
+
+if TYPE_CHECKING:
+    from linkwright.synthesis.catalogue import Task
 
 #: The line that gives the unit of bare numbers in lists, by their dimension.
 UNIT_KEYS = {"length": "unit: mm", "angle": "angle_unit: deg"}
@@ -45,46 +46,6 @@ SHAPES: Mapping[str, tuple[tuple[str, ...], int]] = {
     "window": (("length", "length"), 2),
     "poses": (("length", "length", "angle"), 2),
 }
-
-
-#: The form of each demand, the same in all tasks.
-FORMS: Mapping[str, str] = {
-    name: form
-    for form, names in {
-        "length": "stroke offset frame rocker rod distance length deviation bound file_unit rounding",
-        "angle": "swing_angle crank_angle transmission_angle input_zero output_zero direction",
-        "number": "rod_ratio offset_ratio quick_return_ratio link_ratio force_ratio gear_ratio size error seconds",
-        "count": "count seed joints",
-        "flag": "scale_free turning least_squares equation_error phase closed",
-        "word": "kind linkage",
-        "file": "file",
-        "point": "pivot",
-        "points": "points fixed_pivots moving_pivots",
-        "window": "within pivot_line",
-        "poses": "poses",
-        "angles": "angles inputs outputs",
-        "lengths": "places",
-    }.items()
-    for name in names.split()
-}
-
-
-@dataclass(frozen=True)
-class Task:
-    """``run`` takes the demands as keywords, and some tasks a ``progress``, which is none."""
-
-    run: Callable[..., Synthesis]
-
-    @property
-    def demands(self) -> Mapping[str, str]:
-        """The demands with their forms."""
-        return {name: FORMS[name] for name in signature(self.run).parameters if name != "progress"}
-
-    @property
-    def needed(self) -> tuple[str, ...]:
-        """The demands that must be given: those without a default."""
-        given = signature(self.run).parameters
-        return tuple(name for name, each in given.items() if each.default is each.empty)
 
 
 def tasks() -> dict[str, Task]:

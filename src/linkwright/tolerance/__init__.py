@@ -7,7 +7,7 @@ from linkwright.lazy import offer
 if TYPE_CHECKING:
     from linkwright.tolerance.problem import Clearance as Clearance
     from linkwright.tolerance.problem import Tolerance as Tolerance
-    from linkwright.tolerance.problem import ToleranceStudy as ToleranceStudy
     from linkwright.tolerance.result import Spread as Spread
+    from linkwright.tolerance.study import ToleranceStudy as ToleranceStudy
 
 offer(__name__)

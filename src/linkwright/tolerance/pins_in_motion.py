@@ -11,7 +11,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import field, fields, is_dataclass, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -26,9 +25,7 @@ from linkwright.loads.base import Load
 from linkwright.mechanism.mechanism import Link, Mechanism
 from linkwright.study.designs import sweep_curves
 from linkwright.tolerance.pin_turning_law import TurnedByReaction
-
-if TYPE_CHECKING:
-    from linkwright.tolerance.problem import Clearance, ToleranceStudy
+from linkwright.tolerance.problem import Clearance, Tolerances
 
 #: Most rounds in which the pins follow their forces, and the residual, rad, that ends them.
 ROUNDS, FOLLOWED = 6, 1e-9
@@ -43,7 +40,7 @@ class FollowedPins:
     """The mechanism with its gaps as links, and the ``residual`` (n,) rad: the angle between a pin's offset and its
     reaction, the largest of all pins."""
 
-    study: ToleranceStudy
+    study: Tolerances
     mechanism: Mechanism
     residual: Floats
     _known: dict[str, Floats] = field(default_factory=dict, compare=False, repr=False)
@@ -90,7 +87,7 @@ def gap_name(hole: str) -> str:
     return f"{hole}_gap"
 
 
-def follow(study: ToleranceStudy, nominal: Forces) -> FollowedPins:
+def follow(study: Tolerances, nominal: Forces) -> FollowedPins:
     """The pins led by their reactions over the whole cycle.
 
     Raises LinkwrightError where the cycle does not repeat, or the mechanism with its gaps cannot be solved.
@@ -136,7 +133,7 @@ def _angles(forces: Forces, joint: str, on: str) -> Floats:
     return np.asarray(np.arctan2(force[:, 1], force[:, 0]))
 
 
-def _jumps(study: ToleranceStudy, nominal: Forces, pin: str, on: str) -> tuple[int, ...]:
+def _jumps(study: Tolerances, nominal: Forces, pin: str, on: str) -> tuple[int, ...]:
     """Numbers of the positions after which the reaction's direction jumps: half of its change stays in one half of
     the interval, however often it is halved."""
     count, period = nominal.steps, nominal.motion.positions.period or 0.0

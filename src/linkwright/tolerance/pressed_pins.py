@@ -9,7 +9,6 @@ r = c F/|F| from the hole's centre. To first order in c an output y(φ) changes 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -18,9 +17,7 @@ from linkwright.core.outputs import PLACES
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.names import output_meant
 from linkwright.kinetostatics.forces import Forces, solve_forces
-
-if TYPE_CHECKING:
-    from linkwright.tolerance.problem import ToleranceStudy
+from linkwright.tolerance.problem import Tolerances
 
 #: Rounds in which the force follows the moved pin.
 ROUNDS = 3
@@ -28,7 +25,7 @@ ROUNDS = 3
 FAINT = 1e-9
 
 
-def directions(study: ToleranceStudy, forces: Forces) -> dict[str, Floats]:
+def directions(study: Tolerances, forces: Forces) -> dict[str, Floats]:
     """Where each pressed pin lies, as unit vectors (n, 2) in the axes of the hole's link; zero without a force."""
     found = {}
     for pin in study.holes("pressed"):
@@ -40,7 +37,7 @@ def directions(study: ToleranceStudy, forces: Forces) -> dict[str, Floats]:
     return found
 
 
-def require_forces(study: ToleranceStudy) -> Forces:
+def require_forces(study: Tolerances) -> Forces:
     """The nominal forces; LinkwrightError where a pressed pin carries none."""
     forces = solve_forces(study.prepared, steps=study.steps)
     for pin, way in directions(study, forces).items():
@@ -49,7 +46,7 @@ def require_forces(study: ToleranceStudy) -> Forces:
     return forces
 
 
-def shifts(study: ToleranceStudy, slopes: Callable[[str], Floats], forces: Forces) -> Floats:
+def shifts(study: Tolerances, slopes: Callable[[str], Floats], forces: Forces) -> Floats:
     """Change (n,) of one output by all pressed pins to first order; ``slopes`` gives its derivatives (n,)."""
     total = np.zeros(forces.steps)
     for pin, way in directions(study, forces).items():
@@ -59,7 +56,7 @@ def shifts(study: ToleranceStudy, slopes: Callable[[str], Floats], forces: Force
     return total
 
 
-def exact(study: ToleranceStudy, output: str) -> Floats:
+def exact(study: Tolerances, output: str) -> Floats:
     """An angle, coordinate or displacement (n,) with all pressed pins moved, each position solved for itself."""
     from linkwright.study.prepared import prepare
 
@@ -81,7 +78,7 @@ def exact(study: ToleranceStudy, output: str) -> Floats:
 
 
 def _moved(
-    study: ToleranceStudy,
+    study: Tolerances,
     holes: Mapping[str, tuple[str, str]],
     nominal: Mapping[str, float],
     ways: Mapping[str, Floats],
@@ -93,6 +90,6 @@ def _moved(
     return changes
 
 
-def is_position(study: ToleranceStudy, output: str) -> bool:
+def is_position(study: Tolerances, output: str) -> bool:
     """Whether an output is an angle, a coordinate or a displacement."""
     return output_meant(study.mechanism, output).kind in PLACES

@@ -6,28 +6,19 @@ import math
 from collections.abc import Mapping
 from dataclasses import replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
 from linkwright import units
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.errors import Finding, LinkwrightError, ModelError, RequestError
 from linkwright.fields.base import Quantity, Text, Word, given
-from linkwright.kinematics.names import output_meant
 from linkwright.mechanism.mechanism import Link, Mechanism
-from linkwright.metrics.base import METRICS
-from linkwright.metrics.wanted import is_metric, wanted
-from linkwright.parts.base import fault, si_unit
+from linkwright.parts.base import si_unit
 from linkwright.parts.fields import AnyQuantity, ByAddress, Either, Listed, Named, Table, Whole
 from linkwright.parts.mechanism_field import MECHANISM, OfMechanism
-from linkwright.registry import PROBABLE, nearest
 from linkwright.study.ranges import dimension_of
-from linkwright.study.varied_dimensions import misfits
-
-if TYPE_CHECKING:
-    from linkwright.tolerance.result import Spread
 
 #: Standard deviation of each distribution as a share of its tolerance ±t.
 DEVIATIONS = {"normal": 1 / 3, "uniform": 1 / math.sqrt(3), "triangular": 1 / math.sqrt(6)}
@@ -111,13 +102,8 @@ LIMIT = {"lower": AnyQuantity(doc="lower limit"), "upper": AnyQuantity(doc="uppe
 
 
 @dataclass(frozen=True)
-class ToleranceStudy(OfMechanism):
-    """Tolerances by address of a dimension (``crank.length``), clearances by pin, and the outputs ``of`` interest.
-
-    ``of``: summaries over the cycle as in sweeps (``rocker.angle range``, ``driver.effort peak``), or design numbers
-    (``stroke``, ``peak_reaction A``) where no clearance is pressed; ``curves``: outputs over the cycle;
-    ``limits`` by what is asked.
-    """
+class Tolerances(OfMechanism):
+    """What varies of a mechanism, and what is asked about it: see ``ToleranceStudy``."""
 
     kind: ClassVar[str] = "tolerance"
     mechanism: Mechanism = given(MECHANISM)
@@ -139,90 +125,6 @@ class ToleranceStudy(OfMechanism):
     name: str = ""
     source: str = ""
 
-    def findings(self) -> list[Finding]:
-        found = (
-            [] if self.dimensions or self.clearances else [fault("tolerance.nothing_varies", "dimensions")]
-        )
-        found += [] if self.of or self.curves else [fault("tolerance.nothing_asked", "of")]
-        for address, tolerance in self.dimensions.items():
-            found += self._dimension_findings(address, tolerance)
-        for pin, clearance in self.clearances.items():
-            found += self._clearance_findings(pin, clearance)
-        found += self._name_findings()
-        found += [
-            fault("tolerance.limit_of", f"limits.{name}", name=name)
-            for name in self.limits
-            if name not in self.of
-        ]
-        found += [
-            fault("part.limits_order", f"limits.{name}")
-            for name, limit in self.limits.items()
-            if limit.lower >= limit.upper
-        ]
-        if self.samples < LEAST:
-            found.append(fault("tolerance.few_samples", "samples", least=LEAST))
-        return found
-
-    def _name_findings(self) -> list[Finding]:
-        """What is asked that the machine does not have."""
-        asked = [(f"of.{k}", text) for k, text in enumerate(self.of)]
-        asked += [(f"curves.{k}", text) for k, text in enumerate(self.curves)]
-        found = []
-        for key, text in asked:
-            number = key.startswith("of")
-            if number and is_metric(text):
-                continue
-            try:
-                output_meant(self.mechanism, wanted([text])[0].output if number else text)
-            except RequestError as error:
-                offer = nearest(text[:100], list(METRICS), PROBABLE) if number else None
-                found.append(
-                    fault("tolerance.no_number", key, name=text, offer=offer)
-                    if offer
-                    else Finding("error", "", key, error.sentence, "", "unknown-name")
-                )
-        return found
-
-    def _dimension_findings(self, address: str, tolerance: Tolerance) -> list[Finding]:
-        key, known = f"dimensions.{address}", self.mechanism.dimensions()
-        if address not in known:
-            return [
-                fault("tolerance.no_dimension", key, name=address, nearest=nearest(address, known) or "—")
-            ]
-        if tolerance.tolerance <= 0:
-            return [fault("tolerance.not_above_zero", key)]
-        needed = dimension_of(self.mechanism, address)
-        if tolerance.dimension not in (None, units.NONE, needed) and needed is not None:
-            assert tolerance.dimension is not None
-            given, wanted = units.name_of(tolerance.dimension), units.name_of(needed)
-            return [fault("tolerance.wrong_kind", key, name=address, given=given, needed=wanted)]
-        owner = address.partition(".")[0]
-        moved = any(clearance.on == owner for clearance in self.clearances.values())
-        link = self.mechanism.links.get(owner)
-        if moved and link is not None and self._alias(address) not in self.prepared.dimensions():
-            return [fault("tolerance.bent_clearance", key, link=owner)]
-        return self._wheel_findings(key, address, tolerance.tolerance)
-
-    def _wheel_findings(self, key: str, address: str, change: float) -> list[Finding]:
-        """Pairs of wheels that no longer fit when a dimension changes."""
-        return [fault("tolerance.wheels", key, why=why) for why in misfits(self.mechanism, address, change)]
-
-    def _clearance_findings(self, pin: str, clearance: Clearance) -> list[Finding]:
-        joint = self.mechanism.pins.get(pin)
-        key = f"clearances.{pin}"
-        if joint is None:
-            return [fault("tolerance.no_pin", key, name=pin, known=tuple(self.mechanism.pins))]
-        if clearance.on not in joint.joined:
-            return [
-                fault(
-                    "tolerance.not_on", f"{key}.on", pin=pin, link=clearance.on, known=", ".join(joint.joined)
-                )
-            ]
-        address = f"{clearance.on}.{pin}.x"
-        if address not in self.mechanism.dimensions():
-            return []
-        return self._wheel_findings(key, address, clearance.clearance)
-
     @cached_property
     def prepared(self) -> Mechanism:
         """The mechanism with the holes' links given by coordinates, so that their points can move."""
@@ -233,7 +135,7 @@ class ToleranceStudy(OfMechanism):
         kept = {a: e for a, e in mechanism.expressions.items() if a.partition(".")[0] not in moved}
         return replace(mechanism, links=links, expressions=kept)
 
-    def _alias(self, address: str) -> str:
+    def alias(self, address: str) -> str:
         """Where a dimension is found in the prepared mechanism: a length as its second point's x."""
         owner, _, last = address.partition(".")
         link = self.mechanism.links.get(owner)
@@ -244,7 +146,7 @@ class ToleranceStudy(OfMechanism):
     @cached_property
     def deviating(self) -> dict[str, Tolerance]:
         """Tolerances by address in the prepared mechanism."""
-        return {self._alias(address): each for address, each in self.dimensions.items()}
+        return {self.alias(address): each for address, each in self.dimensions.items()}
 
     def per_unit(self, kind: str, name: str) -> str:
         """SI unit of the derivative of a quantity of a kind by what varies under this name: ``rad/m``."""
@@ -256,7 +158,7 @@ class ToleranceStudy(OfMechanism):
 
     def written(self, address: str) -> str:
         """The address as the user wrote it."""
-        return next((own for own in self.dimensions if self._alias(own) == address), address)
+        return next((own for own in self.dimensions if self.alias(own) == address), address)
 
     def holes(self, kind: str) -> dict[str, tuple[str, str]]:
         """Addresses of the hole's coordinates by pin, for clearances of a kind."""
@@ -265,20 +167,6 @@ class ToleranceStudy(OfMechanism):
             for pin, each in self.clearances.items()
             if each.kind == kind
         }
-
-    def solve(self) -> Spread:
-        """The spread. Raises ModelError with all findings, also where the mechanism does not pass its cycle."""
-        from linkwright.tolerance.result import Spread
-
-        self.require()
-        try:
-            found = Spread(self)
-            found.check()
-        except ModelError:
-            raise
-        except LinkwrightError as error:
-            raise ModelError([fault("tolerance.unsolved", "mechanism", why=error.sentence)]) from None
-        return found
 
 
 def _by_coordinates(link: Link) -> Link:

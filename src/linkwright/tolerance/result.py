@@ -21,7 +21,7 @@ from linkwright.study.varied_dimensions import design_values
 from linkwright.tolerance.curves import CurveSpread, curve_spreads
 from linkwright.tolerance.pins_in_motion import FollowedPins, follow
 from linkwright.tolerance.pressed_pins import is_position, require_forces, shifts
-from linkwright.tolerance.problem import Limit, ToleranceStudy
+from linkwright.tolerance.problem import Limit, Tolerances
 from linkwright.words import Say
 from linkwright.worked.page import Step
 
@@ -57,7 +57,7 @@ class Spread(Result):
     """
 
     area: ClassVar[str] = "tolerance"
-    study: ToleranceStudy
+    study: Tolerances
 
     def check(self) -> None:
         """Solves what everything rests on; raises LinkwrightError where it cannot be."""

@@ -7,11 +7,11 @@ from collections.abc import Callable, Iterable
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.progress import Progress, current_progress, reporting
-from linkwright.errors import LinkwrightError
+from linkwright.errors import LinkwrightError, speaker
 from linkwright.units import unit
 from linkwright.validation.probes import PROBES
 from linkwright.validation.published import Published, Reference, published
-from linkwright.words import say, speaker
+from linkwright.words import say
 from linkwright.words.characters import aligned_within
 from linkwright.words.sentence import in_language
 from linkwright.words.titles import title_said

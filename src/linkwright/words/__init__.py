@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import importlib
 from collections.abc import Callable, Mapping
-from functools import cache, partial
+from functools import cache
 
 from linkwright.core.entry_points import modules_within
 from linkwright.words.untranslated import WORDS as ALIKE
@@ -37,28 +37,16 @@ def has(key: str) -> bool:
         return False
 
 
-def speaker(language: str) -> Say:
-    """``say`` for one language: ``speaker("zh")("cli.error")``; raises UnknownName for one that does not exist."""
-    _require(language)
-    return partial(say, language=language)
-
-
 def language_of(speaks: Say) -> str:
     """The language of a speaker."""
     return str(getattr(speaks, "keywords", {}).get("language", LANGUAGES[0]))
 
 
-def _require(language: str) -> None:
-    if language not in LANGUAGES:
-        from linkwright.registry import UnknownName
-
-        raise UnknownName("names.no_language", language=language, languages=LANGUAGES)
-
-
 @cache
 def catalogue(area: str, language: str) -> Mapping[str, str]:
     """All texts of an area; raises KeyError for an area or a language that does not exist."""
-    _require(language)
+    if language not in LANGUAGES:
+        raise KeyError(language)
     name = f"{__name__}.{language}.{area}"
     try:
         module = importlib.import_module(name)

@@ -8,12 +8,12 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.given import require, whole
 from linkwright.core.outputs import Output
 from linkwright.elements.topology import Group
-from linkwright.errors import LinkwrightError, RequestError, require_language
+from linkwright.errors import LinkwrightError, RequestError, require_language, speaker
 from linkwright.kinematics.groups import dyad_shape, in_one_step
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces, solve_forces
-from linkwright.words import language_of, speaker
+from linkwright.words import language_of
 from linkwright.words.sentence import link_said, links_said
 from linkwright.worked.applied_forces import KnownForces
 from linkwright.worked.higher_pairs import closures

@@ -5,7 +5,7 @@ import sys
 import pytest
 
 from linkwright.cli.progress import progress
-from linkwright.words import speaker
+from linkwright.errors import speaker
 
 
 def test_progress_shows_on_a_terminal_only(

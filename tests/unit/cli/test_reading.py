@@ -8,7 +8,7 @@ from tests.refusals import refused
 
 from linkwright.cli.errors import UsageError
 from linkwright.cli.help import command_parser
-from linkwright.words import speaker
+from linkwright.errors import speaker
 
 
 def options(command: str, *words: str) -> argparse.Namespace:

@@ -9,8 +9,8 @@ import pytest
 import linkwright as lw
 from linkwright.cli import progress as bars
 from linkwright.core.progress import PACE, paced, part_of
+from linkwright.errors import speaker
 from linkwright.validation.published import from_gallery
-from linkwright.words import speaker
 
 
 def test_pieces_take_as_long_as_they_should(monkeypatch: pytest.MonkeyPatch) -> None:

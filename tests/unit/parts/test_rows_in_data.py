@@ -8,7 +8,7 @@ from tests.contract.calculations import solved
 from tests.every import every
 
 from linkwright import parts
-from linkwright.words import speaker
+from linkwright.errors import speaker
 
 #: Searches that take seconds have the same rows as the others of their kind.
 SEARCHES = ("beam_section", "lightest_spring")

@@ -11,12 +11,13 @@ from tests.every import every
 
 import linkwright as lw
 from linkwright import parts, units
+from linkwright.errors import speaker
 from linkwright.parts.base import Row
 from linkwright.plot.sketches.base import SKETCHES
 from linkwright.report import report
 from linkwright.report.document import Figure, Formula, Heading, Paragraph, Table, plain
 from linkwright.report.formula import formula
-from linkwright.words import say, speaker
+from linkwright.words import say
 from linkwright.worked.page import Equation, Written
 from linkwright.worked.written import filled, latex, sides
 from linkwright.worked.written import plain as unmarked

@@ -8,13 +8,13 @@ from tests.every import every
 from tests.refusals import refused
 
 import linkwright as lw
+from linkwright.errors import speaker
 from linkwright.report.document import Document, Formula
 from linkwright.report.formula import Atom, Row, formula, width
 from linkwright.report.formula_lines import lines, set_lines
 from linkwright.report.typst_formula import typst
 from linkwright.report.word_formula import SPACE, equation
 from linkwright.report.word_pages import word
-from linkwright.words import speaker
 
 SIGN = Atom("sign", "=")
 

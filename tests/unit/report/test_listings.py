@@ -6,10 +6,10 @@ from html import unescape
 
 import pytest
 
+from linkwright.errors import speaker
 from linkwright.report.document import Code, Document, Heading, Paragraph
 from linkwright.report.typst_pages import compiled, pages
 from linkwright.report.word_pages import word
-from linkwright.words import speaker
 
 pytest.importorskip("typst")
 LINES = ['def f(x):  # $x$ #a [b] "q"', "    y = x ** 2 \\ 1 `z`", "", "    return y <b> & 曲柄"]

@@ -224,10 +224,10 @@ def test_numbers_within_lists_and_quotations_are_those_of_all_three_forms() -> N
     import re
     from html import unescape
 
+    from linkwright.errors import speaker
     from linkwright.report.document import Document
     from linkwright.report.typst_pages import compiled
     from linkwright.report.word_pages import word
-    from linkwright.words import speaker
 
     document = Document("T", speaker("en"), blocks=[Heading("A"), *read(EVERYTHING)[0]])
     wanted = "equation (1.1), Table 1.1, Listing 1.1"

@@ -5,11 +5,11 @@ import re
 import pytest
 from tests.every import every
 
+from linkwright.errors import speaker
 from linkwright.pictures.svg.render import natural_size
 from linkwright.report.document import Document, Figure, Heading
 from linkwright.report.report import report
 from linkwright.report.typst_pages import compiled, pages
-from linkwright.words import speaker
 
 pytest.importorskip("typst")
 

@@ -15,7 +15,7 @@ from tests.refusals import refused
 import linkwright as lw
 from linkwright.cams.joint import cam_of
 from linkwright.core.outputs import Output
-from linkwright.errors import LinkwrightError
+from linkwright.errors import LinkwrightError, speaker
 from linkwright.files.schema import json_schema
 from linkwright.joints.cam import CamJoint
 from linkwright.joints.cam_shape import CamShape
@@ -28,7 +28,7 @@ from linkwright.report.report import report
 from linkwright.report.section import SECTIONS
 from linkwright.report.sections.reactions import loaded_joints
 from linkwright.report.settings import settings
-from linkwright.words import LANGUAGES, has, say, speaker
+from linkwright.words import LANGUAGES, has, say
 from linkwright.words.titles import title_said
 
 typst = pytest.importorskip("typst")

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from linkwright.errors import speaker
 from linkwright.sheets.dxf import visible
 from linkwright.sheets.frame import zone_count
 from linkwright.sheets.layout import GAP, Room, packed
@@ -11,7 +12,6 @@ from linkwright.sheets.paper import Box
 from linkwright.sheets.picture import Circle, Line, Picture
 from linkwright.sheets.settings import settings
 from linkwright.sheets.title_block import Fields, gb_block, iso_block, school_block
-from linkwright.words import speaker
 
 
 @pytest.mark.parametrize(

@@ -18,7 +18,7 @@ from linkwright.synthesis.free_curve.curve_file import path_points, read_curve
 from linkwright.synthesis.free_curve.curve_similarity import TURNS
 from linkwright.synthesis.free_curve.descent import DAMPING
 from linkwright.synthesis.free_curve.drawing_order import drawing
-from linkwright.synthesis.free_curve.kernels import BLOCK, GUIDE, PIVOT, POINT, SLIDER, kernels
+from linkwright.synthesis.free_curve.kernels import BLOCK, GUIDE, PIVOT, POINT, SLIDER
 from linkwright.synthesis.free_curve.linkages import Placed, linkage_of
 from linkwright.synthesis.free_curve.moves import with_dyad, with_joint
 from linkwright.synthesis.free_curve.nodes import (
@@ -28,6 +28,7 @@ from linkwright.synthesis.free_curve.nodes import (
     Draw,
     Node,
     flat,
+    kernels,
     node_paths,
     random_structure,
     turned_paths,

@@ -12,7 +12,7 @@ from linkwright.cli.session import Session
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
-    from linkwright.tolerance.problem import ToleranceStudy
+    from linkwright.tolerance.study import ToleranceStudy
 
 
 def arguments(option: Options) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from typing import Any
 
+from linkwright.core import VERSION
 from linkwright.core.json_data import plain
 from linkwright.export.base import FORMATS, Format
 from linkwright.export.results import Results
@@ -22,14 +23,13 @@ def content(results: Results, *, indent: int = 1) -> bytes:
 
 
 def _data(results: Results) -> dict[str, Any]:
-    from linkwright import __version__
     from linkwright.files.write import dump
 
     motion, mechanism = results.motion, results.mechanism
     return {
         "format": "linkwright results",
         "version": 1,
-        "program": f"linkwright {__version__}",
+        "program": f"linkwright {VERSION}",
         "conventions": "SI units; angles in rad, counter-clockwise positive; x right, y up; a reaction is the "
         "force that the joint exerts on the named link",
         "model": {

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from linkwright.dyads.listing import Listing
+from linkwright.errors import speaker
 from linkwright.export.base import FORMATS, Format
 from linkwright.export.results import Results
-from linkwright.words import speaker
 
 
 def content(results: Results, *, model: str = "machine.yaml") -> bytes:

@@ -5,14 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from linkwright.errors import RequestError
+from linkwright.errors import RequestError, speaker
 from linkwright.pictures.drawing import Drawing
 from linkwright.plot.diagrams.base import DIAGRAMS, Kind, Request
 from linkwright.plot.diagrams.outputs import known_link
 from linkwright.plot.diagrams.reactions import require_forces
 from linkwright.plot.diagrams.source import Source
 from linkwright.plot.free_bodies.page import free_body_pages
-from linkwright.words import speaker
 
 
 @DIAGRAMS.register("free_bodies")

@@ -10,8 +10,8 @@ from linkwright.core.arrays import Floats
 from linkwright.parts.base import shown
 from linkwright.parts.statics.belt import BeltTensions
 from linkwright.parts.statics.body import HELD, Reactions
-from linkwright.parts.statics.forces import Resultant, spatial
-from linkwright.parts.statics.point import PointEquilibrium
+from linkwright.parts.statics.force_system import PointEquilibrium, Resultant
+from linkwright.parts.statics.forces import spatial
 from linkwright.parts.statics.rotor import RotorBalance
 from linkwright.parts.statics.structure import StructureForces
 from linkwright.parts.statics.wedge import WedgeForces

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 from linkwright.core.arrays import Floats
+from linkwright.errors import speaker
 from linkwright.pictures.diagram import COLOURS, FAINT, Figure, new_figure
 from linkwright.plot.diagrams.axes import framed
 from linkwright.plot.diagrams.base import Request, result_diagram
-from linkwright.synthesis.report import title_said
-from linkwright.synthesis.result import Synthesis
-from linkwright.words import say, speaker
+from linkwright.synthesis.result import Synthesis, title_said
+from linkwright.words import say
 
 #: Share of an angle (rad) or of a length (m) below which deviations are rounding.
 ROUNDING = 1e-11

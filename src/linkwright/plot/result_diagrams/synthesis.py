@@ -7,13 +7,13 @@ from typing import Any
 import numpy as np
 
 from linkwright.core.arrays import Complexes, Floats
+from linkwright.errors import speaker
 from linkwright.pictures.diagram import COLOURS, FAINT, INK, Axes, Figure, new_figure
 from linkwright.plot.diagrams.axes import Legend, framed
 from linkwright.plot.diagrams.base import Request, result_diagram
 from linkwright.plot.diagrams.position import draw_support
-from linkwright.synthesis.report import title_said
-from linkwright.synthesis.result import Candidate, Synthesis
-from linkwright.words import say, speaker
+from linkwright.synthesis.result import Candidate, Synthesis, title_said
+from linkwright.words import say
 
 SHOWN = 4
 #: What the output of a task's curve is, where it is not that of a function; factors to the unit of its axis.

@@ -10,16 +10,16 @@ from typing import Any
 import numpy as np
 
 from linkwright.core.arrays import Complexes
+from linkwright.errors import speaker
 from linkwright.pictures.diagram import COLOURS, FAINT, INK, Axes, Figure, new_figure
 from linkwright.plot.diagrams.axes import Legend, framed
 from linkwright.plot.diagrams.base import Request, result_diagram
 from linkwright.plot.diagrams.position import draw_support
 from linkwright.synthesis.motion_generation.generate import MotionDerivation
-from linkwright.synthesis.report import title_said
 from linkwright.synthesis.requirements.crank_rocker import CrankRockerDerivation, QuickReturnDerivation
 from linkwright.synthesis.requirements.slider_crank import SliderCrankDerivation
-from linkwright.synthesis.result import Synthesis
-from linkwright.words import Say, speaker
+from linkwright.synthesis.result import Synthesis, title_said
+from linkwright.words import Say
 
 #: Points of a circle; size of posed axes, as a share of the poses' extent.
 CIRCLE, AXES = 361, 0.18

@@ -8,7 +8,8 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.parts.base import shown
-from linkwright.parts.statics.forces import ForceSystem, spatial
+from linkwright.parts.statics.force_system import ForceSystem
+from linkwright.parts.statics.forces import spatial
 from linkwright.pictures.drawing import Drawing
 from linkwright.plot.sketches.base import Paper, scale_of, sketched
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from linkwright.errors import LinkwrightError
+from linkwright.errors import LinkwrightError, speaker
 from linkwright.report.calculation import OwnText
 from linkwright.report.document import Block, Figure, Heading, Paragraph, literal, symbols
 from linkwright.report.machine_results import Case, Missing, picture
@@ -13,7 +13,7 @@ from linkwright.report.sections.worked_position import with_numbers
 from linkwright.report.settings import Settings
 from linkwright.synthesis.result import Synthesis, SynthesisError
 from linkwright.synthesis.task_file import TaskFile
-from linkwright.words import Say, speaker
+from linkwright.words import Say
 from linkwright.words.sentence import in_language
 
 #: Share of the page's width that a diagram takes, and one with a function beside the linkages.
@@ -64,7 +64,7 @@ def _chapter(found: Synthesis, language: str) -> Iterator[Block]:
             yield from _figure(found, kind, language)
     yield from _figure(found, "synthesis", language)
     if found.counts:
-        from linkwright.synthesis.report import counts_said
+        from linkwright.synthesis.result import counts_said
 
         yield Paragraph(literal(counts_said(found, say)))
     for sentence in found.notes:

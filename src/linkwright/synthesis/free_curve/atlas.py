@@ -25,8 +25,14 @@ from linkwright.core.dataclass import dataclass
 from linkwright.engine.cache import folder
 from linkwright.engine.threads import cores, spread_over
 from linkwright.synthesis.free_curve.curve_similarity import ANGLES, MARKS, POINTS, REACH, RINGS, TURNS
-from linkwright.synthesis.free_curve.kernels import kernels
-from linkwright.synthesis.free_curve.nodes import Design, Draw, node_paths, random_structure, turned_paths
+from linkwright.synthesis.free_curve.nodes import (
+    Design,
+    Draw,
+    kernels,
+    node_paths,
+    random_structure,
+    turned_paths,
+)
 from linkwright.synthesis.free_curve.target import Target, even_points, normal
 
 #: Points of a curve; lengths of the parts tried for open curves; steps of one byte in a coordinate.

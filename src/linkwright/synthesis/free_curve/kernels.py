@@ -19,11 +19,9 @@ adjoint needs two cross products over u × v.
 
 from __future__ import annotations
 
-from functools import cache
 from math import cos, exp, sin
 
 from linkwright.engine.kernel import (
-    Kernels,
     Reals,
     Wholes,
     higher,
@@ -36,7 +34,6 @@ from linkwright.engine.kernel import (
     total,
 )
 from linkwright.synthesis.free_curve.distances import (
-    DISTANCES,
     WIDE,
     align,
     curve_to_target,
@@ -46,7 +43,6 @@ from linkwright.synthesis.free_curve.distances import (
     weigh,
 )
 from linkwright.synthesis.free_curve.sliding import (
-    SLIDING,
     block_back,
     place_block,
     place_slider,
@@ -359,18 +355,6 @@ def deviation(
     return found
 
 
-@cache
-def kernels() -> Kernels:
-    """The compiled functions."""
-    from linkwright.synthesis.free_curve.curve_similarity import LIKENESS
-    from linkwright.synthesis.free_curve.descent import DESCENT
-    from linkwright.synthesis.free_curve.dyad_gain import PROMISES
-    from linkwright.synthesis.free_curve.sample import SAMPLING
-
-    return Kernels(
-        [
-            turn_crank, place_crank, place_dyad, place_point, *SLIDING, place, *DISTANCES, too_large, lengths_back,
-            align_back, dyad_back, point_back, nodes_back, range_back, deviation,
-            *DESCENT, *SAMPLING, *PROMISES, *LIKENESS,
-        ]
-    )  # fmt: skip
+#: Kernels by the order in which they call each other: those before :func:`place`, and those behind the distances.
+PLACING = (turn_crank, place_crank, place_dyad, place_point)
+DEVIATION = (too_large, lengths_back, align_back, dyad_back, point_back, nodes_back, range_back, deviation)

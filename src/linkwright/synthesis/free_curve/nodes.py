@@ -6,11 +6,31 @@ pivots, pins, slides, points of links and the drawing point.
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 
 from linkwright.core.arrays import Complexes, Floats, Whole
 from linkwright.core.dataclass import dataclass
-from linkwright.synthesis.free_curve.kernels import BLOCK, DYAD, FAR, GUIDE, PIVOT, POINT, SLIDER, kernels
+from linkwright.engine.kernel import Kernels
+from linkwright.synthesis.free_curve.curve_similarity import LIKENESS
+from linkwright.synthesis.free_curve.descent import DESCENT
+from linkwright.synthesis.free_curve.distances import DISTANCES
+from linkwright.synthesis.free_curve.dyad_gain import PROMISES
+from linkwright.synthesis.free_curve.kernels import (
+    BLOCK,
+    DEVIATION,
+    DYAD,
+    FAR,
+    GUIDE,
+    PIVOT,
+    PLACING,
+    POINT,
+    SLIDER,
+    place,
+)
+from linkwright.synthesis.free_curve.sample import SAMPLING
+from linkwright.synthesis.free_curve.sliding import SLIDING
 
 Node = tuple[int, int, int, int]
 Draw = np.random.Generator
@@ -56,6 +76,14 @@ class Design:
     def rows(self) -> list[Node]:
         """The nodes one by one."""
         return [(int(a), int(b), int(c), int(d)) for a, b, c, d in self.nodes.reshape(-1, 4)]
+
+
+@cache
+def kernels() -> Kernels:
+    """The compiled functions."""
+    return Kernels(
+        [*PLACING, *SLIDING, place, *DISTANCES, *DEVIATION, *DESCENT, *SAMPLING, *PROMISES, *LIKENESS]
+    )
 
 
 def flat(rows: list[Node]) -> Whole:

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import math
 
-from linkwright.synthesis.report import defects_text, error_texts, name_said
-from linkwright.synthesis.result import merits
+from linkwright.synthesis.result import defects_text, error_texts, merits, name_said
 from linkwright.synthesis.steps.writing import Writer, decimals, numbers
 from linkwright.worked.page import Step
 

@@ -9,9 +9,9 @@ import numpy as np
 from linkwright.synthesis.free_curve.generate import FreeCurveDerivation
 from linkwright.synthesis.path_generation.exact import NinePointDerivation
 from linkwright.synthesis.path_generation.generate import PathDerivation
-from linkwright.synthesis.report import error_texts
 from linkwright.synthesis.requirements.dwell import DwellDerivation
 from linkwright.synthesis.requirements.straight_line import FOUR_BARS, StraightLineDerivation
+from linkwright.synthesis.result import error_texts
 from linkwright.synthesis.steps.four_bars import coordinates, examine, four_bar_lengths
 from linkwright.synthesis.steps.writing import Writer, decimals, degrees, numbers, small
 from linkwright.worked.page import Step

@@ -3,17 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import field
 from importlib import import_module
 
-from linkwright.core.dataclass import dataclass
-from linkwright.errors import require_language
-from linkwright.synthesis.result import Synthesis, refuse
+from linkwright.errors import speaker
+from linkwright.synthesis.result import Synthesis, WorkedSynthesis, refuse
 from linkwright.synthesis.steps.choice import write_choice
 from linkwright.synthesis.steps.writing import Writer
-from linkwright.words import speaker
-from linkwright.worked.page import Equation, Step
-from linkwright.worked.text import page
 
 #: Writers of steps by the name of the derivation's class, each in a module of this package.
 WRITERS: Mapping[str, str] = {
@@ -32,45 +27,15 @@ WRITERS: Mapping[str, str] = {
 }
 
 
-@dataclass(frozen=True)
-class WorkedSynthesis:
-    """How the first candidate of a synthesis was found, as a textbook prints it.
-
-    ``steps`` hold sentences, equations with their numbers, matrices and tables; lengths in mm, or in m where the
-    linkage is large, angles in degrees. ``pictures``: kinds of diagrams of the result by the number of the step that
-    they belong to.
-    """
-
-    title: str
-    steps: tuple[Step, ...]
-    pictures: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
-
-    @property
-    def equations(self) -> tuple[Equation, ...]:
-        """All results in order."""
-        return tuple(equation for step in self.steps for equation in step.equations)
-
-    def text(self) -> str:
-        """Plain text, up to 100 columns wide but for tables and matrices."""
-        return page((self.title,), self.steps)
-
-    def data(self) -> dict[str, object]:
-        """Plain data for programs."""
-        return {"title": self.title, "steps": [step.data() for step in self.steps]}
-
-    def __repr__(self) -> str:
-        return f"WorkedSynthesis({self.title!r}: {len(self.steps)} steps)"
-
-
 def worked(found: Synthesis, language: str = "en") -> WorkedSynthesis:
     """The worked solution of a synthesis in a language.
 
     Raises LinkwrightError for an unknown language, and for cognates, which follow from a linkage that is given.
     """
-    require_language(language)
+    say = speaker(language)
     if found.derivation is None or not len(found):
         raise refuse("no_derivation", task=found.task)
-    writer = Writer(found, speaker(language))
+    writer = Writer(found, say)
     module, name = WRITERS[type(found.derivation).__name__].split(".")
     write: Callable[[Writer, object], None] = getattr(import_module(f"{__package__}.{module}"), name)
     write(writer, found.derivation)
