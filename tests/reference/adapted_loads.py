@@ -57,17 +57,19 @@ class _Course:
 
     def magnitude(self, load: Any) -> Array:
         """Size (n,) of the load: number, expression or ramp, zero outside its phase."""
-        inside, progress = self.phase(load.phase)
-        if load.ramp is not None:
-            size = load.ramp[0] + progress * (load.ramp[1] - load.ramp[0])
-        elif isinstance(load.magnitude, float):
-            size = np.full(len(self.time), load.magnitude)
-        elif load.magnitude is not None:
-            size = self._expression(load.magnitude)
-        elif load.table is not None:
-            size = self._table(load.table)
-        else:
-            size = np.ones(len(self.time))
+        inside, progress = self.phase(load.magnitude.phase)
+        given = load.magnitude.size
+        match type(given).__name__:
+            case "Ramp":
+                size = given.start + progress * (given.end - given.start)
+            case "Constant":
+                size = np.full(len(self.time), given.value)
+            case "Formula":
+                size = self._expression(given.expression)
+            case "Table":
+                size = self._table(given)
+            case _:
+                size = np.ones(len(self.time))
         return np.where(inside, size, 0.0)
 
     def _table(self, table: Any) -> Array:
@@ -89,7 +91,7 @@ class _Course:
 
     def phase(self, phase: Any) -> tuple[NDArray[np.bool_], Array]:
         """Where the phase is on, and how much of its input has passed (0 to 1)."""
-        if phase is None:
+        if type(phase).__name__ == "Always":
             return np.ones(len(self.time), dtype=bool), np.full(len(self.time), np.nan)
         if hasattr(phase, "direction"):
             rate = self.output(phase.output)[1] * (1.0 if phase.direction == "increasing" else -1.0)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from functools import cache
 from typing import Any
 
@@ -114,6 +114,27 @@ def _whole_power(base: Any, exponent: int) -> Any:
     for _ in range(abs(exponent) - 1):
         product = product * base
     return product if exponent > 0 else 1.0 / product
+
+
+def denominators(node: Node) -> Iterator[Node]:
+    """All that an expression divides by; the cosine for a tangent."""
+    match node:
+        case Negative(operand):
+            yield from denominators(operand)
+        case Call(function, arguments):
+            if function == "tan":
+                yield Call("cos", arguments)
+            for argument in arguments:
+                yield from denominators(argument)
+        case Binary(sign, left, right):
+            if sign == "/":
+                yield right
+            if sign == "^" and (
+                isinstance(right, Negative) or (isinstance(right, Number) and right.value < 0)
+            ):
+                yield left
+            yield from denominators(left)
+            yield from denominators(right)
 
 
 def dimension_of(node: Node, kinds: Mapping[str, units.Dimension]) -> units.Dimension:

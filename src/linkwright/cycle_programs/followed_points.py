@@ -23,7 +23,7 @@ from linkwright.engine.stage import Backend, Run, Stage
 from linkwright.engine.trace import Mask, Scalar, Trace, select, sqrt
 from linkwright.kinematics.branch import CORRECTION
 from linkwright.kinematics.cycle import over_cycle
-from linkwright.loads.phases import TURN
+from linkwright.loads.strokes import TURN
 from linkwright.mechanism.geometry import mechanism_size
 
 #: Newton steps from the cubic.

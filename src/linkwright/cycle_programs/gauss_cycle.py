@@ -17,7 +17,6 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.core.expressions import Expression
 from linkwright.core.inputs import turned
 from linkwright.core.outputs import Output, owners_of
 from linkwright.core.piecewise import NODES, POINTS, WEIGHTS
@@ -35,10 +34,11 @@ from linkwright.cycle_programs.iterated_groups import limits_beside
 from linkwright.cycle_programs.joint_bends import FIRST, bend_names, bend_stage, turning
 from linkwright.cycle_programs.limit_stages import (
     constants,
-    edge_name,
     limit_stages,
     part_edge,
     part_edge_beside,
+    part_edges,
+    part_of_stroke,
     rates,
     whole_turns,
 )
@@ -49,13 +49,15 @@ from linkwright.engine.program import Program
 from linkwright.engine.reductions import Reduction
 from linkwright.engine.stage import Stage
 from linkwright.engine.trace import Mask, Scalar, Trace, floor, maximum, minimum, select, sign
-from linkwright.fields.signals import InputPhase, MovingPhase, SwingPhase, Table
 from linkwright.kinetostatics.friction import Swinging
 from linkwright.kinetostatics.load_site import limit_name
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.kinetostatics.traced_loads import AlongInput
 from linkwright.loads.base import Load
-from linkwright.loads.phases import TURN
+from linkwright.loads.magnitude import Magnitude
+from linkwright.loads.phases import InputPhase
+from linkwright.loads.sizes import Formula, Table
+from linkwright.loads.strokes import TURN
 
 #: Numbers of pieces of the whole turn to try one after another, and the share of them that a stretch between two cuts
 #: has at least.
@@ -217,8 +219,8 @@ class GaussCycle:
         q, rate, _ = known.coordinates[driver]
         found = {FIRST: float(q[0]), "first time": float(known.time[0]), f"{driver}.speed": float(rate[0])}
         for load in self.traced.mechanism.loads.values():
-            table = getattr(load, "table", None)
-            if isinstance(table, Table) and not isinstance(table.over, Output):
+            table = load.magnitude and load.magnitude.size
+            if isinstance(table, Table) and table.known_at:
                 knots = np.array(table.x)
                 inputs = knots if table.over == "input" else q[0] + rate[0] * (knots - known.time[0])
                 found |= {f"knot {load.name} {k}": float(at) for k, at in enumerate(inputs)}
@@ -261,9 +263,8 @@ class GaussCycle:
         bending, known = bend_stage(self.traced), dict(self.cuts)
         found = [] if bending is None else [bending]
         for load in self.traced.mechanism.loads.values():
-            phase = getattr(load, "phase", None)
-            if isinstance(phase, SwingPhase):
-                edges = [k for k, name in part_edges(load.name, phase).items() if name in known]
+            if phase := part_of_stroke(load):
+                edges = [k for k, name in part_edges(load).items() if name in known]
                 for k in edges:
                     found += (
                         [part_edge(self.traced, load, phase, k)]
@@ -408,19 +409,6 @@ def _apart(shares: list[Scalar]) -> list[Scalar]:
     return found
 
 
-def part_edges(load: str, phase: SwingPhase) -> dict[int, str]:
-    """Cycle values where a part of a stroke begins (0) or ends (1) between its limit positions."""
-    part = phase.part
-    if part is None:
-        return {}
-    if part.word != "free" and part.amounts[0].share and part.amounts[0].value == 1.0:
-        return {}
-    if part.word != "free":
-        return {1: edge_name(load, 1)} if part.word == "first" else {0: edge_name(load, 0)}
-    ends = (part.amounts[0], part.amounts[-1])
-    return {which: edge_name(load, which) for which, amount in enumerate(ends) if amount.value}
-
-
 def reversing(traced: Traced, program: Program) -> tuple[tuple[Output, ...], tuple[Swinging, ...]]:
     """What goes to and fro, at whose limits loads on which a program depends change their signs: outputs with two
     limits, and angles between links and outputs with more."""
@@ -436,16 +424,15 @@ def reversing(traced: Traced, program: Program) -> tuple[tuple[Output, ...], tup
 
 def _cuts(load: Load) -> Iterable[tuple[str, int]]:
     """What gives the inputs at which a load jumps or kinks, with the turns after which it does so again."""
-    phase, magnitude, table = (getattr(load, name, None) for name in ("phase", "magnitude", "table"))
+    given = load.magnitude or Magnitude()
+    size, phase = given.size, given.phase
     if isinstance(phase, InputPhase):
         yield from ((f"loads.{load.name}.phase.input.{k}", 1) for k in (0, 1))
-    if isinstance(phase, SwingPhase | MovingPhase):
-        yield from ((limit_name(phase.output, kind), 0) for kind in ("max", "min"))
-    if isinstance(phase, SwingPhase):
-        yield from ((name, 0) for name in part_edges(load.name, phase).values())
-    if isinstance(magnitude, Expression) and magnitude.names & {"t", "input"}:
+    yield from ((limit_name(output, kind), 0) for output in phase.outputs for kind in ("max", "min"))
+    yield from ((name, 0) for name in part_edges(load).values())
+    if isinstance(size, Formula) and size.expression.names & {"t", "input"}:
         yield FIRST, 0
-    if isinstance(table, Table) and not isinstance(table.over, Output):
+    if isinstance(size, Table) and size.known_at:
         yield FIRST, 0
-        every = max(1, round((table.x[-1] - table.x[0]) / TURN)) if table.over == "input" else 0
-        yield from ((f"knot {load.name} {k}", every) for k in range(len(table.x)))
+        every = max(1, round((size.x[-1] - size.x[0]) / TURN)) if size.over == "input" else 0
+        yield from ((f"knot {load.name} {k}", every) for k in range(len(size.x)))

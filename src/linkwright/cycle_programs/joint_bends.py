@@ -18,7 +18,7 @@ from linkwright.engine.trace import Scalar, Trace, atan, cos, sin
 from linkwright.joints.base import Bends
 from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.signals import MotionSignals
-from linkwright.loads.phases import TURN
+from linkwright.loads.strokes import TURN
 
 #: The constant that is the input where the cycle begins.
 FIRST = "first input"

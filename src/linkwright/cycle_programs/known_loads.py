@@ -7,7 +7,7 @@ on acting.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import field, replace
 
 import numpy as np
@@ -23,16 +23,15 @@ from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.cycle_gradient import cycle_gradient
 from linkwright.engine.table import Tables
 from linkwright.errors import LinkwrightError
-from linkwright.fields.signals import InputPhase
 from linkwright.kinetostatics.friction_stage import MOST, can_be_traced
 from linkwright.kinetostatics.load_site import ACTS, middle_name
 from linkwright.kinetostatics.run import run_forces
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.kinetostatics.traced_loads import AlongInput, numbers_of_loads
 from linkwright.loads.base import Load
-from linkwright.loads.magnitude import angles_of, by_rate, has_formula, through_end
+from linkwright.loads.magnitude import Magnitude
 from linkwright.loads.over_cycle import activity
-from linkwright.mechanism.mechanism import Mechanism
+from linkwright.loads.phases import Always
 
 
 @dataclass(frozen=True)
@@ -68,35 +67,36 @@ def known_loads(plain: Traced, fields: Iterable[str], by: tuple[str, ...]) -> Kn
     run_forces(plain.nominal, False)
     named = owners_of("magnitude", given)
     loads = [plain.mechanism.loads[name] for name in named]
+    sizes = {load: load.magnitude for load in loads if load.magnitude is not None}
     for load in loads:
-        if not has_formula(load):
+        if load not in sizes:
             raise LinkwrightError("study.cycle_load_slope", name=load.name, kind=load.kind)
     signals = MotionSignals(plain.nominal)
-    known = _middles(plain.mechanism, loads, signals)
     along = numbers_of_loads(loads, plain.mechanism)
-    moving = _moving(plain, loads, along, by)
+    known = {middle_name(a, b): signals.angle_of(a, b, near) for (a, b), near in along.angles.items()}
+    moving = _moving(plain, sizes.values(), along, by)
     names = set(along.names)
     if moving is None:
-        for load in loads:
-            if getattr(load, "phase", None) is not None:
+        for load, size in sizes.items():
+            if not isinstance(size.phase, Always):
                 names = names - {load.name} | {f"{ACTS}:{load.name}"}
-                known |= _phase(load, signals)
+                known |= _phase(load, size, signals)
         moving = {}, {}
     numbers = {**along.constants, **moving[0]}
     return KnownLoads(frozenset(names), numbers, moving[1], known, along.tables, rubbing)
 
 
 def _moving(
-    plain: Traced, loads: Iterable[Load], along: AlongInput, by: tuple[str, ...]
+    plain: Traced, sizes: Collection[Magnitude], along: AlongInput, by: tuple[str, ...]
 ) -> tuple[dict[str, float], dict[str, Floats]] | None:
     """Limit positions and values there, with their derivatives; None where others are not certain to be missing."""
-    if all(getattr(load, "phase", None) is None or by_rate(load) is not None for load in loads):
+    if all(each.rate is not None or isinstance(each.phase, Always) for each in sizes):
         return {}, {}
     if plain.solver.motion.angles.carried or plain.solver.manner.flipping:
         return None
     states = {name: row[None, :] for name, row in plain.nominal.states.items()}
     over_time = not whole_turns(plain)
-    if over_time and (states or not along.outputs or any(map(through_end, loads))):
+    if over_time and (states or not along.outputs or any(each.phase.through_end for each in sizes)):
         return None
     along = replace(along, constants={**along.constants, **_middle_numbers(plain, along)})
     if states:
@@ -138,19 +138,9 @@ def _middle_numbers(plain: Traced, along: AlongInput) -> dict[str, float]:
     return found
 
 
-def _middles(mechanism: Mechanism, loads: Iterable[Load], signals: MotionSignals) -> dict[str, Floats]:
-    """The angles that loads take, at every position."""
-    return {
-        middle_name(a, b): signals.angle_of(a, b, near)
-        for load in loads
-        for (a, b), near in angles_of(load, mechanism).items()
-    }
-
-
-def _phase(load: Load, signals: MotionSignals) -> dict[str, Floats]:
+def _phase(load: Load, size: Magnitude, signals: MotionSignals) -> dict[str, Floats]:
     """Where a load acts, and the share of its phase; raises for a ramp whose ends are limit positions that move."""
-    phase, ramp = getattr(load, "phase", None), getattr(load, "ramp", None)
-    if ramp is not None and not isinstance(phase, InputPhase):
+    if size.size.ramp and size.limits is not None:
         raise LinkwrightError("study.ramp_slope", name=load.name)
     active = activity(load, signals)
     return {f"{ACTS}:{load.name}": active.where.astype(float), f"share:{load.name}": active.share}

@@ -20,13 +20,12 @@ from linkwright.engine.reductions import Reduction
 from linkwright.engine.stage import Stage
 from linkwright.engine.states import states_as_fields
 from linkwright.engine.trace import Mask, Scalar, Trace, absolute, cos, minimum, select, sign, sin, sqrt
-from linkwright.fields.signals import SwingPhase
 from linkwright.kinematics.names import program_names
 from linkwright.kinetostatics.friction import Swinging
 from linkwright.kinetostatics.load_site import LAP, TracedSite, limit_name, output_value, value_name
 from linkwright.loads.base import Load
-from linkwright.loads.magnitude import part_ends, turned
-from linkwright.loads.phases import NEAR, TURN
+from linkwright.loads.phases import SwingPhase
+from linkwright.loads.strokes import NEAR, TURN, turned
 
 #: The step of the input between two positions, rad, and the number of positions that are reached.
 STEP, ASSEMBLED = "step of the input", "assembled at limits"
@@ -248,6 +247,18 @@ def edge_name(load: str, which: int) -> str:
     return f"edge:{load}:{which}"
 
 
+def part_of_stroke(load: Load) -> SwingPhase | None:
+    """The phase of a load, where it is a part of a stroke."""
+    phase = load.magnitude and load.magnitude.phase
+    return phase if isinstance(phase, SwingPhase) and phase.part is not None else None
+
+
+def part_edges(load: Load) -> dict[int, str]:
+    """Cycle values where a part of a stroke begins (0) or ends (1) between its limit positions."""
+    phase = part_of_stroke(load)
+    return {} if phase is None else {which: edge_name(load.name, which) for which in phase.part_edges}
+
+
 def part_edge(traced: Traced, load: Load, phase: SwingPhase, which: int) -> Stage:
     """The input at which a part of a stroke begins or ends: between the limits, where the output only grows or falls,
     by Newton's steps, and halvings where these leave the bracket."""
@@ -281,7 +292,7 @@ def part_edge_beside(traced: Traced, load: Load, phase: SwingPhase, which: int) 
 def to_edge(traced: Traced, load: Load, phase: SwingPhase, which: int) -> dict[str, Scalar]:
     """How far an output has gone beyond the edge of a part of its stroke, and its rate on this way."""
     site = TracedSite(traced.solver.motion, load, along_input=True)
-    begin, end, stroke = part_ends(phase, site)
+    begin, end, stroke = phase.part_ends(site)
     slack = NEAR * absolute(stroke)
     edge = end + slack if which else begin - slack
     way = (site.output(phase.output) - site.limit_value(phase.output, phase.start)) * sign(stroke)

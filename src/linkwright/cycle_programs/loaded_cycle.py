@@ -25,7 +25,7 @@ from linkwright.kinetostatics.load_site import turns_steadily
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.kinetostatics.traced_loads import AlongInput, numbers_of_loads
 from linkwright.loads.base import Load
-from linkwright.loads.magnitude import by_limits, followed, through_end
+from linkwright.loads.magnitude import Magnitude
 from linkwright.mechanism.mechanism import Mechanism
 
 #: The output that is the sum of magnitudes which may not exist, and that is 1 where friction is not certain.
@@ -127,10 +127,11 @@ def along_input(
     if not names:
         return plain
     loads = [mechanism.loads[name] for name in sorted(names)]
-    if not all(followed(load, mechanism) for load in loads):
+    sizes = [load.magnitude for load in loads if load.magnitude is not None]
+    if len(sizes) < len(loads) or not all(each.traceable(mechanism) for each in sizes):
         return None
     if not whole_turns(traced, varied) and (
-        any(_needs_turns(load, mechanism, over_time) for load in loads)
+        any(_needs_turns(each, mechanism, over_time) for each in sizes)
         or _moves_phases(loads, varied, mechanism)
     ):
         return None
@@ -143,11 +144,11 @@ def along_input(
     return replace(known, constants=constants, rubbing=rubbing, swinging=plain.swinging)
 
 
-def _needs_turns(load: Load, mechanism: Mechanism, over_time: bool) -> bool:
+def _needs_turns(size: Magnitude, mechanism: Mechanism, over_time: bool) -> bool:
     """Whether the formula of the phase of a load needs whole turns of one driver of constant speed."""
     if over_time and turns_steadily(mechanism):
         return False
-    return through_end(load) or (by_limits(load) and not over_time)
+    return size.phase.through_end or (size.limits is not None and not over_time)
 
 
 def _moves_phases(loads: Iterable[Load], varied: Iterable[str], mechanism: Mechanism) -> bool:

@@ -31,10 +31,9 @@ from linkwright.cycle_programs.gauss_cycle import (
     GaussCycle,
     certain,
     ordered_cuts,
-    part_edges,
     side_by_side,
 )
-from linkwright.cycle_programs.limit_stages import to_edge, whole_turns
+from linkwright.cycle_programs.limit_stages import part_edges, part_of_stroke, to_edge, whole_turns
 from linkwright.cycle_programs.timed_limits import TimedLimits, timed_limits
 from linkwright.cycle_programs.timed_search import TimedSearch
 from linkwright.cycle_programs.traced_outputs import VALID, Traced
@@ -43,7 +42,6 @@ from linkwright.engine.program import Program
 from linkwright.engine.stage import Stage
 from linkwright.engine.trace import Scalar, Trace, maximum, minimum, select
 from linkwright.errors import LinkwrightError
-from linkwright.fields.signals import SwingPhase
 from linkwright.kinematics.cycle import at_times, over_cycle
 from linkwright.kinetostatics.friction import Swinging
 from linkwright.kinetostatics.traced_loads import AlongInput
@@ -171,10 +169,9 @@ class TimedCycle:
         found: dict[str, Signed] = {}
         for name in sorted(loads.names):
             load = self.traced.mechanism.loads[name]
-            phase = getattr(load, "phase", None)
-            if isinstance(phase, SwingPhase):
+            if phase := part_of_stroke(load):
                 stroke = float(np.ptp(self.traced.nominal.read(phase.output)))
-                for which, edge in part_edges(name, phase).items():
+                for which, edge in part_edges(load).items():
                     gap = to_edge(self.traced, load, phase, which)["gap"]
                     found[edge] = Signed(gap, stroke)
         return found

@@ -27,7 +27,6 @@ from linkwright.engine.reductions import Reduction, Results
 from linkwright.engine.stage import Stage
 from linkwright.engine.table import Tables
 from linkwright.engine.trace import Scalar, Trace, absolute, select
-from linkwright.fields.signals import MovingPhase, SwingPhase
 from linkwright.kinematics.bends import one_formula
 from linkwright.kinetostatics.load_site import (
     DRIFT,
@@ -40,7 +39,6 @@ from linkwright.kinetostatics.load_site import (
 )
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.kinetostatics.traced_loads import AlongInput
-from linkwright.loads.magnitude import by_limits
 from linkwright.mechanism.mechanism import Mechanism
 
 #: Share of the cycle within which a change of sign is a limit, and of a driver's largest rate below which it rests.
@@ -156,9 +154,8 @@ def _way(traced: Traced, lap: float) -> float:
 def _in_order(mechanism: Mechanism, loads: AlongInput, signals: MotionSignals) -> bool:
     """Whether the limits between which loads act follow each other in a cycle that does not close."""
     for name in loads.names:
-        load = mechanism.loads[name]
-        if by_limits(load):
-            phase: MovingPhase | SwingPhase = load.phase  # type: ignore[attr-defined]
+        size = mechanism.loads[name].magnitude
+        if size is not None and (phase := size.limits) is not None:
             times = {each.kind: each.time for each in signals.limits(phase.output)}
             if len(times) < 2 or times[phase.end] < times[phase.start]:
                 return False

@@ -19,7 +19,7 @@ from linkwright.cycle_programs.traced_outputs import Traced
 from linkwright.engine.program import Program
 from linkwright.engine.trace import Mask, Scalar, Trace, absolute, atan, cos, select, sin, stop
 from linkwright.joints.base import Bends
-from linkwright.loads.phases import TURN
+from linkwright.loads.strokes import TURN
 
 #: Newton steps to a bend, and the last one that ends the search well, rad.
 STEPS, CONVERGED = 6, 1e-10

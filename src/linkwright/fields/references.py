@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import field
 from typing import Any, ClassVar
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.outputs import Output
 from linkwright.fields.base import Field, Quantities, Schema, pair_schema, quantity_schema, written_quantity
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar, Sequence
@@ -223,3 +224,37 @@ class LinkPoints(Field):
     def shape(self) -> Schema:
         names: Schema = {"type": "array", "items": {"type": "string"}, "minItems": 1}
         return {"anyOf": [names, Coordinates().shape()]}
+
+
+@dataclass(frozen=True)
+class OutputName(Field):
+    """An output: a link's name (its angle), POINT.x or POINT.y, a prismatic joint's name (its
+    displacement); or the same as results are named, ``jaw.angle``."""
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Output | None:
+        text = reader.text(node, place)
+        return None if text is None else reader.output(node, place, text)
+
+    def shape(self) -> Schema:
+        return {"type": "string", "x-reference": "output"}
+
+    def written(self, value: Any) -> Any:
+        return str(value)
+
+
+def resolve_output(text: str, links: Mapping[str, Collection[str]], slides: Collection[str]) -> Output | None:
+    """The output that a text means, given each link's points and the joints with a displacement; None where it means
+    none. ``jaw`` or ``jaw.angle``, ``guide`` or ``guide.displacement``, ``C.x`` or ``C.position.x``."""
+    owner, _, part = text.rpartition(".")
+    for kind, owners in (("angle", links), ("displacement", slides)):
+        name = owner if part == kind else text
+        if name in owners and name != "frame":
+            return Output(kind, name)
+    if part not in ("x", "y"):
+        return None
+    owner = owner.removesuffix(".position")
+    link, _, point = owner.rpartition(".")
+    if link:
+        return Output("position", owner, part) if point in links.get(link, ()) else None
+    having = [name for name, points in links.items() if point in points]
+    return Output("position", f"{having[0]}.{point}", part, written=f"{point}.{part}") if having else None

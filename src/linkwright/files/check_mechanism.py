@@ -6,7 +6,6 @@ import math
 from collections.abc import Iterator
 from functools import partial
 
-from linkwright.core.outputs import Output
 from linkwright.errors import Severity
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import below
@@ -245,8 +244,9 @@ def _phases_of_no_motion(reader: Reader, root: MappingNode, mechanism: Mechanism
     """
     sliding = _sliding(mechanism)
     for name, load in mechanism.loads.items():
-        output: Output | None = getattr(getattr(load, "phase", None), "output", None)
-        if output is None or output.kind != "angle" or output.owner not in sliding:
+        outputs = () if load.magnitude is None else load.magnitude.phase.outputs
+        output = next((each for each in outputs if each.kind == "angle" and each.owner in sliding), None)
+        if output is None:
             continue
         key = "moving" if below(root, "loads", name, "phase", "moving") else "of"
         at = below(root, "loads", name, "phase", key)

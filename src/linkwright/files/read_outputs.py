@@ -12,7 +12,7 @@ from linkwright.core.outputs import KINDS, Output
 from linkwright.errors import QuantityError
 from linkwright.fields.nodes import Node
 from linkwright.fields.reading import Place
-from linkwright.fields.signals import resolve_output
+from linkwright.fields.references import resolve_output
 from linkwright.files.reader import Reader
 from linkwright.mechanism.named_output import NamedOutput
 from linkwright.words.sentence import Sentence

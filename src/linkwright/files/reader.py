@@ -16,8 +16,7 @@ from linkwright.errors import QuantityError
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar, Sequence, noun
 from linkwright.fields.reading import Names, Place
-from linkwright.fields.references import LinkPoint
-from linkwright.fields.signals import resolve_output
+from linkwright.fields.references import LinkPoint, resolve_output
 from linkwright.files.node_reader import NUMBER, PlainReader
 from linkwright.registry import listed, nearest
 from linkwright.words.sentence import Sentence

@@ -9,7 +9,7 @@ from typing import NoReturn
 
 from linkwright.core.outputs import KINDS, SLIDE, Output, row_names
 from linkwright.errors import RequestError
-from linkwright.fields.signals import resolve_output
+from linkwright.fields.references import resolve_output
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.mechanism.named_output import named_outputs
 from linkwright.registry import no_such, offered

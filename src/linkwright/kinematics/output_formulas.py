@@ -12,7 +12,7 @@ from itertools import pairwise
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.core.expression_tree import evaluate
+from linkwright.core.expression_tree import denominators, evaluate
 from linkwright.core.expressions import ON_VALUES
 from linkwright.core.outputs import NAMED, Output
 from linkwright.engine.numpy_backend import NumpyProgram
@@ -25,7 +25,6 @@ from linkwright.kinematics.cycle_angles import CycleAngles
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import output_meant
 from linkwright.kinematics.trace import MotionTrace
-from linkwright.loads.formulas import denominators
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.mechanism.named_output import NamedOutput
 

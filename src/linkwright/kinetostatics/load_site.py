@@ -5,19 +5,11 @@ from __future__ import annotations
 from linkwright.core.outputs import Output, row_name
 from linkwright.engine.trace import Mask, Scalar, angle, cos, select, sign, sin, sqrt
 from linkwright.engine.vector import Vec
-from linkwright.fields.signals import MovingPhase, SwingPhase
 from linkwright.kinematics.outputs import MotionOutputs
 from linkwright.kinematics.trace import MotionTrace
 from linkwright.loads.base import Load
-from linkwright.loads.formulas import output_named
-from linkwright.loads.magnitude import (
-    by_rate,
-    is_constant,
-    magnitude,
-    moving_of_turn,
-    share_of,
-    stroke_of_turn,
-)
+from linkwright.loads.signals import output_named
+from linkwright.loads.strokes import BetweenLimits, moving_of_turn, share_of, stroke_of_turn
 from linkwright.mechanism.mechanism import Mechanism
 
 
@@ -92,10 +84,11 @@ def guide_state(motion: MotionTrace, joint: str) -> tuple[Vec, Vec, Scalar]:
 
 
 class TracedSite:
-    """One load's view; see :class:`linkwright.loads.site.Site` and :class:`linkwright.loads.magnitude.Turning`.
+    """One load's view; see :class:`linkwright.loads.site.Site`, :class:`linkwright.loads.course.Course` and
+    :class:`linkwright.loads.strokes.Turning`.
 
-    ``along_input``: the magnitude is traced over the input (see ``loads.magnitude``), with ``phase_known`` all but
-    its phase; else one that varies is an input of the program per position.
+    ``along_input``: the magnitude is traced, with ``phase_known`` all but its phase; else one that varies is an input
+    of the program per position.
     """
 
     def __init__(
@@ -140,11 +133,13 @@ class TracedSite:
         return self.motion.dimensions(f"loads.{self.load.name}.{field}")
 
     def magnitude(self) -> Scalar:
-        if is_constant(self.load):
-            return self.dimension("magnitude")
-        if self.along_input:
-            return magnitude(self.load, self)
-        return self.motion.trace.field_input(row_name("magnitude", self.load.name))
+        own, field = self.load.magnitude, self.motion.trace.field_input
+        if own is None or not (self.along_input or own.constant):
+            return field(row_name("magnitude", self.load.name))
+        if self.phase_known:
+            acts, share = (field(f"{kind}:{self.load.name}") for kind in (ACTS, "share"))
+            return select(acts > 0.5, own.size.at(self, share), 0.0)
+        return own.at(self)
 
     @property
     def input(self) -> Scalar:
@@ -173,26 +168,19 @@ class TracedSite:
     def output(self, output: Output) -> Scalar:
         return output_value(self.motion, output)
 
-    def angle_between(self, a: str, b: str) -> Scalar:
+    def angle_between(self, a: str, b: str, near: float) -> Scalar:
         return angle_between(self.motion, a, b)
 
-    def known_phase(self) -> tuple[Mask, Scalar] | None:
-        if not self.phase_known:
-            return None
-        acts, share = (self.motion.trace.field_input(f"{kind}:{self.load.name}") for kind in (ACTS, "share"))
-        return acts > 0.5, share
-
-    def stroke(self, phase: MovingPhase | SwingPhase) -> tuple[Mask, Scalar]:
+    def stroke(self, phase: BetweenLimits, ramp: bool) -> tuple[Mask, Scalar]:
         return stroke_of_turn(self, phase)
 
-    def moving(self, phase: MovingPhase) -> tuple[Mask, Scalar]:
-        limited = by_rate(self.load) is None
-        between, share = moving_of_turn(self, phase) if limited else (True, 0.0)
-        if limited and turns_steadily(self.motion.mechanism):
+    def moving(self, phase: BetweenLimits, ramp: bool) -> tuple[Mask, Scalar]:
+        between, share = moving_of_turn(self, phase) if ramp else (True, 0.0)
+        if ramp and turns_steadily(self.motion.mechanism):
             return between, share
         rate, second = (MotionOutputs(self.motion).value(each.row) for each in phase.output.course[1:])
-        rate = rate if limited else self.motion.moving(rate, second, phase.output.dimension)
-        grows = rate > 0.0 if phase.direction == "increasing" else rate < 0.0
+        rate = rate if ramp else self.motion.moving(rate, second, phase.output.dimension)
+        grows = rate > 0.0 if phase.end == "max" else rate < 0.0
         return self.motion.trace.logic("and", between, grows), share
 
     def constant(self, field: str) -> Scalar:
@@ -217,7 +205,7 @@ class TracedSite:
     def lap(self) -> Scalar:
         return self.motion.trace.parameter(LAP)
 
-    def share_of_input(self, phase: MovingPhase | SwingPhase, share: Scalar) -> Scalar:
+    def share_of_input(self, phase: BetweenLimits, share: Scalar) -> Scalar:
         if next(iter(self.motion.mechanism.drivers.values())).law.constant_speed:
             return share
         parameter, kinds = self.motion.trace.parameter, (phase.start, phase.end)

@@ -19,7 +19,6 @@ from linkwright.kinetostatics.outputs import ForceOutputs
 from linkwright.kinetostatics.self_check import ForceChecks
 from linkwright.kinetostatics.trace import ForceTrace, Size, trace_forces
 from linkwright.kinetostatics.traced_loads import traced_magnitude
-from linkwright.loads.magnitude import followed_by
 from linkwright.mechanism.geometry import mechanism_size
 
 if TYPE_CHECKING:
@@ -130,7 +129,8 @@ class ForcePrograms:
 
     def _at_once(self, measures: tuple[str, ...], asked: tuple[str, ...]) -> tuple[tuple[str, ...], InTurn]:
         mechanism = self.motion.mechanism
-        followed = [each for load in mechanism.loads.values() for each in followed_by(load, mechanism)]
+        given = [load.magnitude for load in mechanism.loads.values() if load.magnitude is not None]
+        followed = [each for m in given for each in (*m.phase.outputs, *m.outputs(mechanism))]
         turned = [each.owner for each in followed if each.kind == "angle" and each.owner in mechanism.links]
         moved = [
             each.owner for each in followed if each.kind == "displacement" and each.owner in mechanism.guides

@@ -9,12 +9,10 @@ from math import remainder
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
-from linkwright.core.expressions import Expression
 from linkwright.core.outputs import Output, row_name
 from linkwright.engine.recently_made import Recent
 from linkwright.engine.table import Table
 from linkwright.engine.trace import Scalar
-from linkwright.fields.signals import MovingPhase, SwingPhase
 from linkwright.kinematics.programs import MotionPrograms
 from linkwright.kinematics.trace import MotionTrace
 from linkwright.kinetostatics.friction import Swinging
@@ -29,18 +27,7 @@ from linkwright.kinetostatics.load_site import (
 )
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.loads.base import Load
-from linkwright.loads.magnitude import (
-    angles_of,
-    by_rate,
-    curve_of,
-    divides,
-    followed,
-    interval_of_turn,
-    is_constant,
-    magnitude,
-)
-from linkwright.loads.magnitude import constants as of_load
-from linkwright.loads.phases import TURN
+from linkwright.loads.strokes import TURN
 from linkwright.mechanism.mechanism import Mechanism
 
 #: An angle that covers more than this is one of a link that turns.
@@ -54,10 +41,10 @@ class AlongInput:
     """Loads whose magnitudes are traced, and what these take.
 
     ``outputs``: those whose limit positions they need; ``valued``: of which also the values there; ``moving``: those
-    by the signs of whose rates they act; ``angles``: of which pairs of links (see ``angles_of``); ``constants`` by
-    name and ``tables`` by name: numbers of the loads that are no dimensions; ``fallible``: loads that may have no
-    value for some designs; ``rubbing``: friction of joints is traced as well; ``swinging``: what turns round at two
-    positions, where friction and loads against velocities change their signs.
+    by the signs of whose rates they act; ``angles``: of which pairs of links (see ``Magnitude.angles``);
+    ``constants`` and ``tables`` by name: numbers of the loads that are no dimensions; ``fallible``: loads that may
+    have no value for some designs; ``rubbing``: friction of joints is traced as well; ``swinging``: what turns round
+    at two positions, where friction and loads against velocities change their signs.
     """
 
     names: frozenset[str]
@@ -104,32 +91,21 @@ class AlongInput:
 
 def numbers_of_loads(loads: Iterable[Load], mechanism: Mechanism) -> AlongInput:
     """What the magnitudes of loads of a mechanism take."""
-    given = tuple(loads)
-    phases = [
-        phase
-        for each in given
-        if isinstance(phase := getattr(each, "phase", None), SwingPhase | MovingPhase)
-        and by_rate(each) is None
-    ]
-    parts = [phase.output for phase in phases if isinstance(phase, SwingPhase) and phase.part is not None]
-    numbers = {constant_name(each.name, key): value for each in given for key, value in of_load(each).items()}
-    over = {
-        row_name("magnitude", each.name): table
-        for each in given
-        if (table := getattr(each, "table", None)) is not None
-    }
-    fallible = [each.name for each in given if isinstance(getattr(each, "magnitude", None), Expression)]
-    fallible += [each.name for each in given if row_name("magnitude", each.name) in over or of_load(each)]
-    fallible += [each.name for each in given if interval_of_turn(each)]
+    given = {each.name: each.magnitude for each in loads if each.magnitude is not None}
+    sizes = given.values()
     return AlongInput(
-        frozenset(each.name for each in given),
-        tuple(dict.fromkeys(phase.output for phase in phases)),
-        tuple(dict.fromkeys(parts)),
-        tuple(dict.fromkeys(output for each in given if (output := by_rate(each)) is not None)),
-        {pair: near for each in given for pair, near in angles_of(each, mechanism).items()},
-        numbers,
-        {name: curve_of(table) for name, table in over.items()},
-        tuple(fallible),
+        frozenset(given),
+        tuple(dict.fromkeys(each.limits.output for each in sizes if each.limits is not None)),
+        tuple(dict.fromkeys(output for each in sizes for output in each.phase.valued)),
+        tuple(dict.fromkeys(each.rate for each in sizes if each.rate is not None)),
+        {pair: near for each in sizes for pair, near in each.angles(mechanism).items()},
+        {
+            constant_name(name, key): value
+            for name, each in given.items()
+            for key, value in each.constants.items()
+        },
+        {row_name("magnitude", name): each.size.curve for name, each in given.items() if each.size.curve},
+        tuple(name for name, each in given.items() if each.fallible),
     )
 
 
@@ -144,11 +120,15 @@ def traced_loads(mechanism: Mechanism, programs: MotionPrograms) -> AlongInput:
 
 
 def _found(mechanism: Mechanism, turns: bool) -> AlongInput:
-    given = [each for each in mechanism.loads.values() if turns and not is_constant(each)]
-    return numbers_of_loads(
-        [each for each in given if followed(each, mechanism) and not divides(each)],
-        mechanism,
-    )
+    given = [
+        each
+        for each in mechanism.loads.values()
+        if (size := each.magnitude) is not None
+        and not size.constant
+        and size.traceable(mechanism)
+        and not size.size.divides
+    ]
+    return numbers_of_loads(given if turns else (), mechanism)
 
 
 #: By the loads of a mechanism.
@@ -157,5 +137,4 @@ _traced: Recent[Mapping[str, Load], AlongInput] = Recent(64)
 
 def traced_magnitude(motion: MotionTrace, name: str) -> Scalar:
     """The magnitude of a load over the input."""
-    load = motion.mechanism.loads[name]
-    return magnitude(load, TracedSite(motion, load, along_input=True))
+    return TracedSite(motion, motion.mechanism.loads[name], along_input=True).magnitude()

@@ -16,7 +16,7 @@ load's dimensions (``loads.NAME.FIELD``) and the writing of files.
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.core.dataclass import dataclass
@@ -29,7 +29,6 @@ from linkwright.fields.base import (
     Schema,
     Word,
     given,
-    given_by_file,
     table_schema,
 )
 from linkwright.fields.nodes import Mapping as MappingNode
@@ -40,49 +39,41 @@ from linkwright.fields.references import (
     LinkName,
     LinkNames,
     LinkPoint,
+    OutputName,
     PointName,
     PointPair,
     PointReference,
     PointReferences,
 )
-from linkwright.fields.signals import Magnitude, OutputName, Phase, PhaseField, Table, TableField
 from linkwright.joints.base import JointName
+from linkwright.loads.keys import magnitude_fields
+from linkwright.loads.magnitude import Magnitude
+from linkwright.loads.signals import Signals
+from linkwright.loads.site import Mechanism, Site, Wrench
+from linkwright.loads.sizes import Ramp
 from linkwright.registry import Registry
 from linkwright.words.sentence import Sentence, together
 from linkwright.words.synonyms import meaning
 
 if TYPE_CHECKING:
     from linkwright.core.arrays import Floats
-    from linkwright.engine.trace import Scalar
-    from linkwright.kinematics.motion import Motion
-    from linkwright.loads.magnitude import Course
-    from linkwright.loads.marks import Mark
-    from linkwright.loads.signals import Signals
-    from linkwright.loads.site import Site, Wrench
-    from linkwright.mechanism.mechanism import Mechanism
-    from linkwright.worked.load_formulas import LoadFormulas
-    from linkwright.worked.page import Step
-    from linkwright.worked.terms import Pair, Term
 
 __all__ = [
     "LOADS",
     "LinkPoint",
     "Load",
+    "Magnitude",
     "Output",
-    "Phase",
-    "Table",
     "joint",
     "link",
     "links",
     "magnitude",
     "output",
-    "phase",
     "point",
     "point_of",
     "points",
     "quantity",
     "ray",
-    "table",
     "values",
     "word",
 ]
@@ -103,8 +94,27 @@ class Load:
 
     @classmethod
     def fields(cls) -> dict[str, Field]:
-        """The declared fields by their attribute names."""
-        return given_by_file(cls)
+        """The keys of a file by their names; of a magnitude several."""
+        found: dict[str, Field] = {}
+        for each in dataclasses.fields(cls):
+            found |= {each.name: each.metadata["field"]} if "field" in each.metadata else {}
+            found |= each.metadata.get("magnitude", {})
+        return found
+
+    @classmethod
+    def of(cls, name: str, given: Mapping[str, Any]) -> Load:
+        """A load of this kind from what is given under the keys of :meth:`fields`."""
+        return cls(name=name, **cls._gathered(given))
+
+    @classmethod
+    def _gathered(cls, given: Mapping[str, Any]) -> dict[str, Any]:
+        """The attributes from what is given under the keys."""
+        found = dict(given)
+        for each in dataclasses.fields(cls):
+            if keys := each.metadata.get("magnitude"):
+                own = {key: found.pop(key, None) for key in keys}
+                found[each.name] = Magnitude.of(own)
+        return found
 
     @classmethod
     def check(cls, values: Mapping[str, Any], report: Callable[[str, str, str], None]) -> None:
@@ -117,44 +127,20 @@ class Load:
         """
         raise NotImplementedError(f'the load kind "{self.kind}" does not say its wrenches')
 
-    def from_cycle(self, signals: Signals) -> Floats | None:
-        """What ``site.magnitude()`` gives at each position, (n,), where no formula of :meth:`traced` can.
+    @property
+    def magnitude(self) -> Magnitude | None:
+        """What ``site.magnitude()`` gives; None where the kind takes none, or finds it by :meth:`from_cycle`."""
+        return None
+
+    def from_cycle(self, signals: Signals) -> Floats:
+        """What ``site.magnitude()`` gives at each position, (n,), of a kind without a formula of it.
 
         Such a load goes one design at a time in sweeps.
         """
-        return None
-
-    def traced(self, course: Course) -> Scalar | None:
-        """What ``site.magnitude()`` gives, where the kind has a formula of its own; traced, or over arrays.
-
-        None for kinds whose magnitude is a number, an expression, a ramp or a table.
-        """
-        return None
-
-    @property
-    def twist(self) -> tuple[tuple[str, str], float] | None:
-        """Links whose angle with turns the load takes, and the angle (rad) near which that begins."""
-        return None
-
-    @property
-    def turns_with(self) -> str | None:
-        """The link with which the direction of the load's force turns."""
-        return None
+        raise NotImplementedError(f'the load kind "{self.kind}" does not say its magnitude')
 
     def reverses(self, mechanism: Mechanism) -> Output | RelativeAngle | None:
         """What it is at whose limits the load changes its sign, because it goes by the sign of a velocity."""
-        return None
-
-    def mark(self, motion: Motion, index: int) -> Mark | None:
-        """What drawings show at a position; None: the symbol of the kind between or at the points it names."""
-        return None
-
-    def worked_force(self, write: LoadFormulas, step: Step, link: str, force: complex) -> Pair | None:
-        """The formula of the force (N, frame axes) on a link in worked solutions; None: magnitude and direction."""
-        return None
-
-    def worked_couple(self, write: LoadFormulas, step: Step, link: str, torque: float) -> Term | None:
-        """The formula of the couple (N·m) on a link; None: its number."""
         return None
 
     @classmethod
@@ -164,34 +150,39 @@ class Load:
         doc = " ".join((cls.__doc__ or "").partition("\n\n")[0].split())
         return {"title": cls.kind, "description": doc, **found}
 
+    def given(self) -> Iterator[tuple[str, Field, Any]]:
+        """What the load has under the keys of :meth:`fields`."""
+        for each in dataclasses.fields(self):
+            value = getattr(self, each.name)
+            if "field" in each.metadata:
+                yield each.name, each.metadata["field"], value
+            elif keys := each.metadata.get("magnitude"):
+                yield from ((key, keys[key], part) for key, part in value.by_key.items())
+
     def dimensions(self) -> dict[str, float]:
         """Addresses ``loads.NAME.FIELD`` of the load's dimensions with their SI values."""
         return {
-            f"loads.{self.name}.{each.key or name}{suffix}": value
-            for name, each in self.fields().items()
-            for suffix, value in each.flatten(getattr(self, name)).items()
+            f"loads.{self.name}.{each.key or name}{suffix}": number
+            for name, each, value in self.given()
+            for suffix, number in each.flatten(value).items()
         }
 
     def with_dimensions(self, value: Callable[[str], float]) -> Load:
         """The same load with the values that ``value`` gives for the addresses of ``dimensions``."""
 
-        def rebuilt(name: str, each: Field) -> Any:
+        def rebuilt(name: str, each: Field, part: Any) -> Any:
             address = f"loads.{self.name}.{each.key or name}"
-            return each.rebuild(getattr(self, name), lambda suffix: value(address + suffix))
+            return each.rebuild(part, lambda suffix: value(address + suffix))
 
         return dataclasses.replace(
-            self, **{name: rebuilt(name, each) for name, each in self.fields().items()}
+            self, **self._gathered({name: rebuilt(name, each, part) for name, each, part in self.given()})
         )
 
     def written(self) -> dict[str, Any]:
         """The load as plain data for a file."""
-        found: dict[str, Any] = {"kind": self.kind}
-        for each in dataclasses.fields(self):
-            value = getattr(self, each.name)
-            if "field" in each.metadata and value is not None and value != each.default:
-                declared = each.metadata["field"]
-                found[declared.key or each.name] = declared.written(value)
-        return found
+        usual = {each.name: each.default for each in dataclasses.fields(self)}
+        given = (each for each in self.given() if each[2] is not None and each[2] != usual.get(each[0]))
+        return {"kind": self.kind, **{each.key or name: each.written(value) for name, each, value in given}}
 
 
 LOADS: Registry[type[Load]] = Registry(
@@ -222,16 +213,15 @@ def read_load(reader: Reader, node: Node, place: Place, name: str) -> Load | Non
     mapping, cls, found = read
     given = {name for name, each in cls.fields().items() if mapping.get(each.key or name) is not None}
     _check_choices(reader, node, place, cls, given)
+
+    def report(key: str, message: str, remedy: str) -> None:
+        reader.error(mapping.get(key) or node, place.child(key) if key else place, message, remedy, "load")
+
     if reader.error_count == before:
-        cls.check(
-            found,
-            lambda key, message, remedy: reader.error(
-                mapping.get(key) or node, place.child(key) if key else place, message, remedy, "load"
-            ),
-        )
-    if reader.error_count > before:
-        return None
-    return cls(name=name, **found)
+        if isinstance(found.get("ramp"), Ramp) and found.get("phase") is None:
+            report("ramp", Sentence("loads.ramp_without_phase"), Sentence("loads.add_phase"))
+        cls.check(found, report)
+    return cls.of(name, found) if reader.error_count == before else None
 
 
 def _check_choices(reader: Reader, node: Node, place: Place, cls: type[Load], given: set[str]) -> None:
@@ -317,30 +307,14 @@ def word(*choices: str, default: Any = REQUIRED, doc: str = "", key: str = "") -
     return given(Word(choices, doc=doc, key=key), default)
 
 
-def magnitude(dimension: str, *, default: Any = REQUIRED, doc: str = "", key: str = "") -> Any:
-    """A quantity (float) or an Expression of parameters, ``t``, ``input`` and outputs."""
-    return given(Magnitude(dimension, doc=doc, key=key), default)
+def magnitude(dimension: str, *, word: str = "magnitude") -> Any:
+    """A Magnitude, with the keys ``magnitude``, ``ramp``, ``table`` and ``phase``; ``word``: what it is."""
+    return dataclasses.field(default=Magnitude(), metadata={"magnitude": magnitude_fields(dimension, word)})
 
 
 def output(*, default: Any = REQUIRED, doc: str = "", key: str = "") -> Any:
     """An Output of the mechanism."""
     return given(OutputName(doc=doc, key=key), default)
-
-
-def table(dimension: str, *, default: Any = REQUIRED, doc: str = "", key: str = "") -> Any:
-    """A Table of values of a dimension over the input, the time or an output."""
-    return given(TableField(dimension, doc=doc, key=key), default)
-
-
-def phase(*, default: Any = None, doc: str = "when the load acts (default: always)", key: str = "") -> Any:
-    """A Phase of the cycle: InputPhase, MovingPhase or SwingPhase; None for the whole cycle."""
-    return given(PhaseField(doc=doc, key=key), default)
-
-
-def check_ramp(values: Mapping[str, Any], report: Callable[[str, str, str], None]) -> None:
-    """For ``Load.check``: a ramp needs a phase."""
-    if values.get("ramp") is not None and values.get("phase") is None:
-        report("ramp", Sentence("loads.ramp_without_phase"), Sentence("loads.add_phase"))
 
 
 def check_between(values: Mapping[str, Any], report: Callable[[str, str, str], None]) -> None:

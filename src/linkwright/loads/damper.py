@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.trace import select
@@ -11,11 +11,6 @@ from linkwright.engine.vector import choose
 from linkwright.loads import base
 from linkwright.loads.base import LOADS, LinkPoint, Load
 from linkwright.loads.site import Site, Wrench
-
-if TYPE_CHECKING:
-    from linkwright.worked.load_formulas import LoadFormulas
-    from linkwright.worked.page import Step
-    from linkwright.worked.terms import Pair, Term
 
 
 @LOADS.register("damper")
@@ -48,10 +43,3 @@ class Damper(Load):
         along = between * (between.dot(parting) / select(apart, square, 1.0))
         pull = choose(apart, along, parting) * site.dimension("damping")
         return [Wrench(a.link, pull, start), Wrench(b.link, -pull, end)]
-
-    def worked_force(self, write: LoadFormulas, step: Step, link: str, force: complex) -> Pair | None:
-        def tension(length: Term, parting: Term) -> Term:
-            speed = step.find(write.named("L'", self, parting.value), parting, "m/s")
-            return write.named("c", self, self.damping) * speed
-
-        return write.between(step, self, self.between, link, tension)

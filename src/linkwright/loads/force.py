@@ -2,22 +2,14 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import ClassVar
 
 from linkwright.core.dataclass import dataclass
-from linkwright.core.expressions import Expression
 from linkwright.engine.vector import Vec
 from linkwright.errors import LinkwrightError
 from linkwright.loads import base
-from linkwright.loads.base import LOADS, Load, Output, Phase, Table
-from linkwright.loads.marks import Push, sign_of
-from linkwright.loads.site import Site, Wrench
-
-if TYPE_CHECKING:
-    from linkwright.kinematics.motion import Motion
-    from linkwright.mechanism.mechanism import Mechanism
+from linkwright.loads.base import LOADS, Load, Magnitude, Output
+from linkwright.loads.site import Mechanism, Site, Wrench
 
 
 @LOADS.register("force")
@@ -59,18 +51,7 @@ class Force(Load):
         default=None,
         doc="[Fx, Fy] in frame axes, instead of direction and magnitude",
     )
-    magnitude: float | Expression | None = base.magnitude("force", default=None, doc="magnitude")
-    ramp: tuple[float, float] | None = base.values(
-        "force", count=2, default=None, doc="from, to over the phase"
-    )
-    table: Table | None = base.table(
-        "force", default=None, doc="magnitude over the input, the time or an output"
-    )
-    phase: Phase | None = base.phase()
-
-    @classmethod
-    def check(cls, values: Mapping[str, Any], report: Callable[[str, str, str], None]) -> None:
-        base.check_ramp(values, report)
+    magnitude: Magnitude = base.magnitude("force")
 
     def wrenches(self, site: Site) -> list[Wrench]:
         return [Wrench(self.on, self._force(site), site.place(self.on, self.at))]
@@ -78,8 +59,7 @@ class Force(Load):
     def _force(self, site: Site) -> Vec:
         if self.components is None:
             return self._unit(site) * site.magnitude()
-        given = Vec(site.dimension("components.x"), site.dimension("components.y"))
-        return given if self.phase is None else given * site.magnitude()
+        return Vec(site.dimension("components.x"), site.dimension("components.y")) * site.magnitude()
 
     def _unit(self, site: Site) -> Vec:
         if self.direction is not None:
@@ -108,34 +88,3 @@ class Force(Load):
                     turns = joint.coordinate == "turn"
                     return Output("angle", link) if turns else Output("displacement", name)
         return None
-
-    @property
-    def turns_with(self) -> str | None:
-        return self.on if self.normal_to or self.along or self.in_link is not None else None
-
-    def mark(self, motion: Motion, index: int) -> Push:
-        angle = self._angle(motion, index)
-        return Push(self.on, self.at, angle if sign_of(self) >= 0 else angle + math.pi)
-
-    def _angle(self, motion: Motion, index: int) -> float:
-        """Direction at a position in frame axes, rad."""
-        if self.direction is not None:
-            return self.direction
-        if self.opposes is not None:
-            return self._against_velocity(motion, index)
-        if self.components is not None:
-            return math.atan2(self.components[1], self.components[0])
-        turn = math.atan2(*motion.link(self.on).direction[index][::-1])
-        ray = self.normal_to or self.along
-        if ray is None:
-            return turn + (self.in_link or 0.0)
-        (px, py), (qx, qy) = (motion.mechanism.link(self.on).points[name] for name in ray)
-        return turn + math.atan2(qy - py, qx - px) + (math.pi / 2 if self.normal_to else 0.0)
-
-    def _against_velocity(self, motion: Motion, index: int) -> float:
-        """Against the velocity of the point; at rest against the motion that begins there."""
-        point = motion.point(f"{self.on}.{self.at}")
-        (vx, vy), seconds = point.velocity[index], point.acceleration[index]
-        if not motion.moving(math.hypot(vx, vy), math.hypot(*seconds), "length"):
-            vx, vy = seconds
-        return math.atan2(-vy, -vx)

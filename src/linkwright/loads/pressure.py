@@ -3,22 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import ClassVar
 
 from linkwright.core.dataclass import dataclass
-from linkwright.core.expressions import Expression
 from linkwright.engine.trace import Scalar
 from linkwright.loads import base
-from linkwright.loads.base import LOADS, Load, Phase, Table
-from linkwright.loads.marks import Press, sign_of
+from linkwright.loads.base import LOADS, Load, Magnitude
 from linkwright.loads.site import Site, Wrench, guide_and_block
-
-if TYPE_CHECKING:
-    from linkwright.kinematics.motion import Motion
-    from linkwright.worked.load_formulas import LoadFormulas
-    from linkwright.worked.page import Step
-    from linkwright.worked.terms import Pair, Term
 
 
 @LOADS.register("pressure")
@@ -44,18 +35,7 @@ class Pressure(Load):
     pushes: str = base.word(
         "forward", "backward", default="forward", doc="where it pushes the block (default: forward)"
     )
-    magnitude: float | Expression | None = base.magnitude("pressure", default=None, doc="pressure")
-    ramp: tuple[float, float] | None = base.values(
-        "pressure", count=2, default=None, doc="from, to over the phase"
-    )
-    table: Table | None = base.table(
-        "pressure", default=None, doc="pressure over the input, the time or an output"
-    )
-    phase: Phase | None = base.phase()
-
-    @classmethod
-    def check(cls, values: Mapping[str, Any], report: Callable[[str, str, str], None]) -> None:
-        base.check_ramp(values, report)
+    magnitude: Magnitude = base.magnitude("pressure", word="pressure")
 
     def wrenches(self, site: Site) -> list[Wrench]:
         direction, place, _ = site.guide(self.joint)
@@ -70,25 +50,3 @@ class Pressure(Load):
             return site.dimension("area")
         bore = site.dimension("bore")
         return 0.25 * math.pi * (bore * bore)
-
-    def mark(self, motion: Motion, index: int) -> Press:
-        return Press(self.joint, (sign_of(self) or 1) * (-1 if self.pushes == "backward" else 1))
-
-    def worked_force(self, write: LoadFormulas, step: Step, link: str, force: complex) -> Pair | None:
-        joint, along = write.book.mechanism.guides[self.joint], write.book.slide(self.joint).along
-        forward = (link == joint.block) == (self.pushes == "forward")
-        push = force.real * along.x.value + force.imag * along.y.value
-
-        def press() -> Term:
-            if self.area is not None:
-                area = step.give(write.named("A", self, self.area), "m²")
-            else:
-                round_area = write.circle(write.named("d", self, self.bore or 0.0))
-                area = step.find(write.named("A", self, round_area.value), round_area, "m²")
-            pressure = (push if forward else -push) / area.amount
-            return step.give(write.named("p", self, pressure), "Pa") * area
-
-        size = write.size(step, self, "F", "N", press)
-        if size is None:
-            return None
-        return along.times(size) if forward else -along.times(size)

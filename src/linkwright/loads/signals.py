@@ -8,11 +8,14 @@ from typing import TYPE_CHECKING, Any, Literal, Protocol
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.engine.late_import import numpy as np
+from linkwright.errors import LinkwrightError
+from linkwright.fields.references import resolve_output
+from linkwright.loads.site import Mechanism
+from linkwright.registry import offered
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.core.arrays import Flags, Floats
-    from linkwright.mechanism.mechanism import Mechanism
 
 
 @dataclass(frozen=True)
@@ -111,3 +114,38 @@ def spot(signals: Signals, index: int) -> str:
 def column(value: Any, count: int) -> Floats:
     """A number or an array as an array (n,)."""
     return np.array(np.broadcast_to(np.asarray(value, dtype=float), (count,)))
+
+
+def times_of_inputs(inputs: Floats, signals: Signals) -> Floats | None:
+    """Times at which the input has some values; of angles modulo one turn, all within the cycle. None where its law
+    is no constant speed."""
+    law = next(iter(signals.mechanism.drivers.values())).law
+    if not law.constant_speed:
+        return None
+    times = law.time_at(inputs)
+    if not signals.rotary:
+        return np.asarray(times)
+    turn = 2 * np.pi / abs(law.constant_speed)
+    laps = np.arange(np.ceil(np.ptp(signals.time) / turn) + 2) - 1
+    first = signals.time.min() + (times - signals.time.min()) % turn
+    return np.asarray((first[:, None] + laps * turn).ravel())
+
+
+def named_column(name: str, signals: Signals) -> Any:
+    """Values, a number or (n,), of a parameter, ``t``, ``input`` or an output in an expression."""
+    mechanism = signals.mechanism
+    if name in mechanism.parameters:
+        return mechanism.parameters[name]
+    if name in ("t", "input"):
+        return signals.time if name == "t" else signals.input
+    found = output_named(name, mechanism)
+    if found is None:
+        known = ["t", "input", *mechanism.parameters, *mechanism.links, *mechanism.joints]
+        raise LinkwrightError("loads.unknown_in_magnitude", name=name, hint=offered(name, known))
+    return signals.output(found)[0]
+
+
+def output_named(name: str, mechanism: Mechanism) -> Output | None:
+    """The output that a name in an expression means."""
+    links = {"frame": mechanism.frame, **mechanism.links}
+    return resolve_output(name, {link: tuple(each.points) for link, each in links.items()}, mechanism.guides)

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Protocol
+from collections.abc import Mapping
+from typing import Protocol
 
 from linkwright.core.dataclass import dataclass
+from linkwright.drivers.base import Driver
 from linkwright.engine.trace import Scalar
 from linkwright.engine.vector import ZERO, Vec
-
-if TYPE_CHECKING:
-    from linkwright.mechanism.mechanism import Mechanism
+from linkwright.joints.base import Joint
+from linkwright.joints.lower import SlidingJoint
 
 
 @dataclass(frozen=True)
@@ -20,6 +21,35 @@ class Wrench:
     force: Vec = ZERO
     place: Vec = ZERO
     torque: Scalar = 0.0
+
+
+class Body(Protocol):
+    """A link, or the frame."""
+
+    @property
+    def points(self) -> Mapping[str, tuple[float, float]]:
+        """Its named points in its axes, m."""
+        ...
+
+
+class Mechanism(Protocol):
+    """What loads ask of the mechanism they act on."""
+
+    @property
+    def parameters(self) -> Mapping[str, float]: ...
+    @property
+    def frame(self) -> Body: ...
+    @property
+    def links(self) -> Mapping[str, Body]: ...
+    @property
+    def joints(self) -> Mapping[str, Joint]: ...
+    @property
+    def guides(self) -> Mapping[str, SlidingJoint]: ...
+    @property
+    def drivers(self) -> Mapping[str, Driver]: ...
+    def link(self, name: str) -> Body:
+        """A link, the frame among them."""
+        ...
 
 
 class Described(Protocol):
@@ -76,7 +106,7 @@ class Site(Protocol):
         ...
 
     def magnitude(self) -> Scalar:
-        """The load's magnitude here: number, expression, ramp or table; zero outside its phase."""
+        """The load's magnitude here: its size within its phase, zero outside."""
         ...
 
     def direction(self, angle: Scalar) -> Vec:

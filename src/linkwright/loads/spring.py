@@ -3,18 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.trace import select, sqrt
 from linkwright.loads import base
 from linkwright.loads.base import LOADS, LinkPoint, Load
 from linkwright.loads.site import Site, Wrench
-
-if TYPE_CHECKING:
-    from linkwright.worked.load_formulas import LoadFormulas
-    from linkwright.worked.page import Step
-    from linkwright.worked.terms import Pair, Term
 
 
 @LOADS.register("spring")
@@ -54,11 +49,3 @@ class Spring(Load):
         inverse = select(apart, 1.0 / sqrt(select(apart, square, 1.0)), 0.0)
         pull = between * stiffness + between * (steady * inverse)
         return [Wrench(a.link, pull, start), Wrench(b.link, -pull, end)]
-
-    def worked_force(self, write: LoadFormulas, step: Step, link: str, force: complex) -> Pair | None:
-        def tension(length: Term, parting: Term) -> Term:
-            free, stiff = write.named("L0", self, self.free_length), write.named("k", self, self.stiffness)
-            pull = stiff * (length - free) if self.free_length else stiff * length
-            return write.named("F0", self, self.preload) + pull if self.preload else pull
-
-        return write.between(step, self, self.between, link, tension)

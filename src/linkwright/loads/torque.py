@@ -3,21 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 from linkwright.core.dataclass import dataclass
-from linkwright.core.expressions import Expression
 from linkwright.core.outputs import RelativeAngle
 from linkwright.engine.trace import select
 from linkwright.loads import base
-from linkwright.loads.base import LOADS, Load, Output, Phase, Table
-from linkwright.loads.marks import Turn, sign_of
-from linkwright.loads.site import Site, Wrench
+from linkwright.loads.base import LOADS, Load, Magnitude, Output
+from linkwright.loads.site import Mechanism, Site, Wrench
 from linkwright.words.sentence import Sentence
-
-if TYPE_CHECKING:
-    from linkwright.kinematics.motion import Motion
-    from linkwright.mechanism.mechanism import Mechanism
 
 
 @LOADS.register("torque")
@@ -39,18 +33,10 @@ class Torque(Load):
     opposes: str | None = base.word(
         "velocity", default=None, doc="velocity: against the rotation of on relative to against"
     )
-    magnitude: float | Expression | None = base.magnitude("torque", default=None, doc="magnitude")
-    ramp: tuple[float, float] | None = base.values(
-        "torque", count=2, default=None, doc="from, to over the phase"
-    )
-    table: Table | None = base.table(
-        "torque", default=None, doc="magnitude over the input, the time or an output"
-    )
-    phase: Phase | None = base.phase()
+    magnitude: Magnitude = base.magnitude("torque")
 
     @classmethod
     def check(cls, values: Mapping[str, Any], report: Callable[[str, str, str], None]) -> None:
-        base.check_ramp(values, report)
         if values.get("on") is not None and values.get("on") == values.get("against"):
             report(
                 "against",
@@ -70,10 +56,3 @@ class Torque(Load):
         if self.opposes is None:
             return None
         return Output("angle", self.on) if self.against == "frame" else RelativeAngle(self.against, self.on)
-
-    def mark(self, motion: Motion, index: int) -> Turn:
-        sense = sign_of(self)
-        if self.opposes is not None:
-            omega = motion.turning(self.on, self.against)[index]
-            sense *= int(omega < 0.0) - int(omega > 0.0)
-        return Turn(self.on, sense)

@@ -2,17 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from linkwright.core.dataclass import dataclass
 from linkwright.loads import base
 from linkwright.loads.base import LOADS, Load
 from linkwright.loads.site import Site, Wrench
-
-if TYPE_CHECKING:
-    from linkwright.worked.load_formulas import LoadFormulas
-    from linkwright.worked.page import Step
-    from linkwright.worked.terms import Term
 
 
 @LOADS.register("torsion_damper")
@@ -31,8 +24,3 @@ class TorsionDamper(Load):
         a, b = self.links
         moment = site.dimension("damping") * (site.omega(b) - site.omega(a))
         return [Wrench(a, torque=moment), Wrench(b, torque=-moment)]
-
-    def worked_couple(self, write: LoadFormulas, step: Step, link: str, torque: float) -> Term | None:
-        a, b = (write.book.omega(each) for each in self.links)
-        drag = write.named("c", self, self.damping) * (b - a)
-        return write.couple(step, self, self.links, link, torque, lambda _: drag)

@@ -2,19 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from linkwright.core.dataclass import dataclass
-from linkwright.engine.trace import Scalar
 from linkwright.loads import base
-from linkwright.loads.base import LOADS, Load
+from linkwright.loads.base import LOADS, Load, Magnitude
 from linkwright.loads.site import Site, Wrench
-
-if TYPE_CHECKING:
-    from linkwright.loads.magnitude import Course
-    from linkwright.worked.load_formulas import LoadFormulas
-    from linkwright.worked.page import Step
-    from linkwright.worked.terms import Term
+from linkwright.loads.sizes import Twist
 
 
 @LOADS.register("torsion_spring")
@@ -38,27 +30,12 @@ class TorsionSpring(Load):
     preload: float = base.quantity("torque", default=0.0, doc="torque at the free angle (default 0)")
 
     @property
-    def twist(self) -> tuple[tuple[str, str], float]:
-        return self.links, self.free_angle
-
-    def traced(self, course: Course) -> Scalar:
-        """Angle φ of link b against link a, rad."""
-        return course.angle_between(*self.links)
+    def magnitude(self) -> Magnitude:
+        """The angle φ of link b against link a, rad."""
+        return Magnitude(Twist(*self.links, self.free_angle))
 
     def wrenches(self, site: Site) -> list[Wrench]:
         a, b = self.links
         twist = site.magnitude() - site.dimension("free_angle")
         moment = site.dimension("preload") + site.dimension("stiffness") * twist
         return [Wrench(a, torque=moment), Wrench(b, torque=-moment)]
-
-    def worked_couple(self, write: LoadFormulas, step: Step, link: str, torque: float) -> Term | None:
-        def moment(known: float) -> Term | None:
-            if not self.stiffness:
-                return None
-            angle = self.free_angle + (known - self.preload) / self.stiffness
-            twist = step.give(write.named("φ", self, angle), "rad")
-            free = write.named("φ0", self, self.free_angle)
-            found = write.named("k", self, self.stiffness) * (twist - free if self.free_angle else twist)
-            return write.named("M0", self, self.preload) + found if self.preload else found
-
-        return write.couple(step, self, self.links, link, torque, moment)

@@ -22,8 +22,8 @@ from linkwright.kinematics.names import output_meant
 from linkwright.kinetostatics.forces import ROUNDING, Forces
 from linkwright.kinetostatics.programs import words_name
 from linkwright.kinetostatics.solver import ForceSolver
-from linkwright.loads.phases import outermost
 from linkwright.loads.signals import Limit
+from linkwright.loads.strokes import outermost
 from linkwright.metrics.cycle_grid import PASSED, CycleGrid, cycle_grid
 from linkwright.metrics.outputs import mechanism_outputs
 from linkwright.metrics.reached_extremes import PartlyReached

@@ -36,8 +36,9 @@ from linkwright.kinetostatics.friction import FrictionTerm, joint_rate, moving_r
 from linkwright.kinetostatics.programs import signed_name
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.loads.base import Load
-from linkwright.loads.over_cycle import activity
-from linkwright.loads.phases import NEAR, switch_times
+from linkwright.loads.magnitude import Magnitude
+from linkwright.loads.over_cycle import activity, switch_times
+from linkwright.loads.strokes import NEAR
 from linkwright.metrics.one_sided_limits import between, limit, sides
 from linkwright.metrics.solved_again import Resolver
 
@@ -302,10 +303,9 @@ class CycleGrid:
             return self._wrapped(found)
         signals, turning = MotionSignals(self._motion), list[FrictionTerm | RelativeAngle]()
         for load in self._motion.mechanism.loads.values():
-            phase = getattr(load, "phase", None)
-            known, complete = switch_times(load, signals)
+            known, complete = switch_times(load.magnitude or Magnitude(), signals)
             found.append(known)
-            if phase is not None and not complete:
+            if not complete:
                 switched = self._bisected(load, signals)
                 apart = np.abs(switched[:, None] - known).min(axis=1, initial=np.inf)
                 found.append(switched[apart > 2.0 * NEAR * (self.end - self.start)])

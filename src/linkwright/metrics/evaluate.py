@@ -12,7 +12,7 @@ from linkwright.errors import RequestError
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.whole_turns import MOST
 from linkwright.kinetostatics.forces import ROUNDING, Forces
-from linkwright.loads.phases import NEAR
+from linkwright.loads.strokes import NEAR
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis, Result
 from linkwright.metrics.base import METRICS, Metric, MetricValue

@@ -21,11 +21,11 @@ from linkwright.core.outputs import row_name
 from linkwright.joints.marks import CamContact, RackWay, Wheel, Wheels
 from linkwright.kinematics.names import canonical
 from linkwright.loads.base import Load
-from linkwright.loads.marks import Press, Turn
 from linkwright.mechanism.mechanism import Link
 from linkwright.pictures.symbols.base import PIN, SYMBOLS, Shape, Vec
 from linkwright.plot.drawing.guides import clear_shift, ground_side, is_cylinder, travel, welds
 from linkwright.plot.drawing.inputs import input_arrows
+from linkwright.plot.drawing.load_marks import Press, Turn, mark_of
 from linkwright.plot.drawing.loads import named_points, pressing
 from linkwright.plot.drawing.machine import Machine, Part, bodies, flat, support_direction
 
@@ -273,7 +273,7 @@ def _load(machine: Machine, load: Load) -> Iterator[Plain]:
     ends = [key_of(machine, each.link, each.point) for each in named_points(machine, load)]
     if load.kind in SYMBOLS and len(ends) == _LENGTHS:
         yield {"kind": load.kind, "layer": "bodies", "points": ends}
-    elif isinstance(press := load.mark(machine.motion, 0), Press):
+    elif isinstance(press := mark_of(load, machine.motion, 0), Press):
         shape = pressing(machine, press, (0.0, 0.0), (1.0, 0.0))
         yield _stamp("marks", ends[0], row_name("guide_direction", press.joint), shape)
     elif load.kind in SYMBOLS and ends:
@@ -282,7 +282,7 @@ def _load(machine: Machine, load: Load) -> Iterator[Plain]:
         pin = _common_pin(machine, load)
         if pin is not None:
             yield _stamp("marks", pin, 0.0, SYMBOLS[load.kind]())
-    elif not isinstance(load.mark(machine.motion, 0), Turn):
+    elif not isinstance(mark_of(load, machine.motion, 0), Turn):
         yield {"kind": "load", "layer": "marks", "load": load.name}
 
 

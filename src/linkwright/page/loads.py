@@ -12,31 +12,23 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.json_data import Plain
-from linkwright.core.outputs import Output
-from linkwright.fields.signals import InputPhase, MovingPhase, SwingPhase
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import program_names
 from linkwright.kinetostatics.load_site import ACTS, middle_name
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.loads.base import Load
-from linkwright.loads.magnitude import angles_of, has_formula
+from linkwright.loads.magnitude import Magnitude
 from linkwright.loads.over_cycle import activity
-from linkwright.mechanism.mechanism import Mechanism
+from linkwright.loads.phases import Always, InputPhase, MovingPhase, SwingPhase
 
 
 def found_again(load: Load, motion: Motion) -> bool:
     """Whether a page finds it: its kind traces its magnitude, and limits that it takes lie in a steady cycle."""
-    if not has_formula(load):
+    if load.magnitude is None:
         return False
-    phase = getattr(load, "phase", None)
-    limits = isinstance(phase, SwingPhase) or (isinstance(phase, MovingPhase) and _ramp(load))
     drivers = list(motion.mechanism.drivers.values())
     steady = len(drivers) == 1 and drivers[0].law.constant_speed is not None and motion.positions.closed
-    return steady or not limits
-
-
-def _ramp(load: Load) -> bool:
-    return getattr(load, "ramp", None) is not None
+    return steady or load.magnitude.limits is None
 
 
 def traced_names(loads: Iterable[Load], motion: Motion) -> frozenset[str]:
@@ -48,9 +40,9 @@ def traced_names(loads: Iterable[Load], motion: Motion) -> frozenset[str]:
 
 def _phase_per_position(load: Load, motion: Motion) -> bool:
     """All phases but those of the coordinate of a driver that turns steadily, which are formulas."""
-    phase = getattr(load, "phase", None)
+    phase = (load.magnitude or Magnitude()).phase
     if not isinstance(phase, InputPhase):
-        return phase is not None
+        return not isinstance(phase, Always)
     first = next(iter(motion.mechanism.drivers.values()))
     return first.law.constant_speed is None or not motion.positions.rotary[first.name]
 
@@ -59,25 +51,18 @@ def phases(loads: Iterable[Load], motion: Motion) -> list[Plain]:
     """The phases that follow the motion: their outputs by rows of a page's main program."""
     found: list[Plain] = []
     for load in loads:
-        phase = getattr(load, "phase", None)
-        if isinstance(phase, MovingPhase):
-            ends = (phase.start, phase.end)
-            found.append(
-                {**_rows(load, phase.output, motion.mechanism), "moving": True, "part": None, "ends": ends}
-            )
-        elif isinstance(phase, SwingPhase):
+        given = load.magnitude or Magnitude()
+        phase = given.phase
+        if isinstance(phase, MovingPhase | SwingPhase):
+            rows, (rate, _) = program_names(motion.mechanism, phase.output)
             part = phase.part and {
                 "word": phase.part.word, "amounts": [[a.value, a.share] for a in phase.part.amounts],
             }  # fmt: skip
-            ends = (phase.start, phase.end)
-            followed = _rows(load, phase.output, motion.mechanism)
-            found.append({**followed, "moving": False, "part": part, "ends": ends})
+            found.append({
+                "load": load.name, "rows": list(rows), "rate": rate, "ramp": given.size.ramp,
+                "moving": isinstance(phase, MovingPhase), "part": part, "ends": (phase.start, phase.end),
+            })  # fmt: skip
     return found
-
-
-def _rows(load: Load, output: Output, mechanism: Mechanism) -> Plain:
-    rows, (rate, _) = program_names(mechanism, output)
-    return {"load": load.name, "rows": list(rows), "rate": rate, "ramp": _ramp(load)}
 
 
 def angles(loads: Iterable[Load], motion: Motion, constants: Iterable[str]) -> list[Plain]:
@@ -88,7 +73,7 @@ def angles(loads: Iterable[Load], motion: Motion, constants: Iterable[str]) -> l
     """
     found: dict[str, Plain] = {}
     for load in loads:
-        for (a, b), near in angles_of(load, motion.mechanism).items():
+        for (a, b), near in (load.magnitude or Magnitude()).angles(motion.mechanism).items():
             begin = None if near is None else [f"loads.{load.name}.free_angle", near]
             found[middle_name(a, b)] = {"field": middle_name(a, b), "a": a, "b": b, "near": begin}
     return [each for name, each in found.items() if name not in set(constants)]
@@ -102,7 +87,7 @@ def fields(loads: Iterable[Load], motion: Motion) -> dict[str, Floats]:
         if not _phase_per_position(load, motion):
             continue
         acts = share = np.zeros(motion.positions.count)
-        if isinstance(load.phase, InputPhase):  # type: ignore[attr-defined]
+        if load.magnitude and isinstance(load.magnitude.phase, InputPhase):
             active = activity(load, signals)
             acts, share = active.where.astype(float), active.share
         found |= {f"{ACTS}:{load.name}": acts, f"share:{load.name}": share}

@@ -33,7 +33,6 @@ from linkwright.kinetostatics.load_site import TracedSite, guide_state
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.kinetostatics.traced_loads import AlongInput, numbers_of_loads
 from linkwright.loads.base import Load
-from linkwright.loads.magnitude import magnitude
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.page.dimensions import geometry_addresses
 from linkwright.page.loads import angles, fields, found_again, phases, traced_names
@@ -235,7 +234,7 @@ class PagePrograms:
         for name in self.positional.fallible:
             load = self.mechanism.loads[name]
             site = TracedSite(motion, load, along_input=True, phase_known=name not in partly)
-            total = total + magnitude(load, site)
+            total = total + site.magnitude()
         return total
 
     @cached_property

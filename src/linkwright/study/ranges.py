@@ -12,7 +12,7 @@ from linkwright import units
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError, RequestError, about
-from linkwright.fields.signals import PhaseField
+from linkwright.loads.keys import PhaseField
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words.sentence import Sentence
 

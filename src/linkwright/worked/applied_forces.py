@@ -8,7 +8,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import owners_of
 from linkwright.kinetostatics.applied_wrenches import AppliedWrench, applied_wrenches
 from linkwright.kinetostatics.forces import Forces
-from linkwright.worked.load_formulas import LoadFormulas
+from linkwright.worked.load_formulas import LoadFormulas, turns_with, worked_couple, worked_force
 from linkwright.worked.page import Step
 from linkwright.worked.symbols import Book, Spot, tex
 from linkwright.worked.terms import NOWHERE, ZERO, Pair, Term, cosine, sine, symbol
@@ -113,7 +113,7 @@ class KnownForces:
     def _couple(self, step: Step, name: str, label: str, link: str, torque: float) -> Term:
         couple = symbol(f"M_{label}", f"M_{{{tex(label)}}}", torque)
         load = self.book.mechanism.loads.get(name)
-        formula = None if load is None else load.worked_couple(self.formulas, step, link, torque)
+        formula = None if load is None else worked_couple(load, self.formulas, step, link, torque)
         if formula is None:
             return step.give(couple, "N·m")
         if formula.op == "symbol" and formula.plain == couple.plain:
@@ -145,7 +145,7 @@ class KnownForces:
     def _formula(self, step: Step, name: str, label: str, link: str, force: complex) -> Pair:
         """Components of a load: from the formula of its kind, or from magnitude and direction."""
         load = self.book.mechanism.loads.get(name)
-        found = None if load is None else load.worked_force(self.formulas, step, link, force)
+        found = None if load is None else worked_force(load, self.formulas, step, link, force)
         if found is not None:
             return found
         size = step.give(symbol(f"F_{label}", f"F_{{{tex(label)}}}", abs(force)), "N")
@@ -157,7 +157,7 @@ class KnownForces:
     def _direction(self, step: Step, name: str, link: str, angle: Term) -> None:
         """The angle of a load; for one normal to a line of its link, from the angle of the link."""
         load = self.book.mechanism.loads.get(name)
-        if load is not None and link == load.turns_with:
+        if load is not None and link == turns_with(load):
             lean = angle.amount - self.book.turn(link).amount
             own = self.book.degrees(math.radians((lean + 180.0) % 360.0 - 180.0))
             formula = self.book.turn(link) + own

@@ -1,12 +1,19 @@
-"""What loads write the formulas of their forces with, in this position."""
+"""The formulas of the forces of loads in this position, by kinds of loads."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from functools import singledispatch
 
 from linkwright.fields.references import LinkPoint
 from linkwright.loads.base import Load
+from linkwright.loads.damper import Damper
+from linkwright.loads.force import Force
+from linkwright.loads.pressure import Pressure
+from linkwright.loads.spring import Spring
+from linkwright.loads.torsion_damper import TorsionDamper
+from linkwright.loads.torsion_spring import TorsionSpring
 from linkwright.worked.page import Step
 from linkwright.worked.symbols import Book, tex
 from linkwright.worked.terms import FOUR, NOWHERE, Pair, Term, root, symbol
@@ -86,3 +93,91 @@ class LoadFormulas:
             return None
         pull_at = Pair(size * gap.x / length, size * gap.y / length)
         return pull_at if link == a.link else -pull_at
+
+
+@singledispatch
+def worked_force(load: Load, write: LoadFormulas, step: Step, link: str, force: complex) -> Pair | None:
+    """The formula of the force (N, frame axes) of a load on a link; None: magnitude and direction."""
+    return None
+
+
+@worked_force.register
+def _spring(load: Spring, write: LoadFormulas, step: Step, link: str, force: complex) -> Pair | None:
+    def tension(length: Term, parting: Term) -> Term:
+        free, stiff = write.named("L0", load, load.free_length), write.named("k", load, load.stiffness)
+        pull = stiff * (length - free) if load.free_length else stiff * length
+        return write.named("F0", load, load.preload) + pull if load.preload else pull
+
+    return write.between(step, load, load.between, link, tension)
+
+
+@worked_force.register
+def _damper(load: Damper, write: LoadFormulas, step: Step, link: str, force: complex) -> Pair | None:
+    def tension(length: Term, parting: Term) -> Term:
+        speed = step.find(write.named("L'", load, parting.value), parting, "m/s")
+        return write.named("c", load, load.damping) * speed
+
+    return write.between(step, load, load.between, link, tension)
+
+
+@worked_force.register
+def _pressure(load: Pressure, write: LoadFormulas, step: Step, link: str, force: complex) -> Pair | None:
+    joint, along = write.book.mechanism.guides[load.joint], write.book.slide(load.joint).along
+    forward = (link == joint.block) == (load.pushes == "forward")
+    push = force.real * along.x.value + force.imag * along.y.value
+
+    def press() -> Term:
+        if load.area is not None:
+            area = step.give(write.named("A", load, load.area), "m²")
+        else:
+            round_area = write.circle(write.named("d", load, load.bore or 0.0))
+            area = step.find(write.named("A", load, round_area.value), round_area, "m²")
+        pressure = (push if forward else -push) / area.amount
+        return step.give(write.named("p", load, pressure), "Pa") * area
+
+    size = write.size(step, load, "F", "N", press)
+    if size is None:
+        return None
+    return along.times(size) if forward else -along.times(size)
+
+
+@singledispatch
+def worked_couple(load: Load, write: LoadFormulas, step: Step, link: str, torque: float) -> Term | None:
+    """The formula of the couple (N·m) of a load on a link; None: its number."""
+    return None
+
+
+@worked_couple.register
+def _torsion_damper(
+    load: TorsionDamper, write: LoadFormulas, step: Step, link: str, torque: float
+) -> Term | None:
+    a, b = (write.book.omega(each) for each in load.links)
+    drag = write.named("c", load, load.damping) * (b - a)
+    return write.couple(step, load, load.links, link, torque, lambda _: drag)
+
+
+@worked_couple.register
+def _torsion_spring(
+    load: TorsionSpring, write: LoadFormulas, step: Step, link: str, torque: float
+) -> Term | None:
+    def moment(known: float) -> Term | None:
+        if not load.stiffness:
+            return None
+        angle = load.free_angle + (known - load.preload) / load.stiffness
+        twist = step.give(write.named("φ", load, angle), "rad")
+        free = write.named("φ0", load, load.free_angle)
+        found = write.named("k", load, load.stiffness) * (twist - free if load.free_angle else twist)
+        return write.named("M0", load, load.preload) + found if load.preload else found
+
+    return write.couple(step, load, load.links, link, torque, moment)
+
+
+@singledispatch
+def turns_with(load: Load) -> str | None:
+    """The link with which the direction of a load's force turns."""
+    return None
+
+
+@turns_with.register
+def _of_link(load: Force) -> str | None:
+    return load.on if load.normal_to or load.along or load.in_link is not None else None

@@ -16,7 +16,6 @@ import linkwright as lw
 from linkwright.engine.vector import Vec
 from linkwright.fields.base import Quantities, Quantity, Word
 from linkwright.fields.references import LinkName, PointName, PointPair, PointReference, PointReferences
-from linkwright.fields.signals import Magnitude
 from linkwright.files.build import Model
 from linkwright.files.model_file import loads
 from linkwright.files.schema import json_schema
@@ -24,7 +23,10 @@ from linkwright.files.write import dump
 from linkwright.joints.base import JointName
 from linkwright.loads import base
 from linkwright.loads.base import LOADS, LinkPoint, Load
+from linkwright.loads.keys import SizeField
+from linkwright.loads.magnitude import Magnitude
 from linkwright.loads.site import Site, Wrench
+from linkwright.loads.sizes import Constant
 from linkwright.mechanism.mechanism import Mechanism
 
 
@@ -81,7 +83,7 @@ def value(field: Any, name: str) -> Any:
         Word: lambda: field.choices[-1],
         Quantity: lambda: size,
         Quantities: lambda: [size, 0.5 * size],
-        Magnitude: lambda: 3.0 * size,
+        SizeField: lambda: 3.0 * size,
     }
     for kind, make in given.items():
         if type(field) is kind:
@@ -186,8 +188,7 @@ class FreeSite:
         return self.load.dimensions()[f"loads.load.{field}"]
 
     def magnitude(self) -> Any:
-        own = self.load.traced(self)
-        return self.load.magnitude if own is None else own
+        return self.load.magnitude.size.at(self, 0.0)
 
     def direction(self, angle: float) -> Vec:
         return Vec(math.cos(angle), math.sin(angle))
@@ -253,8 +254,12 @@ def mirrored_load(load: Load) -> Load:
     """The load as it stands in the mirror, in which angles and torques change their sign."""
     changes: dict[str, Any] = {}
     for name, field in load.fields().items():
-        given, dimension = getattr(load, name), getattr(field, "dimension", "")
+        given, dimension = getattr(load, name, None), getattr(field, "dimension", "")
         if given is None or load.kind == Magnet.kind:
+            continue
+        if isinstance(given, Magnitude):
+            if dimension == "torque" and load.opposes is None:
+                changes[name] = Magnitude(Constant(-given.size.value))
             continue
         if dimension in ("angle", "torque") and getattr(load, "opposes", None) is None:
             changes[name] = -given
@@ -298,14 +303,14 @@ def pushed(site: FreeSite) -> float:
     direction, place, _ = site.guide("guide")
     area = site.load.area or math.pi * site.load.bore**2 / 4
     sign = 1.0 if site.load.pushes == "forward" else -1.0
-    return -sign * site.load.magnitude * area * direction.dot(place - site.place("frame", "G"))
+    return -sign * site.load.magnitude.size.value * area * direction.dot(place - site.place("frame", "G"))
 
 
 def weighed(site: FreeSite) -> float:
     at = site.place("arm", "D")
     if site.load.components:
         return -Vec(*site.load.components).dot(at)
-    return -site.load.magnitude * site.direction(site.load.direction).dot(at)
+    return -site.load.magnitude.size.value * site.direction(site.load.direction).dot(at)
 
 
 ENERGIES: dict[str, Callable[[FreeSite], float]] = {
@@ -313,7 +318,9 @@ ENERGIES: dict[str, Callable[[FreeSite], float]] = {
     "torsion_spring": twisted,
     "pressure": pushed,
     "force": weighed,
-    "torque": lambda site: -site.load.magnitude * (site.bodies["arm"].angle - site.bodies["bar"].angle),
+    "torque": lambda site: (
+        -site.load.magnitude.size.value * (site.bodies["arm"].angle - site.bodies["bar"].angle)
+    ),
     Magnet.kind: lambda site: site.load.strength / site.load.reach * math.log(length(site)),
 }
 DISSIPATING = {"damper", "torsion_damper"}
@@ -362,7 +369,7 @@ def test_what_opposes_a_velocity_takes_its_power(kind: str, keys: dict[str, Any]
     site = FreeSite(mechanism, load, BODIES)
     speed = math.sqrt(site.velocity("arm", "D").square) if kind == "force" else abs(1.3 - -2.1)
     assert speed > 0.1
-    assert site.power() == pytest.approx(-load.magnitude * speed, rel=1e-12)
+    assert site.power() == pytest.approx(-load.magnitude.size.value * speed, rel=1e-12)
 
 
 @each_load

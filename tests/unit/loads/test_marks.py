@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
+from linkwright.plot.drawing.load_marks import mark_of
 
 MODEL = """format: 1
 frame: {points: {O: [0 m, 0 m]}}
@@ -29,7 +30,7 @@ loads:
 def test_an_arrow_points_as_the_force_does(given: str, turned: bool) -> None:
     machine = lw.loads(MODEL.replace("GIVEN", given.strip("'")))
     motion = lw.solve_motion(machine, steps=8)
-    mark = machine.loads["push"].mark(motion, 1)
+    mark = mark_of(machine.loads["push"], motion, 1)
     expected = np.deg2rad(210.0 if turned else 30.0)
     assert (mark.link, mark.at) == ("arm", "A")
     assert np.exp(1j * mark.angle) == pytest.approx(np.exp(1j * expected), rel=1e-12)
@@ -72,14 +73,14 @@ def test_arrows_of_forces_in_every_way_of_giving_a_direction(load: str, size: fl
     motion = lw.solve_motion(lw.loads(text), steps=7)
     force = lw.solve_forces(motion).load("push").force
     for k in range(7):
-        angle = motion.mechanism.loads["push"].mark(motion, k).angle
+        angle = mark_of(motion.mechanism.loads["push"], motion, k).angle
         assert 4.0 * np.array([np.cos(angle), np.sin(angle)]) == pytest.approx(force[k], abs=1e-9)
 
 
 def test_an_arrow_of_components_and_one_against_a_motion_that_only_begins() -> None:
     text = EVERY.replace("LAW", TURNING).replace("LOAD", f"{FORCE}, components: [-3 N, 4 N]")
     motion = lw.solve_motion(lw.loads(text), steps=3)
-    assert motion.mechanism.loads["push"].mark(motion, 1).angle == pytest.approx(np.arctan2(4, -3))
+    assert mark_of(motion.mechanism.loads["push"], motion, 1).angle == pytest.approx(np.arctan2(4, -3))
     load = "kind: force, on: crank, at: A, opposes: velocity, magnitude: 1 N"
     resting = lw.solve_motion(
         lw.loads(EVERY.replace("LAW", TO_AND_FRO).replace("LOAD", load)), times=[0.0, 0.01]
@@ -87,7 +88,7 @@ def test_an_arrow_of_components_and_one_against_a_motion_that_only_begins() -> N
     acceleration = resting.point("A").acceleration[0]
     assert np.hypot(*resting.point("A").velocity[0]) < 1e-12
     for k in (0, 1):
-        angle = resting.mechanism.loads["push"].mark(resting, k).angle
+        angle = mark_of(resting.mechanism.loads["push"], resting, k).angle
         assert [np.cos(angle), np.sin(angle)] @ acceleration == pytest.approx(
             -np.hypot(*acceleration), rel=1e-2
         )
@@ -105,7 +106,7 @@ def test_an_arrow_of_components_and_one_against_a_motion_that_only_begins() -> N
 def test_turning_arrows_show_the_sign_of_the_torque(load: str, sense: int) -> None:
     text = EVERY.replace("LAW", TURNING).replace("LOAD", f"kind: torque, on: rod, {load}")
     motion = lw.solve_motion(lw.loads(text), steps=3)
-    mark = motion.mechanism.loads["push"].mark(motion, 0)
+    mark = mark_of(motion.mechanism.loads["push"], motion, 0)
     assert (mark.link, mark.sense) == ("rod", sense)
 
 
@@ -117,7 +118,7 @@ def test_turning_arrows_against_a_rotation(size: float, against: str) -> None:
     motion = lw.solve_motion(lw.loads(EVERY.replace("LAW", TO_AND_FRO).replace("LOAD", load)), steps=8)
     rod, crank = (motion.link(name).angular_velocity for name in ("rod", "crank"))
     against_it = -np.sign(size) * np.sign(np.round(rod - (crank if against else 0.0), 9))
-    senses = [motion.mechanism.loads["push"].mark(motion, k).sense for k in range(motion.steps)]
+    senses = [mark_of(motion.mechanism.loads["push"], motion, k).sense for k in range(motion.steps)]
     assert senses == against_it.tolist()
     if not against:
         assert senses == np.sign(lw.solve_forces(motion).load("push").moment).tolist()
@@ -137,5 +138,5 @@ def test_turning_arrows_against_a_rotation(size: float, against: str) -> None:
 def test_arrows_of_a_pressure_lie_along_its_guide(load: str, sense: int) -> None:
     text = EVERY.replace("LAW", TURNING).replace("LOAD", f"kind: pressure, joint: guide, area: 1 m², {load}")
     motion = lw.solve_motion(lw.loads(text), steps=3)
-    mark = motion.mechanism.loads["push"].mark(motion, 0)
+    mark = mark_of(motion.mechanism.loads["push"], motion, 0)
     assert (mark.joint, mark.sense) == ("guide", sense)

@@ -11,23 +11,27 @@ from tests.refusals import refused
 from tests.unit.loads.turning_crank import JAW, PERIOD, Turning
 
 from linkwright.core.outputs import Output
-from linkwright.fields.signals import InputPhase, MovingPhase, SwingPhase, Table
 from linkwright.loads.force import Force
+from linkwright.loads.magnitude import Magnitude
 from linkwright.loads.over_cycle import Activity, evaluate
 from linkwright.loads.over_cycle import activity as activity_of
+from linkwright.loads.phases import InputPhase, MovingPhase, SwingPhase
 from linkwright.loads.signals import Limit, Whole
+from linkwright.loads.sizes import Constant, Ramp, Size, Table
 
 
 def activity(phase: Any, signals: Any, *, ramp: bool = False) -> Activity:
     """When a force with this phase acts."""
-    sizes = {"ramp": (0.0, 1.0)} if ramp else {"magnitude": 1.0}
-    return activity_of(Force(name="load", on="jaw", at="P", direction=0.0, phase=phase, **sizes), signals)
+    size: Size = Ramp(0.0, 1.0) if ramp else Constant(1.0)
+    load = Force(name="load", on="jaw", at="P", direction=0.0, magnitude=Magnitude(size, phase))
+    return activity_of(load, signals)
 
 
 def interpolated(table: Table, signals: Turning, ok: NDArray[np.bool_]) -> NDArray[np.float64]:
     """Values of a force with this table at the positions that are solved."""
     signals.ok = ok
-    return evaluate(Force(name="load", on="jaw", at="P", direction=0.0, table=table), signals)
+    load = Force(name="load", on="jaw", at="P", direction=0.0, magnitude=Magnitude(table))
+    return evaluate(load, signals)
 
 
 def on(signals: Turning, phase: Any) -> list[bool]:

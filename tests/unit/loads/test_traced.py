@@ -18,32 +18,24 @@ from tests.unit.loads.turning_crank import JAW, Turning
 from linkwright.core.expressions import parse
 from linkwright.core.outputs import Output
 from linkwright.engine.trace import Mask, Scalar
-from linkwright.fields.signals import InputPhase, MovingPhase, Phase, SwingPhase, Table
-from linkwright.fields.strokes import Amount, StrokePart
 from linkwright.loads.force import Force
-from linkwright.loads.magnitude import (
-    constants,
-    followed,
-    magnitude,
-    moving_of_turn,
-    outputs_of,
-    part_ends,
-    stroke_of_turn,
-)
+from linkwright.loads.magnitude import Magnitude
 from linkwright.loads.over_cycle import evaluate
+from linkwright.loads.phases import Always, InputPhase, MovingPhase, Phase, SwingPhase
+from linkwright.loads.sizes import Constant, Formula, Ramp, Size, Table
+from linkwright.loads.strokes import Amount, BetweenLimits, StrokePart, moving_of_turn, stroke_of_turn
 
 PLACE = Output("position", "jaw.P", "x")
 TURN = 2 * np.pi
 
 
 @dataclass
-class One:
+class AtPosition:
     """What a traced magnitude sees, as plain numbers, at one position of a crank."""
 
     load: Force
     signals: Turning
     index: int
-    known: tuple[bool, float] | None = None
 
     @property
     def input(self) -> float:
@@ -69,13 +61,13 @@ class One:
     def lap(self) -> float:
         return TURN
 
-    def share_of_input(self, phase: MovingPhase | SwingPhase, share: Scalar) -> Scalar:
+    def share_of_input(self, phase: BetweenLimits, share: Scalar) -> Scalar:
         return share
 
-    def stroke(self, phase: MovingPhase | SwingPhase) -> tuple[Mask, Scalar]:
+    def stroke(self, phase: BetweenLimits, ramp: bool) -> tuple[Mask, Scalar]:
         return stroke_of_turn(self, phase)
 
-    def moving(self, phase: MovingPhase) -> tuple[Mask, Scalar]:
+    def moving(self, phase: BetweenLimits, ramp: bool) -> tuple[Mask, Scalar]:
         return moving_of_turn(self, phase)
 
     def named(self, name: str) -> float:
@@ -85,10 +77,7 @@ class One:
         return self.load.dimensions()[f"loads.load.{field}"]
 
     def constant(self, field: str) -> float:
-        return constants(self.load)[field]
-
-    def known_phase(self) -> tuple[bool, float] | None:
-        return self.known
+        return self.load.magnitude.constants[field]
 
     def limit(self, output: Output, kind: str) -> float:
         return next(each.input for each in self.signals.limits(output) if each.kind == kind)
@@ -99,16 +88,21 @@ class One:
     def output(self, output: Output) -> float:
         return float(self.signals.output(output)[0][self.index])
 
-    def angle_between(self, a: str, b: str) -> float:
+    def angle_between(self, a: str, b: str, near: float) -> float:
         raise AssertionError
 
     def lookup(self, x: float) -> float:
-        assert self.load.table is not None
-        return float(np.interp(x, self.load.table.x, self.load.table.y))
+        table = self.load.magnitude.size
+        assert isinstance(table, Table)
+        return float(np.interp(x, table.x, table.y))
 
 
-def force(**given: Any) -> Force:
-    return Force(name="load", on="jaw", at="P", direction=0.0, **given)
+def force(size: Size, phase: Phase = Always()) -> Force:  # noqa: B008
+    return Force(name="load", on="jaw", at="P", direction=0.0, magnitude=Magnitude(size, phase))
+
+
+def magnitude(load: Force, course: AtPosition) -> float:
+    return float(load.magnitude.at(course))
 
 
 def degrees(start: float, end: float) -> InputPhase:
@@ -140,7 +134,7 @@ LAGS = pytest.mark.parametrize("lag", [0.0, 75.0])
 
 
 def compared(load: Force, signals: Turning) -> tuple[np.ndarray, np.ndarray]:
-    traced = [float(magnitude(load, One(load, signals, k))) for k in range(len(signals.input))]
+    traced = [magnitude(load, AtPosition(load, signals, k)) for k in range(len(signals.input))]
     return np.array(traced), evaluate(load, signals)
 
 
@@ -152,7 +146,7 @@ def test_a_ramp_in_a_phase(phase: str, lag: float, speed: float) -> None:
     signals = Turning(speed * (np.arange(0, 1080, 17.0) + 9.5), speed=speed, lag=lag)
     if phase == "interval from the larger end" and speed < 0:
         signals = Turning(-np.arange(0, 1080, 17.0) - 9.5, speed=speed, lag=lag)
-    for load in (force(ramp=(20.0, 90.0), phase=PHASES[phase]), force(magnitude=7.0, phase=PHASES[phase])):
+    for load in (force(Ramp(20.0, 90.0), PHASES[phase]), force(Constant(7.0), PHASES[phase])):
         traced, array = compared(load, signals)
         assert traced == pytest.approx(array, abs=1e-9)
         assert phase == "whole turn" or 0 < np.count_nonzero(array) < len(array)
@@ -160,16 +154,16 @@ def test_a_ramp_in_a_phase(phase: str, lag: float, speed: float) -> None:
 
 @pytest.mark.parametrize(("phase", "at"), [("interval", [30, 200]), ("from limit to limit", [0, 180])])
 def test_a_phase_holds_its_ends(phase: str, at: list[float]) -> None:
-    load = force(ramp=(20.0, 90.0), phase=PHASES[phase])
+    load = force(Ramp(20.0, 90.0), PHASES[phase])
     traced, array = compared(load, Turning([*at, *(each + 360 for each in at)]))
     assert traced == pytest.approx([20, 90, 20, 90], abs=1e-6)
     assert array == pytest.approx(traced, abs=1e-6)
 
 
-def test_where_the_phase_is_known_it_is_taken() -> None:
-    load, signals = force(ramp=(20.0, 90.0), phase=PHASES["interval"]), Turning([250])
-    assert magnitude(load, One(load, signals, 0, (True, 0.25))) == pytest.approx(37.5)
-    assert magnitude(load, One(load, signals, 0, (False, 0.25))) == 0.0
+def test_a_size_follows_the_share_of_its_phase() -> None:
+    load, signals = force(Ramp(20.0, 90.0), PHASES["interval"]), Turning([250])
+    assert load.magnitude.size.at(AtPosition(load, signals, 0), 0.25) == pytest.approx(37.5)
+    assert magnitude(load, AtPosition(load, signals, 0)) == 0.0
 
 
 TABLES = {
@@ -188,10 +182,10 @@ TABLES = {
 @pytest.mark.parametrize("name", TABLES)
 def test_a_table(name: str, speed: float) -> None:
     """Within what it covers as the arrays have it; elsewhere no number."""
-    table, load = TABLES[name], force(table=TABLES[name])
+    table, load = TABLES[name], force(TABLES[name])
     at = np.arange(-350, 1081, 14.3) if table.over == "input" else speed * np.arange(5, 1081, 14.3)
     signals = Turning(at, speed=speed)
-    traced = np.array([float(magnitude(load, One(load, signals, k))) for k in range(len(at))])
+    traced = np.array([magnitude(load, AtPosition(load, signals, k)) for k in range(len(at))])
     covered = np.isfinite(traced)
     assert covered.sum() > 3
     some = Turning(at[covered], speed=speed)
@@ -204,7 +198,7 @@ def test_a_table(name: str, speed: float) -> None:
 
 
 def test_a_table_begins_and_ends_with_its_rows() -> None:
-    load = force(table=TABLES["half a turn"])
+    load = force(TABLES["half a turn"])
     traced, array = compared(load, Turning([-30, 150, 330, 510]))
     assert traced == pytest.approx([1, 2, 1, 2]) and array == pytest.approx(traced)
 
@@ -220,16 +214,16 @@ def test_a_table_begins_and_ends_with_its_rows() -> None:
     ],
 )
 def test_a_part_of_a_stroke_of_two_metres(phase: SwingPhase, ends: tuple[float, float]) -> None:
-    load = force(magnitude=1.0, phase=phase)
-    begin, end, stroke = part_ends(phase, One(load, Turning([0]), 0))
+    load = force(Constant(1.0), phase)
+    begin, end, stroke = phase.part_ends(AtPosition(load, Turning([0]), 0))
     assert (begin, end) == pytest.approx(ends) and stroke == pytest.approx(-2.0)
 
 
 @pytest.mark.parametrize("amounts", [(0.6, 0.5), (0.55, 0.5), (-0.1, 0.2), (0.2, -0.1)])
 def test_a_part_that_the_stroke_does_not_have_gives_no_number(amounts: tuple[float, float]) -> None:
-    for size in ({"ramp": (1.0, 2.0)}, {"magnitude": 5.0}):
-        load = force(**size, phase=part("free", *amounts))
-        assert np.isnan(float(magnitude(load, One(load, Turning([90]), 0))))
+    for size in (Ramp(1.0, 2.0), Constant(5.0)):
+        load = force(size, part("free", *amounts))
+        assert np.isnan(magnitude(load, AtPosition(load, Turning([90]), 0)))
         with refused("loads.part_too_long", part="free", stroke="2 m"):
             evaluate(load, Turning([90]))
 
@@ -238,15 +232,16 @@ def test_outputs_and_numbers_that_a_load_takes() -> None:
     mechanism = store.machine("jaw_crusher_sixbar")
     link = next(iter(mechanism.links))
     names = (link, "t", "nothing")
-    divided = force(magnitude=parse(f"sin({link})/(2 + cos({link}))", names))
-    assert not followed(divided, mechanism)
-    assert [str(each) for each in outputs_of(divided, mechanism)] == [link]
-    plain = force(magnitude=parse(f"3*sin({link})/2 + t", names))
-    assert followed(plain, mechanism) and len(outputs_of(plain, mechanism)) == 1
-    assert followed(force(magnitude=parse("1/(2 + t)", names)), mechanism)
-    assert not followed(force(magnitude=parse("nothing", names)), mechanism)
-    assert followed(force(magnitude=5.0), mechanism) and outputs_of(force(magnitude=5.0), mechanism) == ()
-    over = force(table=TABLES["length"], phase=part("free", 0.1, 0.25))
-    assert outputs_of(over, mechanism) == (PLACE,)
-    assert constants(over) == {"first": -1.0, "last": 1.0, "part.0": 0.1, "part.1": 0.25}
-    assert outputs_of(force(magnitude=1.0, phase=PHASES["back"]), mechanism) == ()
+    divided = Magnitude(Formula(parse(f"sin({link})/(2 + cos({link}))", names)))
+    assert not divided.traceable(mechanism)
+    assert [str(each) for each in divided.outputs(mechanism)] == [link]
+    plain = Magnitude(Formula(parse(f"3*sin({link})/2 + t", names)))
+    assert plain.traceable(mechanism) and len(plain.outputs(mechanism)) == 1
+    assert Magnitude(Formula(parse("1/(2 + t)", names))).traceable(mechanism)
+    assert not Magnitude(Formula(parse("nothing", names))).traceable(mechanism)
+    constant = Magnitude(Constant(5.0))
+    assert constant.traceable(mechanism) and constant.outputs(mechanism) == ()
+    over = Magnitude(TABLES["length"], part("free", 0.1, 0.25))
+    assert over.outputs(mechanism) == (PLACE,)
+    assert over.constants == {"first": -1.0, "last": 1.0, "part.0": 0.1, "part.1": 0.25}
+    assert Magnitude(Constant(1.0), PHASES["back"]).outputs(mechanism) == ()

@@ -47,6 +47,8 @@ LEFT: Mapping[str, tuple[int, str]] = {
     "tolerance/pin_turning_law.py": (1, "a law of its own, by a table, for pins that follow their reactions"),
     "cli/commands/check.py": (1, "judges closeness to singular positions by the metric's rule"),
     "cli/solve_remarks.py": (1, "says how near a solution is to a singular position"),
+    "plot/drawing/load_marks.py": (3, "the marks of forces, torques and pressures, by type"),
+    "worked/load_formulas.py": (6, "the formulas of loads, by type"),
     "plot/drawing/draw.py": (2, "the kind of arrows on paper: velocities, accelerations, forces"),
     "plot/animation.py": (1, "the kind of arrows on paper"),
     "parts/beams/beam.py": (1, "the kind of a beam's support; spring is one"),

@@ -12,15 +12,14 @@ from typing import TYPE_CHECKING, Any
 from linkwright import gallery
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
-from linkwright.core.expressions import Expression
 from linkwright.errors import NO_FILE, Finding, LinkwrightError, ModelError
 from linkwright.words.sentence import Sentence, code_of
 
 if TYPE_CHECKING:
     from linkwright.elements.topology import Group
-    from linkwright.fields.signals import MovingPhase, SwingPhase
     from linkwright.kinematics.motion import Motion
     from linkwright.loads.base import Load
+    from linkwright.loads.phases import Phase
     from linkwright.mechanism.mechanism import Mechanism
     from linkwright.structure.analysis import Structure
 
@@ -84,7 +83,9 @@ def findings_of(name: str) -> tuple[list[Finding], dict[str, object]]:
             "class": built.mechanism_class,
         }
         swings = _swings(mechanism)
-        plain = plainly_passed(mechanism, built, TRIED, [each.output for each in swings.values()])
+        plain = plainly_passed(
+            mechanism, built, TRIED, [output for each in swings.values() for output in each.outputs]
+        )
         turned, notes = _turned(name, mechanism) if plain is None else ([], [])
     except LinkwrightError as error:
         parts = (isinstance(error, AssemblyError) and error.parts) or (("", error.sentence),)
@@ -92,9 +93,7 @@ def findings_of(name: str) -> tuple[list[Finding], dict[str, object]]:
         return [*found, *(replace(located(each, root, place), key="") for each in barred)], {}
     sure = plain or [False] * len(swings)
     unsure = [
-        load
-        for (load, phase), each in zip(swings.items(), sure, strict=True)
-        if getattr(phase, "part", None) or not each
+        load for (load, phase), each in zip(swings.items(), sure, strict=True) if phase.fallible or not each
     ]
     unsure = [load for load in unsure if all(each.code != "no-motion" for each in found)]
     varying = [load for load, each in mechanism.loads.items() if _varies(each)]
@@ -203,32 +202,33 @@ def _hardly_determined(name: str, motion: Motion) -> Iterator[Finding]:
             yield Finding("warning", name, "", told, remedy, "singular")
 
 
-def _swings(mechanism: Mechanism) -> dict[str, MovingPhase | SwingPhase]:
+def _swings(mechanism: Mechanism) -> dict[str, Phase]:
     """Phases of loads by the strokes of an output, or while it moves one way."""
-    from linkwright.fields.signals import MovingPhase, SwingPhase
-
-    phases = {load: getattr(each, "phase", None) for load, each in mechanism.loads.items()}
-    return {load: phase for load, phase in phases.items() if isinstance(phase, MovingPhase | SwingPhase)}
+    phases = {
+        load: each.magnitude.phase for load, each in mechanism.loads.items() if each.magnitude is not None
+    }
+    return {load: phase for load, phase in phases.items() if phase.outputs}
 
 
 def _varies(load: Load) -> bool:
     """Whether a load's size follows an expression or a table, which may not hold for all positions."""
-    return getattr(load, "table", None) is not None or isinstance(getattr(load, "magnitude", 0.0), Expression)
+    return load.magnitude is not None and load.magnitude.size.fallible
 
 
 def _of_loads(name: str, mechanism: Mechanism, loads: Sequence[str], varying: Sequence[str]) -> list[Finding]:
     """Loads whose phase the motion does not have: of an output that never reverses, of more than its stroke, while
     an output moves as it never does; and ``varying`` ones that have no value somewhere in the cycle."""
-    from linkwright.fields.signals import MovingPhase
     from linkwright.kinematics.solve import try_motion
     from linkwright.kinetostatics.signals import MotionSignals
     from linkwright.loads.over_cycle import activity, magnitudes
+    from linkwright.loads.phases import MovingPhase
 
     signals, found = MotionSignals(try_motion(mechanism, TRIED)), []
     for load in loads:
-        key, phase = f"loads.{load}.phase", getattr(mechanism.loads[load], "phase", None)
+        key, each = f"loads.{load}.phase", mechanism.loads[load]
+        phase = each.magnitude and each.magnitude.phase
         try:
-            acts = activity(mechanism.loads[load], signals).where
+            acts = activity(each, signals).where
         except LinkwrightError as error:
             found.append(Finding("error", name, key, error.sentence, code="no-motion"))
             continue

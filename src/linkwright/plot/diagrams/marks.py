@@ -14,6 +14,7 @@ from linkwright.errors import LinkwrightError
 from linkwright.kinematics.limits import limit_positions
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.loads.over_cycle import activity
+from linkwright.loads.phases import Always
 from linkwright.metrics.analysis import Kind
 from linkwright.pictures.diagram import INK, Axes
 from linkwright.plot.diagrams.axes import Unit
@@ -70,7 +71,7 @@ def acting(source: Source) -> dict[str, np.ndarray[tuple[int], np.dtype[np.bool_
     found = {}
     signals = MotionSignals(source.motion)
     for name, load in source.mechanism.loads.items():
-        if getattr(load, "phase", None) is None:
+        if load.magnitude is None or isinstance(load.magnitude.phase, Always):
             continue
         try:
             where = activity(load, signals).where

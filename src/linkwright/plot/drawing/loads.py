@@ -8,12 +8,12 @@ from collections.abc import Sequence
 from linkwright.fields.references import PointName
 from linkwright.joints.base import JointName
 from linkwright.loads.base import LinkPoint, Load
-from linkwright.loads.marks import Press, Push, Turn
 from linkwright.pictures.svg.element import Element
 from linkwright.pictures.symbols.base import EMPTY, SYMBOLS, Shape, Vec, joined
 from linkwright.pictures.symbols.joints import HEIGHT, LENGTH
 from linkwright.plot.drawing.guides import clear_shift, is_cylinder
 from linkwright.plot.drawing.labels import LINK_SIZE, Label
+from linkwright.plot.drawing.load_marks import Press, Push, Turn, mark_of
 from linkwright.plot.drawing.machine import Machine
 from linkwright.plot.drawing.moving import moving_lines
 from linkwright.plot.drawing.scene import Scene
@@ -61,8 +61,7 @@ def _held(machine: Machine, load: Load, index: int) -> Shape:
 def named_points(machine: Machine, load: Load) -> list[LinkPoint]:
     """The points that a load of any kind names in its fields."""
     found: list[LinkPoint] = []
-    for name, declared in load.fields().items():
-        value = getattr(load, name)
+    for _, declared, value in load.given():
         if isinstance(value, LinkPoint):
             found.append(value)
         elif isinstance(value, tuple) and all(isinstance(each, LinkPoint) for each in value):
@@ -153,7 +152,7 @@ def moving_springs(scene: Scene, run: Sequence[int], seconds: float) -> list[Ele
     """Springs and dampers that follow their ends over the frames."""
     found: list[Element] = []
     for load in scene.machine.motion.mechanism.loads.values():
-        if load.mark(scene.machine.motion, run[0]) is not None:
+        if mark_of(load, scene.machine.motion, run[0]) is not None:
             continue
         shapes = [_held(scene.machine, load, index).ink for index in run]
         found += anchors(scene.machine, load, run[0]).elements

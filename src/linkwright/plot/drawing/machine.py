@@ -14,9 +14,9 @@ from linkwright.joints.lower import SlidingJoint, TurningJoint
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.placement import Placement
 from linkwright.loads.base import Load
-from linkwright.loads.marks import Mark
 from linkwright.mechanism.mechanism import Link
 from linkwright.pictures.symbols.base import PIN, SYMBOLS, Shape, Vec, points
+from linkwright.plot.drawing.load_marks import Mark, mark_of
 from linkwright.plot.drawing.view import View
 
 Layer = Literal["ground", "bodies", "blocks", "pins", "tops", "marks"]
@@ -47,7 +47,7 @@ class Machine:
     def mark(self, load: Load, index: int) -> Mark | None:
         """What a load draws of itself at a position."""
         last = self.motion.steps
-        return load.mark(*(self.beside[index - last] if index >= last else (self.motion, index)))
+        return mark_of(load, *(self.beside[index - last] if index >= last else (self.motion, index)))
 
     @property
     def pins(self) -> Mapping[str, TurningJoint]:

@@ -1,24 +1,22 @@
-"""Magnitudes from an expression, with every place where it has no value found and named."""
+"""Where magnitudes have no value, found and named: expressions, tables, intervals, parts of strokes."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Literal
 
-from linkwright.core.arrays import Flags, Floats
-from linkwright.core.expression_tree import Binary, Call, Negative, Node, Number, evaluate, scalar_functions
+from linkwright.core.expression_tree import Node, Number, denominators, evaluate, scalar_functions
 from linkwright.core.expressions import ON_VALUES, Expression
 from linkwright.core.outputs import Output
 from linkwright.engine.late_import import numpy as np
-from linkwright.errors import LinkwrightError, QuantityError
-from linkwright.fields.signals import resolve_output
-from linkwright.loads.signals import Signals, column, input_dimension, shown, spot
-from linkwright.registry import offered
+from linkwright.errors import QuantityError
+from linkwright.loads.signals import Signals, column, input_dimension, named_column, output_named, shown, spot
+from linkwright.loads.strokes import NEAR, TURN, StrokePart
 from linkwright.units import LARGEST
-from linkwright.words.sentence import Sentence
+from linkwright.words.sentence import Sentence, together
 
 if TYPE_CHECKING:
-    from linkwright.mechanism.mechanism import Mechanism
+    from linkwright.core.arrays import Flags, Floats
 
 _HALVINGS = 60
 #: Any magnitude is below the largest torque.
@@ -27,37 +25,19 @@ _LARGEST = LARGEST["torque"]
 _APART = 0.5
 
 
-def refuse_formula(expression: Expression, signals: Signals, where: Flags, found: Floats) -> None:
-    """Raises LinkwrightError where the values ``found`` (n,) of an expression are not finite ``where`` they are
-    needed, at a position or between two."""
+def formula_fault(expression: Expression, signals: Signals, where: Flags, found: Floats) -> Sentence | None:
+    """Where the values ``found`` (n,) of an expression are not finite ``where`` they are needed, at a position or
+    between two."""
     columns = {name: column(named_column(name, signals), len(where)) for name in sorted(expression.names)}
     bad = np.flatnonzero(where & ~(np.abs(found) <= _LARGEST))
     if len(bad):
-        raise LinkwrightError(_refusal(expression, columns, signals, int(bad[0])))
-    _no_poles_between(expression, columns, signals, where)
+        return _not_finite(expression, columns, signals, int(bad[0]))
+    return _pole_between(expression, columns, signals, where)
 
 
-def named_column(name: str, signals: Signals) -> Any:
-    """Values, a number or (n,), of a parameter, ``t``, ``input`` or an output in an expression."""
-    mechanism = signals.mechanism
-    if name in mechanism.parameters:
-        return mechanism.parameters[name]
-    if name in ("t", "input"):
-        return signals.time if name == "t" else signals.input
-    found = output_named(name, signals.mechanism)
-    if found is None:
-        known = ["t", "input", *mechanism.parameters, *mechanism.links, *mechanism.joints]
-        raise LinkwrightError("loads.unknown_in_magnitude", name=name, hint=offered(name, known))
-    return signals.output(found)[0]
-
-
-def output_named(name: str, mechanism: Mechanism) -> Output | None:
-    """The output that a name in an expression means."""
-    links = {"frame": mechanism.frame, **mechanism.links}
-    return resolve_output(name, {link: tuple(each.points) for link, each in links.items()}, mechanism.guides)
-
-
-def _refusal(expression: Expression, columns: Mapping[str, Floats], signals: Signals, index: int) -> str:
+def _not_finite(
+    expression: Expression, columns: Mapping[str, Floats], signals: Signals, index: int
+) -> Sentence:
     try:
         expression.evaluate({name: float(values[index]) for name, values in columns.items()})
     except QuantityError as error:
@@ -66,13 +46,13 @@ def _refusal(expression: Expression, columns: Mapping[str, Floats], signals: Sig
     return Sentence("loads.formula_not_finite", text=expression.text, where=spot(signals, index))
 
 
-def _no_poles_between(
+def _pole_between(
     expression: Expression, columns: Mapping[str, Floats], signals: Signals, where: Flags
-) -> None:
-    """Raises where a denominator goes through zero between two neighbouring positions."""
+) -> Sentence | None:
+    """Where a denominator goes through zero between two neighbouring positions."""
     divisors = [each for each in denominators(expression.tree) if not isinstance(each, Number)]
     if not divisors or len(where) < 2:
-        return
+        return None
     closes = signals.closes
     if closes is not None:
         columns = {name: _with_next(name, values, signals) for name, values in columns.items()}
@@ -84,7 +64,8 @@ def _no_poles_between(
         for index in np.flatnonzero(both & (values[:-1] * values[1:] < 0)):
             share = _zero(divisor, columns, int(index))
             if share is not None:
-                raise LinkwrightError(_between(expression, signals, int(index), share))
+                return _between(expression, signals, int(index), share)
+    return None
 
 
 def _neighbours(signals: Signals) -> Flags:
@@ -102,27 +83,6 @@ def _with_next(name: str, values: Floats, signals: Signals) -> Floats:
     if found is not None and found.kind == "angle" and name not in signals.mechanism.parameters:
         gain = 2 * np.pi * np.round((values[-1] - values[0]) / (2 * np.pi))
     return np.append(values, values[0] + gain)
-
-
-def denominators(node: Node) -> Iterator[Node]:
-    """All that an expression divides by; the cosine for a tangent."""
-    match node:
-        case Negative(operand):
-            yield from denominators(operand)
-        case Call(function, arguments):
-            if function == "tan":
-                yield Call("cos", arguments)
-            for argument in arguments:
-                yield from denominators(argument)
-        case Binary(sign, left, right):
-            if sign == "/":
-                yield right
-            if sign == "^" and (
-                isinstance(right, Negative) or (isinstance(right, Number) and right.value < 0)
-            ):
-                yield left
-            yield from denominators(left)
-            yield from denominators(right)
 
 
 def _zero(divisor: Node, columns: Mapping[str, Floats], index: int) -> float | None:
@@ -145,7 +105,48 @@ def _zero(divisor: Node, columns: Mapping[str, Floats], index: int) -> float | N
     return low if abs(value(low)) <= 1e-6 * size else None
 
 
-def _between(expression: Expression, signals: Signals, index: int, share: float) -> str:
+def _between(expression: Expression, signals: Signals, index: int, share: float) -> Sentence:
     q = signals.input if signals.closes is None else _with_next("input", signals.input, signals)
     place = shown(float(q[index] + share * (q[index + 1] - q[index])), input_dimension(signals))
     return Sentence("loads.formula_divides", text=expression.text, place=place)
+
+
+def interval_fault(start: float, end: float, signals: Signals) -> Sentence | None:
+    """Why an input does not pass an interval of angles."""
+    length = end - start
+    if not signals.rotary:
+        return None
+    if length < 0 and signals.heading == 0:
+        key = "loads.phase_to_and_fro"
+    elif length > TURN + NEAR or (length < -TURN - NEAR and signals.heading < 0):
+        key = "loads.phase_too_long"
+    else:
+        return None
+    return Sentence(key, start=shown(start, "angle"), end=shown(end, "angle"))
+
+
+def part_fault(output: Output, part: StrokePart, stroke: float) -> Sentence:
+    """How far a stroke (m or rad) is too short for a part of it."""
+    return Sentence(
+        "loads.part_too_long",
+        part=Sentence(f"loads.part_{part.word}"),
+        amounts=" + ".join(shown(each.way(stroke), output.dimension) for each in part.amounts),
+        output=output,
+        stroke=shown(stroke, output.dimension),
+    )
+
+
+def table_fault(
+    over: Literal["input", "time"] | Output, ends: tuple[float, float], short: Floats, signals: Signals
+) -> Sentence:
+    """The range that a table lacks which goes between two ``ends`` and has no values at the places ``short``."""
+    dimension = "time" if over == "time" else input_dimension(signals)
+    dimension = over.dimension if isinstance(over, Output) else dimension
+    (first, last), low, high = ends, float(short.min()), float(short.max())
+    missing = [(low, first)] if low < first else []
+    missing += [(last, high)] if high > last else []
+    ranges = [
+        Sentence("loads.stretch", low=shown(a, dimension), high=shown(b, dimension)) for a, b in missing
+    ]
+    covered = {"first": shown(first, dimension), "last": shown(last, dimension)}
+    return Sentence("loads.table_too_short", over=over, ranges=together(ranges), **covered)

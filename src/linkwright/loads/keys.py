@@ -1,9 +1,9 @@
-"""Fields for what changes over the cycle: outputs, magnitudes, tables over an output, and phases."""
+"""The keys of a file that give a magnitude: its size as a number, an expression, a ramp or a table, and its phase."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Mapping
 from typing import Any, Literal
 
 from linkwright.core.dataclass import dataclass
@@ -13,77 +13,89 @@ from linkwright.fields.base import (
     Field,
     Quantities,
     Schema,
+    Text,
     Word,
+    pair_schema,
     quantity_schema,
     table_schema,
     written_quantity,
 )
 from linkwright.fields.nodes import Mapping as MappingNode
-from linkwright.fields.nodes import Node
+from linkwright.fields.nodes import Node, Scalar, Sequence
 from linkwright.fields.reading import Place, Reader
-from linkwright.fields.strokes import PARTS, StrokePart, StrokePartField
+from linkwright.fields.references import OutputName
+from linkwright.loads.phases import InputPhase, MovingPhase, Phase, SwingPhase
+from linkwright.loads.sizes import Constant, Formula, Ramp, Table
+from linkwright.loads.strokes import Amount, PartWord, StrokePart
 from linkwright.words.sentence import Sentence
 
-Limit = Literal["max", "min"]
+#: Keys of a phase that name a part of the stroke.
+PARTS: Mapping[PartWord, str] = {
+    "first": "only the first part of the stroke: a share (0.2) or a way (10 mm)",
+    "last": "only the last part of the stroke: a share (0.2) or a way (10 mm)",
+    "free": "free parts at both ends, or [at the beginning, at the end]: shares (0.05) or ways (10 mm)",
+}
+
+
+def magnitude_fields(dimension: str, word: str) -> dict[str, Field]:
+    """The keys of a magnitude by their names; ``word``: what it is."""
+    return {
+        "magnitude": SizeField(dimension, doc=word),
+        "ramp": RampField(dimension, (), 2, doc="from, to over the phase"),
+        "table": TableField(dimension, doc=f"{word} over the input, the time or an output"),
+        "phase": PhaseField(doc="when the load acts (default: always)"),
+    }
+
+
+class _Part(Field):
+    """A part of a magnitude, which knows its own dimensions."""
+
+    def flatten(self, value: Any) -> dict[str, float]:
+        found: dict[str, float] = value.dimensions()
+        return found
+
+    def rebuild(self, value: Any, lookup: Callable[[str], float]) -> Any:
+        return value.with_dimensions(lookup)
 
 
 @dataclass(frozen=True)
-class OutputName(Field):
-    """An output: a link's name (its angle), POINT.x or POINT.y, a prismatic joint's name (its
-    displacement); or the same as results are named, ``jaw.angle``."""
-
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Output | None:
-        text = reader.text(node, place)
-        return None if text is None else reader.output(node, place, text)
-
-    def shape(self) -> Schema:
-        return {"type": "string", "x-reference": "output"}
-
-    def written(self, value: Any) -> Any:
-        return str(value)
-
-
-@dataclass(frozen=True)
-class Magnitude(Field):
+class SizeField(_Part):
     """A quantity, or an expression of ``t``, ``input`` (the first driver's coordinate) and outputs."""
 
     dimension: str
 
     def read(
         self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]
-    ) -> float | Expression | None:
-        return reader.magnitude(node, place, self.dimension)
+    ) -> Constant | Formula | None:
+        found = reader.magnitude(node, place, self.dimension)
+        if isinstance(found, Expression):
+            return Formula(found)
+        return None if found is None else Constant(found)
 
     def shape(self) -> Schema:
         return {**quantity_schema(self.dimension), "x-variables": ["t", "input", "OUTPUT"]}
 
-    def flatten(self, value: Any) -> dict[str, float]:
-        return {"": value} if isinstance(value, float) else {}
+    def written(self, value: Any) -> Any:
+        size = value.expression if isinstance(value, Formula) else value.value
+        return written_quantity(size, self.dimension)
 
-    def rebuild(self, value: Any, lookup: Callable[[str], float]) -> Any:
-        return lookup("") if isinstance(value, float) else value
+
+@dataclass(frozen=True)
+class RampField(_Part, Quantities):
+    """Two quantities, at the beginning and at the end of the phase."""
+
+    def read(  # type: ignore[override]
+        self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]
+    ) -> Ramp | None:
+        found = super().read(reader, node, place, given)
+        return None if found is None else Ramp(*found)
 
     def written(self, value: Any) -> Any:
-        return written_quantity(value, self.dimension)
+        return super().written((value.start, value.end))
 
 
 @dataclass(frozen=True)
-class Table:
-    """Values ``y`` at increasing ``x`` of ``over``: the input, the time, or an output.
-
-    ``linear``: straight lines between them; ``cubic``: a spline with continuous second derivative, its ends "not a
-    knot"; ``periodic``: one that goes on from its end as from its beginning, over whole turns of an angle.
-    """
-
-    over: Literal["input", "time"] | Output
-    x: tuple[float, ...]
-    y: tuple[float, ...]
-    across: str = "angle"  # dimension of x
-    interpolation: Literal["linear", "cubic", "periodic"] = "linear"
-
-
-@dataclass(frozen=True)
-class TableField(Field):
+class TableField(_Part):
     """A mapping ``{over: input | time | OUTPUT, x: […], y: […], interpolation: linear}``."""
 
     dimension: str
@@ -107,8 +119,6 @@ class TableField(Field):
         return table
 
     def _fields(self, across: str) -> dict[str, Field]:
-        from linkwright.fields.base import Text
-
         return {
             "over": Text(required=True, doc="input, time, or an output"),
             "x": Quantities(across, required=True, doc="increasing values of what the table goes over"),
@@ -147,48 +157,7 @@ def _fault_of_period(table: Table) -> str | None:
 
 
 @dataclass(frozen=True)
-class InputPhase:
-    """While the first driver's coordinate is between ``start`` and ``end`` (rad or m; angles modulo one
-    turn)."""
-
-    start: float
-    end: float
-    across: str = "angle"  # dimension of both
-
-
-@dataclass(frozen=True)
-class MovingPhase:
-    """While an output increases or decreases."""
-
-    output: Output
-    direction: Literal["increasing", "decreasing"]
-
-    @property
-    def start(self) -> Limit:
-        """The limit at which that begins."""
-        return "min" if self.direction == "increasing" else "max"
-
-    @property
-    def end(self) -> Limit:
-        """The limit at which it ends."""
-        return "max" if self.direction == "increasing" else "min"
-
-
-@dataclass(frozen=True)
-class SwingPhase:
-    """While an output goes from one of its limits to the other, both found by the program; ``part`` of that."""
-
-    output: Output
-    start: Limit
-    end: Limit
-    part: StrokePart | None = None
-
-
-Phase = InputPhase | MovingPhase | SwingPhase
-
-
-@dataclass(frozen=True)
-class PhaseField(Field):
+class PhaseField(_Part):
     """``{input: [a, b]}``, ``{moving: OUTPUT, direction: increasing}`` or ``{of: OUTPUT, from: max, to: min}``,
     the last with ``first``, ``last`` or ``free`` for a part of the stroke."""
 
@@ -234,14 +203,6 @@ class PhaseField(Field):
     def shape(self) -> Schema:
         return {"oneOf": [table_schema(form) for form in self._forms("angle").values()]}
 
-    def flatten(self, value: Any) -> dict[str, float]:
-        return {".input.0": value.start, ".input.1": value.end} if isinstance(value, InputPhase) else {}
-
-    def rebuild(self, value: Any, lookup: Callable[[str], float]) -> Any:
-        if not isinstance(value, InputPhase):
-            return value
-        return InputPhase(lookup(".input.0"), lookup(".input.1"), value.across)
-
     def written(self, value: Any) -> Any:
         match value:
             case InputPhase(start, end, across):
@@ -272,19 +233,60 @@ def _phase(reader: Reader, node: Node, place: Place, values: Mapping[str, Any]) 
     return SwingPhase(values["of"], values["from"], values["to"], *parts)
 
 
-def resolve_output(text: str, links: Mapping[str, Collection[str]], slides: Collection[str]) -> Output | None:
-    """The output that a text means, given each link's points and the joints with a displacement; None where it means
-    none. ``jaw`` or ``jaw.angle``, ``guide`` or ``guide.displacement``, ``C.x`` or ``C.position.x``."""
-    owner, _, part = text.rpartition(".")
-    for kind, owners in (("angle", links), ("displacement", slides)):
-        name = owner if part == kind else text
-        if name in owners and name != "frame":
-            return Output(kind, name)
-    if part not in ("x", "y"):
+@dataclass(frozen=True)
+class StrokePartField(Field):
+    """A share of a stroke or a way; for ``free`` also two of them. The output is the table's key ``of``."""
+
+    word: PartWord
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> StrokePart | None:
+        output = given.get("of")
+        if output is None:
+            return None
+        nodes = [node]
+        if self.word == "free" and isinstance(node, Sequence):
+            nodes = reader.items(node, place, 2, "[0.05, 0.1]") or []
+        with reader.plain_numbers(Sentence("model.plain_stroke_part")):
+            found = [self._amount(reader, each, place, output.dimension) for each in nodes]
+        amounts = tuple(amount for amount in found if amount is not None)
+        return StrokePart(self.word, amounts) if amounts and len(amounts) == len(found) else None
+
+    def _amount(self, reader: Reader, node: Node, place: Place, dimension: str) -> Amount | None:
+        share = _number(node)
+        if share is None:
+            way = reader.quantity(node, place, dimension)
+            if way is None or way > 0 or (way == 0 and self.word == "free"):
+                return None if way is None else Amount(way, share=False)
+        elif 0 < share < 1 or (share == 0 and self.word == "free") or (share == 1 and self.word != "free"):
+            return Amount(share, share=True)
+        text = node.text if isinstance(node, Scalar) else ""
+        reader.finding(
+            node,
+            place,
+            "no_stroke_part",
+            "range",
+            text=text,
+            example="10 mm" if dimension == "length" else "5 deg",
+        )
         return None
-    owner = owner.removesuffix(".position")
-    link, _, point = owner.rpartition(".")
-    if link:
-        return Output("position", owner, part) if point in links.get(link, ()) else None
-    having = [name for name, points in links.items() if point in points]
-    return Output("position", f"{having[0]}.{point}", part, written=f"{point}.{part}") if having else None
+
+    def shape(self) -> Schema:
+        one: Schema = {
+            "anyOf": [{"type": "number", "minimum": 0, "maximum": 1}, quantity_schema("length")["anyOf"][0]]
+        }
+        if self.word != "free":
+            return one
+        return {"anyOf": [*one["anyOf"], pair_schema(one)]}
+
+    def written(self, value: Any) -> Any:
+        raise AssertionError("a phase writes its part")
+
+
+def _number(node: Node) -> float | None:
+    """A bare number, or None."""
+    if not isinstance(node, Scalar) or not node.plain:
+        return None
+    try:
+        return float(node.text)
+    except ValueError:
+        return None

@@ -1,0 +1,255 @@
+"""Sizes of loads: a number, an expression, a ramp or a table; one formula each, for arrays and traced values."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Mapping
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, Self
+
+from linkwright.core.dataclass import dataclass
+from linkwright.core.expression_tree import Number, denominators
+from linkwright.core.expressions import Expression
+from linkwright.core.outputs import Output
+from linkwright.engine.late_import import numpy as np
+from linkwright.engine.table import Table as Curve
+from linkwright.engine.trace import Mask, Scalar, absolute, floor, maximum, select
+from linkwright.loads.course import Course
+from linkwright.loads.faults import formula_fault, table_fault
+from linkwright.loads.signals import Signals, output_named, times_of_inputs
+from linkwright.loads.site import Mechanism
+from linkwright.loads.strokes import NEAR, TURN
+from linkwright.words.sentence import Sentence
+
+if TYPE_CHECKING:
+    from linkwright.core.arrays import Flags, Floats
+
+
+class Size(ABC):
+    """How large a load is while it acts.
+
+    ``key``: of a file; ``ramp``: whether it goes by the share of the phase that is passed; ``fallible``: whether it
+    may have no value somewhere.
+    """
+
+    key: ClassVar[str] = ""
+    ramp: ClassVar[bool] = False
+    fallible: ClassVar[bool] = False
+
+    @abstractmethod
+    def at(self, course: Course, share: Scalar) -> Scalar:
+        """The size where a share of the phase is passed; NaN where there is none."""
+
+    def outputs(self, mechanism: Mechanism) -> tuple[Output, ...]:
+        """The outputs whose values it takes."""
+        return ()
+
+    @property
+    def angles(self) -> Mapping[tuple[str, str], float]:
+        """The links a, b of which it takes the angle of b against a, with the angle (rad) near which that begins."""
+        return {}
+
+    def traceable(self, mechanism: Mechanism) -> bool:
+        """Whether its formula holds between positions as well."""
+        return True
+
+    @property
+    def divides(self) -> bool:
+        """Whether it divides by what is no number."""
+        return False
+
+    @property
+    def constants(self) -> Mapping[str, float]:
+        """Its numbers that are no dimensions, by the names that ``Course.constant`` takes."""
+        return {}
+
+    @property
+    def curve(self) -> Curve | None:
+        """What ``Course.lookup`` looks up."""
+        return None
+
+    def bends(self, signals: Signals) -> Floats:
+        """Times, s, at which it bends, as far as these are known beforehand; whole cycles away perhaps."""
+        return np.empty(0)
+
+    def fault(self, signals: Signals, course: Course, where: Flags, found: Floats) -> Sentence | None:
+        """What keeps the values ``found`` from being finite at the positions ``where`` they are needed."""
+        return None
+
+    def dimensions(self) -> dict[str, float]:
+        """Its dimensions by the suffixes of its address."""
+        return {}
+
+    def with_dimensions(self, value: Callable[[str], float]) -> Self:
+        """The same with other values of its dimensions, by suffix."""
+        return self
+
+
+@dataclass(frozen=True)
+class One(Size):
+    """No size: what acts is given in full (a force by its components)."""
+
+    def at(self, course: Course, share: Scalar) -> Scalar:
+        return 1.0
+
+
+@dataclass(frozen=True)
+class Constant(Size):
+    """One number, SI."""
+
+    key: ClassVar[str] = "magnitude"
+    value: float
+
+    def at(self, course: Course, share: Scalar) -> Scalar:
+        return course.dimension("magnitude")
+
+    def dimensions(self) -> dict[str, float]:
+        return {"": self.value}
+
+    def with_dimensions(self, value: Callable[[str], float]) -> Constant:
+        return Constant(value(""))
+
+
+@dataclass(frozen=True)
+class Formula(Size):
+    """An expression of parameters, ``t``, ``input`` and outputs."""
+
+    key: ClassVar[str] = "magnitude"
+    fallible: ClassVar[bool] = True
+    expression: Expression
+
+    def at(self, course: Course, share: Scalar) -> Scalar:
+        found: Scalar = self.expression.over({name: course.named(name) for name in self.expression.names})
+        return found
+
+    def _named(self, mechanism: Mechanism) -> list[Output | None]:
+        return [
+            output_named(name, mechanism)
+            for name in self.expression.names - {*mechanism.parameters, "t", "input"}
+        ]
+
+    def outputs(self, mechanism: Mechanism) -> tuple[Output, ...]:
+        return tuple(dict.fromkeys(each for each in self._named(mechanism) if each is not None))
+
+    def traceable(self, mechanism: Mechanism) -> bool:
+        """Not where it divides by an output, which may go through zero between two positions."""
+        named = self._named(mechanism)
+        return None not in named and not (named and self.divides)
+
+    @property
+    def divides(self) -> bool:
+        return any(not isinstance(each, Number) for each in denominators(self.expression.tree))
+
+    def fault(self, signals: Signals, course: Course, where: Flags, found: Floats) -> Sentence | None:
+        return formula_fault(self.expression, signals, where, found)
+
+
+@dataclass(frozen=True)
+class Ramp(Size):
+    """From one number to another, SI, over the phase."""
+
+    key: ClassVar[str] = "ramp"
+    ramp: ClassVar[bool] = True
+    start: float
+    end: float
+
+    def at(self, course: Course, share: Scalar) -> Scalar:
+        first, last = course.dimension("ramp.0"), course.dimension("ramp.1")
+        return first + (last - first) * share
+
+    def dimensions(self) -> dict[str, float]:
+        return {".0": self.start, ".1": self.end}
+
+    def with_dimensions(self, value: Callable[[str], float]) -> Ramp:
+        return Ramp(value(".0"), value(".1"))
+
+
+@dataclass(frozen=True)
+class Table(Size):
+    """Values ``y`` at increasing ``x`` of ``over``: the input, the time, or an output.
+
+    ``linear``: straight lines between them; ``cubic``: a spline with continuous second derivative, its ends "not a
+    knot"; ``periodic``: one that goes on from its end as from its beginning, over whole turns of an angle.
+    """
+
+    key: ClassVar[str] = "table"
+    fallible: ClassVar[bool] = True
+    over: Literal["input", "time"] | Output
+    x: tuple[float, ...]
+    y: tuple[float, ...]
+    across: str = "angle"  # dimension of x
+    interpolation: Literal["linear", "cubic", "periodic"] = "linear"
+
+    def at(self, course: Course, share: Scalar) -> Scalar:
+        x, missing = self._place(course)
+        return select(missing, float("nan"), course.lookup(x))
+
+    def _place(self, course: Course) -> tuple[Scalar, Mask]:
+        """Where it is looked up, and whether it does not reach there.
+
+        Angles count modulo one turn; a table over several whole turns repeats after them.
+        """
+        over = self.over
+        x = (
+            course.output(over)
+            if isinstance(over, Output)
+            else course.named("t" if over == "time" else "input")
+        )
+        first, last = course.constant("first"), course.constant("last")
+        span = last - first
+        if (over.dimension if isinstance(over, Output) else self.across) == "angle" and over != "time":
+            whole = TURN * maximum(1.0, floor(span / TURN + 0.5))
+            gone = x - first - whole * floor((x - first) / whole)
+            moved = first + select(gone > whole - NEAR, gone - whole, gone)
+            x = select(span > TURN, select(absolute(span - whole) > NEAR, x, moved), moved)
+        slack = NEAR * span
+        return x, (x < first - slack) | (x > last + slack)
+
+    def outputs(self, mechanism: Mechanism) -> tuple[Output, ...]:
+        return (self.over,) if isinstance(self.over, Output) else ()
+
+    @property
+    def constants(self) -> Mapping[str, float]:
+        return {"first": self.x[0], "last": self.x[-1]}
+
+    @property
+    def curve(self) -> Curve:
+        return _curve(self)
+
+    @property
+    def known_at(self) -> tuple[float, ...]:
+        """Its places of the input or the time, which are known beforehand."""
+        return () if isinstance(self.over, Output) else self.x
+
+    def bends(self, signals: Signals) -> Floats:
+        knots = np.array(self.known_at)
+        found = knots if self.over == "time" or not len(knots) else times_of_inputs(knots, signals)
+        return np.empty(0) if found is None else found
+
+    def fault(self, signals: Signals, course: Course, where: Flags, found: Floats) -> Sentence | None:
+        place: tuple[Any, Any] = self._place(course)
+        short = place[0][where & place[1]]
+        return table_fault(self.over, (self.x[0], self.x[-1]), short, signals) if len(short) else None
+
+
+@lru_cache(256)
+def _curve(table: Table) -> Curve:
+    if table.interpolation == "linear":
+        return Curve.linear(table.x, table.y)
+    return Curve.spline(table.x, table.y, periodic=table.interpolation == "periodic")
+
+
+@dataclass(frozen=True)
+class Twist(Size):
+    """The angle of link ``b`` against link ``a``, rad, with its turns; near an angle where the cycle begins."""
+
+    a: str
+    b: str
+    near: float
+
+    def at(self, course: Course, share: Scalar) -> Scalar:
+        return course.angle_between(self.a, self.b, self.near)
+
+    @property
+    def angles(self) -> Mapping[tuple[str, str], float]:
+        return {(self.a, self.b): self.near}

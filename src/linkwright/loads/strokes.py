@@ -1,0 +1,203 @@
+"""Strokes: an output's way from one limit position to the other, parts of it, and laps of the input."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, Literal, Protocol
+
+from linkwright.core.dataclass import dataclass
+from linkwright.core.outputs import Output
+from linkwright.engine.late_import import numpy as np
+from linkwright.engine.trace import Mask, Scalar, floor, maximum, minimum, select
+from linkwright.errors import LinkwrightError
+from linkwright.fields.base import written_quantity
+from linkwright.loads.signals import Limit, Signals, Whole, input_dimension, shown
+from linkwright.words.sentence import Sentence
+
+if TYPE_CHECKING:
+    from linkwright.core.arrays import Flags, Floats
+
+TURN = 2 * math.pi
+#: Positions this near to the end of a phase (rad, m, or share of the cycle's time) belong to it.
+NEAR = 1e-9
+LimitKind = Literal["max", "min"]
+PartWord = Literal["first", "last", "free"]
+
+
+@dataclass(frozen=True)
+class Amount:
+    """A share of a stroke, 0 to 1, or a length of it (m or rad)."""
+
+    value: float
+    share: bool
+
+    def way(self, stroke: float) -> float:
+        """Its length in a stroke (m or rad)."""
+        return self.value * stroke if self.share else self.value
+
+
+@dataclass(frozen=True)
+class StrokePart:
+    """``first`` or ``last`` amount of a stroke, or all but the ``free`` amounts at its beginning and its end."""
+
+    word: PartWord
+    amounts: tuple[Amount, ...]
+
+    def written(self, dimension: str) -> dict[str, Any]:
+        """Key and value for a file."""
+        found = [a.value if a.share else written_quantity(a.value, dimension) for a in self.amounts]
+        return {self.word: found[0] if len(found) == 1 else found}
+
+
+class BetweenLimits(Protocol):
+    """A phase from a limit of an output to its next one of the other kind; ``outermost``: only from the largest to
+    the smallest value or back, not between all reversals."""
+
+    @property
+    def output(self) -> Output: ...
+    @property
+    def start(self) -> LimitKind: ...
+    @property
+    def end(self) -> LimitKind: ...
+    @property
+    def part(self) -> StrokePart | None: ...
+    @property
+    def outermost(self) -> bool: ...
+
+
+# found at times ------------------------------------------------------------------------------------
+@dataclass(frozen=True)
+class Stretch:
+    """One way of an output from a limit to another; times and inputs go on through the cycle's end.
+
+    ``values``: the output at both limits.
+    """
+
+    begin: tuple[float, float]
+    end: tuple[float, float]
+    values: tuple[float, float]
+
+    def place(self, signals: Signals) -> tuple[Flags, Floats]:
+        """Whether the positions lie in it, ends included, and the share of the input's way that is passed; (n,)
+        each."""
+        length, rise = self.end[0] - self.begin[0], self.end[1] - self.begin[1]
+        since, gained = signals.time - self.begin[0], signals.input - self.begin[1]
+        whole = signals.whole
+        slack = NEAR * (whole.period or length)
+        if whole.period is not None:
+            laps = np.floor((since + slack) / whole.period)
+            since, gained = since - laps * whole.period, gained - laps * whole.drift
+        return (since >= -slack) & (since <= length + slack), np.clip(gained / rise, 0.0, 1.0)
+
+
+def strokes(phase: BetweenLimits, signals: Signals) -> list[Stretch]:
+    """The ways of a phase within the cycle. Raises LinkwrightError where it has none."""
+    limits = signals.limits(phase.output)
+    if not limits:
+        raise LinkwrightError("loads.never_reverses", output=phase.output)
+    extreme = outermost(limits) if phase.outermost else limits
+    found = stretches(extreme, phase.start, phase.end, signals.whole)
+    if found or not phase.outermost:
+        return found
+    dimension = input_dimension(signals)
+    places = tuple(
+        Sentence("loads.limit_at", kind=Sentence(f"loads.{each.kind}"), input=shown(each.input, dimension))
+        for each in extreme
+    )
+    ends = {name: Sentence(f"loads.{kind}") for name, kind in (("start", phase.start), ("end", phase.end))}
+    raise LinkwrightError("loads.no_such_swing", output=phase.output, places=places, **ends)
+
+
+def outermost(limits: Sequence[Limit]) -> list[Limit]:
+    """Of all reversals those with the largest and the smallest value of the output."""
+    values = [each.value for each in limits]
+    slack = NEAR * (max(values) - min(values))
+    best = {
+        "max": max((each.value for each in limits if each.kind == "max"), default=np.inf) - slack,
+        "min": min((each.value for each in limits if each.kind == "min"), default=-np.inf) + slack,
+    }
+    return [
+        each
+        for each in limits
+        if (each.value >= best["max"] if each.kind == "max" else each.value <= best["min"])
+    ]
+
+
+def stretches(limits: Sequence[Limit], start: str, end: str, whole: Whole) -> list[Stretch]:
+    """From each limit of one kind to the other kind's next one, across the end of a cycle that closes."""
+    found = []
+    for index, last in enumerate(limits):
+        first = limits[index - 1]
+        if (first.kind, last.kind) != (start, end) or (index == 0 and whole.period is None):
+            continue
+        period, drift = (whole.period or 0.0, whole.drift) if index == 0 else (0.0, 0.0)
+        begin = (first.time - period, first.input - drift)
+        found.append(Stretch(begin, (last.time, last.input), (first.value, last.value)))
+    return found
+
+
+# found along laps ----------------------------------------------------------------------------------
+class Turning(Protocol):
+    """A cycle in which an output has one limit of each kind: along the input (rad) of a driver that turns at constant
+    speed, else along the time (s)."""
+
+    @property
+    def along(self) -> Scalar:
+        """The input, or the time."""
+        ...
+
+    @property
+    def sense(self) -> Scalar:
+        """1 where that grows, -1 where it falls."""
+        ...
+
+    @property
+    def lap(self) -> Scalar:
+        """How far that goes in the cycle; twice as far where it does not close."""
+        ...
+
+    def limit(self, output: Output, kind: str) -> Scalar:
+        """Where along it an output has its limit."""
+        ...
+
+    def share_of_input(self, phase: BetweenLimits, share: Scalar) -> Scalar:
+        """The share of the input's way between limits that is passed, from that along."""
+        ...
+
+
+def stroke_of_turn(course: Turning, phase: BetweenLimits) -> tuple[Mask, Scalar]:
+    """Whether an output goes from one limit to the other, ends included, and the share of the input's way there."""
+    acts, share = within(*_way(course, phase), course.lap)
+    return acts, course.share_of_input(phase, share)
+
+
+def moving_of_turn(course: Turning, phase: BetweenLimits) -> tuple[Mask, Scalar]:
+    """The same without the ends, where the output is at rest."""
+    gone, length = _way(course, phase)
+    way, near = turned(gone, course.lap), NEAR * course.lap
+    return (way > near) & (way < length - near), course.share_of_input(phase, way / length)
+
+
+def _way(course: Turning, phase: BetweenLimits) -> tuple[Scalar, Scalar]:
+    """Way since one limit of an output, and from there to the other one."""
+    sense = course.sense
+    begin, until = (course.limit(phase.output, kind) for kind in (phase.start, phase.end))
+    return sense * (course.along - begin), turned(sense * (until - begin), course.lap)
+
+
+def within(gone: Scalar, length: Scalar, lap: Scalar = TURN) -> tuple[Mask, Scalar]:
+    """Whether what is gone of a lap lies within a length, and its share; the ends belong to it."""
+    way, near = turned(gone, lap), NEAR * lap
+    passed = select(way > lap - near, way - lap, way)
+    return passed <= length + near, share_of(passed / length)
+
+
+def share_of(ratio: Scalar) -> Scalar:
+    """A ratio, from 0 to 1."""
+    return minimum(maximum(ratio, 0.0), 1.0)
+
+
+def turned(angle: Scalar, lap: Scalar = TURN) -> Scalar:
+    """An angle modulo one lap, of one turn unless given: from 0 to that, rad."""
+    return angle - lap * floor(angle / lap)
