@@ -11,7 +11,6 @@ from linkwright.fields.base import Quantities
 from linkwright.fields.references import LinkName, LinkNames, PointPair
 from linkwright.joints.base import HigherPair
 from linkwright.joints.marks import Mark, WheelSizes
-from linkwright.joints.toothed import WheelCut
 
 
 @dataclass(frozen=True)
@@ -66,15 +65,18 @@ class Tape(HigherPair):
     def sums(self, mechanism):
         return self._factors(), {}, 0.0
 
-    def cut(self, connection, dimensions):
-        a, b = (dimensions(f"{self.name}.radii.{k}") for k in (0, 1))
-        ends = (dimensions.point(self.carrier, each) for each in self.centres)
-        return TapeCut(connection, self.carrier, (a, -b, b - a), 0.0, *ends)
+    def residual(self, at):
+        a, b = (at.dimension(f"{self.name}.radii.{k}") for k in (0, 1))
+        return [sum(k * at.rotation(link) for k, link in zip((a, -b, b - a), self.turning))]
 
-    def rows(self, system, kept, places):
-        gap = sum(factor * places[link].angle for link, factor in self._factors().items())
-        parts = {link: (0.0, 0.0, factor) for link, factor in self._factors().items()}
-        yield system.kept(self.name, gap, parts)
+    def held(self, at, force, size):
+        """Its tension pulls the drums together along the tape."""
+        a, b = (at.dimension(f"{self.name}.radii.{k}") for k in (0, 1))
+        one, other = (at.local(self.carrier, each) for each in self.centres)
+        along = at.vector(self.carrier, (other - one) * reciprocal(sqrt((other - one).square)))
+        gap = at.point(self.links[1], self.centres[1]) - at.point(self.links[0], self.centres[0])
+        sine = (a - b) * reciprocal(sqrt((other - one).square))
+        return [(along.cross(gap), -sine * force), (along.dot(gap), -force * sqrt(1.0 - sine * sine))]
 
     def _line(self, mechanism):
         points = mechanism.link(self.carrier).points
@@ -92,18 +94,6 @@ class Tape(HigherPair):
     def wheel_sizes(self, mechanism):
         a, b = self._line(mechanism)
         return WheelSizes(self.links, None, self.radii, abs(b - a), self.radii[0] / self.radii[1])
-
-
-class TapeCut(WheelCut):
-    """Its tension T pulls a along the tape; given in the centre of a with its couple r_a T."""
-
-    def force_on(self, end, multipliers, poses):
-        (pull,), line = multipliers, self.centre_b - self.centre_a
-        e = poses[self.carrier].spin(line * reciprocal(sqrt(line.square)))
-        sine = (self.k[0] + self.k[1]) * reciprocal(sqrt(line.square))
-        force = (e * sqrt(1.0 - sine * sine) + e.perp * sine) * pull
-        couple = self.k[0] * pull
-        return (force, couple) if end == self.connection.a else (-force, -couple)
 '''
 #: Checks in a process in which the package is installed: against a belt, whose taut strand is the tape.
 PROGRAM = r'''

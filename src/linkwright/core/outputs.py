@@ -67,6 +67,7 @@ KINDS = {
     "couple": Kind("joint", "torque", "c", "M", form="phrase"),
     "reaction_direction": Kind("joint", "angle", symbol=r"\beta", word="direction", form="phrase"),
     "heat": Kind("joint", "power", form="phrase"),
+    "reaction_place": Kind("joint", "length", "rp", vector=True),
     "friction": Kind("joint", "", "friction"),
     "unsupplied": Kind("joint", "", "left"),
     "magnitude": Kind("load", "", "load"),

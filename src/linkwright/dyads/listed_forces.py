@@ -110,7 +110,7 @@ class ForceLines:
                     self.couples[joint.name, link] = couple
                 if link in step.group.links or link == "frame":
                     continue
-                at = f"motion.mechanism.joints[{quoted(joint.name)}].acts_at(motion)"
+                at = f"motion.reaction_place({quoted(joint.name)})"
                 if joint.coordinate == "turn":
                     at = self.listing.point(link, joint.name)
                 self.on.setdefault(link, []).append(f"Load({force}, {at}{', ' if couple else ''}{couple})")

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Set
 from typing import TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
+    from linkwright.engine.symbols import Symbols
     from linkwright.engine.trace import Scalar, Trace
     from linkwright.engine.vector import Vec
 
@@ -67,6 +68,8 @@ class Sizes(Protocol):
     def mechanism(self) -> Model: ...
     @property
     def trace(self) -> Trace: ...
+    @property
+    def symbols(self) -> Symbols: ...
     @property
     def free(self) -> Set[str]: ...
     def __call__(self, address: str) -> Scalar: ...

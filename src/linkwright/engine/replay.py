@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 
 from linkwright.engine.functions import FUNCTIONS
 from linkwright.engine.node import COMPARISONS, Node
 from linkwright.engine.program import Program
-from linkwright.engine.trace import Scalar, Trace, Value
+from linkwright.engine.trace import Operation, Scalar, Trace, Value
 
 #: Operations through which no derivative passes.
 WITHOUT_SLOPE = COMPARISONS | {"stop", "floor"}
@@ -45,29 +45,9 @@ class Replay:
         return {name: self.values[i] for name, i in self.program.outputs}
 
     def _written(self, node: Node) -> Scalar:
-        t = self.trace
-        args = [self.values[a] for a in node.args]
-        if node.op == "constant":
-            return node.constant
-        if node.op in _BINARY:
-            return _arithmetic(t, node.op, args[0], args[1])
-        if node.op in FUNCTIONS:
-            return t.power(*args) if node.op == "pow" else t.function(node.op, *args)
-        if node.op == "lookup":
-            return t.lookup(node.name, args[0], int(node.constant))
-        if node.op == "stop":
-            return t.stop(args[0])
-        if node.op == "neg":
-            return t.neg(args[0])
-        if node.op in ("less", "less_equal"):
-            return t.compare(node.op, args[0], args[1])
-        if node.op in ("and", "or"):
-            return t.logic(node.op, _truth(args[0]), _truth(args[1]))
-        if node.op == "not":
-            return t.negate(_truth(args[0]))
-        if node.op == "select":
-            return t.select(_truth(args[0]), args[1], args[2])
-        return self._input(node)
+        if node.args:
+            return operation(self.trace, node, [self.values[a] for a in node.args])
+        return node.constant if node.op == "constant" else self._input(node)
 
     def _input(self, node: Node) -> Scalar:
         if node.name in self._given:
@@ -75,6 +55,66 @@ class Replay:
         t = self.trace
         make = {"parameter": t.parameter, "position": t.position, "field": t.field_input, "state": t.state}
         return make[node.op](node.name)
+
+
+class Substitution:
+    """Values of a trace with other values in the place of some of its inputs, written into the same trace.
+
+    ``given``: what stands for an input, by the number of its line; None leaves the input as it is.
+    """
+
+    def __init__(self, trace: Trace, given: Callable[[int], Scalar | None]) -> None:
+        self.trace = trace
+        self.given = given
+        self.found: dict[int, Scalar] = {}
+        self._unchanged: set[int] = set()
+
+    def __call__(self, value: Scalar) -> Scalar:
+        if not isinstance(value, Value):
+            return value
+        found, lines, waiting = self.found, self.trace.lines, [value.index]
+        while waiting:
+            index = waiting[-1]
+            missing = [] if index in found else [arg for arg in lines[index][1:] if arg not in found]
+            if missing:
+                waiting += missing
+                continue
+            if index not in found:
+                found[index] = self._line(index, lines[index])
+            waiting.pop()
+        return found[value.index]
+
+    def _line(self, index: int, line: Operation) -> Scalar:
+        t, (op, *args) = self.trace, line
+        if args and not self._unchanged.issuperset(args):
+            node = Node(op, (), *t.given(index), False)
+            return operation(t, node, [self.found[arg] for arg in args])
+        other = self.given(index) if not args and op != "constant" else None
+        if other is not None:
+            return other
+        self._unchanged.add(index)
+        return t.given(index)[0] if op == "constant" else Value(t, index)
+
+
+def operation(t: Trace, node: Node, args: Sequence[Scalar]) -> Scalar:
+    """An operation on other arguments."""
+    if node.op in _BINARY:
+        return _arithmetic(t, node.op, args[0], args[1])
+    if node.op in FUNCTIONS:
+        return t.power(*args) if node.op == "pow" else t.function(node.op, *args)
+    if node.op == "lookup":
+        return t.lookup(node.name, args[0], int(node.constant))
+    if node.op == "stop":
+        return t.stop(args[0])
+    if node.op == "neg":
+        return t.neg(args[0])
+    if node.op in ("less", "less_equal"):
+        return t.compare(node.op, args[0], args[1])
+    if node.op in ("and", "or"):
+        return t.logic(node.op, _truth(args[0]), _truth(args[1]))
+    if node.op == "not":
+        return t.negate(_truth(args[0]))
+    return t.select(_truth(args[0]), args[1], args[2])
 
 
 def _arithmetic(t: Trace, op: str, a: Scalar, b: Scalar) -> Scalar:

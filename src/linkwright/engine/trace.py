@@ -126,6 +126,10 @@ class Trace:
         line = self.lines[index]
         return Node(line[0], line[1:], *self._given.get(index, _NEITHER), self.varies[index])
 
+    def given(self, index: int) -> tuple[float, str]:
+        """The constant and the name of a line."""
+        return self._given.get(index, _NEITHER)
+
     def entry(self, index: int, number: Mapping[int, int]) -> Entry:
         """A line whose arguments have other numbers."""
         line = self.lines[index]

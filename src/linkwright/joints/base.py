@@ -14,14 +14,16 @@ from typing import TYPE_CHECKING, Any, ClassVar, Protocol, Self
 
 from linkwright.core.dataclass import dataclass
 from linkwright.elements.topology import Connection, PairType
+from linkwright.engine.trace import Scalar
+from linkwright.engine.vector import Vec
 from linkwright.errors import LinkwrightError, Severity
 from linkwright.fields.base import Field, Schema
+from linkwright.joints.ends import Ends, Hung
 from linkwright.registry import Registry
 from linkwright.words import has
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
-    from linkwright.core.arrays import Floats
     from linkwright.elements.model import Sizes
     from linkwright.elements.topology import Group, TreeJoint
     from linkwright.engine.trace import Mask, Scalar
@@ -31,11 +33,7 @@ if TYPE_CHECKING:
     from linkwright.fields.reading import Place as Where
     from linkwright.fields.reading import Reader
     from linkwright.joints.marks import Following, Mark, WheelSizes
-    from linkwright.joints.pose import Pose, Rotor, State
     from linkwright.kinematics.closed_loops import Body, LoopBuilder
-    from linkwright.kinematics.constraint_system import ConstraintSystem, Place, Row
-    from linkwright.kinematics.dimensions import Dimensions
-    from linkwright.kinematics.motion import Motion
     from linkwright.kinetostatics.forces import Forces
     from linkwright.mechanism.drawing import Drawing
     from linkwright.mechanism.mechanism import Link, Mechanism
@@ -43,93 +41,8 @@ if TYPE_CHECKING:
     from linkwright.structure.decompose import Grouping
     from linkwright.worked.wheels import OwnForm, Wheels
 
-Poses = Mapping[str, "Pose"]
-States = Mapping[str, "State"]
-#: The rotation of a link's x axis with its turns, rad, by the link's name.
-Angles = Callable[[str], "Scalar"]
-
-
-class Pair(Protocol):
-    """A joint of an open chain, ready to be traced: how a child hangs on its parent."""
-
-    def place(self, parent: Pose, coordinate: Rotor | Scalar | None) -> Pose:
-        """Pose of the child."""
-        ...
-
-    def normal(self, parent: Pose) -> Vec:
-        """Unit vector, in frame axes, along which a growing displacement moves the child; of a sliding joint."""
-        ...
-
-    def rates(self, parent: State, pose: Pose, rate: Scalar) -> State:
-        """Velocities of the child, from the chain coordinate's rate."""
-        ...
-
-    def accelerate(self, parent: State, child: State, rate: Scalar, second: Scalar) -> State:
-        """Accelerations of the child, from the rate and second derivative of the coordinate."""
-        ...
-
-
-@dataclass(frozen=True)
-class Cut(ABC):
-    """A cut joint, ready to be traced: its equations, their derivatives, and the forces that close it.
-
-    ``connection``: the pair of links that was cut; ``ends``: the links on whose motion the equations depend; ``on``:
-    the link on which its force is reported.
-    """
-
-    connection: Connection
-
-    @property
-    def rows(self) -> int:
-        """How many equations it has."""
-        return 1
-
-    @property
-    def ends(self) -> tuple[str, ...]:
-        """The links of the connection; further ones where the equations touch them."""
-        return self.connection.a, self.connection.b
-
-    @property
-    def on(self) -> str:
-        """The connection's first link."""
-        return self.connection.a
-
-    @abstractmethod
-    def residual(self, poses: Poses, angles: Angles) -> list[Scalar]:
-        """What the equations leave open."""
-
-    @abstractmethod
-    def column(self, shift: Vec, turn: Scalar, end: str, poses: Poses) -> list[Scalar]:
-        """Rows of the Jacobian for a coordinate that moves an end by ``shift`` and turns it by ``turn``."""
-
-    @abstractmethod
-    def drift(self, states: States) -> list[Scalar]:
-        """First derivative of the equations in time."""
-
-    @abstractmethod
-    def bend(self, states: States) -> list[Scalar]:
-        """Second derivative of the equations in time."""
-
-    @abstractmethod
-    def place(self, end: str, poses: Poses) -> Vec:
-        """Where the cut's force acts."""
-
-    def arm(self, end: str, poses: Poses) -> Vec:
-        """From the anchor of one end to that place."""
-        return self.place(end, poses) - poses[end].place
-
-    @abstractmethod
-    def force_on(self, end: str, multipliers: Sequence[Scalar], poses: Poses) -> tuple[Vec, Scalar]:
-        """Force and couple on one end from the multipliers of the rows."""
-
-    def pressing(
-        self, multipliers: Sequence[Scalar], poses: Poses, size: Callable[[Scalar], Scalar]
-    ) -> Vec | None:
-        """A force on end ``on``, its opposite on the other, that follows from the multipliers and does no work.
-
-        Linear in the multipliers, and in their sizes where teeth press with either flank: ``size`` gives these.
-        """
-        return None
+#: The size of a joint's force, from that force.
+Size = Callable[[Scalar], Scalar]
 
 
 @dataclass(frozen=True)
@@ -204,7 +117,8 @@ class Joint(ABC):
     chain, ``turn`` (rad), ``slide`` (m) or nothing; ``higher``: a pair of one row, which no link hangs on;
     ``rotations_only``: whether that row touches rotations alone; ``uneven``: whether the ratio of the speeds that it
     ties to each other varies;
-    ``couples``: whether its reaction has a couple about the place that :meth:`acts_at` gives.
+    ``couples``: whether its reaction has a couple about the place that :meth:`place` gives; ``reported_on``: which of
+    the two links of a pair its force is worked out on.
     """
 
     kind: ClassVar[str]
@@ -215,6 +129,7 @@ class Joint(ABC):
     rotations_only: ClassVar[bool] = False
     uneven: ClassVar[bool] = False
     couples: ClassVar[bool] = False
+    reported_on: ClassVar[int] = 0
     name: str
 
     @property
@@ -319,20 +234,35 @@ class Joint(ABC):
         return 1
 
     # motion -----------------------------------------------------------------------------------
-    def hang(self, step: TreeJoint, dimensions: Dimensions) -> Pair:
-        """The joint as one of an open chain."""
-        raise self.lacks("hang")
 
-    def cut(self, connection: Connection, dimensions: Dimensions) -> Cut:
-        """The joint as a cut one."""
-        raise self.lacks("cut")
+    def residual(self, at: Ends) -> list[Scalar]:
+        """The equations between the links ``at.a`` and ``at.b``: what they leave open, zero where the joint closes.
+
+        Of a higher pair one row; its multiplier is the force of the pair, N per m of the row.
+        """
+        raise self.lacks("residual")
+
+    def held(self, at: Ends, force: Scalar, size: Size) -> list[tuple[Scalar, Scalar]]:
+        """Rows that other joints keep, each with the multiplier by which the joint's ``force`` presses on it.
+
+        Linear in the force, and in its size where teeth press with either flank: ``size`` gives that.
+        """
+        return []
+
+    def place(self, at: Ends, link: str) -> Vec:
+        """Where the joint's force on a link is reported: the first of its seats."""
+        return at.point(*self.seats[0])
+
+    def hang(self, at: Ends, step: TreeJoint, coordinate: Scalar) -> Hung:
+        """The joint as one of an open chain, which hangs ``step.child`` on ``step.parent``."""
+        raise self.lacks("hang")
 
     @classmethod
     def linear(cls, group: Group, cut: Connection) -> bool:
         """Whether the row of the pair is linear in the unknowns of a group in which it is cut."""
         return cls.rotations_only
 
-    def fits(self, dimensions: Dimensions) -> Mask:
+    def fits(self, dimensions: Sizes) -> Mask:
         """Whether the sizes of the pair fit the places of its links, traced."""
         return True
 
@@ -345,7 +275,7 @@ class Joint(ABC):
         of kinds with a displacement, which have these four as fields."""
         raise self.lacks("slide_direction")
 
-    def turned(self, step: TreeJoint, dimensions: Dimensions) -> Scalar:
+    def turned(self, step: TreeJoint, dimensions: Sizes) -> Scalar:
         """Constant angle of the child's x axis to the parent's, rad, where the joint does not turn."""
         raise self.lacks("turned")
 
@@ -391,12 +321,6 @@ class Joint(ABC):
         and :meth:`contact` say all."""
         return None
 
-    def rows(
-        self, system: ConstraintSystem, kept: tuple[str, ...], places: Mapping[str, Place]
-    ) -> Iterable[Row]:
-        """The joint's equations over (x, y, θ) of the links that are ``kept``, for the rank."""
-        raise self.lacks("rows")
-
     def marks(self, mechanism: Mechanism, tooth: dict[tuple[str, str], float]) -> Iterable[Mark]:
         """What drawings show of it beside its links; ``tooth``: where wheels (link, centre) that are drawn already
         have a tooth, rad in their axes, to which a joint adds its own."""
@@ -419,11 +343,6 @@ class Joint(ABC):
     def seats(self) -> tuple[tuple[str, str], ...]:
         """Links with their points that tell where the reaction acts."""
         raise self.lacks("seats")
-
-    def acts_at(self, motion: Motion) -> Floats:
-        """Where the reaction acts, (n, 2) m in frame axes: in the first of its seats."""
-        link, point = self.seats[0]
-        return motion.point(f"{link}.{point}").position
 
     @classmethod
     def word(cls) -> Sentence | str:

@@ -3,23 +3,23 @@
 from __future__ import annotations
 
 import cmath
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from math import asin
 from math import sqrt as sqrt_of
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.core.dataclass import dataclass
+from linkwright.elements.model import Sizes
 from linkwright.engine.trace import Mask, Scalar, reciprocal, sqrt
 from linkwright.engine.vector import Vec
 from linkwright.fields.base import Field, Quantity, Word
-from linkwright.joints.base import JOINTS, Contact, Entry, Poses
+from linkwright.joints.base import JOINTS, Contact, Entry, Size
+from linkwright.joints.ends import Ends
 from linkwright.joints.marks import Mark
-from linkwright.joints.toothed import WheelCut, WheelPair, length
+from linkwright.joints.toothed import WheelPair, length
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
-    from linkwright.elements.topology import Connection
-    from linkwright.kinematics.dimensions import Dimensions
     from linkwright.kinetostatics.forces import Forces
     from linkwright.mechanism.mechanism import Mechanism
 
@@ -80,7 +80,7 @@ class BeltPair(WheelPair):
     def misfit(self, mechanism: Mechanism) -> Sentence | None:
         return self._touching(abs(self.line(mechanism)))
 
-    def fits(self, dimensions: Dimensions) -> Mask:
+    def fits(self, dimensions: Sizes) -> Mask:
         first, second = self.traced_radii(dimensions)
         a, b = (dimensions.point(self.carrier, each) for each in self.centres)
         both = first + second
@@ -128,51 +128,22 @@ class BeltPair(WheelPair):
         transmitted = abs(forces.couple(self.name, on=self.links[0])) / self.pitch_radii()[0]
         return transmitted > (2.0 + 1e-9) * self.pretension
 
-    def traced_radii(self, dimensions: Dimensions) -> tuple[Scalar, Scalar]:
+    def traced_arms(self, at: Ends) -> tuple[Scalar, Scalar, Scalar]:
+        first, second = self.traced_radii(at.dimensions)
+        across = -self.sense * second
+        return first, across, -first - across
+
+    def held(self, at: Ends, force: Scalar, size: Size) -> list[tuple[Scalar, Scalar]]:
+        """Both strands pull the centres together, with the difference of their pulls to one side of their line."""
+        apart, aside = self.centres_apart(at)
+        sine = -self.traced_arms(at)[2] * reciprocal(sqrt(self.traced_line(at.dimensions).square))
+        pull = at.dimension(f"{self.name}.pretension") * 2.0 if self.pretension else size(force)
+        return [(-aside, sine * force), (apart, -pull * sqrt(1.0 - sine * sine))]
+
+    def place(self, at: Ends, link: str) -> Vec:
+        """The centre of a."""
+        return at.point(self.carrier, self.centres[0])
+
+    def traced_radii(self, dimensions: Sizes) -> tuple[Scalar, Scalar]:
         """The radii as traced values."""
         return dimensions(f"{self.name}.radii.0"), dimensions(f"{self.name}.radii.1")
-
-    def cut(self, connection: Connection, dimensions: Dimensions) -> BeltCut:
-        a, b = (dimensions.point(self.carrier, each) for each in self.centres)
-        first, second = self.traced_radii(dimensions)
-        across = -self.sense * second
-        line = b - a
-        sine = (first + across) * reciprocal(sqrt(line.square))
-        pull = dimensions(f"{self.name}.pretension") if self.pretension else 0.0
-        rest = -across * dimensions(f"{self.name}.phase")
-        k = (first, across, -first - across)
-        return BeltCut(
-            connection, self.carrier, k, rest, a, b, line * reciprocal(sqrt(line.square)), sine, pull
-        )
-
-
-@dataclass(frozen=True)
-class BeltCut(WheelCut):
-    """The traced row; ``unit``: from A to B in the carrier's axes; ``sine``: of the strands' angle to it; tension
-    ``pull`` of each strand without load. The force is given at the centre of a, with its couple about it."""
-
-    unit: Vec
-    sine: Scalar
-    pull: Scalar
-
-    def _strands(self, poses: Poses) -> tuple[Vec, Vec]:
-        """Unit vectors from a to b along the strand that turns a clockwise, and along the other."""
-        e = poses[self.carrier].spin(self.unit)
-        cosine = sqrt(1.0 - self.sine * self.sine)
-        return e * cosine - e.perp * self.sine, e * cosine + e.perp * self.sine
-
-    def force_on(self, end: str, multipliers: Sequence[Scalar], poses: Poses) -> tuple[Vec, Scalar]:
-        pull = multipliers[0]
-        clockwise, counter = self._strands(poses)
-        force = counter * (self.pull + 0.5 * pull) + clockwise * (self.pull - 0.5 * pull)
-        couple = self.k[0] * pull
-        return (force, couple) if end == self.connection.a else (-force, -couple)
-
-    def pressing(
-        self, multipliers: Sequence[Scalar], poses: Poses, size: Callable[[Scalar], Scalar]
-    ) -> Vec | None:
-        """Without a pull of its own one strand is slack: both have half of the other's force more."""
-        if not isinstance(self.pull, float) or self.pull != 0.0:
-            return None
-        clockwise, counter = self._strands(poses)
-        return (counter + clockwise) * (0.5 * size(multipliers[0]))

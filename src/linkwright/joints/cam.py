@@ -10,29 +10,30 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.core.dataclass import dataclass
-from linkwright.engine.trace import Scalar
+from linkwright.elements.model import Sizes
+from linkwright.engine.trace import Scalar, acos, asin, select, sqrt
+from linkwright.engine.vector import Vec
 from linkwright.fields.base import Field, Quantity, Word
 from linkwright.fields.references import LinkName, PointName
 from linkwright.joints.base import (
     JOINTS,
     Bends,
-    Cut,
     Entry,
     HigherPair,
     Joint,
     LackingError,
     Report,
+    Size,
 )
+from linkwright.joints.ends import Ends
 from linkwright.laws.program_fields import ProgramField
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.elements.topology import Connection, Group
-    from linkwright.joints.cam_cuts import Geometry
+    from linkwright.joints.cam_geometry import Geometry
     from linkwright.joints.marks import CamContact, Mark
     from linkwright.kinematics.closed_loops import LoopBuilder
-    from linkwright.kinematics.constraint_system import ConstraintSystem, Place, Row
-    from linkwright.kinematics.dimensions import Dimensions
     from linkwright.kinetostatics.forces import Forces
     from linkwright.laws.program import MotionProgram
     from linkwright.laws.traced import LiftCurve
@@ -199,7 +200,7 @@ class CamJoint(HigherPair):
         return ""
 
     def _check(self, mechanism: Mechanism, report: Report) -> Geometry:
-        from linkwright.joints.cam_cuts import Geometry
+        from linkwright.joints.cam_geometry import Geometry
 
         found = Geometry.of(self, mechanism)
         if not found.reach > 0:
@@ -260,10 +261,73 @@ class CamJoint(HigherPair):
         """In the follower's coordinate, unless something that the group turns carries it about."""
         return group.carried_steadily(cut)
 
-    def cut(self, connection: Connection, dimensions: Dimensions) -> Cut:
-        from linkwright.joints.cam_cuts import cut
+    def residual(self, at: Ends) -> list[Scalar]:
+        """The follower's coordinate is the lift."""
+        lift, radius = self._lift(at)[0], self.radius(at.dimensions)
+        if not self.side:
+            way, gap = self._way(at)
+            aside = at.still(gap.cross(way))
+            height = radius if self.touch == "flat" else sqrt(radius * radius - aside * aside)
+            return [way.dot(gap) - height - lift]
+        scale, start, side, arm, line = self._swung(at)
+        between = arm.turn(line.conjugate).angle(self.half_turns)
+        turned = at.rotation(self.follower) - at.rotation(self.carrier) + between
+        return [scale * (side * turned - start - lift)]
 
-        return cut(self, connection, dimensions)
+    def held(self, at: Ends, force: Scalar, size: Size) -> list[tuple[Scalar, Scalar]]:
+        """Where the cam pushes follows from the slope of the lift.
+
+        On a guide the part of the contact force across it, on a pivot all of it, with the moments of the couples.
+        """
+        _, rate = self._lift(at)
+        if not self.side:
+            way, gap = self._way(at)
+            across = force * (rate - gap.cross(way)) / way.dot(gap)
+            return [] if self.touch == "flat" else [(way.perp.dot(gap), across)]
+        scale, _, side, reach, _ = self._swung(at)
+        own, driven = scale * side, scale * rate
+        pivot, centre = at.point(self.follower, self.holder), at.point(self.cam, self.centre)
+        if self.touch == "flat":
+            normal = at.vector(self.follower, reach).perp * side
+            push = normal * (force * (own - driven) / (centre - pivot).cross(normal))
+        else:
+            a, b = (at.point(self.follower, self.at) - each for each in (pivot, centre))
+            push = (b * own - a * driven) * (force / a.cross(b))
+        return [((pivot - centre).x, push.x), ((pivot - centre).y, push.y)]
+
+    def place(self, at: Ends, link: str) -> Vec:
+        """On a guide the cam's centre; on a pivot this, of the cam its centre."""
+        pivot = self.side and link == self.follower
+        return at.point(link, self.holder) if pivot else at.point(self.cam, self.centre)
+
+    def _ways(self, at: Ends) -> tuple[Vec, Vec]:
+        """The follower's way in its own axes and in the carrier's."""
+        guide = at.dimensions.mechanism.guides[self.holder]
+        on_guide, on_block = guide.slide_direction(at.dimensions), at.unit(f"{guide.name}.block_angle")
+        return (on_block, on_guide) if guide.block == self.follower else (-on_guide, -on_block)
+
+    def _lift(self, at: Ends) -> tuple[Scalar, Scalar]:
+        """f and its derivative by the cam's rotation; a follower on a guide turns with the carrier."""
+        own, there = (Vec(1.0, 0.0), Vec(1.0, 0.0)) if self.side else self._ways(at)
+        against, phase = self.carrier if self.side else self.follower, at.unit(f"{self.name}.phase")
+        phi = at.angle_from(self.cam, against, own.turn(there.conjugate).turn(phase)) * self.sense
+        lift, rate = at.function(phi, lambda x: self.lift.traced(select(x < 0.0, x + 2.0 * math.pi, x)))
+        return lift, rate * self.sense
+
+    def _way(self, at: Ends) -> tuple[Vec, Vec]:
+        """The follower's way, and the line from the cam's centre to ``at``."""
+        gap = at.point(self.follower, self.at) - at.point(self.cam, self.centre)
+        return at.vector(self.follower, self._ways(at)[0]), gap
+
+    def _swung(self, at: Ends) -> tuple[Scalar, Scalar, float, Vec, Vec]:
+        """Of a follower on a pivot: m per rad, ψ₀, the side, its arm, and the line to the cam's centre."""
+        arm = at.local(self.follower, self.at) - at.local(self.follower, self.holder)
+        line = at.local(self.carrier, self.centre) - at.local(self.carrier, self.holder)
+        radius, c, side = self.radius(at.dimensions), sqrt(line.square), 1.0 if self.side == "left" else -1.0
+        if self.touch == "flat":
+            return c, asin(radius / c), side, arm, line
+        reach = line.square + arm.square - radius * radius
+        return sqrt(arm.square), acos(reach / (2.0 * c * sqrt(arm.square))), side, arm, line
 
     def close_loop(self, build: LoopBuilder, cut: Connection, group: str) -> None:
         """The follower's coordinate and the lift, which gains nothing over whole turns of the cam."""
@@ -323,39 +387,13 @@ class CamJoint(HigherPair):
     def touching(self) -> tuple[str, str]:
         return self.follower, self.at
 
-    def rows(
-        self, system: ConstraintSystem, kept: tuple[str, ...], places: Mapping[str, Place]
-    ) -> Iterable[Row]:
-        """The follower's coordinate against the lift at the cam's angle."""
-        carrier, cam, follower = places[self.carrier], places[self.cam], places[self.follower]
-        lift, slope, _ = self.lift.curves(self.sense * (cam.angle - carrier.angle - self.phase))
-        slope = slope * self.sense
-        if self.side:
-            side = 1.0 if self.side == "left" else -1.0
-            gap = side * (follower.angle - carrier.angle) - lift
-            turns = {self.follower: side, self.cam: -slope, self.carrier: slope - side}
-            yield system.kept(self.name, gap, {link: (0.0, 0.0, each) for link, each in turns.items()})
-            return
-        own = self.geometry(system.mechanism).own
-        nx, ny = follower.arm((math.cos(own), math.sin(own)))
-        px, py = follower.arm(system.local(self.follower, self.at))
-        cx, cy = cam.arm(system.local(self.cam, self.centre))
-        gx, gy = follower.x + px - cam.x - cx, follower.y + py - cam.y - cy
-        driven = slope / system.size
-        parts = {
-            self.follower: (nx, ny, ny * px - nx * py + nx * gy - ny * gx),
-            self.cam: (-nx, -ny, nx * cy - ny * cx - driven),
-            self.carrier: (0.0, 0.0, driven),
-        }
-        yield system.kept(self.name, nx * gx + ny * gy - lift / system.size, parts)
-
     def geometry(self, mechanism: Mechanism) -> Geometry:
         """Directions and distances of cam and follower on their carrier."""
-        from linkwright.joints.cam_cuts import Geometry
+        from linkwright.joints.cam_geometry import Geometry
 
         return Geometry.of(self, mechanism)
 
-    def radius(self, dimensions: Dimensions) -> Scalar:
+    def radius(self, dimensions: Sizes) -> Scalar:
         """Radius of the base circle and the roller together, traced, m."""
         base = dimensions(f"{self.name}.base_radius")
         return base + dimensions(f"{self.name}.roller_radius") if self.touch == "roller" else base

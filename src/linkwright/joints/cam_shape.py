@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.late_import import numpy as np
-from linkwright.joints.cam_cuts import Geometry
+from linkwright.joints.cam_geometry import Geometry
 from linkwright.joints.marks import Mark, Vec
 
 if TYPE_CHECKING:

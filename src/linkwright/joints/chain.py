@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from math import pi
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 from linkwright.core.dataclass import dataclass
+from linkwright.elements.model import Sizes
 from linkwright.engine.trace import Scalar
 from linkwright.fields.base import Field, Quantity
 from linkwright.joints.base import JOINTS, Entry, Joint
@@ -14,9 +15,6 @@ from linkwright.joints.belt import BeltPair
 from linkwright.joints.marks import Amount
 from linkwright.joints.toothed import Numbers
 from linkwright.words.sentence import Sentence
-
-if TYPE_CHECKING:
-    from linkwright.kinematics.dimensions import Dimensions
 
 
 @JOINTS.register("chain")
@@ -70,7 +68,7 @@ class ChainPair(BeltPair):
             return super()._amount_of_radius(k, radius)
         return Amount(radius, (f"{self.name}.pitch",), factor=self.teeth[k] / (2 * pi))
 
-    def traced_radii(self, dimensions: Dimensions) -> tuple[Scalar, Scalar]:
+    def traced_radii(self, dimensions: Sizes) -> tuple[Scalar, Scalar]:
         if self.teeth is None or self.pitch is None:
             return super().traced_radii(dimensions)
         part = dimensions(f"{self.name}.pitch") * (0.5 / pi)

@@ -2,25 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from math import atan, atan2, pi
 from math import cos as cos_of
 from typing import TYPE_CHECKING, ClassVar
 
 from linkwright.core.dataclass import dataclass
+from linkwright.elements.model import Sizes
 from linkwright.engine.trace import Mask, Scalar, absolute, cos, maximum, reciprocal, select, sqrt, stop, tan
-from linkwright.engine.vector import Vec
 from linkwright.fields.base import Field, Quantity
-from linkwright.joints.base import JOINTS, Contact, Entry, Joint, Poses
+from linkwright.joints.base import JOINTS, Contact, Entry, Joint, Size
+from linkwright.joints.ends import Ends
 from linkwright.joints.marks import Mark, WheelSizes
-from linkwright.joints.rolling import RollingCut, RollingPair
+from linkwright.joints.rolling import RollingPair
 from linkwright.joints.toothed import FITS, Numbers
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
-    from linkwright.elements.topology import Connection
-    from linkwright.kinematics.dimensions import Dimensions
     from linkwright.mechanism.mechanism import Mechanism
 
 #: The pressure angle of standard teeth, and the clearance at their bottom in modules (ISO 53): by so much the centres
@@ -86,14 +85,14 @@ class GearPair(RollingPair):
         """Whether the teeth are known so well that their working pressure angle follows from the distance."""
         return self.radii is None and self.teeth is not None and self.module is not None
 
-    def _asked(self, dimensions: Dimensions) -> Scalar:
+    def _asked(self, dimensions: Sizes) -> Scalar:
         """The distance that involute teeth ask for, traced, with the sign of the mesh; 0 without it."""
         if not self.involute:
             return 0.0
         first, second = (dimensions(f"{self.name}.teeth.{k}") for k in (0, 1))
         return 0.5 * dimensions(f"{self.name}.module") * (first - self.sense * second)
 
-    def fits(self, dimensions: Dimensions) -> Mask:
+    def fits(self, dimensions: Sizes) -> Mask:
         if not self.involute:
             return super().fits(dimensions)
         wanted, line = self._asked(dimensions), self.traced_line(dimensions)
@@ -168,23 +167,10 @@ class GearPair(RollingPair):
         assert isinstance(slope, float)
         return replace(super().contact(mechanism), lean=atan(slope))
 
-    def cut(self, connection: Connection, dimensions: Dimensions) -> GearCut:
-        square = self.traced_line(dimensions).square
-        slope = self._slope(dimensions(f"{self.name}.pressure_angle"), self._asked(dimensions), square)
-        return GearCut(**vars(super().cut(connection, dimensions)), slope=slope, sense=self.sense)
-
-
-@dataclass(frozen=True)
-class GearCut(RollingCut):
-    """``slope``: tan α; ``sense``: -1 external, 1 internal."""
-
-    slope: Scalar
-    sense: float
-
-    def pressing(
-        self, multipliers: Sequence[Scalar], poses: Poses, size: Callable[[Scalar], Scalar]
-    ) -> Vec | None:
-        """Away from the teeth of the other: an external a to its own centre, a ring outwards."""
-        if isinstance(self.slope, float) and self.slope == 0.0:
-            return None
-        return poses[self.carrier].spin(self.unit) * (self.sense * self.slope * size(multipliers[0]))
+    def held(self, at: Ends, force: Scalar, size: Size) -> list[tuple[Scalar, Scalar]]:
+        """And the teeth press the wheels apart: an external a to its own centre, a ring outwards."""
+        square, alpha = self.traced_line(at.dimensions).square, at.dimension(f"{self.name}.pressure_angle")
+        slope, teeth = self._slope(alpha, self._asked(at.dimensions), square), super().held(at, force, size)
+        if isinstance(slope, float) and slope == 0.0:
+            return teeth
+        return [*teeth, (self.centres_apart(at)[0], -self.sense * slope * size(force))]

@@ -6,8 +6,10 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, ClassVar
 
 from linkwright.core.dataclass import dataclass
+from linkwright.engine.trace import Scalar
 from linkwright.errors import LinkwrightError
 from linkwright.joints.base import Joint
+from linkwright.joints.ends import Ends
 
 if TYPE_CHECKING:
     from linkwright.mechanism.drawing import Drawing
@@ -66,6 +68,7 @@ class SlidingJoint(TyingJoint):
 
     freedoms: ClassVar[int] = 1
     coordinate: ClassVar[str] = "slide"
+    reported_on: ClassVar[int] = 1
     guide: str
     through: str
     direction: float
@@ -90,6 +93,11 @@ class SlidingJoint(TyingJoint):
     @property
     def friction_arm(self) -> float:
         return self.friction
+
+    def displacement(self, at: Ends) -> Scalar:
+        """Place of the block's point along the guide's line, m."""
+        gap = at.point(self.block, self.at) - at.point(self.guide, self.through)
+        return at.vector(self.guide, self.slide_direction(at.dimensions)).dot(gap)
 
     def turn_of(self, child: str, mechanism: Mechanism) -> float:
         turn = self.direction - self.block_angle

@@ -13,9 +13,9 @@ from linkwright.engine.trace import Scalar, reciprocal, sqrt
 from linkwright.engine.vector import Vec
 from linkwright.fields.base import Field, Quantity
 from linkwright.fields.references import Direction, LinkName, PointName
-from linkwright.joints.base import JOINTS, Angles, Cut, Entry, Joint, Poses, States
+from linkwright.joints.base import JOINTS, Entry, Joint
+from linkwright.joints.ends import Ends, Hung
 from linkwright.joints.lower import SlidingJoint
-from linkwright.joints.pose import Pose, Rotor, State
 from linkwright.joints.revolute import FRICTION
 from linkwright.words.sentence import Sentence, together
 
@@ -23,8 +23,6 @@ if TYPE_CHECKING:
     from linkwright.elements.model import Sizes
     from linkwright.elements.topology import Connection, TreeJoint
     from linkwright.kinematics.closed_loops import Body, LoopBuilder
-    from linkwright.kinematics.constraint_system import ConstraintSystem, Place, Row
-    from linkwright.kinematics.dimensions import Dimensions
     from linkwright.structure.constraints import ConstraintGraph
     from linkwright.structure.decompose import Grouping
 
@@ -123,23 +121,25 @@ class PrismaticJoint(SlidingJoint):
             yield self.between(self.guide, self.block, grouping.driver(self.name))
 
     # motion -----------------------------------------------------------------------------------
-    def hang(self, step: TreeJoint, dimensions: Dimensions) -> Guide:
-        on_guide, on_block = self.slide_direction(dimensions), dimensions.unit(f"{self.name}.block_angle")
-        through = dimensions.point(self.guide, self.through)
-        at = dimensions.point(self.block, self.at)
-        offset = dimensions(f"{self.name}.offset")
-        if step.child == self.block:
-            return Guide(through, at, on_guide, on_guide.conjugate.turn(on_block), offset, 1.0)
-        return Guide(at, through, on_block, on_block.conjugate.turn(on_guide), offset, -1.0)
 
-    def cut(self, connection: Connection, dimensions: Dimensions) -> GuideCut:
-        return GuideCut(
-            connection,
-            dimensions.point(self.guide, self.through),
-            dimensions.point(self.block, self.at),
-            self.slide_direction(dimensions),
-            dimensions(f"{self.name}.offset"),
+    def residual(self, at: Ends) -> list[Scalar]:
+        """The block's distance from the guide's line; what keeps the rotation is another joint."""
+        gap = at.point(self.block, self.at) - at.point(self.guide, self.through)
+        along = at.vector(self.guide, self.slide_direction(at.dimensions))
+        return [along.perp.dot(gap) - at.dimension(f"{self.name}.offset")]
+
+    def hang(self, at: Ends, step: TreeJoint, coordinate: Scalar) -> Hung:
+        own, other = self.slide_direction(at.dimensions), at.unit(f"{self.name}.block_angle")
+        start, end, sign = self.through, self.at, 1.0
+        if step.child != self.block:
+            own, other, start, end, sign = other, own, end, start, -1.0
+        along = at.vector(step.parent, own) * sign
+        slid = (
+            at.point(step.parent, start)
+            + along * coordinate
+            + along.perp * at.dimension(f"{self.name}.offset")
         )
+        return Hung(at.local(step.child, end), slid, own.conjugate.turn(other))
 
     def slide_direction(self, dimensions: Sizes) -> Vec:
         if self.direction_points is None:
@@ -152,7 +152,7 @@ class PrismaticJoint(SlidingJoint):
                 return Vec(1.0, 0.0)
         return d * reciprocal(sqrt(d.square))
 
-    def turned(self, step: TreeJoint, dimensions: Dimensions) -> Scalar:
+    def turned(self, step: TreeJoint, dimensions: Sizes) -> Scalar:
         along: Scalar
         if self.direction_points is None:
             along = dimensions(f"{self.name}.direction")
@@ -178,97 +178,3 @@ class PrismaticJoint(SlidingJoint):
         along = cmath.exp(1j * (guide.offset + self.direction))
         build.slide(start, build.unknown("slide", self.name, group), guide.rotation, along, self.offset)
         build.loop(group, start, build.place(self.block, self.at))
-
-    def rows(
-        self, system: ConstraintSystem, kept: tuple[str, ...], places: Mapping[str, Place]
-    ) -> Iterable[Row]:
-        turn = self.direction - self.block_angle
-        yield system.rotation(self.name, self.guide, self.block, turn, places)
-        yield system.along(self, places, across=True)
-
-
-@dataclass(frozen=True)
-class Guide:
-    """A prismatic joint of a chain; ``sign`` is -1 if the child carries the guide.
-
-    ``on_parent``: the guide's point or the block's point of the parent; ``on_child`` of the child;
-    ``direction``: of the guide, in the parent's axes; ``turned``: what the child's axes see of a vector
-    that the parent's axes see as (1, 0).
-    """
-
-    on_parent: Vec
-    on_child: Vec
-    direction: Vec
-    turned: Vec
-    offset: Scalar
-    sign: float
-
-    def normal(self, parent: Pose) -> Vec:
-        """The guide's direction, in frame axes, along which the child moves with a growing coordinate."""
-        return parent.spin(self.direction) * self.sign
-
-    def place(self, parent: Pose, coordinate: Rotor | Scalar | None) -> Pose:
-        assert not isinstance(coordinate, Rotor) and coordinate is not None
-        n = self.normal(parent)
-        slid = parent.point(self.on_parent) + n * coordinate + n.perp * self.offset
-        rotor = Rotor(parent.rotor.now, parent.rotor.local.turn(self.turned))
-        return Pose(self.on_child, slid, rotor)
-
-    def _arm(self, parent: State, child: Pose) -> Vec:
-        return child.place - parent.pose.place
-
-    def rates(self, parent: State, pose: Pose, rate: Scalar) -> State:
-        carried = parent.velocity_at(self._arm(parent, pose))
-        return State(pose, carried + self.normal(parent.pose) * rate, parent.omega)
-
-    def accelerate(self, parent: State, child: State, rate: Scalar, second: Scalar) -> State:
-        n = self.normal(parent.pose)
-        carried = parent.acceleration_at(self._arm(parent, child.pose))
-        coriolis = n.perp * (2.0 * (parent.omega * rate))
-        return State(child.pose, child.velocity, child.omega, carried + coriolis + n * second, parent.alpha)
-
-
-@dataclass(frozen=True)
-class GuideCut(Cut):
-    """A guide that was cut; its rotation is prevented elsewhere, so only the normal distance is left."""
-
-    through: Vec
-    at: Vec
-    direction: Vec
-    offset: Scalar
-
-    @property
-    def on(self) -> str:
-        return self.connection.b
-
-    def _normal(self, poses: Poses) -> Vec:
-        return poses[self.connection.a].spin(self.direction).perp
-
-    def residual(self, poses: Poses, angles: Angles) -> list[Scalar]:
-        a, b = poses[self.connection.a], poses[self.connection.b]
-        return [self._normal(poses).dot(b.point(self.at) - a.point(self.through)) - self.offset]
-
-    def column(self, shift: Vec, turn: Scalar, end: str, poses: Poses) -> list[Scalar]:
-        sign = 1.0 if end == self.connection.b else -1.0
-        return [self._normal(poses).dot(shift) * sign]
-
-    def drift(self, states: States) -> list[Scalar]:
-        a, b = states[self.connection.a], states[self.connection.b]
-        place = b.pose.point(self.at)
-        gap = b.velocity_of(self.at) - a.velocity_at(place - a.pose.place)
-        return [a.pose.spin(self.direction).perp.dot(gap)]
-
-    def bend(self, states: States) -> list[Scalar]:
-        a, b = states[self.connection.a], states[self.connection.b]
-        arm = b.pose.point(self.at) - a.pose.place
-        n = a.pose.spin(self.direction)
-        slide = n.dot(b.velocity_of(self.at) - a.velocity_at(arm))
-        gap = b.acceleration_of(self.at) - a.acceleration_at(arm)
-        return [n.perp.dot(gap) - 2.0 * (a.omega * slide)]
-
-    def place(self, end: str, poses: Poses) -> Vec:
-        return poses[self.connection.b].point(self.at)
-
-    def force_on(self, end: str, multipliers: Sequence[Scalar], poses: Poses) -> tuple[Vec, Scalar]:
-        force = self._normal(poses) * multipliers[0]
-        return (force if end == self.connection.b else -force), 0.0

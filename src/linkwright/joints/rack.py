@@ -5,38 +5,32 @@ from __future__ import annotations
 import cmath
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
-from math import cos as cos_of
 from math import pi
-from math import sin as sin_of
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from linkwright.core.dataclass import dataclass
+from linkwright.elements.model import Guide, Model, Sizes
 from linkwright.engine.trace import Mask, Scalar, absolute, tan
 from linkwright.engine.vector import Vec
 from linkwright.fields.base import Field, Quantity
 from linkwright.fields.references import Direction, LinkName, PointName
 from linkwright.joints.base import (
     JOINTS,
-    Angles,
     Contact,
-    Cut,
     Entry,
     HigherPair,
     Joint,
-    Poses,
     Report,
-    States,
+    Size,
 )
+from linkwright.joints.ends import Ends
 from linkwright.joints.gear import CLEARANCE, STANDARD
-from linkwright.joints.lower import SlidingJoint
 from linkwright.joints.marks import Amount, Mark, RackWay, Wheel, WheelSizes
 from linkwright.joints.toothed import FITS, length, whole
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.elements.topology import Connection, Group
-    from linkwright.kinematics.constraint_system import ConstraintSystem, Place, Row
-    from linkwright.kinematics.dimensions import Dimensions
     from linkwright.mechanism.drawing import Drawing
     from linkwright.mechanism.mechanism import Mechanism
 
@@ -166,7 +160,7 @@ class RackPair(HigherPair):
         wrong = None if way is None else self._misplaced(way, self._slack)
         return None if wrong is None else wrong[1]
 
-    def fits(self, dimensions: Dimensions) -> Mask:
+    def fits(self, dimensions: Sizes) -> Mask:
         """A pinion of a module may be off its place by the clearance of its teeth, any other not at all."""
         off, askew = _Search(self, dimensions.mechanism).traced(dimensions)
         radius = self._radius(dimensions)
@@ -176,7 +170,7 @@ class RackPair(HigherPair):
             near = dimensions.trace.logic("and", near, absolute(each) < FITS)
         return near
 
-    def _radius(self, dimensions: Dimensions) -> Scalar:
+    def _radius(self, dimensions: Sizes) -> Scalar:
         if self.module is None:
             return dimensions(f"{self.name}.radius")
         return 0.5 * dimensions(f"{self.name}.teeth") * dimensions(f"{self.name}.module")
@@ -270,18 +264,23 @@ class RackPair(HigherPair):
         angle, at = self.direction - 0.5 * pi, (self.pinion, self.centre)
         return Contact(1.0, self.rack, angle, at, self.pressure_angle, press=-self.side)
 
-    def cut(self, connection: Connection, dimensions: Dimensions) -> RackCut:
-        name = self.name
-        return RackCut(
-            connection,
-            dimensions.point(self.pinion, self.centre),
-            dimensions.point(self.rack, self.through),
-            dimensions.unit(f"{name}.direction"),
-            self._radius(dimensions) * self.side,
-            dimensions(f"{name}.phase"),
-            tan(dimensions(f"{name}.pressure_angle")),
-            self.side,
-        )
+    def residual(self, at: Ends) -> list[Scalar]:
+        gap, line = self._gap(at)
+        turned = at.rotation(self.pinion) - at.rotation(self.rack) - at.dimension(f"{self.name}.phase")
+        return [line.dot(gap) + self._radius(at.dimensions) * self.side * turned]
+
+    def held(self, at: Ends, force: Scalar, size: Size) -> list[tuple[Scalar, Scalar]]:
+        """The teeth press the pinion off the pitch line, on which guides keep it."""
+        slope = tan(at.dimension(f"{self.name}.pressure_angle"))
+        if isinstance(slope, float) and slope == 0.0:
+            return []
+        gap, line = self._gap(at)
+        return [(line.cross(gap), self.side * slope * size(force))]
+
+    def _gap(self, at: Ends) -> tuple[Vec, Vec]:
+        """From the rack's point to the pinion's centre, and the direction of the pitch line."""
+        gap = at.point(self.pinion, self.centre) - at.point(self.rack, self.through)
+        return gap, at.vector(self.rack, at.unit(f"{self.name}.direction"))
 
     def sums(self, mechanism: Mechanism) -> tuple[Mapping[str, float], Mapping[str, float], float]:
         way = self._way(mechanism)
@@ -296,24 +295,6 @@ class RackPair(HigherPair):
     @property
     def seats(self) -> tuple[tuple[str, str], ...]:
         return ((self.pinion, self.centre),)
-
-    def rows(
-        self, system: ConstraintSystem, kept: tuple[str, ...], places: Mapping[str, Place]
-    ) -> Iterable[Row]:
-        """The pinion's centre along the rack, and its rotation against it."""
-        pinion, rack = places[self.pinion], places[self.rack]
-        lever = self.side * self.radius / system.size
-        tx, ty = rack.arm((cos_of(self.direction), sin_of(self.direction)))
-        cx, cy = pinion.arm(system.local(self.pinion, self.centre))
-        px, py = rack.arm(system.local(self.rack, self.through))
-        gx, gy = pinion.x + cx - rack.x - px, pinion.y + cy - rack.y - py
-        gap = tx * gx + ty * gy + lever * (pinion.angle - rack.angle)
-        turned = tx * gy - ty * gx + tx * py - ty * px
-        parts = {
-            self.pinion: (tx, ty, ty * cx - tx * cy + lever),
-            self.rack: (-tx, -ty, turned - lever),
-        }
-        yield system.kept(self.name, gap, parts)
 
     def _way(self, mechanism: Mechanism) -> _Way | None:
         return _Search(self, mechanism).found()
@@ -350,7 +331,7 @@ class _Way:
 class _Search:
     """Looks for guides between the rack and a link on which the pinion is pinned."""
 
-    def __init__(self, pair: RackPair, mechanism: Mechanism) -> None:
+    def __init__(self, pair: RackPair, mechanism: Model) -> None:
         self.pair, self.mechanism = pair, mechanism
         self.guides = list(mechanism.guides.values())
 
@@ -358,10 +339,10 @@ class _Search:
         found = self._route()
         return None if found is None else self._measured(*found)
 
-    def _route(self) -> tuple[str, str, tuple[SlidingJoint, ...]] | None:
+    def _route(self) -> tuple[str, str, tuple[Guide, ...]] | None:
         """The pinion's carrier and pin, and the guides that lead to it from the rack."""
         carriers = self._carriers()
-        routes: list[tuple[str, tuple[SlidingJoint, ...]]] = [(self.pair.rack, ())]
+        routes: list[tuple[str, tuple[Guide, ...]]] = [(self.pair.rack, ())]
         seen = {self.pair.rack}
         for link, route in routes:
             if link in carriers and route:
@@ -373,7 +354,7 @@ class _Search:
                         routes.append((there, (*route, joint)))
         return None
 
-    def traced(self, dimensions: Dimensions) -> tuple[Scalar, list[Scalar]]:
+    def traced(self, dimensions: Sizes) -> tuple[Scalar, list[Scalar]]:
         """How far left of the pitch line the pinion's centre is, m; the sines of the guides' angles to it."""
         found = self._route()
         assert found is not None
@@ -408,7 +389,7 @@ class _Search:
             if link != pinion
         }
 
-    def _measured(self, carrier: str, centre: str, route: Sequence[SlidingJoint]) -> _Way:
+    def _measured(self, carrier: str, centre: str, route: Sequence[Guide]) -> _Way:
         """The route in axes whose x axis is the pitch line."""
         pair, link = self.pair, self.pair.rack
         first = route[0]
@@ -434,58 +415,3 @@ class _Search:
 
     def _local(self, link: str, point: str) -> complex:
         return complex(*self.mechanism.link(link).points[point])
-
-
-@dataclass(frozen=True)
-class RackCut(Cut):
-    """The traced row; ``centre`` in the pinion's axes, ``through`` and ``direction`` in the rack's, ``lever`` the
-    radius with the sign of the side, ``slope`` tan α."""
-
-    centre: Vec
-    through: Vec
-    direction: Vec
-    lever: Scalar
-    phase: Scalar
-    slope: Scalar
-    side: int
-
-    def _line(self, poses: Poses) -> Vec:
-        return poses[self.connection.b].spin(self.direction)
-
-    def residual(self, poses: Poses, angles: Angles) -> list[Scalar]:
-        pinion, rack = self.ends
-        gap = poses[pinion].point(self.centre) - poses[rack].point(self.through)
-        turned = angles(pinion) - angles(rack) - self.phase
-        return [self._line(poses).dot(gap) + self.lever * turned]
-
-    def column(self, shift: Vec, turn: Scalar, end: str, poses: Poses) -> list[Scalar]:
-        sign = 1.0 if end == self.connection.a else -1.0
-        return [(self._line(poses).dot(shift) + self.lever * turn) * sign]
-
-    def drift(self, states: States) -> list[Scalar]:
-        pinion, rack = (states[end] for end in self.ends)
-        arm = pinion.pose.point(self.centre) - rack.pose.place
-        gap = pinion.velocity_of(self.centre) - rack.velocity_at(arm)
-        return [rack.pose.spin(self.direction).dot(gap) + self.lever * (pinion.omega - rack.omega)]
-
-    def bend(self, states: States) -> list[Scalar]:
-        pinion, rack = (states[end] for end in self.ends)
-        arm = pinion.pose.point(self.centre) - rack.pose.place
-        gap = pinion.acceleration_of(self.centre) - rack.acceleration_at(arm)
-        return [rack.pose.spin(self.direction).dot(gap) + self.lever * (pinion.alpha - rack.alpha)]
-
-    def place(self, end: str, poses: Poses) -> Vec:
-        """For the Jacobian the pinion's centre, at which both ends' motions are compared."""
-        return poses[self.connection.a].point(self.centre)
-
-    def force_on(self, end: str, multipliers: Sequence[Scalar], poses: Poses) -> tuple[Vec, Scalar]:
-        """At the pinion's centre, with the moment of the force at the pitch point."""
-        force, couple = self._line(poses) * multipliers[0], self.lever * multipliers[0]
-        return (force, couple) if end == self.connection.a else (-force, -couple)
-
-    def pressing(
-        self, multipliers: Sequence[Scalar], poses: Poses, size: Callable[[Scalar], Scalar]
-    ) -> Vec | None:
-        if isinstance(self.slope, float) and self.slope == 0.0:
-            return None
-        return self._line(poses).perp * (self.side * self.slope * size(multipliers[0]))

@@ -3,24 +3,22 @@
 from __future__ import annotations
 
 import cmath
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from math import dist
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.core.dataclass import dataclass
+from linkwright.elements.model import Sizes
 from linkwright.engine.trace import Mask, Scalar, absolute, reciprocal, sqrt
 from linkwright.engine.vector import Vec
 from linkwright.fields.base import Field, Quantity, Word
-from linkwright.joints.base import JOINTS, Contact, Entry, Joint, Poses
+from linkwright.joints.base import JOINTS, Contact, Entry, Joint, Size
+from linkwright.joints.ends import Ends
 from linkwright.joints.marks import Mark
-from linkwright.joints.toothed import FITS, WheelCut, WheelPair, length
+from linkwright.joints.toothed import FITS, WheelPair, length
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
-    from linkwright.core.arrays import Floats
-    from linkwright.elements.topology import Connection
-    from linkwright.kinematics.dimensions import Dimensions
-    from linkwright.kinematics.motion import Motion
     from linkwright.mechanism.mechanism import Mechanism
 
 
@@ -119,12 +117,7 @@ class RollingPair(WheelPair):
         distance = abs(self.line(mechanism))
         return self._apart(distance, self._slack(distance))
 
-    def traced_line(self, dimensions: Dimensions) -> Vec:
-        """From the centre of a to that of b in the carrier's axes, traced, m."""
-        a, b = (dimensions.point(self.carrier, each) for each in self.centres)
-        return b - a
-
-    def fits(self, dimensions: Dimensions) -> Mask:
+    def fits(self, dimensions: Sizes) -> Mask:
         """Radii ask for their distance of the centres; a ratio or teeth alone take any."""
         if self.radii is None:
             return True
@@ -142,12 +135,6 @@ class RollingPair(WheelPair):
         d = dist(*(points[each] for each in self.centres))
         return d * i / (i - 1.0), -d / (i - 1.0)
 
-    def acts_at(self, motion: Motion) -> Floats:
-        """The pitch point."""
-        a, b = (motion.point(f"{self.carrier}.{each}").position for each in self.centres)
-        i = self.transmission
-        return a + (b - a) * (i / (i - 1.0))
-
     def marks(self, mechanism: Mechanism, tooth: dict[tuple[str, str], float]) -> Iterable[Mark]:
         """Two wheels of the pitch radii."""
         radii = [abs(each) for each in self.arms(mechanism)]
@@ -161,27 +148,16 @@ class RollingPair(WheelPair):
         angle, at = cmath.phase(self.line(mechanism)), (self.carrier, self.centres[0])
         return Contact(-other, self.carrier, angle, at, press=self.sense)
 
-    def cut(self, connection: Connection, dimensions: Dimensions) -> RollingCut:
-        a, b = (dimensions.point(self.carrier, each) for each in self.centres)
-        line = b - a
-        d = sqrt(line.square)
-        i = self.traced_ratio(dimensions)
-        part = d * reciprocal(i - 1.0)
-        phase = dimensions(f"{self.name}.phase")
-        unit = line * reciprocal(d)
-        return RollingCut(connection, self.carrier, (part * i, -part, -d), part * phase, a, b, unit)
+    def traced_arms(self, at: Ends) -> tuple[Scalar, Scalar, Scalar]:
+        distance, i = sqrt(self.traced_line(at.dimensions).square), self.traced_ratio(at.dimensions)
+        part = distance * reciprocal(i - 1.0)
+        return part * i, -part, -distance
 
+    def held(self, at: Ends, force: Scalar, size: Size) -> list[tuple[Scalar, Scalar]]:
+        """The tangential force keeps the centres on the carrier's line."""
+        return [(-self.centres_apart(at)[1], force)]
 
-@dataclass(frozen=True)
-class RollingCut(WheelCut):
-    """``unit``: from A to B in the carrier's axes."""
-
-    unit: Vec
-
-    def place(self, end: str, poses: Poses) -> Vec:
+    def place(self, at: Ends, link: str) -> Vec:
         """The pitch point."""
-        return poses[self.carrier].point(self.centre_a + self.unit * self.k[0])
-
-    def force_on(self, end: str, multipliers: Sequence[Scalar], poses: Poses) -> tuple[Vec, Scalar]:
-        force = poses[self.carrier].spin(self.unit).perp * multipliers[0]
-        return (force if end == self.connection.a else -force), 0.0
+        arm, *_ = self.traced_arms(at)
+        return at.point(self.carrier, self.centres[0]) + at.vector(self.carrier, self.axis(at)) * arm

@@ -12,16 +12,18 @@ from __future__ import annotations
 
 import math
 from abc import abstractmethod
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.core.dataclass import dataclass
-from linkwright.engine.trace import Scalar
+from linkwright.elements.model import Sizes
+from linkwright.engine.trace import Scalar, reciprocal, sqrt
 from linkwright.engine.vector import Vec
 from linkwright.fields.base import Field, Quantities, Quantity, pair_schema
 from linkwright.fields.references import LinkName, LinkNames
-from linkwright.joints.base import Angles, Cut, Entry, HigherPair, Joint, Poses, States
+from linkwright.joints.base import Entry, HigherPair, Joint
+from linkwright.joints.ends import Ends
 from linkwright.joints.marks import Amount, Wheel, Wheels, WheelSizes
 from linkwright.units import number
 from linkwright.words.sentence import Sentence
@@ -30,8 +32,6 @@ if TYPE_CHECKING:
     from linkwright.elements.topology import Connection
     from linkwright.fields.reading import Place as Where
     from linkwright.fields.reading import Reader
-    from linkwright.kinematics.constraint_system import ConstraintSystem, Place, Row
-    from linkwright.kinematics.dimensions import Dimensions
     from linkwright.mechanism.drawing import Drawing
     from linkwright.mechanism.mechanism import Mechanism
     from linkwright.structure.constraints import ConstraintGraph
@@ -158,9 +158,32 @@ class WheelPair(HigherPair):
         """Lever arms k_a, k_b of the row, m."""
 
     @abstractmethod
-    def cut(self, connection: Connection, dimensions: Dimensions) -> Cut: ...
+    def traced_arms(self, at: Ends) -> tuple[Scalar, Scalar, Scalar]:
+        """Lever arms of a, b and the carrier, m, as traced values."""
 
-    def traced_ratio(self, dimensions: Dimensions) -> Scalar:
+    def residual(self, at: Ends) -> list[Scalar]:
+        arms, total = self.traced_arms(at), 0.0  # type: tuple[Scalar, ...], Scalar
+        for arm, link in zip(arms, self.turning, strict=True):
+            total = total + arm * at.rotation(link)
+        return [total - arms[1] * at.dimension(f"{self.name}.phase")]
+
+    def axis(self, at: Ends) -> Vec:
+        """Unit vector from the centre of a to that of b, in the carrier's axes."""
+        line = self.traced_line(at.dimensions)
+        return line * reciprocal(sqrt(line.square))
+
+    def traced_line(self, dimensions: Sizes) -> Vec:
+        """From the centre of a to that of b in the carrier's axes, traced, m."""
+        a, b = (dimensions.point(self.carrier, each) for each in self.centres)
+        return b - a
+
+    def centres_apart(self, at: Ends) -> tuple[Scalar, Scalar]:
+        """How far b's centre is from a's along the carrier's line and to its left, m: its distance, and zero."""
+        (one, other), (a, b) = self.links, self.centres
+        along, gap = at.vector(self.carrier, self.axis(at)), at.point(other, b) - at.point(one, a)
+        return along.dot(gap), along.cross(gap)
+
+    def traced_ratio(self, dimensions: Sizes) -> Scalar:
         """The ratio as a traced value of the dimensions."""
         if self.ratio is not None:
             return dimensions(f"{self.name}.ratio")
@@ -215,56 +238,6 @@ class WheelPair(HigherPair):
     @property
     def seats(self) -> tuple[tuple[str, str], ...]:
         return ((self.carrier, self.centres[0]), (self.carrier, self.centres[1]))
-
-    def rows(
-        self, system: ConstraintSystem, kept: tuple[str, ...], places: Mapping[str, Place]
-    ) -> Iterable[Row]:
-        i = self.transmission
-        a, b, c = self.turning
-        theta = {link: places[link].angle for link in (a, b, c)}
-        gap = i * (theta[a] - theta[c]) - (theta[b] - theta[c])
-        factors = {a: i, b: -1.0, c: 1.0 - i}
-        yield system.kept(self.name, gap, {link: (0.0, 0.0, each) for link, each in factors.items()})
-
-
-@dataclass(frozen=True)
-class WheelCut(Cut):
-    """The row of two wheels: arms ``k`` of a, b and the carrier, ``rest`` the constant; (m).
-
-    ``centre_a``, ``centre_b``: the pins in the carrier's axes.
-    """
-
-    carrier: str
-    k: tuple[Scalar, Scalar, Scalar]
-    rest: Scalar
-    centre_a: Vec
-    centre_b: Vec
-
-    @property
-    def ends(self) -> tuple[str, ...]:
-        return self.connection.a, self.connection.b, self.carrier
-
-    def residual(self, poses: Poses, angles: Angles) -> list[Scalar]:
-        return [self._sum(angles) + self.rest]
-
-    def _sum(self, value: Callable[[str], Scalar]) -> Scalar:
-        total: Scalar = 0.0
-        for factor, end in zip(self.k, self.ends, strict=True):
-            total = total + factor * value(end)
-        return total
-
-    def column(self, shift: Vec, turn: Scalar, end: str, poses: Poses) -> list[Scalar]:
-        return [self.k[self.ends.index(end)] * turn]
-
-    def drift(self, states: States) -> list[Scalar]:
-        return [self._sum(lambda end: states[end].omega)]
-
-    def bend(self, states: States) -> list[Scalar]:
-        return [self._sum(lambda end: states[end].alpha)]
-
-    def place(self, end: str, poses: Poses) -> Vec:
-        """The centre of wheel a."""
-        return poses[self.carrier].point(self.centre_a)
 
 
 def whole(value: float) -> bool:

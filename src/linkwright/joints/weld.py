@@ -6,20 +6,18 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.core.dataclass import dataclass
+from linkwright.elements.model import Sizes
 from linkwright.engine.trace import Scalar
 from linkwright.engine.vector import Vec
 from linkwright.fields.base import Field, Quantity, Text
 from linkwright.fields.references import LinkNames
 from linkwright.joints.base import JOINTS, Entry, Joint
+from linkwright.joints.ends import Ends, Hung
 from linkwright.joints.lower import RigidJoint
-from linkwright.joints.pose import Pose, Rotor, State
-from linkwright.joints.revolute import Pin
 
 if TYPE_CHECKING:
     from linkwright.elements.topology import Connection, TreeJoint
     from linkwright.kinematics.closed_loops import Body, LoopBuilder
-    from linkwright.kinematics.constraint_system import ConstraintSystem, Place, Row
-    from linkwright.kinematics.dimensions import Dimensions
     from linkwright.structure.constraints import ConstraintGraph
     from linkwright.structure.decompose import Grouping
 
@@ -66,12 +64,21 @@ class WeldJoint(RigidJoint):
             yield self.between(*self.links, grouping.driver(self.name))
 
     # motion -----------------------------------------------------------------------------------
-    def hang(self, step: TreeJoint, dimensions: Dimensions) -> Fixed:
-        turn = dimensions.unit(f"{self.name}.angle")
-        turned = turn.conjugate if step.child == self.links[1] else turn
-        return Fixed(dimensions.point(step.parent, self.at), dimensions.point(step.child, self.at), turned)
 
-    def turned(self, step: TreeJoint, dimensions: Dimensions) -> Scalar:
+    def residual(self, at: Ends) -> list[Scalar]:
+        """The common point; what keeps the rotation is said by :attr:`ties`."""
+        gap = self.place(at, at.a) - self.place(at, at.b)
+        return [gap.x, gap.y]
+
+    def place(self, at: Ends, link: str) -> Vec:
+        return at.point(link, self.at)
+
+    def hang(self, at: Ends, step: TreeJoint, coordinate: Scalar) -> Hung:
+        turn = at.unit(f"{self.name}.angle")
+        turned = turn.conjugate if step.child == self.links[1] else turn
+        return Hung(at.local(step.child, self.at), at.point(step.parent, self.at), turned)
+
+    def turned(self, step: TreeJoint, dimensions: Sizes) -> Scalar:
         turn = dimensions(f"{self.name}.angle")
         return turn if step.child == self.links[1] else -turn
 
@@ -80,26 +87,3 @@ class WeldJoint(RigidJoint):
         turn = self.angle if step.child == self.links[1] else -self.angle
         place, anchor = build.place(step.parent, self.at), build.local(step.child, self.at)
         return build.body(parent.rotation, parent.offset + turn, anchor, place)
-
-    def rows(
-        self, system: ConstraintSystem, kept: tuple[str, ...], places: Mapping[str, Place]
-    ) -> Iterable[Row]:
-        yield system.rotation(self.name, *self.links, self.angle, places)
-        yield from system.pin(self.name, *self.links, self.at, places)
-
-
-@dataclass(frozen=True)
-class Fixed(Pin):
-    """A weld of a chain: a pin that turns with the parent, no coordinate."""
-
-    turned: Vec
-
-    def place(self, parent: Pose, coordinate: Rotor | Scalar | None) -> Pose:
-        rotor = Rotor(parent.rotor.now, parent.rotor.local.turn(self.turned))
-        return Pose(self.on_child, parent.point(self.on_parent), rotor)
-
-    def rates(self, parent: State, pose: Pose, rate: Scalar) -> State:
-        return super().rates(parent, pose, parent.omega)
-
-    def accelerate(self, parent: State, child: State, rate: Scalar, second: Scalar) -> State:
-        return super().accelerate(parent, child, rate, parent.alpha)

@@ -9,8 +9,11 @@ from math import sin as sine
 from linkwright.core.dataclass import dataclass
 from linkwright.core.inputs import Input
 from linkwright.drivers.base import Driver
+from linkwright.elements.topology import TreeJoint
+from linkwright.engine.symbols import Symbols
 from linkwright.engine.trace import Scalar, Trace, cos, sin, sqrt
 from linkwright.engine.vector import Vec
+from linkwright.kinematics.equation import ChainPair
 from linkwright.mechanism.geometry import centre, local_points
 from linkwright.mechanism.mechanism import Link, Mechanism
 
@@ -19,7 +22,7 @@ class Dimensions:
     """Gives every dimension as a parameter of the trace.
 
     A dimension that is zero in the mechanism, and not among the ``free`` ones that are going to vary, is a
-    known zero, so that what it multiplies is never computed.
+    known zero, so that what it multiplies is never computed. ``pairs``: chains' joints traced with them.
     """
 
     def __init__(self, mechanism: Mechanism, trace: Trace, free: Set[str] = frozenset()) -> None:
@@ -30,6 +33,8 @@ class Dimensions:
         self._points: dict[str, dict[str, Vec]] = {}
         self._varying = _varying(mechanism, free)
         self._parameters: dict[str, Scalar] = {}
+        self.symbols = Symbols(trace)
+        self.pairs: dict[TreeJoint, ChainPair] = {}
 
     def __call__(self, address: str) -> Scalar:
         """The dimension at an address (``crank.length``)."""

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.kinematics.constraint_system import ConstraintSystem, Numbers, coordinates
+from linkwright.kinematics.constraint_equations import ConstraintEquations, coordinates
 from linkwright.kinematics.motion import Motion
 
 #: Largest equation (lengths over the size, rad) that a found fold may leave, and Newton steps to get there.
@@ -24,13 +24,13 @@ def fold(motion: Motion, driver: str) -> tuple[float, float] | None:
 
     Newton's method on the joints, the other drivers' coordinates, J v = 0 and |v| = 1, in the coordinates x of
     all links and the direction v in which they can still move while all drivers stand still (Govaerts, Numerical
-    Methods for Bifurcations of Dynamical Equilibria, ch. 4). Its derivatives are exact, by complex steps.
+    Methods for Bifurcations of Dynamical Equilibria, ch. 4). Its derivatives are exact.
     """
     positions = motion.positions
     if not motion.ok[-1]:
         return None
     start = coordinates(motion, -1)
-    search = _Fold(ConstraintSystem(motion.mechanism), driver, start)
+    search = _Fold(ConstraintEquations(motion.mechanism), driver, start)
     found = search.solve(start)
     if found is None:
         return None
@@ -45,14 +45,14 @@ def fold(motion: Motion, driver: str) -> tuple[float, float] | None:
 
 
 class _Fold:
-    def __init__(self, system: ConstraintSystem, driver: str, start: Floats) -> None:
+    def __init__(self, system: ConstraintEquations, driver: str, start: Floats) -> None:
         self.system = system
         self.drivers = list(system.mechanism.drivers)
         self.held = {name: self.coordinate(name, start) for name in self.drivers if name != driver}
 
-    def coordinate(self, driver: str, x: Numbers) -> float:
+    def coordinate(self, driver: str, x: Floats) -> float:
         """A driver's coordinate; lengths over the size."""
-        return float(np.real(self.system.driver_row(driver, x).value))
+        return self.system.driver_row(driver, x).value
 
     def solve(self, start: Floats) -> tuple[Floats, float] | None:
         """Coordinates of all links at the fold, and what rounding leaves of them."""
@@ -77,23 +77,21 @@ class _Fold:
         held = [self.system.driver_row(name, x).value - q for name, q in self.held.items()]
         return np.concatenate([self.system.residual(x), held])
 
-    def _jacobian(self, x: Numbers) -> Numbers:
+    def _jacobian(self, x: Floats) -> Floats:
         return self.system.matrix(
             [*self.system.rows(x), *(self.system.driver_row(n, x) for n in self.drivers)]
         )
 
     def _held_jacobian(self, x: Floats) -> Floats:
         rows = [*self.system.rows(x), *(self.system.driver_row(name, x) for name in self.held)]
-        return np.asarray(self.system.matrix(rows))
+        return self.system.matrix(rows)
 
     def _derivative(self, x: Floats, v: Floats, normal: Floats) -> Floats:
-        n, h = len(x), 1e-30
-        bend = np.stack([np.imag(self._jacobian(x + 1j * h * unit) @ v) / h for unit in np.eye(n)], axis=1)
         top = self._held_jacobian(x)
         return np.block(
             [
                 [top, np.zeros_like(top)],
-                [bend, self._jacobian(x)],
-                [np.zeros((1, n)), normal[None, :]],
+                [self.system.second(x, v), self._jacobian(x)],
+                [np.zeros((1, len(x))), normal[None, :]],
             ]
         )

@@ -13,11 +13,12 @@ from linkwright.engine.recently_made import Recent
 from linkwright.engine.trace import Mask, Scalar, cos, sin, stop
 from linkwright.engine.vector import Vec
 from linkwright.groups.base import DYADS, Chain, Dyad, Solved, WholeGroup
-from linkwright.joints.base import JOINTS, Cut
+from linkwright.joints.base import JOINTS
 from linkwright.joints.pose import UNTURNED, Pose, Rotor
 from linkwright.kinematics.angles import Angles, geared
 from linkwright.kinematics.closure import Coordinate, cut_of, jacobian, pair_of
 from linkwright.kinematics.dimensions import Dimensions, DriverInput
+from linkwright.kinematics.equation import Equation
 from linkwright.mechanism.geometry import mechanism_size
 from linkwright.structure.analysis import Structure
 
@@ -30,7 +31,7 @@ class Placed:
     """A group in position: its Jacobian's inverse, and how well it is closed."""
 
     group: Group
-    cuts: tuple[Cut, ...]
+    cuts: tuple[Equation, ...]
     dyad: Dyad | None = None
     inverse: Matrix = field(default_factory=list)
     valid: Mask = True
@@ -75,7 +76,7 @@ class GroupTracer:
 
     def place(self, group: Group) -> Placed:
         """Poses of the group's links, found and stored."""
-        placed = Placed(group, tuple(cut_of(c, self.dimensions) for c in group.cuts))
+        placed = Placed(group, tuple(cut_of(c, self.dimensions, self.angles) for c in group.cuts))
         if not group.unknowns:
             self._hang(group, {})
             return placed
@@ -139,7 +140,7 @@ class GroupTracer:
         matrix = jacobian(group, placed.cuts, self.poses, self.dimensions)
         placed.inverse = inverse(matrix, solved.inverse_determinant * sign)
 
-    def _chain(self, group: Group, cut: Cut, end: str) -> Chain:
+    def _chain(self, group: Group, cut: Equation, end: str) -> Chain:
         steps = chain_unknowns(group, end)
         if not steps:
             return Chain(cut.place(end, self._trial(group, None, end)))
@@ -175,7 +176,7 @@ class GroupTracer:
         self._hang(group, dict(zip(group.unknowns, solved, strict=True)))
 
     def _gap(self, placed: Placed) -> list[Scalar]:
-        return [entry for cut in placed.cuts for entry in cut.residual(self.poses, self.angles)]
+        return [entry for cut in placed.cuts for entry in cut.residual(self.poses)]
 
     # Newton -------------------------------------------------------------------------------
     def _newton(self, placed: Placed) -> None:

@@ -319,6 +319,10 @@ class Motion(Plotted):
         hint = offered(name, self.mechanism.joints)
         raise RequestError("motion.no_coordinate", name=name, hint=hint)
 
+    def reaction_place(self, joint: str) -> Floats:
+        """Where the force of a joint is reported, (n, 2) m in frame axes: a pin, a block's point, a pitch point."""
+        return self.vector("reaction_place", joint)
+
     def point_of(self, key: str) -> PointMotion:
         """Motion of a point by its canonical key."""
         return PointMotion(self, key)

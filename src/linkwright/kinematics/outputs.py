@@ -37,6 +37,8 @@ class MotionOutputs:
                 return self._points[owner][POINT.index(kind)]
             case "guide":
                 return self.slide(owner)[SLIDE.index(kind)]
+            case "joint" if kind == "reaction_place":
+                return motion.reaction_place(owner)
             case "link" if kind == "direction":
                 return motion.poses[owner].direction
             case "link" if kind == "turned_angle":

@@ -16,8 +16,8 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError
-from linkwright.kinematics.constraint_system import (
-    ConstraintSystem,
+from linkwright.kinematics.constraint_equations import (
+    ConstraintEquations,
     Row,
     coordinates,
     drawn_coordinates,
@@ -77,7 +77,7 @@ def jacobian_rank(motion: Motion, index: int = 0) -> RankReport:
     if not motion.ok[index]:
         raise LinkwrightError("motion.no_rank", index=index)
     mechanism = motion.mechanism
-    system = ConstraintSystem(mechanism)
+    system = ConstraintEquations(mechanism)
     here = coordinates(motion, index)
     if _regular_in_groups(mechanism, motion.structure, here):
         rank, redundant = len(system.rows(here)), tuple[Row, ...]()
@@ -95,7 +95,7 @@ def rank_from_drawing(mechanism: Mechanism) -> RankReport | None:
     drawn = drawn_coordinates(mechanism)
     if drawn is None:
         return None
-    system = ConstraintSystem(mechanism)
+    system = ConstraintEquations(mechanism)
     here, gap = _closed(system, drawn)
     if gap > CLOSED:
         return _gaping(mechanism, system, *_rank(system, here, ZERO_DRAWN), gap)
@@ -109,7 +109,7 @@ def rank_from_dimensions(mechanism: Mechanism) -> RankReport | None:
     counts, as others may be special. None where no position is found, where the rank confirms the count, of higher
     pairs, whose phases a position found so need not keep, and of more than 30 links.
     """
-    system = ConstraintSystem(mechanism)
+    system = ConstraintEquations(mechanism)
     if mechanism.higher or len(system.links) > MOST_STREWN:
         return None
     here, rank = _assembled(system)
@@ -119,7 +119,7 @@ def rank_from_dimensions(mechanism: Mechanism) -> RankReport | None:
 
 
 def _rank_where_closed(
-    mechanism: Mechanism, system: ConstraintSystem, here: Floats, where: str
+    mechanism: Mechanism, system: ConstraintEquations, here: Floats, where: str
 ) -> RankReport:
     rank, redundant = _rank(system, here, ZERO_DRAWN)
     special = rank < system.freedoms and not _moves(system, here, rank)
@@ -156,7 +156,7 @@ def _regular_in_groups(mechanism: Mechanism, built: Structure, x: Floats) -> boo
     and nothing above them.
     """
     turn = {link: number for number, group in enumerate(built.groups) for link in group.links}
-    system = ConstraintSystem(mechanism, order={"frame": -1, **turn})
+    system = ConstraintEquations(mechanism, order={"frame": -1, **turn})
     rows = [*system.rows(x), *(system.driver_row(name, x) for name in mechanism.drivers)]
     of_group: list[list[Row]] = [[] for _ in built.groups]
     for row in rows:
@@ -172,7 +172,7 @@ def _regular_in_groups(mechanism: Mechanism, built: Structure, x: Floats) -> boo
     return True
 
 
-def _rank(system: ConstraintSystem, x: Floats, zero: float) -> tuple[int, tuple[Row, ...]]:
+def _rank(system: ConstraintEquations, x: Floats, zero: float) -> tuple[int, tuple[Row, ...]]:
     """Rank, and the equations that those before them imply (the last ones of each dependence)."""
     rows = system.rows(x)
     matrix = system.matrix(rows)
@@ -215,7 +215,7 @@ def _spare_links(mechanism: Mechanism, x: Floats, zero: float) -> tuple[str, ...
     By the states of self-stress, the multipliers that need no load: without a link those remain that put no force on
     it at any of its joints, and each of them is one redundant equation.
     """
-    full = ConstraintSystem(mechanism)
+    full = ConstraintEquations(mechanism)
     rows = full.rows(x)
     matrix = full.matrix(rows)
     rank = _numeric_rank(matrix, zero)
@@ -240,7 +240,7 @@ def _spare_joints(rows: Sequence[Row], redundant: Sequence[Row]) -> tuple[str, .
     return tuple(implied) if all(implied[joint] == equations[joint] for joint in implied) else ()
 
 
-def _forces_on_links(system: ConstraintSystem, rows: Sequence[Row], states: Floats) -> dict[str, Floats]:
+def _forces_on_links(system: ConstraintEquations, rows: Sequence[Row], states: Floats) -> dict[str, Floats]:
     """Forces and moments of every joint on every link in all states of self-stress; by link (3 joints, states)."""
     found: dict[str, dict[str, Floats]] = {name: {} for name in system.links}
     none = np.zeros((3, states.shape[1]))
@@ -252,7 +252,7 @@ def _forces_on_links(system: ConstraintSystem, rows: Sequence[Row], states: Floa
     return {link: np.concatenate([*by_joint.values(), none]) for link, by_joint in found.items()}
 
 
-def _freedoms_without(full: ConstraintSystem, rows: Sequence[Row], without: Sequence[str]) -> int:
+def _freedoms_without(full: ConstraintEquations, rows: Sequence[Row], without: Sequence[str]) -> int:
     """Freedoms by Grübler's count, the equations that are redundant counted as the others."""
     equations, left = Counter(row.joint for row in rows), frozenset(without)
     lost = 0
@@ -264,7 +264,7 @@ def _freedoms_without(full: ConstraintSystem, rows: Sequence[Row], without: Sequ
 
 
 # drawings -----------------------------------------------------------------------------------------
-def _closed(system: ConstraintSystem, x: Floats, held: str | None = None) -> tuple[Floats, float]:
+def _closed(system: ConstraintEquations, x: Floats, held: str | None = None) -> tuple[Floats, float]:
     """The nearest coordinates that satisfy the joints (Gauss and Newton, shortest steps), and what still gapes.
 
     Ends where steps are zero, or so short that only rounding is left of them: they do not become shorter. ``held``: a
@@ -287,7 +287,7 @@ def _closed(system: ConstraintSystem, x: Floats, held: str | None = None) -> tup
     return x, float(np.abs(system.residual(x)).max(initial=0.0))
 
 
-def _assembled(system: ConstraintSystem) -> tuple[Floats | None, int]:
+def _assembled(system: ConstraintEquations) -> tuple[Floats | None, int]:
     """Coordinates that satisfy the joints and the rank there, the greatest among some; None where none are found.
 
     The first driver is held where it was strewn, as steps that move everything often end in special positions.
@@ -304,7 +304,7 @@ def _assembled(system: ConstraintSystem) -> tuple[Floats | None, int]:
     return max(found, key=lambda each: each[1], default=(None, 0))
 
 
-def _moves(system: ConstraintSystem, x: Floats, rank: int) -> bool:
+def _moves(system: ConstraintEquations, x: Floats, rank: int) -> bool:
     """Whether a small finite motion along one of the free directions exists at the same rank."""
     for direction in _null_space(system.jacobian(x), rank).T:
         there, gap = _closed(system, x + 0.03 * direction)
@@ -317,7 +317,7 @@ def _moves(system: ConstraintSystem, x: Floats, rank: int) -> bool:
 # sentences ----------------------------------------------------------------------------------------
 def _report(
     mechanism: Mechanism,
-    system: ConstraintSystem,
+    system: ConstraintEquations,
     rank: int,
     implied: Sequence[Row],
     links: tuple[str, ...],
@@ -369,7 +369,7 @@ def _said(rows: Sequence[Row]) -> tuple[Sentence, ...]:
 
 
 def _gaping(
-    mechanism: Mechanism, system: ConstraintSystem, rank: int, implied: Sequence[Row], gap: float
+    mechanism: Mechanism, system: ConstraintEquations, rank: int, implied: Sequence[Row], gap: float
 ) -> RankReport:
     from linkwright.units import number
 

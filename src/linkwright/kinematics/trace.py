@@ -13,6 +13,7 @@ from linkwright.engine.vector import Vec
 from linkwright.joints.pose import FRAME_POSE, FRAME_STATE, Pose, State
 from linkwright.kinematics.angles import Angles
 from linkwright.kinematics.dimensions import Dimensions, DriverInput, driver_input
+from linkwright.kinematics.equation import reaction_place
 from linkwright.kinematics.groups import GroupTracer, Placed, dyad_shape
 from linkwright.kinematics.rates import RateTracer
 from linkwright.kinematics.rest import moving, pace_name
@@ -55,6 +56,10 @@ class MotionTrace:
         """Angular velocity of a link against another one, rad/s, zero at rest."""
         a, b = self.states[against], self.states[link]
         return self.moving(b.omega - a.omega, b.alpha - a.alpha, "angle")
+
+    def reaction_place(self, joint: str) -> Vec:
+        """Where the force of a joint is reported."""
+        return reaction_place(self.mechanism.joints[joint], self.dimensions, self.poses)
 
     def point(self, link: str, local: Vec) -> tuple[Vec, Vec, Vec]:
         """Position, velocity and acceleration of a point given in a link's axes."""

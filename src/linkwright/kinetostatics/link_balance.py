@@ -9,7 +9,6 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.outputs import row_name, row_names
-from linkwright.kinematics.names import canonical
 
 if TYPE_CHECKING:
     from linkwright.kinetostatics.forces import Forces
@@ -46,8 +45,7 @@ Pair = tuple[Floats, Floats]
 def motion_outputs(forces: Forces) -> Iterator[str]:
     """Names of what the balance takes from the motion."""
     mechanism = forces.mechanism
-    keys = [canonical(mechanism, *seat) for joint in mechanism.joints.values() for seat in joint.seats]
-    yield from (name for key in keys for name in row_names("position", key))
+    yield from (name for joint in mechanism.joints for name in row_names("reaction_place", joint))
     for link in mechanism.links:
         for kind in ("position",) if forces.static else ("position", "acceleration"):
             yield from row_names(kind, f"{link}.@centre")
@@ -78,7 +76,7 @@ def _joints(forces: Forces, link: str) -> Pair:
             continue
         force = forces.reaction(name, on=link)
         total = total + force
-        moment = moment + _cross(joint.acts_at(forces.motion), force) + forces.couple(name, on=link)
+        moment = moment + _cross(forces.motion.reaction_place(name), force) + forces.couple(name, on=link)
     return total, moment
 
 
@@ -102,8 +100,8 @@ def _drivers(forces: Forces, link: str) -> Pair:
     for name, force, couple in driver_wrenches(forces, link):
         total, moment = total + force, moment + couple
         if force.any():
-            joint = forces.mechanism.joints[forces.mechanism.drivers[name].joint]
-            moment = moment + _cross(joint.acts_at(forces.motion), force)
+            place = forces.motion.reaction_place(forces.mechanism.drivers[name].joint)
+            moment = moment + _cross(place, force)
     return total, moment
 
 

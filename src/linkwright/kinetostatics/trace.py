@@ -17,9 +17,9 @@ from linkwright.elements.topology import Connection, TreeJoint
 from linkwright.engine.linear import product, transposed
 from linkwright.engine.trace import Scalar, absolute
 from linkwright.engine.vector import ZERO, Vec
-from linkwright.joints.base import Cut
 from linkwright.joints.pose import Pose
 from linkwright.kinematics.closure import pair_of
+from linkwright.kinematics.equation import Equation
 from linkwright.kinematics.groups import Placed
 from linkwright.kinematics.trace import MotionTrace
 from linkwright.kinetostatics.load_site import ACTS, TracedSite
@@ -48,7 +48,6 @@ class JointForce:
     on: str
     force: Vec
     couple: Scalar
-    place: Vec
 
 
 @dataclass
@@ -185,7 +184,7 @@ class _Reverse:
         for step in reversed(placed.group.tree):
             self._carry(step)
 
-    def _shares(self, placed: Placed) -> list[tuple[Cut, list[Scalar]]]:
+    def _shares(self, placed: Placed) -> list[tuple[Equation, list[Scalar]]]:
         """Every cut of a group with the multipliers of its own rows that supply what its links demand now."""
         multipliers = product(transposed(placed.inverse), self._wanted(placed))
         found, row = [], 0
@@ -223,23 +222,25 @@ class _Reverse:
     def _arm_on_parent(self, step: TreeJoint) -> Vec:
         parent, child = self.motion.poses[step.parent], self.motion.poses[step.child]
         if step.turns:
-            point = self.motion.dimensions.point(step.parent, step.joint)
-            return parent.spin(point - parent.anchor)
+            return pair_of(step, self.motion.dimensions).arm(parent)
         return child.place - parent.place
 
-    def _apply(self, cut: Cut, multipliers: list[Scalar]) -> None:
+    def _apply(self, cut: Equation, multipliers: list[Scalar]) -> None:
         """The force at a cut, with what presses there and does no work, supplies part of both links' demand."""
         poses, connection = self.motion.poses, cut.connection
-        pressing = cut.pressing(multipliers, poses, partial(self._size, connection))
-        for link in (connection.a, connection.b):
-            force, couple = cut.force_on(link, multipliers, poses)
-            if pressing is not None:
-                force = force + pressing if link == cut.on else force - pressing
-            moment = cut.arm(link, poses).cross(force) + couple
+        wrenches = cut.wrenches(multipliers, poses)
+        for link, (force, moment) in cut.held(multipliers[0], poses, partial(self._size, connection)).items():
+            own, about = wrenches[link]
+            wrenches[link] = own + force, about + moment
+        for link, (force, moment) in wrenches.items():
             self.demands[link] = self.demands[link] + Demand(-force, -moment)
-            if link == cut.on:
-                place = cut.place(link, poses)
-                self.forces.joints.append(JointForce(connection, link, force, couple, place))
+        force, couple = wrenches[cut.on]
+        if connection.higher and cut.joint.couples:
+            arm = cut.place(cut.on, poses) - poses[cut.on].place
+            couple = couple - arm.cross(force)
+        else:
+            couple = 0.0
+        self.forces.joints.append(JointForce(connection, cut.on, force, couple))
 
     def _carry(self, step: TreeJoint) -> None:
         """The joint that hangs a child on its parent supplies the child's whole demand."""
@@ -253,21 +254,12 @@ class _Reverse:
             self.forces.left[step.joint, step.child] = left
         if step.driver is not None:
             force = force - self._drive(step, demand)
-        place = self.motion.poses[step.child].place
-        self.forces.joints.append(JointForce(step.connection, step.child, force, couple, place))
+        self.forces.joints.append(JointForce(step.connection, step.child, force, couple))
 
     def _couple(self, step: TreeJoint, demand: Demand) -> Scalar:
-        """Couple on the child about the block's point (guide) or the weld."""
-        pose = self.motion.poses[step.child]
-        if step.slides and step.child == step.connection.a:
-            block = self.motion.poses[step.parent].place + self._block_arm(step)
-            return demand.moment + (pose.place - block).cross(demand.force)
-        return demand.moment
-
-    def _block_arm(self, step: TreeJoint) -> Vec:
-        parent = self.motion.poses[step.parent]
-        joint = self.motion.mechanism.joints[step.joint]
-        return parent.spin(self.motion.dimensions.point(step.parent, joint.at) - parent.anchor)  # type: ignore[attr-defined]
+        """Couple on the child about the place at which the joint's force is reported."""
+        arm = self.motion.poses[step.child].place - self.motion.reaction_place(step.joint)
+        return demand.moment + arm.cross(demand.force)
 
     def _drive(self, step: TreeJoint, demand: Demand) -> Vec:
         """Notes the driver's effort; the force it exerts on the child along a guide."""

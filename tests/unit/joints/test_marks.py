@@ -197,15 +197,14 @@ def test_a_kind_says_which_of_its_parts_is_lacking() -> None:
         "fields": Bare.fields,
         "constrain": lambda: bare.constrain(any_),
         "connections": lambda: bare.connections(any_, frozenset()),
-        "hang": lambda: bare.hang(any_, any_),
-        "cut": lambda: bare.cut(any_, any_),
+        "residual": lambda: bare.residual(any_),
+        "hang": lambda: bare.hang(any_, any_, 0.0),
         "slide_direction": lambda: bare.slide_direction(any_),
         "turned": lambda: bare.turned(any_, any_),
         "turn_of": lambda: bare.turn_of("one", any_),
         "hang_in_loop": lambda: bare.hang_in_loop(any_, any_, ""),
         "sums": lambda: bare.sums(any_),
         "contact": lambda: bare.contact(any_),
-        "rows": lambda: bare.rows(any_, (), {}),
         "seats": lambda: bare.seats,
     }
     for part, call in calls.items():

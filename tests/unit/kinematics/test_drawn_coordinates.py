@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.kinematics.constraint_system import drawn_coordinates
+from linkwright.kinematics.constraint_equations import drawn_coordinates
 from linkwright.mechanism.geometry import mechanism_size
 
 

@@ -14,7 +14,7 @@ import linkwright as lw
 from linkwright.engine.trace import Scalar
 from linkwright.engine.vector import Vec
 from linkwright.errors import SelfCheckError
-from linkwright.joints.revolute import PinCut
+from linkwright.kinematics.equation import Equation
 from linkwright.kinematics.motion import Evaluate, Rows
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.trace import ForceTrace
@@ -119,13 +119,13 @@ def solved(name: str, steps: int = 12) -> Forces:
 
 def unbalance(patch: pytest.MonkeyPatch) -> None:
     """Let a cut pin give one link 1 % more than it takes from the other."""
-    right = PinCut.force_on
+    right = Equation.wrenches
 
-    def wrong(self: PinCut, end: str, multipliers: Any, poses: Any) -> tuple[Vec, Scalar]:
-        force, couple = right(self, end, multipliers, poses)
-        return (force * 1.01 if end == self.connection.a else force), couple
+    def wrong(self: Equation, multipliers: Any, poses: Any) -> dict[str, tuple[Vec, Scalar]]:
+        found, a = right(self, multipliers, poses), self.connection.a
+        return found | {a: (found[a][0] * 1.01, found[a][1] * 1.01)}
 
-    patch.setattr(PinCut, "force_on", wrong)
+    patch.setattr(Equation, "wrenches", wrong)
 
 
 def test_a_formula_that_leaves_a_link_out_of_balance_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -191,7 +191,7 @@ class LinkStress(Result):
         """Where a joint's force acts, (n, 2) in the link's axes: the block's point where the link is the guide."""
         own = self.problem.mechanism.joints[joint]
         if own.couples or own.higher:
-            return self._local(own.acts_at(self.forces.motion))
+            return self._local(self.forces.motion.reaction_place(joint))
         return np.tile(self.link.points[own.point_on(self.problem.link)], (self.forces.steps, 1))
 
     def _joint_forces(self) -> list[PointForce]:

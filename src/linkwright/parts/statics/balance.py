@@ -80,7 +80,7 @@ def _tidy(values: Floats) -> Floats:
 def _of_joints(forces: Forces, index: int) -> Iterator[_Unknown]:
     """Forces and couples of joints on all their links but the first, which has them turned round."""
     for name, joint in forces.mechanism.joints.items():
-        place = joint.acts_at(forces.motion)[index]
+        place = forces.motion.reaction_place(name)[index]
         first = joint.joined[0]
         other = "frame" if "frame" in joint.joined else first
         bodies = [link for link in joint.joined if link != other]
@@ -110,7 +110,7 @@ def _of_drivers(forces: Forces, index: int) -> Iterator[_Unknown]:
     """Efforts of drivers."""
     for name, driver in forces.mechanism.drivers.items():
         joint, value = forces.mechanism.joints[driver.joint], float(forces.driver_effort(name)[index])
-        place = joint.acts_at(forces.motion)[index]
+        place = forces.motion.reaction_place(driver.joint)[index]
         turning = joint.coordinate == "turn"
         way = np.zeros(2) if turning else forces.guide_direction(driver.joint)[index]
         unit, couple = ("N·m", 1.0) if turning else ("N", 0.0)
@@ -120,7 +120,7 @@ def _of_drivers(forces: Forces, index: int) -> Iterator[_Unknown]:
 def _about(forces: Forces, link: str, index: int) -> Floats:
     """The point of a link about which its moments are taken: its first joint."""
     return next(
-        np.asarray(joint.acts_at(forces.motion)[index])
+        np.asarray(forces.motion.reaction_place(joint.name)[index])
         for joint in forces.mechanism.joints.values()
         if link in joint.joined
     )

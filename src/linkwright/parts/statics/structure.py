@@ -10,7 +10,7 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, ModelError
-from linkwright.kinematics.constraint_system import ConstraintSystem
+from linkwright.kinematics.constraint_equations import ConstraintEquations
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces, solve_forces
 from linkwright.mechanism.mechanism import Mechanism
@@ -47,7 +47,7 @@ def _freedoms(mechanism: Mechanism) -> list[Finding]:
             return []
     except StructureError:
         pass
-    system = ConstraintSystem(mechanism)
+    system = ConstraintEquations(mechanism)
     place = _closed(system)
     if place is None:
         structure(mechanism)
@@ -57,7 +57,7 @@ def _freedoms(mechanism: Mechanism) -> list[Finding]:
     return [fault("statics.structure_moves", "links", how=_motion(system, row)) for row in rows[rank:]]
 
 
-def _closed(system: ConstraintSystem) -> Floats | None:
+def _closed(system: ConstraintEquations) -> Floats | None:
     """Coordinates in which all joints close, found from several starts; None where none was found."""
     from scipy.optimize import least_squares
 
@@ -70,7 +70,7 @@ def _closed(system: ConstraintSystem) -> Floats | None:
     return None
 
 
-def _motion(system: ConstraintSystem, motion: Floats) -> tuple[Sentence, ...]:
+def _motion(system: ConstraintEquations, motion: Floats) -> tuple[Sentence, ...]:
     """What every moving link does in a small motion."""
     found = []
     for i, link in enumerate(system.links):

@@ -342,7 +342,7 @@ def _joint_on(forces: Forces, name: str) -> tuple[str, str]:
 def _joint_place(motion: Motion, joint: str, on: str) -> Floats:
     found = motion.mechanism.joints[joint]
     if found.couples or found.higher:
-        return found.acts_at(motion)
+        return motion.reaction_place(joint)
     return _position(motion, f"{on}.{joint}")
 
 

@@ -163,8 +163,9 @@ def _applied(forces: Forces, link: str, index: int, applied: Sequence[AppliedWre
 
 def _turned_at(forces: Forces, link: str, joint: str, index: int) -> Floats:
     """Where a couple is shown: at its joint, else at a pin of the link on the frame or at its mass centre."""
-    found = forces.mechanism.joints.get(joint)
-    places = link_middle(forces.motion, link) if found is None else found.acts_at(forces.motion)
+    motion = forces.motion
+    known = joint in forces.mechanism.joints
+    places = motion.reaction_place(joint) if known else link_middle(motion, link)
     return np.asarray(places[index])
 
 
@@ -191,6 +192,6 @@ def _drivers(forces: Forces, link: str, index: int) -> Iterator[Action]:
     for name, force, couple in driver_wrenches(forces, link):
         low = "d" if len(mechanism.drivers) == 1 else f"d,{name}"
         joint = mechanism.joints[mechanism.drivers[name].joint]
-        place = np.asarray(joint.acts_at(forces.motion)[index])
+        place = np.asarray(forces.motion.reaction_place(joint.name)[index])
         letter = "M" if joint.coordinate == "turn" else "F"
         yield Action("driver", letter, low, place, force[index], float(couple[index]))

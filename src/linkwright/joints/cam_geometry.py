@@ -1,0 +1,84 @@
+"""The traced rows of cams: a follower on a guide, and one on a pivot."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from typing import TYPE_CHECKING
+
+from linkwright.core.dataclass import dataclass
+from linkwright.engine.trace import Scalar
+from linkwright.joints.lower import SlidingJoint
+
+if TYPE_CHECKING:
+    from linkwright.joints.cam import CamJoint
+    from linkwright.mechanism.mechanism import Mechanism
+
+_TURN = 2 * math.pi
+Lift = tuple[Scalar, Scalar, Scalar]
+
+
+@dataclass(frozen=True)
+class Geometry:
+    """How a follower is held, as numbers: ``along`` its way in the carrier's and ``own`` in its own axes (rad; of a
+    pivot: to the cam's centre, to ``at``), ``start`` d (m) or ψ₀ (rad), ``scale`` m per unit of the coordinate;
+    ``reach`` positive where follower and base circle meet; ``aside``: of ``at`` to the left of the way through the
+    cam's centre, ``ahead``: where it is along the way when a guide's displacement is 0 (m); ``least`` and ``most``:
+    between them base radii reach (m)."""
+
+    along: float
+    own: float
+    start: float
+    scale: float
+    reach: float
+    aside: float = 0.0
+    ahead: float = 0.0
+    least: float = 0.0
+    most: float = math.inf
+
+    @classmethod
+    def of(cls, joint: CamJoint, mechanism: Mechanism) -> Geometry:
+        """From the points of the model."""
+        radius = joint.base_radius + (joint.roller_radius if joint.touch == "roller" else 0.0)
+        at = complex(*mechanism.link(joint.follower).points[joint.at])
+        carrier = mechanism.link(joint.carrier).points
+        centre = complex(*carrier[joint.centre])
+        guide = mechanism.guides.get(joint.holder)
+        if guide is not None:
+            return cls._guided(joint, guide, mechanism, radius, at, centre)
+        line = centre - complex(*carrier[joint.holder])
+        arm = at - complex(*mechanism.link(joint.follower).points[joint.holder])
+        c, length = abs(line), abs(arm)
+        flat = joint.touch == "flat"
+        reached, whole = (radius, c) if flat else (c * c + length**2 - radius**2, 2 * c * length)
+        share = reached / whole if c and length else math.inf
+        met = min(max(share, -1.0), 1.0)
+        start = math.asin(met) if flat else math.acos(met)
+        least, most = (0.0, c) if flat else (abs(c - length), c + length)
+        own, beyond = cmath.phase(arm), radius - joint.base_radius
+        limits = {"least": max(least - beyond, 0.0), "most": most - beyond}
+        return cls(cmath.phase(line), own, start, c if flat else length, 1.0 - abs(share), **limits)
+
+    @classmethod
+    def _guided(
+        cls,
+        joint: CamJoint,
+        guide: SlidingJoint,
+        mechanism: Mechanism,
+        radius: float,
+        at: complex,
+        centre: complex,
+    ) -> Geometry:
+        outward = guide.block == joint.follower
+        on_guide, on_block = guide.direction, guide.block_angle
+        along, own = (on_guide, on_block) if outward else (on_block + math.pi, on_guide + math.pi)
+        ends = (guide.through, guide.at) if outward else (guide.at, guide.through)
+        held = complex(*mechanism.link(joint.carrier).points[ends[0]]) - centre
+        reached = at - complex(*mechanism.link(joint.follower).points[ends[1]])
+        seen = held * cmath.exp(-1j * along) + reached * cmath.exp(-1j * own)
+        side = seen.imag + guide.offset * (1 if outward else -1)
+        if joint.touch == "flat":
+            return cls(along, own, radius, 1.0, radius, side, seen.real)
+        square = radius**2 - side**2
+        least = max(abs(side) - radius + joint.base_radius, 0.0)
+        return cls(along, own, math.sqrt(max(square, 0.0)), 1.0, square, side, seen.real, least)
