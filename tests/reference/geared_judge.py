@@ -38,7 +38,7 @@ def disagreements(case: GearedCase, reference: Motion, text: str = "") -> list[s
     expected, beside = pressed_forces(reference, case.loads())
     compared = Comparison()
     for joint in mechanism.joints.values():
-        place = joint.acts_at(motion)
+        place = motion.reaction_place(joint.name)
         for link in joint.joined:
             force, couple = expected.on(joint.name, link, place)
             for wrench in beside.get(joint.name, ()):

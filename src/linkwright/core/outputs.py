@@ -68,6 +68,7 @@ KINDS = {
     "reaction_direction": Kind("joint", "angle", symbol=r"\beta", word="direction", form="phrase"),
     "heat": Kind("joint", "power", form="phrase"),
     "reaction_place": Kind("joint", "length", "rp", vector=True),
+    "multiplier": Kind("joint", "force", "lambda"),
     "friction": Kind("joint", "", "friction"),
     "unsupplied": Kind("joint", "", "left"),
     "magnitude": Kind("load", "", "load"),

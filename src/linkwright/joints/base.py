@@ -24,6 +24,7 @@ from linkwright.words import has
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
+    from linkwright.core.arrays import Flags, Floats
     from linkwright.elements.model import Sizes
     from linkwright.elements.topology import Group, TreeJoint
     from linkwright.engine.trace import Mask, Scalar
@@ -34,7 +35,6 @@ if TYPE_CHECKING:
     from linkwright.fields.reading import Reader
     from linkwright.joints.marks import Following, Mark, WheelSizes
     from linkwright.kinematics.closed_loops import Body, LoopBuilder
-    from linkwright.kinetostatics.forces import Forces
     from linkwright.mechanism.drawing import Drawing
     from linkwright.mechanism.mechanism import Link, Mechanism
     from linkwright.structure.constraints import ConstraintGraph
@@ -334,9 +334,11 @@ class Joint(ABC):
         """What reports tell of a pair with wheels; None of any other joint."""
         return None
 
-    def pulls(self, forces: Forces) -> Any:
-        """Where (n,) a pair that can only push would have to pull, or a belt to push; None for one that can do
-        both."""
+    def pulls(self, force: Callable[[], Floats]) -> Flags | None:
+        """Where (n,) a pair that can only push would have to pull, or a belt to push; None for one that can do both.
+
+        ``force``: gives the multiplier of its row, (n,) N.
+        """
         return None
 
     @property

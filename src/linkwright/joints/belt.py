@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import cmath
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from math import asin
 from math import sqrt as sqrt_of
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 from linkwright.core.dataclass import dataclass
 from linkwright.elements.model import Sizes
@@ -20,7 +20,7 @@ from linkwright.joints.toothed import WheelPair, length
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
-    from linkwright.kinetostatics.forces import Forces
+    from linkwright.core.arrays import Flags, Floats
     from linkwright.mechanism.mechanism import Mechanism
 
 
@@ -121,12 +121,9 @@ class BeltPair(WheelPair):
             pull=self.pretension,
         )
 
-    def pulls(self, forces: Forces) -> Any:
+    def pulls(self, force: Callable[[], Floats]) -> Flags | None:
         """Where the slack strand would have to push: more than twice the pretension is transmitted."""
-        if not self.pretension:
-            return None
-        transmitted = abs(forces.couple(self.name, on=self.links[0])) / self.pitch_radii()[0]
-        return transmitted > (2.0 + 1e-9) * self.pretension
+        return abs(force()) > (2.0 + 1e-9) * self.pretension if self.pretension else None
 
     def traced_arms(self, at: Ends) -> tuple[Scalar, Scalar, Scalar]:
         first, second = self.traced_radii(at.dimensions)

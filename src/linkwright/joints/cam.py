@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -30,11 +30,11 @@ from linkwright.laws.program_fields import ProgramField
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
+    from linkwright.core.arrays import Flags, Floats
     from linkwright.elements.topology import Connection, Group
     from linkwright.joints.cam_geometry import Geometry
     from linkwright.joints.marks import CamContact, Mark
     from linkwright.kinematics.closed_loops import LoopBuilder
-    from linkwright.kinetostatics.forces import Forces
     from linkwright.laws.program import MotionProgram
     from linkwright.laws.traced import LiftCurve
     from linkwright.mechanism.drawing import Drawing
@@ -355,16 +355,12 @@ class CamJoint(HigherPair):
         nominal = math.pi * self.half_turns
         return nominal + math.remainder(held.own - held.along - nominal, 2.0 * math.pi)
 
-    def pulls(self, forces: Forces) -> Any:
+    def pulls(self, force: Callable[[], Floats]) -> Flags | None:
         if self.closure == "groove":
             return None
-        if self.side:
-            push = forces.couple(self.name, on=self.follower) * (1.0 if self.side == "left" else -1.0)
-        else:
-            guide = forces.mechanism.joints[self.holder]
-            way = forces.guide_direction(self.holder) * (1.0 if guide.joined[1] == self.follower else -1.0)
-            push = (forces.reaction(self.name, on=self.follower) * way).sum(axis=1)
-        return push < -1e-9 * max(float(abs(push).max(initial=0.0)), 1e-12)
+        push = force()
+        none: Flags = push < -1e-9 * max(float(abs(push).max(initial=0.0)), 1e-12)
+        return none
 
     def sums(self, mechanism: Mechanism) -> tuple[Mapping[str, float], Mapping[str, float], float]:
         raise LackingError("joints.cam_sums")

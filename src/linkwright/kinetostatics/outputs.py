@@ -32,6 +32,8 @@ class ForceOutputs:
                 return forces.reaction(owner, output.on)
             case "couple":
                 return forces.couple(owner, output.on)
+            case "multiplier":
+                return forces.multipliers.get(owner, 0.0)
             case "unsupplied":
                 return forces.left[owner, output.on]
             case "effort":

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -149,7 +150,7 @@ def _contacts_lost(forces: Forces) -> Iterable[Sentence]:
     drivers = motion.mechanism.drivers.values()
     unit = ("angle", "deg") if all(driver.law.rotary for driver in drivers) else ("length", "mm")
     for name, joint in motion.mechanism.joints.items():
-        pulls = joint.pulls(forces)
+        pulls = joint.pulls(partial(forces.rows.row, row_name("multiplier", name), forces.evaluate))
         if pulls is None or not pulls.any():
             continue
         at = np.flatnonzero(pulls)

@@ -52,9 +52,12 @@ class JointForce:
 
 @dataclass
 class ForceTrace:
-    """Reactions and efforts as traced values; ``between``: the forces between teeth or in strands whose sizes press
-    on pins, by the names of the joints; ``left``: what a link's balance wants along the coordinate by which a joint
-    leaves it free, N or N·m, by joint and link: zero but for rounding, for no joint can supply it."""
+    """Reactions and efforts as traced values.
+
+    By the names of joints ``multipliers``, the forces of higher pairs, and ``between``, those between teeth or in
+    strands whose sizes press on pins; ``left``: what a balance wants along the coordinate by which a joint leaves a
+    link free, N or N·m, by joint and link: zero but for rounding, for no joint can supply it.
+    """
 
     motion: MotionTrace
     joints: list[JointForce] = field(default_factory=list)
@@ -62,6 +65,7 @@ class ForceTrace:
     own: dict[str, Demand] = field(default_factory=dict)
     wrenches: dict[str, list[Wrench]] = field(default_factory=dict)
     between: dict[str, Scalar] = field(default_factory=dict)
+    multipliers: dict[str, Scalar] = field(default_factory=dict)
     left: dict[tuple[str, str], Scalar] = field(default_factory=dict)
 
     def reaction(self, joint: str, on: str) -> Vec:
@@ -229,6 +233,8 @@ class _Reverse:
         """The force at a cut, with what presses there and does no work, supplies part of both links' demand."""
         poses, connection = self.motion.poses, cut.connection
         wrenches = cut.wrenches(multipliers, poses)
+        if connection.higher:
+            self.forces.multipliers[connection.joint] = multipliers[0]
         for link, (force, moment) in cut.held(multipliers[0], poses, partial(self._size, connection)).items():
             own, about = wrenches[link]
             wrenches[link] = own + force, about + moment

@@ -212,7 +212,7 @@ def test_a_kind_says_which_of_its_parts_is_lacking() -> None:
             call()
     assert (bare.ties, bare.turning, bare.pairs, bare.friction_arm) == ((), (), 1, 0.0)
     assert bare.point_on("one") == "j" and bare.fits(any_) is True
-    assert bare.misfit(any_) is None and bare.pulls(any_) is None and bare.following(any_) is None
+    assert bare.misfit(any_) is None and bare.pulls(dict) is None and bare.following(any_) is None
     assert tuple(bare.marks(any_, {})) == () and bare.work(any_) is None
 
 
