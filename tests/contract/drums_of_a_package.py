@@ -10,7 +10,8 @@ from linkwright.engine.trace import reciprocal, sqrt
 from linkwright.fields.base import Quantities
 from linkwright.fields.references import LinkName, LinkNames, PointPair
 from linkwright.joints.base import HigherPair
-from linkwright.joints.marks import Mark, WheelSizes
+from linkwright.mechanism.wheel_sizes import WheelSizes, wheel_sizes
+from linkwright.plot.drawing.joint_marks import Mark, marks
 
 
 @dataclass(frozen=True)
@@ -78,22 +79,26 @@ class Tape(HigherPair):
         sine = (a - b) * reciprocal(sqrt((other - one).square))
         return [(along.cross(gap), -sine * force), (along.dot(gap), -force * sqrt(1.0 - sine * sine))]
 
-    def _line(self, mechanism):
+    def line(self, mechanism):
         points = mechanism.link(self.carrier).points
         return (complex(*points[each]) for each in self.centres)
 
-    def marks(self, mechanism, tooth):
-        for link, centre, radius in zip(self.links, self.centres, self.radii, strict=True):
-            yield Mark("disc", link, mechanism.link(link).points[centre], radius)
-        a, b = self._line(mechanism)
-        e, sine = (b - a) / abs(b - a), (self.radii[0] - self.radii[1]) / abs(b - a)
-        n = e * complex(sine, -sqrt_of(1.0 - sine * sine))
-        start, end = a + self.radii[0] * n, b + self.radii[1] * n
-        yield Mark("strand", self.carrier, (start.real, start.imag), to=(end.real, end.imag))
 
-    def wheel_sizes(self, mechanism):
-        a, b = self._line(mechanism)
-        return WheelSizes(self.links, None, self.radii, abs(b - a), self.radii[0] / self.radii[1])
+@marks.register
+def tape_marks(joint: Tape, mechanism, tooth):
+    for link, centre, radius in zip(joint.links, joint.centres, joint.radii, strict=True):
+        yield Mark("disc", link, mechanism.link(link).points[centre], radius)
+    a, b = joint.line(mechanism)
+    e, sine = (b - a) / abs(b - a), (joint.radii[0] - joint.radii[1]) / abs(b - a)
+    n = e * complex(sine, -sqrt_of(1.0 - sine * sine))
+    start, end = a + joint.radii[0] * n, b + joint.radii[1] * n
+    yield Mark("strand", joint.carrier, (start.real, start.imag), to=(end.real, end.imag))
+
+
+@wheel_sizes.register
+def tape_sizes(joint: Tape, mechanism):
+    a, b = joint.line(mechanism)
+    return WheelSizes(joint.links, None, joint.radii, abs(b - a), joint.radii[0] / joint.radii[1])
 '''
 #: Checks in a process in which the package is installed: against a belt, whose taut strand is the tape.
 PROGRAM = r'''

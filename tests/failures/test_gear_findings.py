@@ -11,6 +11,7 @@ from tests.refusals import checked, findings, refused, said
 
 import linkwright as lw
 from linkwright.machine import steady_running
+from linkwright.mechanism.wheel_sizes import wheel_sizes
 
 HEAD = """format: 1
 frame: {points: {O: [0 mm, 0 mm], Q: [60 mm, 0 mm], R: [30 mm, 51.96152422706632 mm], G: [0 mm, -20 mm],
@@ -503,7 +504,7 @@ def test_rolling_wheels_have_no_pressure_angle() -> None:
     own = {"m.radii.0", "m.radii.1", "m.phase"}
     mechanism = lw.loads(two_wheels("kind: rolling, radii: [20 mm, 40 mm]"))
     assert {each for each in mechanism.dimensions() if each.startswith("m.")} == own
-    sizes = mechanism.joints["m"].wheel_sizes(mechanism)
+    sizes = wheel_sizes(mechanism.joints["m"], mechanism)
     assert sizes is not None and sizes.pressure_angle is None and sizes.module is None
 
 

@@ -10,6 +10,7 @@ from tests import store
 from tests.refusals import refused
 
 import linkwright as lw
+from linkwright.mechanism.wheel_sizes import wheel_sizes
 from linkwright.study import sensitivity
 
 RPM = np.pi / 30.0
@@ -275,7 +276,7 @@ def test_sizes_of_wheels(
 ) -> None:
     """r = m z / 2, of a chain z p / 2π; a = r_b ± r_a; i = ∓ z_a / z_b."""
     mechanism = store.machine(name)
-    found = mechanism.joints[joint].wheel_sizes(mechanism)
+    found = wheel_sizes(mechanism.joints[joint], mechanism)
     assert found is not None
     assert (found.teeth, found.module) == (teeth, module)
     assert found.radii == pytest.approx(radii, rel=1e-12)
@@ -283,7 +284,7 @@ def test_sizes_of_wheels(
     if distance is not None:
         assert found.distance == pytest.approx(distance)
     assert all(
-        other.wheel_sizes(mechanism) is None for other in mechanism.joints.values() if not other.higher
+        wheel_sizes(other, mechanism) is None for other in mechanism.joints.values() if not other.higher
     )
     chain = name == "chain_drive"
     assert found.pressure_angle == (None if chain else pytest.approx(ALPHA))

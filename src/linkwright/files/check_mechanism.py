@@ -11,8 +11,8 @@ from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import below
 from linkwright.files.reader import Reader
 from linkwright.joints.base import Joint
-from linkwright.joints.marks import Mark
 from linkwright.mechanism.mechanism import Link, Mechanism, Vec
+from linkwright.mechanism.wheel_sizes import disc_radii
 from linkwright.units import number
 from linkwright.words.sentence import Sentence
 
@@ -173,7 +173,7 @@ def _unlikely_inertias(reader: Reader, root: MappingNode, mechanism: Mechanism) 
             continue
         if mechanism.higher and reader.error_count:  # a wheel may not be read, or not be placed
             continue
-        size = max(size, *(mark.radius for mark in _discs(mechanism) if mark.link == name), 0.0)
+        size = max(size, *_discs(mechanism, name), 0.0)
         if link.inertia <= link.mass * (2.0 * size) ** 2:
             continue
         if link.mass:
@@ -187,11 +187,10 @@ def _unlikely_inertias(reader: Reader, root: MappingNode, mechanism: Mechanism) 
         reader.error(at, f"links.{name}.inertia", problem, remedy, "unlikely", severity="warning")
 
 
-def _discs(mechanism: Mechanism) -> list[Mark]:
-    """Wheels and cams, as large as they are drawn."""
-    wheels = (joint.settled(mechanism, _unsaid) for joint in mechanism.joints.values() if joint.higher)
-    marks = (mark for joint in wheels for mark in joint.marks(mechanism, {}))
-    return [mark for mark in marks if mark.symbol in ("gear", "disc", "cam")]
+def _discs(mechanism: Mechanism, link: str) -> list[float]:
+    """How far the wheels and cams of a link reach, m."""
+    pairs = (joint.settled(mechanism, _unsaid) for joint in mechanism.joints.values() if joint.higher)
+    return [radii[link] for pair in pairs if link in (radii := disc_radii(pair, mechanism))]
 
 
 def _unsaid(*_: object, **__: object) -> None:

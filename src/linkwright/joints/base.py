@@ -33,36 +33,14 @@ if TYPE_CHECKING:
     from linkwright.fields.nodes import Node
     from linkwright.fields.reading import Place as Where
     from linkwright.fields.reading import Reader
-    from linkwright.joints.marks import Following, Mark, WheelSizes
     from linkwright.kinematics.closed_loops import Body, LoopBuilder
     from linkwright.mechanism.drawing import Drawing
     from linkwright.mechanism.mechanism import Link, Mechanism
     from linkwright.structure.constraints import ConstraintGraph
     from linkwright.structure.decompose import Grouping
-    from linkwright.worked.wheels import OwnForm, Wheels
 
 #: The size of a joint's force, from that force.
 Size = Callable[[Scalar], Scalar]
-
-
-@dataclass(frozen=True)
-class Contact:
-    """The force T of a higher pair on its first link, T being the multiplier of ``scale`` times the row of its sums.
-
-    With the unit vector e at ``angle`` in the axes of ``link``, e⊥ left of it, and the angle ``lean`` of teeth or of
-    ``strands``: force e⊥ T + e ``press`` |T| tan lean, or e⊥ T sin lean + e (``press`` |T| + 2 ``pull``) cos lean, N
-    (``pull``: that each strand has without load). With the lever arm r of its first link, m, its row's factor: teeth
-    touch in the point ``at`` (link, name) + r e, strands give ``at`` the couple r T, N·m.
-    """
-
-    scale: float
-    link: str
-    angle: float
-    at: tuple[str, str]
-    lean: float = 0.0
-    strands: bool = False
-    press: float = 0.0
-    pull: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -311,28 +289,6 @@ class Joint(ABC):
         to each other in a position of no special kind; by default those of :meth:`sums`."""
         rotations, slides, _ = self.sums(mechanism)
         return rotations, slides
-
-    def contact(self, mechanism: Mechanism) -> Contact:
-        """How the force of a higher pair acts, for worked solutions."""
-        raise self.lacks("contact")
-
-    def work(self, wheels: Wheels) -> OwnForm | None:
-        """Its own formulas in worked solutions, of a pair that determines its group alone; None where :meth:`sums`
-        and :meth:`contact` say all."""
-        return None
-
-    def marks(self, mechanism: Mechanism, tooth: dict[tuple[str, str], float]) -> Iterable[Mark]:
-        """What drawings show of it beside its links; ``tooth``: where wheels (link, centre) that are drawn already
-        have a tooth, rad in their axes, to which a joint adds its own."""
-        return ()
-
-    def following(self, mechanism: Mechanism) -> Following | None:
-        """What drawings whose dimensions may change show of it in place of its marks; None where it has none."""
-        return None
-
-    def wheel_sizes(self, mechanism: Mechanism) -> WheelSizes | None:
-        """What reports tell of a pair with wheels; None of any other joint."""
-        return None
 
     def pulls(self, force: Callable[[], Floats]) -> Flags | None:
         """Where (n,) a pair that can only push would have to pull, or a belt to push; None for one that can do both.

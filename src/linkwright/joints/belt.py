@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import cmath
-from collections.abc import Callable, Iterable, Mapping
-from math import asin
-from math import sqrt as sqrt_of
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, ClassVar
 
 from linkwright.core.dataclass import dataclass
@@ -13,9 +10,8 @@ from linkwright.elements.model import Sizes
 from linkwright.engine.trace import Mask, Scalar, reciprocal, sqrt
 from linkwright.engine.vector import Vec
 from linkwright.fields.base import Field, Quantity, Word
-from linkwright.joints.base import JOINTS, Contact, Entry, Size
+from linkwright.joints.base import JOINTS, Entry, Size
 from linkwright.joints.ends import Ends
-from linkwright.joints.marks import Mark
 from linkwright.joints.toothed import WheelPair, length
 from linkwright.words.sentence import Sentence
 
@@ -61,9 +57,6 @@ class BeltPair(WheelPair):
         assert self.radii is not None
         return self.radii
 
-    def running_radii(self) -> tuple[float, float]:
-        return self.pitch_radii()
-
     def check(self, entry: Entry, distance: float) -> None:
         problem = self._touching(distance)
         if problem is not None:
@@ -93,33 +86,6 @@ class BeltPair(WheelPair):
     def arms(self, mechanism: Mechanism) -> tuple[float, float]:
         a, b = self.pitch_radii()
         return a, -self.sense * b
-
-    def marks(self, mechanism: Mechanism, tooth: dict[tuple[str, str], float]) -> Iterable[Mark]:
-        """Two pulleys and the strands between them."""
-        radii = self.pitch_radii()
-        for k, link in enumerate(self.links):
-            yield Mark("disc", link, mechanism.link(link).points[self.centres[k]], radii[k])
-        points = mechanism.link(self.carrier).points
-        a, b = (complex(*points[each]) for each in self.centres)
-        e, far = (b - a) / abs(b - a), abs(b - a)
-        sine = (radii[0] - self.sense * radii[1]) / far
-        for side in (1.0, -1.0):
-            n = e * complex(sine, side * sqrt_of(1.0 - sine * sine))
-            start, end = a + radii[0] * n, b + self.sense * radii[1] * n
-            yield Mark("strand", self.carrier, (start.real, start.imag), to=(end.real, end.imag))
-
-    def contact(self, mechanism: Mechanism) -> Contact:
-        line, (first, other) = self.line(mechanism), self.arms(mechanism)
-        return Contact(
-            -other,
-            self.carrier,
-            cmath.phase(line),
-            (self.carrier, self.centres[0]),
-            lean=asin((first + other) / abs(line)),
-            strands=True,
-            press=0.0 if self.pretension else 1.0,
-            pull=self.pretension,
-        )
 
     def pulls(self, force: Callable[[], Floats]) -> Flags | None:
         """Where the slack strand would have to push: more than twice the pretension is transmitted."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -33,13 +33,11 @@ if TYPE_CHECKING:
     from linkwright.core.arrays import Flags, Floats
     from linkwright.elements.topology import Connection, Group
     from linkwright.joints.cam_geometry import Geometry
-    from linkwright.joints.marks import CamContact, Mark
     from linkwright.kinematics.closed_loops import LoopBuilder
     from linkwright.laws.program import MotionProgram
     from linkwright.laws.traced import LiftCurve
     from linkwright.mechanism.drawing import Drawing
     from linkwright.mechanism.mechanism import Mechanism
-    from linkwright.worked.wheels import OwnForm, Wheels
 
 TOUCH = ("roller", "knife", "flat")
 Points = tuple[float, ...]
@@ -235,27 +233,6 @@ class CamJoint(HigherPair):
         return {self.follower: 1.0, self.carrier: -1.0}, self._between(held) - side * (held.start + lift)
 
     # motion -----------------------------------------------------------------------------------
-    def marks(self, mechanism: Mechanism, tooth: dict[tuple[str, str], float]) -> Iterable[Mark]:
-        """The cam's profile with its pitch curve, and the follower; none of a cam that nothing holds."""
-        from linkwright.joints.cam_shape import CamShape
-
-        return CamShape.of(self, mechanism).marks() if self.centre else ()
-
-    def following(self, mechanism: Mechanism) -> CamContact:
-        from linkwright.joints.marks import Amount, CamContact
-
-        base, roller = (
-            Amount(value, (f"{self.name}.{key}",))
-            for key, value in (("base_radius", self.base_radius), ("roller_radius", self.roller_radius))
-        )
-        held = ("", self.holder, 1 if self.side == "left" else -1)
-        if not self.side:
-            outward = mechanism.joints[self.holder].joined[1] == self.follower
-            held = (self.holder, "", 1 if outward else -1)
-        groove = self.closure == "groove" and self.touch == "roller"
-        places = (self.cam, self.centre, self.follower, self.at, self.carrier)
-        return CamContact(*places, self.touch, base, roller, groove, *held)
-
     @classmethod
     def linear(cls, group: Group, cut: Connection) -> bool:
         """In the follower's coordinate, unless something that the group turns carries it about."""
@@ -371,9 +348,6 @@ class CamJoint(HigherPair):
         if self.side:
             return {self.follower: 1.0, self.cam: -slope, self.carrier: slope - 1.0}, {}
         return {self.cam: -slope, self.carrier: slope}, {self.holder: 1.0}
-
-    def work(self, wheels: Wheels) -> OwnForm:
-        return wheels.cam(self)
 
     @property
     def seats(self) -> tuple[tuple[str, str], ...]:

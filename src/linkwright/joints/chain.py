@@ -12,7 +12,6 @@ from linkwright.engine.trace import Scalar
 from linkwright.fields.base import Field, Quantity
 from linkwright.joints.base import JOINTS, Entry, Joint
 from linkwright.joints.belt import BeltPair
-from linkwright.joints.marks import Amount
 from linkwright.joints.toothed import Numbers
 from linkwright.words.sentence import Sentence
 
@@ -62,11 +61,6 @@ class ChainPair(BeltPair):
     def dimensions(self) -> Mapping[str, float]:
         own = {} if self.pitch is None else {f"{self.name}.pitch": self.pitch}
         return {**super().dimensions(), **own}
-
-    def _amount_of_radius(self, k: int, radius: float) -> Amount:
-        if self.teeth is None or self.pitch is None:
-            return super()._amount_of_radius(k, radius)
-        return Amount(radius, (f"{self.name}.pitch",), factor=self.teeth[k] / (2 * pi))
 
     def traced_radii(self, dimensions: Sizes) -> tuple[Scalar, Scalar]:
         if self.teeth is None or self.pitch is None:

@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from dataclasses import replace
-from math import atan, atan2, pi
+from collections.abc import Mapping
 from math import cos as cos_of
+from math import pi
 from typing import TYPE_CHECKING, ClassVar
 
 from linkwright.core.dataclass import dataclass
 from linkwright.elements.model import Sizes
 from linkwright.engine.trace import Mask, Scalar, absolute, cos, maximum, reciprocal, select, sqrt, stop, tan
 from linkwright.fields.base import Field, Quantity
-from linkwright.joints.base import JOINTS, Contact, Entry, Joint, Size
+from linkwright.joints.base import JOINTS, Entry, Joint, Size
 from linkwright.joints.ends import Ends
-from linkwright.joints.marks import Mark, WheelSizes
 from linkwright.joints.rolling import RollingPair
 from linkwright.joints.toothed import FITS, Numbers
 from linkwright.words.sentence import Sentence
@@ -121,51 +119,11 @@ class GearPair(RollingPair):
             **({f"{self.name}.module": self.module} if self.module else {}),
         }
 
-    def wheel_sizes(self, mechanism: Mechanism) -> WheelSizes:
-        own = {"module": self.module, "pressure_angle": self.pressure_angle, "involute": self.involute}
-        return replace(super().wheel_sizes(mechanism), **own)  # type: ignore[arg-type]
-
-    def marks(self, mechanism: Mechanism, tooth: dict[tuple[str, str], float]) -> Iterable[Mark]:
-        """Two gears whose teeth mesh, where their numbers are known; else two wheels of the pitch radii."""
-        wheels = super().marks(mechanism, tooth)
-        if self.teeth is None:
-            return wheels
-        turned = self._meshing(mechanism, tooth)
-        return [
-            replace(mark, turned=turn, teeth=int(z))
-            for mark, turn, z in zip(wheels, turned, self.teeth, strict=True)
-        ]
-
-    def _meshing(self, mechanism: Mechanism, tooth: dict[tuple[str, str], float]) -> tuple[float, float]:
-        """Where a tooth of each wheel is, rad in its axes, so that teeth of one lie in gaps of the other.
-
-        With the numbers of pitches u, v from a tooth to the pitch point, counter-clockwise: u + v (external) or v - u
-        (internal) is a whole number and a half, in all positions if it is in one.
-        """
-        assert self.teeth is not None
-        points = mechanism.link(self.carrier).points
-        (ax, ay), (bx, by) = (points[each] for each in self.centres)
-        line, (za, zb), phase = atan2(by - ay, bx - ax), self.teeth, self.phase or 0.0
-        from_a = line if self.arms(mechanism)[0] > 0 else line + pi
-        from_b = line + pi if self.arms(mechanism)[1] > 0 else line
-        a, b = ((link, centre) for link, centre in zip(self.links, self.centres, strict=True))
-        sense = -self.sense
-
-        def other(z: float, toward: float, mine: float, own: float) -> float:
-            """Tooth of one wheel from that of the other: sense · u z + v z' = half a pitch."""
-            return (toward * z + sense * mine - pi) / z - own
-
-        if a not in tooth and b in tooth:
-            tooth[a] = other(za, from_a, (from_b - phase - tooth[b]) * zb, 0.0)
-        tooth.setdefault(a, 0.0)
-        if b not in tooth:
-            tooth[b] = other(zb, from_b - phase, (from_a - tooth[a]) * za, 0.0)
-        return tooth[a], tooth[b]
-
-    def contact(self, mechanism: Mechanism) -> Contact:
+    def working_slope(self, mechanism: Mechanism) -> float:
+        """tan of the pressure angle in mesh."""
         slope = self._slope(self.pressure_angle, self.asked, abs(self.line(mechanism)) ** 2)
         assert isinstance(slope, float)
-        return replace(super().contact(mechanism), lean=atan(slope))
+        return slope
 
     def held(self, at: Ends, force: Scalar, size: Size) -> list[tuple[Scalar, Scalar]]:
         """And the teeth press the wheels apart: an external a to its own centre, a ring outwards."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import cmath
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from math import pi
 from typing import TYPE_CHECKING, Any, ClassVar, Self
@@ -16,7 +16,6 @@ from linkwright.fields.base import Field, Quantity
 from linkwright.fields.references import Direction, LinkName, PointName
 from linkwright.joints.base import (
     JOINTS,
-    Contact,
     Entry,
     HigherPair,
     Joint,
@@ -25,7 +24,6 @@ from linkwright.joints.base import (
 )
 from linkwright.joints.ends import Ends
 from linkwright.joints.gear import CLEARANCE, STANDARD
-from linkwright.joints.marks import Amount, Mark, RackWay, Wheel, WheelSizes
 from linkwright.joints.toothed import FITS, length, whole
 from linkwright.words.sentence import Sentence
 
@@ -223,46 +221,10 @@ class RackPair(HigherPair):
         return replace(found, radius=0.5 * found.teeth * found.module)
 
     # motion -----------------------------------------------------------------------------------
-    def marks(self, mechanism: Mechanism, tooth: dict[tuple[str, str], float]) -> Iterable[Mark]:
-        """The pinion, and the rack as far as it is used."""
-        centre = mechanism.link(self.pinion).points[self.centre]
-        teeth = None if self.teeth is None else int(self.teeth)
-        yield Mark(
-            "gear", self.pinion, centre, self.radius, tooth.get((self.pinion, self.centre), 0.0), teeth=teeth
-        )
-        yield Mark(
-            "rack",
-            self.rack,
-            mechanism.link(self.rack).points[self.through],
-            turned=self.direction,
-            inside=self.side < 0,
-            follows=(self.pinion, self.centre),
-        )
-
-    def following(self, mechanism: Mechanism) -> RackWay:
-        teeth = None if self.teeth is None else int(self.teeth)
-        if self.module is None:
-            size = Amount(self.radius, (f"{self.name}.radius",))
-        else:
-            size = Amount(self.radius, (f"{self.name}.module", f"{self.name}.teeth"), factor=0.5)
-        pinion = Wheel(self.pinion, self.pinion, self.centre, self.radius, size, True, teeth)
-        turn = Amount(self.direction, (f"{self.name}.direction",))
-        return RackWay(pinion, self.rack, self.through, turn, self.side < 0)
-
-    def wheel_sizes(self, mechanism: Mechanism) -> WheelSizes:
-        teeth = None if self.teeth is None else (self.teeth,)
-        return WheelSizes(
-            self.joined, teeth, (self.radius,), module=self.module, pressure_angle=self.pressure_angle
-        )
-
     @classmethod
     def linear(cls, group: Group, cut: Connection) -> bool:
         """Unless something that the group turns carries the rack or the pinion's centre about."""
         return group.carried_steadily(cut)
-
-    def contact(self, mechanism: Mechanism) -> Contact:
-        angle, at = self.direction - 0.5 * pi, (self.pinion, self.centre)
-        return Contact(1.0, self.rack, angle, at, self.pressure_angle, press=-self.side)
 
     def residual(self, at: Ends) -> list[Scalar]:
         gap, line = self._gap(at)

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import cmath
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from math import dist
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -12,9 +11,8 @@ from linkwright.elements.model import Sizes
 from linkwright.engine.trace import Mask, Scalar, absolute, reciprocal, sqrt
 from linkwright.engine.vector import Vec
 from linkwright.fields.base import Field, Quantity, Word
-from linkwright.joints.base import JOINTS, Contact, Entry, Joint, Size
+from linkwright.joints.base import JOINTS, Entry, Joint, Size
 from linkwright.joints.ends import Ends
-from linkwright.joints.marks import Mark
 from linkwright.joints.toothed import FITS, WheelPair, length
 from linkwright.words.sentence import Sentence
 
@@ -134,19 +132,6 @@ class RollingPair(WheelPair):
         points, i = mechanism.link(self.carrier).points, self.transmission
         d = dist(*(points[each] for each in self.centres))
         return d * i / (i - 1.0), -d / (i - 1.0)
-
-    def marks(self, mechanism: Mechanism, tooth: dict[tuple[str, str], float]) -> Iterable[Mark]:
-        """Two wheels of the pitch radii."""
-        radii = [abs(each) for each in self.arms(mechanism)]
-        for k, link in enumerate(self.links):
-            ring = self.mesh == "internal" and radii[k] > radii[1 - k]
-            centre = mechanism.link(link).points[self.centres[k]]
-            yield Mark("gear" if self.toothed else "disc", link, centre, radii[k], inside=ring)
-
-    def contact(self, mechanism: Mechanism) -> Contact:
-        _, other = self.arms(mechanism)
-        angle, at = cmath.phase(self.line(mechanism)), (self.carrier, self.centres[0])
-        return Contact(-other, self.carrier, angle, at, press=self.sense)
 
     def traced_arms(self, at: Ends) -> tuple[Scalar, Scalar, Scalar]:
         distance, i = sqrt(self.traced_line(at.dimensions).square), self.traced_ratio(at.dimensions)

@@ -24,7 +24,6 @@ from linkwright.fields.base import Field, Quantities, Quantity, pair_schema
 from linkwright.fields.references import LinkName, LinkNames
 from linkwright.joints.base import Entry, HigherPair, Joint
 from linkwright.joints.ends import Ends
-from linkwright.joints.marks import Amount, Wheel, Wheels, WheelSizes
 from linkwright.units import number
 from linkwright.words.sentence import Sentence
 
@@ -199,41 +198,6 @@ class WheelPair(HigherPair):
         points = mechanism.link(self.carrier).points
         a, b = (complex(*points[each]) for each in self.centres)
         return b - a
-
-    def following(self, mechanism: Mechanism) -> Wheels:
-        radii = self.running_radii()
-        nominal = [abs(each) for each in self.arms(mechanism)]
-        wheels = [
-            Wheel(
-                link,
-                self.carrier,
-                self.centres[k],
-                nominal[k],
-                None if radii is None else self._amount_of_radius(k, radii[k]),
-                self.toothed,
-                None if self.teeth is None else int(self.teeth[k]),
-                radii is None and self.sense > 0 and nominal[k] == max(nominal),
-            )
-            for k, link in enumerate(self.links)
-        ]
-        return Wheels((wheels[0], wheels[1]), self._amount_of_ratio(), radii is not None)
-
-    def wheel_sizes(self, mechanism: Mechanism) -> WheelSizes:
-        radii = tuple(abs(each) for each in self.arms(mechanism))
-        return WheelSizes(self.links, self.teeth, radii, abs(self.line(mechanism)), self.transmission)
-
-    def _amount_of_ratio(self) -> Amount:
-        if self.ratio is not None:
-            return Amount(self.ratio, (f"{self.name}.ratio",))
-        key = "teeth" if self.teeth is not None else "radii"
-        return Amount(self.transmission, (f"{self.name}.{key}.0",), (f"{self.name}.{key}.1",), self.sense)
-
-    def _amount_of_radius(self, k: int, radius: float) -> Amount:
-        return Amount(radius, (f"{self.name}.radii.{k}",))
-
-    def running_radii(self) -> Pair | None:
-        """Radii (m) that do not follow from the distance of the centres, as those of a belt."""
-        return None
 
     @property
     def seats(self) -> tuple[tuple[str, str], ...]:

@@ -25,12 +25,12 @@ from linkwright.engine.wasm import wasm_module
 from linkwright.files.document import Document
 from linkwright.files.model_file import read_text
 from linkwright.files.write import dump
-from linkwright.joints.marks import RackWay, Wheels
 from linkwright.kinematics.cycle import Positions
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.placement import placements
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.page.contacts import RackWay, Wheels, contact_shape
 from linkwright.page.dimensions import dimensions, drawn
 from linkwright.page.glyphs import glyphs, undrawn
 from linkwright.page.loops import loops
@@ -213,7 +213,7 @@ def _wheels(programs: PagePrograms, links: Sequence[str]) -> list[str]:
     return [
         name
         for name, joint in mechanism.joints.items()
-        if isinstance(joint.following(mechanism), Wheels | RackWay)
+        if isinstance(contact_shape(joint, mechanism), Wheels | RackWay)
         and not set(joint.joined).isdisjoint(links)
     ]
 

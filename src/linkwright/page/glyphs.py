@@ -18,10 +18,10 @@ import numpy as np
 
 from linkwright.core.json_data import Plain
 from linkwright.core.outputs import row_name
-from linkwright.joints.marks import CamContact, RackWay, Wheel, Wheels
 from linkwright.kinematics.names import canonical
 from linkwright.loads.base import Load
 from linkwright.mechanism.mechanism import Link
+from linkwright.page.contacts import CamContact, RackWay, Wheel, Wheels, contact_shape
 from linkwright.pictures.symbols.base import PIN, SYMBOLS, Shape, Vec
 from linkwright.plot.drawing.guides import clear_shift, ground_side, is_cylinder, travel, welds
 from linkwright.plot.drawing.inputs import input_arrows
@@ -158,7 +158,7 @@ class _Following:
         self._after: list[Plain] = []
         mechanism = machine.motion.mechanism
         for joint in mechanism.joints.values():
-            match joint.following(mechanism):
+            match contact_shape(joint, mechanism):
                 case Wheels() as found:
                     self._pair(found)
                 case RackWay() as found:
@@ -239,7 +239,7 @@ def undrawn(machine: Machine) -> list[str]:
     return [
         name
         for name, joint in mechanism.joints.items()
-        if name not in known and joint.following(mechanism) is None
+        if name not in known and contact_shape(joint, mechanism) is None
     ]
 
 

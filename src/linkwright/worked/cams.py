@@ -11,12 +11,12 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
+from linkwright.joints.cam import CamJoint
 from linkwright.worked.lifts import Lift, LiftWriter
 from linkwright.worked.page import Step
 from linkwright.worked.places import Places
@@ -35,11 +35,8 @@ from linkwright.worked.terms import (
     sine,
 )
 
-if TYPE_CHECKING:
-    from linkwright.joints.cam import CamJoint
 
-
-def cam_pair(book: Book, joint: CamJoint) -> CamPair:
+def cam_pair(joint: CamJoint, book: Book) -> CamPair:
     """The cam of a joint."""
     return Swinging(book, joint) if joint.side else Guided(book, joint)
 

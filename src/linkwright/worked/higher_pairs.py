@@ -9,6 +9,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.elements.topology import Connection, Group, TreeJoint
 from linkwright.joints.base import LackingError
 from linkwright.worked.chains import ChainClosure, Closure, chain_closures
+from linkwright.worked.contacts import contact_of
 from linkwright.worked.page import Step
 from linkwright.worked.symbols import Book, tex
 from linkwright.worked.terms import NOWHERE, ZERO, Pair, Term, number, symbol, total
@@ -179,7 +180,7 @@ def pair_closures(book: Book, group: Group, chains: Sequence[ChainClosure]) -> l
         joint = book.mechanism.joints[cut.joint]
         rotations, slides, rest = joint.sums(book.mechanism)
         try:
-            scale = joint.contact(book.mechanism).scale
+            scale = contact_of(joint, book.mechanism).scale
         except LackingError:
             scale = 1.0
         turns = (Turned(k, scale * f, _source(group, k)) for k, f in rotations.items() if f and k != "frame")

@@ -5,19 +5,16 @@ from __future__ import annotations
 import math
 import re
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
+from linkwright.joints.cam import CamJoint
+from linkwright.laws.program import MotionProgram
 from linkwright.words import has
 from linkwright.worked.page import Step
 from linkwright.worked.symbols import Book, tex
 from linkwright.worked.terms import ZERO, Term, number, symbol
-
-if TYPE_CHECKING:
-    from linkwright.joints.cam import CamJoint
-    from linkwright.laws.program import MotionProgram
 
 
 @dataclass(frozen=True)

@@ -5,21 +5,22 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Protocol
+from functools import singledispatch
+from typing import Protocol
 
 import numpy as np
 
 from linkwright.core.outputs import Output
 from linkwright.elements.topology import Connection, Group, TreeJoint
-from linkwright.joints.base import Contact
+from linkwright.joints.base import Joint
+from linkwright.joints.cam import CamJoint
+from linkwright.worked.cams import cam_pair
+from linkwright.worked.contacts import Contact, contact_of
 from linkwright.worked.higher_pairs import PairClosure, Slid, Turned, lever, one_by_one, pair_closures
 from linkwright.worked.page import Step
 from linkwright.worked.places import Places
 from linkwright.worked.symbols import Book, tex
 from linkwright.worked.terms import TWO, ZERO, Pair, Term, cosine, number, sine, size, symbol, tangent, total
-
-if TYPE_CHECKING:
-    from linkwright.joints.cam import CamJoint
 
 
 class OwnForm(Protocol):
@@ -45,6 +46,17 @@ class OwnForm(Protocol):
         """What else is asked of it in this position."""
 
 
+@singledispatch
+def own_form(joint: Joint, book: Book) -> OwnForm | None:
+    """The formulas of a pair that determines its group alone; None where ``sums`` and the contact say all."""
+    return None
+
+
+@own_form.register
+def _(joint: CamJoint, book: Book) -> OwnForm:
+    return cam_pair(joint, book)
+
+
 class Wheels:
     """Writes the positions, rates and forces of such groups."""
 
@@ -55,18 +67,12 @@ class Wheels:
     def own(self, joint: str) -> OwnForm | None:
         """A pair's own formulas, where it has some."""
         if joint not in self._own:
-            self._own[joint] = self.book.mechanism.joints[joint].work(self)
+            self._own[joint] = own_form(self.book.mechanism.joints[joint], self.book)
         return self._own[joint]
 
     def alone(self, group: Group) -> OwnForm | None:
         """Those of the only pair of a group."""
         return self.own(group.cuts[0].joint) if len(group.cuts) == 1 else None
-
-    def cam(self, joint: CamJoint) -> OwnForm:
-        """A cam and its follower."""
-        from linkwright.worked.cams import cam_pair
-
-        return cam_pair(self.book, joint)
 
     def shapes(self, group: Group, number: int) -> list[Step]:
         """What else is asked of a pair of its own."""
@@ -184,7 +190,7 @@ class Wheels:
         if (own := self.own(cut.joint)) is not None:
             return own.contact(step, force)
         book = self.book
-        contact = book.mechanism.joints[cut.joint].contact(book.mechanism)
+        contact = contact_of(book.mechanism.joints[cut.joint], book.mechanism)
         along = self._along(step, cut, contact)
         link, point = contact.at
         place = book.spot(link, point).place

@@ -16,7 +16,11 @@ from tests.refusals import refused
 
 import linkwright as lw
 from linkwright.joints.base import Joint, LackingError
-from linkwright.joints.marks import Amount
+from linkwright.mechanism.wheel_sizes import disc_radii, wheel_sizes
+from linkwright.page.contacts import Amount, contact_shape
+from linkwright.plot.drawing.joint_marks import marks as marks_of
+from linkwright.worked.contacts import contact_of
+from linkwright.worked.wheels import own_form
 
 WHEELS = """
 format: 1
@@ -47,7 +51,7 @@ def test_strands_touch_both_pulleys_and_cross_where_the_belt_does(
 ) -> None:
     sizes = ", ".join(f"{1e3 * each} mm" for each in radii)
     mechanism, belt = pair(f"kind: belt, run: {run}, radii: [{sizes}]")
-    *discs, first, second = belt.marks(mechanism, {})
+    *discs, first, second = marks_of(belt, mechanism, {})
     assert [(each.symbol, each.link, each.radius) for each in discs] == [
         ("disc", "one", pytest.approx(radii[0])),
         ("disc", "two", pytest.approx(radii[1])),
@@ -82,7 +86,7 @@ def test_teeth_stand_in_gaps_whichever_wheel_is_drawn_first(
         entry = entry.replace("20, 33", "33, 20").replace("20, 53", "53, 20")
     mechanism, gear = pair(f"kind: gear, {entry}")
     kept = dict(known)
-    marks = list(gear.marks(mechanism, kept))
+    marks = list(marks_of(gear, mechanism, kept))
     assert all(kept[key] == value for key, value in known.items())
     assert [each.turned for each in marks] == [kept["one", "A"], kept["two", "B"]]
     a, b = marks[0].teeth, marks[1].teeth
@@ -103,7 +107,7 @@ def test_wheels_whose_teeth_are_not_counted_are_discs_or_wheels_without_teeth() 
         ("kind: gear, ratio: -2", "gear"),
     ):
         mechanism, wheels = pair(entry)
-        marks = list(wheels.marks(mechanism, {}))
+        marks = list(marks_of(wheels, mechanism, {}))
         assert [(each.symbol, each.teeth, each.turned) for each in marks] == [(symbol, None, 0.0)] * 2
         radii = [0.25, 0.5] if symbol == "disc" else [0.5, 0.25]
         assert [each.radius for each in marks] == pytest.approx(radii)
@@ -130,7 +134,7 @@ def test_what_follows_changed_dimensions(
 ) -> None:
     """Amounts give the ratio and the radii from the dimensions they name."""
     mechanism, joint = pair(entry)
-    found = joint.following(mechanism)
+    found = contact_shape(joint, mechanism)
     dimensions = mechanism.dimensions()
 
     def value(amount: Amount) -> float:
@@ -160,7 +164,7 @@ def test_what_follows_changed_dimensions(
 def test_an_edge_points_where_the_follower_is_lifted(kind: str) -> None:
     """Along the guide, or across the arm to the side on which it lies."""
     mechanism = written(kind)
-    cam, edge = mechanism.joints["pair"].marks(mechanism, {})
+    cam, edge = marks_of(mechanism.joints["pair"], mechanism, {})
     one = {name: complex(*place) for name, place in mechanism.links["one"].points.items()}
     arm = math.degrees(cmath.phase(one["P"] - one["A"]))
     turned = {"out": -25.0, "back": 220.0, "left": arm + 90, "right": arm - 90}[kind.rsplit(" ", 1)[1]]
@@ -204,7 +208,7 @@ def test_a_kind_says_which_of_its_parts_is_lacking() -> None:
         "turn_of": lambda: bare.turn_of("one", any_),
         "hang_in_loop": lambda: bare.hang_in_loop(any_, any_, ""),
         "sums": lambda: bare.sums(any_),
-        "contact": lambda: bare.contact(any_),
+        "contact": lambda: contact_of(bare, any_),
         "seats": lambda: bare.seats,
     }
     for part, call in calls.items():
@@ -212,8 +216,9 @@ def test_a_kind_says_which_of_its_parts_is_lacking() -> None:
             call()
     assert (bare.ties, bare.turning, bare.pairs, bare.friction_arm) == ((), (), 1, 0.0)
     assert bare.point_on("one") == "j" and bare.fits(any_) is True
-    assert bare.misfit(any_) is None and bare.pulls(dict) is None and bare.following(any_) is None
-    assert tuple(bare.marks(any_, {})) == () and bare.work(any_) is None
+    assert bare.misfit(any_) is None and bare.pulls(dict) is None and contact_shape(bare, any_) is None
+    assert wheel_sizes(bare, any_) is None and disc_radii(bare, any_) == {}
+    assert tuple(marks_of(bare, any_, {})) == () and own_form(bare, any_) is None
 
 
 @pytest.mark.parametrize("kind", ["rack", "rack, right", "rack, by module", "rack, by points"])
@@ -221,7 +226,7 @@ def test_what_follows_changed_dimensions_of_a_rack(kind: str) -> None:
     """The pinion's radius and the line's direction from the dimensions; on which side the pinion lies."""
     mechanism = written(kind)
     rack = mechanism.joints["pair"]
-    way = rack.following(mechanism)
+    way = contact_shape(rack, mechanism)
     size = way.pinion.radius
     assert size is not None and (way.rack, way.through) == ("base", "G")
     product = size.factor * math.prod(mechanism.dimension(address) for address in size.times)
@@ -233,7 +238,7 @@ def test_what_follows_changed_dimensions_of_a_rack(kind: str) -> None:
     )
     assert way.right == (kind == "rack, right") and way.pinion.toothed
     assert (way.pinion.link, way.pinion.carrier, way.pinion.centre) == ("one", "one", "K")
-    wheel, line = rack.marks(mechanism, {("one", "K"): 0.4})
+    wheel, line = marks_of(rack, mechanism, {("one", "K"): 0.4})
     teeth = 20 if kind == "rack, by module" else None
     assert (wheel.symbol, wheel.link, wheel.radius, wheel.turned, wheel.teeth) == (
         "gear", "one", pytest.approx(0.08), 0.4, teeth,

@@ -15,7 +15,8 @@ from tests.ui.browser import Opened, needs_chromium
 from tests.ui.pages import STEPS, page, page_of
 
 import linkwright as lw
-from linkwright.joints.cam_shape import CamShape
+from linkwright.mechanism.cam_shape import CamShape
+from linkwright.plot.drawing.joint_marks import marks as marks_of
 
 pytestmark = needs_chromium
 
@@ -64,7 +65,7 @@ def test_cams_are_drawn_where_their_followers_touch(
 
 def now_face(mechanism: lw.Mechanism) -> tuple[Any, Any]:
     """Ends of a flat face as drawings have it."""
-    face = next(m for m in mechanism.joints["lobe"].marks(mechanism, {}) if m.symbol == "face")
+    face = next(m for m in marks_of(mechanism.joints["lobe"], mechanism, {}) if m.symbol == "face")
     return face.at, face.to
 
 
@@ -77,7 +78,7 @@ def test_teeth_mesh_and_racks_reach_as_far_as_they_are_used(opened: Opened, tmp_
     opened.open(page_of(text, tmp_path))
     opened.run("s => { s.take({...s.model.values, 'frame.Q.y': -0.012}); s.view.draw(0); }")
     changed = mechanism.with_dimensions({"frame.Q.y": -0.012})
-    marks = [m for j in changed.joints.values() for m in j.marks(changed, {}) if m.symbol == "gear"]
+    marks = [m for j in changed.joints.values() for m in marks_of(j, changed, {}) if m.symbol == "gear"]
     places = opened.run(
         "s => s.data.glyphs.flatMap((g, k) => g.kind === 'wheel' ? [[g.link, s.view.shapes.tooth(k),"
         " s.view.shapes.radius(g)]] : [])"

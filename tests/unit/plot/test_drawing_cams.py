@@ -8,9 +8,9 @@ from tests.drawn_cams import CASES, text_of
 from tests.every import every
 
 import linkwright as lw
-from linkwright.joints.cam_shape import CamShape
-from linkwright.joints.marks import Mark
 from linkwright.kinematics.placement import placements
+from linkwright.mechanism.cam_shape import CamShape
+from linkwright.plot.drawing.joint_marks import Mark, marks
 from linkwright.plot.drawing.vectors import force_vectors
 
 BASE = 0.07
@@ -19,7 +19,7 @@ BASE = 0.07
 def drawn(held: dict[str, str], side: str, touch: str, sense: str) -> tuple[lw.Motion, Mark, Mark]:
     """A motion whose positions are among those that the drawn curves were taken at, and the marks of the joint."""
     mechanism = lw.loads(text_of(held, side, touch, sense))
-    cam, end = mechanism.joints["lobe"].marks(mechanism, {})
+    cam, end = marks(mechanism.joints["lobe"], mechanism, {})
     return lw.solve_motion(mechanism, steps=72), cam, end
 
 
@@ -76,7 +76,7 @@ def test_the_contact_force_is_drawn_through_the_contact(held: dict[str, str], si
     motion = lw.solve_motion(lw.loads(heavy + "gravity: [0, -9.81 m/s²]\n"), steps=72)
     forces = force_vectors(lw.solve_forces(motion), ["cam.lobe"])
     feet = forces.vectors[0].feet["cam.lobe"] @ [1, 1j]
-    cam, end = motion.mechanism.joints["lobe"].marks(motion.mechanism, {})
+    cam, end = marks(motion.mechanism.joints["lobe"], motion.mechanism, {})
     assert "cam.lobe" not in forces.torques[0].values
     if touch == "roller":
         assert feet == pytest.approx(seen(motion, "held", end.at)[:, 0], abs=1e-9 * BASE)
@@ -88,7 +88,7 @@ def test_the_contact_force_is_drawn_through_the_contact(held: dict[str, str], si
 def test_the_printing_press_shows_its_cam_under_its_roller() -> None:
     motion = store.motion("printing_press", 10)
     mechanism = motion.mechanism
-    cam, roller = mechanism.joints["compensating_cam"].marks(mechanism, {})
+    cam, roller = marks(mechanism.joints["compensating_cam"], mechanism, {})
     assert (cam.link, roller.link, roller.radius) == ("bell_crank", "lower_rack", 0.02)
     shape = CamShape.of(mechanism.joints["compensating_cam"], mechanism)  # type: ignore[arg-type]
     placed = placements(motion)["bell_crank"]
@@ -111,7 +111,7 @@ def test_the_printing_press_shows_its_cam_under_its_roller() -> None:
 def test_every_drawn_line_goes_round_the_cam_once(held: dict[str, str], side: str, touch: str) -> None:
     """By the angle that its points turn about the cam's centre, each a little from the one before."""
     mechanism = lw.loads(text_of(held, side, touch, "counterclockwise"))
-    cam, _ = mechanism.joints["lobe"].marks(mechanism, {})
+    cam, _ = marks(mechanism.joints["lobe"], mechanism, {})
     centre = complex(*mechanism.links["cam"].points["O"])
     count = {"knife": 1, "flat": 1, "roller": 2, "groove": 3}[touch]
     for line in every(filter(len, cam.outlines), least=count):

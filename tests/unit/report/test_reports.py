@@ -18,7 +18,7 @@ from linkwright.core.outputs import Output
 from linkwright.errors import LinkwrightError, speaker
 from linkwright.files.schema import json_schema
 from linkwright.joints.cam import CamJoint
-from linkwright.joints.cam_shape import CamShape
+from linkwright.mechanism.cam_shape import CamShape
 from linkwright.mechanism.force_names import reaction_pairs
 from linkwright.pictures.svg.render import natural_size
 from linkwright.report.document import Figure, Formula, Heading, Paragraph, Table, plain

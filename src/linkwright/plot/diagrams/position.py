@@ -12,6 +12,7 @@ from linkwright.kinematics.motion import Motion
 from linkwright.pictures.diagram import INK, Axes, new_figure
 from linkwright.plot.diagrams.axes import significant
 from linkwright.plot.diagrams.scaled_page import BAR, Cell, Labels, scale_for, symbol, with_index
+from linkwright.plot.drawing.joint_marks import marks
 from linkwright.words import Say
 
 LINK, PIN = "#7a828c", 4.2
@@ -134,11 +135,9 @@ def _wheels(axes: Axes, motion: Motion, index: int, factor: float) -> list[Float
 
     found: dict[tuple[str, str, float], Floats] = {}
     tooth: dict[tuple[str, str], float] = {}
-    marks = [
-        each for joint in motion.mechanism.joints.values() for each in joint.marks(motion.mechanism, tooth)
-    ]
-    for mark in marks:
-        points = motion.mechanism.link(mark.link).points
+    mechanism = motion.mechanism
+    for mark in (each for joint in mechanism.joints.values() for each in marks(joint, mechanism, tooth)):
+        points = mechanism.link(mark.link).points
         centre = next(
             (name for name, at in points.items() if np.allclose(at, mark.at, rtol=0, atol=1e-12)), None
         )

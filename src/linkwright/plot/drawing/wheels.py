@@ -8,8 +8,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from linkwright.joints.marks import Mark
 from linkwright.pictures.symbols.base import SYMBOLS, Shape
+from linkwright.plot.drawing.joint_marks import Mark, marks
 from linkwright.plot.drawing.machine import Machine, Part
 
 #: A rack goes on beyond the last place of its pinion, units of the paper.
@@ -25,7 +25,7 @@ def wheels(machine: Machine) -> Iterator[Part]:
     tooth: dict[tuple[str, str], float] = {}
     found: dict[Mark, Mark] = {}
     for joint in mechanism.joints.values():
-        for mark in joint.marks(mechanism, tooth):
+        for mark in marks(joint, mechanism, tooth):
             key = replace(mark, radius=round(mark.radius, 9), turned=0.0, teeth=None, follows=None)
             found.setdefault(key, mark)
     for mark in sorted(found.values(), key=lambda each: (not each.inside, -each.radius)):

@@ -18,6 +18,7 @@ from linkwright.kinematics.groups import dyad_shape, in_one_step, whole_form
 from linkwright.kinematics.motion import Motion
 from linkwright.mechanism.force_names import link_numbers
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.mechanism.wheel_sizes import wheel_sizes
 from linkwright.words import Say, has, say
 from linkwright.words.sentence import link_said
 
@@ -128,7 +129,7 @@ class _Writer:
         count = len(mechanism.links)
         parts = [say("fixed_points", points=self._listed(mechanism.frame.points))]
         parts.append(say("links", count=count) if count > 1 else say("one_link"))
-        if any(joint.wheel_sizes(mechanism) for joint in mechanism.joints.values()):
+        if any(wheel_sizes(joint, mechanism) for joint in mechanism.joints.values()):
             parts.append(say("wheels"))
         if any(isinstance(joint, CamJoint) for joint in mechanism.joints.values()):
             parts.append(say("cams"))

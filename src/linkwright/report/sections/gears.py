@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from linkwright.errors import LinkwrightError
 from linkwright.gears.gear import Gear
 from linkwright.gears.pair import GearPair, gear_pair
-from linkwright.joints.marks import WheelSizes
+from linkwright.mechanism.wheel_sizes import WheelSizes, wheel_sizes
 from linkwright.report.document import Block, Figure, Formula, Heading, Paragraph, Table, literal
 from linkwright.report.machine_results import Case, Missing
 from linkwright.report.section import section
@@ -21,7 +21,7 @@ from linkwright.worked.symbols import tex
 def blocks(case: Case) -> Iterator[Block]:
     """Pairs of wheels and racks with their sizes, ratios of trains, teeth where module and numbers are given."""
     mechanism = case.mechanism
-    found = {joint.name: joint.wheel_sizes(mechanism) for joint in mechanism.joints.values()}
+    found = {joint.name: wheel_sizes(joint, mechanism) for joint in mechanism.joints.values()}
     pairs = {name: sizes for name, sizes in found.items() if sizes is not None}
     if not pairs:
         raise Missing("report.no_gears")

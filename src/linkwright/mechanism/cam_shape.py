@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import cmath
-from collections.abc import Iterator
 from math import pi
 from typing import TYPE_CHECKING
 
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.late_import import numpy as np
 from linkwright.joints.cam_geometry import Geometry
-from linkwright.joints.marks import Mark, Vec
 
 if TYPE_CHECKING:
     from linkwright.core.arrays import Complexes, Floats
@@ -97,7 +95,7 @@ class CamShape:
 
     def face(self) -> tuple[complex, complex]:
         """Ends of the flat face in the follower's axes: as far as it is used, and a little more."""
-        phi = _turn()
+        phi = full_turn()
         normal, support, slope = self._support(phi)
         own = cmath.exp(1j * self.geometry.own)
         if self.joint.side:
@@ -110,29 +108,12 @@ class CamShape:
         more = BEYOND * max(high - low, self.joint.base_radius)
         return start + along * (low - more), start + along * (high + more)
 
-    def marks(self) -> Iterator[Mark]:
-        """The cam, and the roller, the edge or the face."""
-        joint, phi = self.joint, _turn()
-        profile = self.profile(phi)
-        outer = self.profile(phi, outer=True) if joint.closure == "groove" and joint.touch == "roller" else ()
-        pitch = self.pitch(phi) if joint.touch == "roller" else ()
-        reach = float(np.abs(profile - self.centre).max())
-        outlines = tuple(tuple(_vec(each) for each in line) for line in (profile, pitch, outer))
-        yield Mark("cam", joint.cam, _vec(self.centre), reach, outlines=outlines)
-        at = _vec(self.at)
-        if joint.touch == "roller":
-            yield Mark("roller", joint.follower, at, joint.roller_radius)
-        elif joint.touch == "knife":
-            off = 0.5 * pi * self._side if joint.side else 0.0
-            yield Mark("knife", joint.follower, at, turned=self.geometry.own + off)
-        else:
-            start, end = self.face()
-            yield Mark("face", joint.follower, _vec(start), to=_vec(end))
+    @property
+    def reach(self) -> float:
+        """The largest distance of the profile from the centre, m."""
+        return float(np.abs(self.profile(full_turn()) - self.centre).max())
 
 
-def _turn() -> Floats:
+def full_turn() -> Floats:
+    """Angles of a cam over a turn at which its curves are drawn, rad."""
     return np.linspace(0.0, 2.0 * pi, POINTS, endpoint=False, dtype=np.float64)
-
-
-def _vec(place: complex) -> Vec:
-    return float(place.real), float(place.imag)
