@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from linkwright.cams.compensating_cam import CompensatingCam as CompensatingCam
     from linkwright.cams.compensating_cam import compensating_cam as compensating_cam
     from linkwright.cams.compensation import compensating_lift as compensating_lift
+    from linkwright.cams.fields import CamChoice as CamChoice
     from linkwright.cams.fields import CamConjugate as CamConjugate
     from linkwright.cams.fields import CamElasticity as CamElasticity
     from linkwright.cams.fields import CamLimits as CamLimits
@@ -19,7 +20,6 @@ if TYPE_CHECKING:
     from linkwright.cams.loading import CamMaterial as CamMaterial
     from linkwright.cams.loading import CamSpring as CamSpring
     from linkwright.cams.result import CamDesign as CamDesign
-    from linkwright.cams.sizes import CamChoice as CamChoice
     from linkwright.core.progress import reporting as reporting
     from linkwright.course.grade import Grade as Grade
     from linkwright.course.grade import grade as grade
@@ -121,13 +121,25 @@ __version__ = VERSION
 
 ATTACHED.update(
     {
+        "CamDesign.blocks": "linkwright.cams.report:blocks",
+        "CamDesign.draw": "linkwright.plot.cams:draw_cam",
+        "CamDesign.save_profile": "linkwright.export.dxf.cams:save_profile",
+        "CamDesign.steps": "linkwright.cams.report:steps",
+        "Comparison._repr_html_": "linkwright.study.evaluation:shown_in_notebooks",
+        "Comparison.evaluation": "linkwright.study.evaluation:evaluation",
+        "Comparison.text": "linkwright.study.evaluation:text",
         "Forces._repr_svg_": "linkwright.plot.drawing.draw:picture_of",
+        "GearPair.draw": "linkwright.plot.gears:draw_pair",
+        "GearPair.save_dxf": "linkwright.export.dxf.gears:save_pair",
         "Mechanism._repr_svg_": "linkwright.plot.drawing.draw:picture_of",
         "Mechanism.structure": "linkwright.structure.decompose:structure",
         "Motion._repr_svg_": "linkwright.plot.drawing.draw:picture_of",
-        "Plotted.plot": "linkwright.plot.diagrams.diagram_by_name:plot",
         "Optimum.text": "linkwright.optimisation.report:text",
+        "Plotted.plot": "linkwright.plot.diagrams.diagram_by_name:plot",
         "Problem.sketch": "linkwright.plot.sketches.base:sketch",
+        "Rack.draw": "linkwright.plot.gears:draw_rack",
+        "Rack.save_dxf": "linkwright.export.dxf.gears:save_rack",
+        "Study.text": "linkwright.study.study_text:text",
         "Synthesis.worked": "linkwright.synthesis.steps.solution:worked",
         "Variants.files": "linkwright.course.questions:files_of",
     }

@@ -8,16 +8,23 @@ from typing import Any
 
 from linkwright.cams.follower import Follower, LiftQuantity, lift_of
 from linkwright.cams.loading import CamLoading, CamMaterial, CamSpring
-from linkwright.cams.sizes import CamChoice
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import ModelError
-from linkwright.fields.base import Field, Quantity, Word, given
+from linkwright.fields.base import Field, Quantities, Quantity, Word, given
 from linkwright.fields.nodes import Node
 from linkwright.fields.reading import Place, Reader
 from linkwright.laws.program_fields import RATES, ProgramField
 from linkwright.laws.smoothest import ORDERS, FoundProgram, Window
 from linkwright.parts.base import fault
 from linkwright.parts.fields import Listed, Table, Whole
+
+
+@dataclass(frozen=True)
+class CamChoice:
+    """What may be chosen: offsets between two bounds (m), roller radii of a list (m)."""
+
+    offset: tuple[float, float] | None = given(Quantities("length", count=2, doc="offsets from and to"), None)
+    roller_radii: tuple[float, ...] = given(Quantities("length", doc="radii of rollers that can be had"), ())
 
 
 @dataclass(frozen=True)

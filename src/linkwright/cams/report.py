@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from linkwright.cams.result import CamDesign
 from linkwright.core.search import first_largest
 from linkwright.laws.program import MotionProgram
 from linkwright.laws.smoothest import FoundProgram
@@ -15,9 +15,6 @@ from linkwright.parts.base import Block, Row, Value, number, put, shown
 from linkwright.words import Say, language_of
 from linkwright.words.sentence import in_language
 from linkwright.worked.page import Step
-
-if TYPE_CHECKING:
-    from linkwright.cams.result import CamDesign
 
 #: Places that a remark lists at most.
 MANY = 12

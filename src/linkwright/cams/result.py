@@ -14,6 +14,7 @@ from linkwright.cams.curves import RollerCurve
 from linkwright.cams.loading import contact_pressure, leverage
 from linkwright.cams.vibration import residual_amplitude, steady_deviation
 from linkwright.core.arrays import Floats
+from linkwright.core.attached import attached
 from linkwright.core.dataclass import dataclass
 from linkwright.core.piecewise import Piecewise
 from linkwright.core.search import ends, first_largest
@@ -24,9 +25,9 @@ from linkwright.words import Say
 from linkwright.worked.page import Step
 
 if TYPE_CHECKING:
-    from linkwright.cams.cam import Cam
     from linkwright.cams.curves import CamCurve, Contact
     from linkwright.cams.loading import CamLoading
+    from linkwright.cams.shape import CamShape
     from linkwright.pictures.drawing import Drawing
 
 #: Places of the curves.
@@ -52,7 +53,7 @@ class CamDesign(Result):
     """
 
     area: ClassVar[str] = "cams"
-    cam: Cam
+    cam: CamShape
 
     @cached_property
     def angles(self) -> Floats:
@@ -269,20 +270,18 @@ class CamDesign(Result):
         end = self.cam.barrel_radius is not None
         return np.linspace(0.0, 2 * math.pi, points + end, endpoint=end)
 
+    @attached
     def save_profile(self, path: str | Path, points: int = 720, *, force: bool = False) -> Path:
         """Writes the profile: ``.dxf`` (mm, layers), ``.csv`` (angle, points, normals), ``.txt`` (x y z in mm).
 
         Raises RequestError for another ending, LinkwrightError for a file that exists (without ``force``).
         """
-        from linkwright.export.dxf.cams import save_profile
+        raise NotImplementedError
 
-        return save_profile(self, Path(path), points, force=force)
-
+    @attached
     def draw(self, angle: float = 0.0, language: str = "en") -> Drawing:
         """Cam and follower at an angle (rad), as SVG."""
-        from linkwright.plot.cams import draw_cam
-
-        return draw_cam(self, angle, language)
+        raise NotImplementedError
 
     # what it says -------------------------------------------------------------------------
     def columns(self) -> dict[str, Floats]:
@@ -310,15 +309,13 @@ class CamDesign(Result):
             found["contact pressure [Pa]"] = self.pressure
         return found
 
+    @attached
     def blocks(self, say: Say) -> list[Block]:
-        from linkwright.cams.report import blocks
+        raise NotImplementedError
 
-        return blocks(self, say)
-
+    @attached
     def steps(self, say: Say) -> list[Step]:
-        from linkwright.cams.report import steps
-
-        return steps(self, say)
+        raise NotImplementedError
 
     # vibration ----------------------------------------------------------------------------
     def residual_vibration(self, speeds: Floats) -> Floats:

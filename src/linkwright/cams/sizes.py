@@ -5,20 +5,18 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import Any, TypeVar
 
 import numpy as np
 
 from linkwright.cams.loading import contact_pressure, leverage
+from linkwright.cams.result import CamDesign
+from linkwright.cams.shape import CamShape
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import ModelError
-from linkwright.fields.base import Quantities, given
 from linkwright.laws.program import Program
 from linkwright.parts.base import fault
-
-if TYPE_CHECKING:
-    from linkwright.cams.cam import Cam
 
 #: Base radii that are tried: first and last over the size of the lift, ratio of neighbours; offsets that are tried.
 _FIRST, _LAST, _RATIO, _OFFSETS = 0.05, 400.0, 1.12, 21
@@ -27,17 +25,12 @@ _LOOKS = 360
 _ROUGH, _OFFSET, _FINE = 1e-4, 1e-3, 1e-9
 
 
-@dataclass(frozen=True)
-class CamChoice:
-    """What may be chosen: offsets between two bounds (m), roller radii of a list (m)."""
-
-    offset: tuple[float, float] | None = given(Quantities("length", count=2, doc="offsets from and to"), None)
-    roller_radii: tuple[float, ...] = given(Quantities("length", doc="radii of rollers that can be had"), ())
+Sized = TypeVar("Sized", bound=CamShape)
 
 
-def chosen(cam: Cam) -> Cam:
+def chosen(cam: Sized) -> Sized:
     """The cam with the smallest base circle that keeps its limits; raises ModelError where none does."""
-    best: Cam | None = None
+    best: Sized | None = None
     for roller in cam.choose.roller_radii or (cam.follower.roller_radius,):
         there = _with(cam, roller, cam.follower.offset)
         offset = _best_offset(there) if cam.choose.offset is not None else cam.follower.offset
@@ -50,18 +43,18 @@ def chosen(cam: Cam) -> Cam:
     return best
 
 
-def _with(cam: Cam, roller: float, offset: float) -> Cam:
+def _with(cam: Sized, roller: float, offset: float) -> Sized:
     return replace(cam, follower=replace(cam.follower, roller_radius=roller, offset=offset))
 
 
-def _scale(cam: Cam) -> float:
+def _scale(cam: CamShape) -> float:
     """A length of the size of the cam."""
     low, high = cam.program.lifts
     follower = cam.follower
     return (high - low) * ((follower.arm or follower.pivot_distance or 1.0) if follower.oscillating else 1.0)
 
 
-def _best_offset(cam: Cam) -> float:
+def _best_offset(cam: CamShape) -> float:
     """The offset with the smallest base circle, from equal ones between the bounds, then between the best ones."""
     assert cam.choose.offset is not None
     low, high = cam.choose.offset
@@ -78,14 +71,14 @@ def _best_offset(cam: Cam) -> float:
         low, high = float(offsets[max(k - 1, 0)]), float(offsets[min(k + 1, _OFFSETS - 1)])
 
 
-def _rule(cam: Cam) -> Callable[[float], bool]:
+def _rule(cam: CamShape) -> Callable[[float], bool]:
     """Whether a base circle keeps all limits at the places of a first look."""
     program = Sampled(cam.program, _places(cam, _LOOKS))
     there = replace(cam, program=program)
     return lambda radius: keeps(there, radius, program.at)
 
 
-def _exactly(cam: Cam, radius: float | None) -> float | None:
+def _exactly(cam: CamShape, radius: float | None) -> float | None:
     """The base radius near the one of a first look with which the limits are kept between its places as well."""
     if radius is None:
         return None
@@ -102,9 +95,7 @@ def _exactly(cam: Cam, radius: float | None) -> float | None:
     return high
 
 
-def _keeps_exactly(cam: Cam, radius: float) -> bool:
-    from linkwright.cams.result import CamDesign
-
+def _keeps_exactly(cam: CamShape, radius: float) -> bool:
     there = replace(cam, base_radius=radius)
     if there.misfit() is not None:
         return False
@@ -168,7 +159,7 @@ def _smallest(holds: Callable[[float], bool], scale: float) -> float | None:
     return high
 
 
-def keeps(cam: Cam, radius: float, phi: Floats) -> bool:
+def keeps(cam: CamShape, radius: float, phi: Floats) -> bool:
     """Whether with a base circle of ``radius`` (m) the follower fits and every limit is kept at angles ``phi``."""
     there = replace(cam, base_radius=radius)
     if there.misfit() is not None:
@@ -191,7 +182,7 @@ def keeps(cam: Cam, radius: float, phi: Floats) -> bool:
     return True
 
 
-def _angles_kept(cam: Cam, phi: Floats, angle: Floats) -> bool:
+def _angles_kept(cam: CamShape, phi: Floats, angle: Floats) -> bool:
     rise, fall = cam.limits.angles
     rate = cam.program.curves(phi)[1]
     moving = 1e-9 * float(np.abs(rate).max())
@@ -200,7 +191,7 @@ def _angles_kept(cam: Cam, phi: Floats, angle: Floats) -> bool:
     )
 
 
-def _places(cam: Cam, looks: int) -> Floats:
+def _places(cam: CamShape, looks: int) -> Floats:
     """Equal places of the turn, and those of the extremes of lift, velocity and acceleration."""
     own = [cam.program.extreme(order, kind).place for order in (0, 1, 2) for kind in ("min", "max")]
     return np.unique(np.concatenate([cam.program.places(looks), own]))

@@ -37,7 +37,7 @@ class CommandParser(argparse.ArgumentParser):
 
     def read(self, arguments: Sequence[str]) -> argparse.Namespace:
         """The options; raises UsageError for what is wrong with them."""
-        return read(self, arguments)
+        return read(self, arguments, self.surplus)
 
     def _formatter(self, prog: str) -> argparse.HelpFormatter:
         return argparse.RawDescriptionHelpFormatter(prog, width=self._columns - 2)

@@ -9,18 +9,14 @@ from __future__ import annotations
 import argparse
 import os
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import field
-from typing import TYPE_CHECKING
 
 from linkwright.cli.errors import UsageError
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import with_remedy
 from linkwright.registry import nearest
 from linkwright.words.sentence import Sentence
-
-if TYPE_CHECKING:
-    from linkwright.cli.parser import CommandParser
 
 _NUMBER_WITH_MINUS = re.compile(r"-[\d.]")
 _AMOUNT = re.compile(r"[+-]?\.?\d")
@@ -37,15 +33,20 @@ class _Given:
     words: list[str] = field(default_factory=list)
 
 
-def read(parser: CommandParser, arguments: Sequence[str]) -> argparse.Namespace:
-    """The values of all declared options and arguments; raises UsageError with what is wrong."""
+def read(
+    parser: argparse.ArgumentParser, arguments: Sequence[str], surplus: Callable[[str], str]
+) -> argparse.Namespace:
+    """The values of all declared options and arguments; raises UsageError with what is wrong.
+
+    ``surplus``: what to write for a word that the command does not take, or nothing.
+    """
     given, free = _taken_apart(parser, list(arguments))
     positionals = [action for action in parser._actions if not action.option_strings]
     _leave_files(given, free, positionals)
     options = argparse.Namespace(**{action.dest: action.default for action in parser._actions})
     for each in given:
         setattr(options, each.action.dest, _value(each, parser))
-    _place(options, positionals, free, parser)
+    _place(options, positionals, free, parser, surplus)
     _refuse_together(given, parser)
     named = {id(each.action) for each in given}
     missing = [
@@ -147,7 +148,8 @@ def _place(
     options: argparse.Namespace,
     positionals: list[argparse.Action],
     free: list[str],
-    parser: CommandParser,
+    parser: argparse.ArgumentParser,
+    surplus: Callable[[str], str],
 ) -> None:
     """Gives the free words to the command's arguments in their order."""
     for action in positionals:
@@ -162,7 +164,7 @@ def _place(
         setattr(options, action.dest, values if action.nargs in _LISTS else values[0])
     if free:
         said = Sentence("cli.unknown_argument", name=free[0])
-        remedy = parser.surplus(free[0]) or _with_option(free[0], parser)
+        remedy = surplus(free[0]) or _with_option(free[0], parser)
         raise UsageError(with_remedy(said, remedy)) if remedy else _slip(parser, said)
 
 

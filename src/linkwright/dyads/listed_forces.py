@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.outputs import Output
 from linkwright.dyads.listed_numbers import call, number, pair, quoted, series
 from linkwright.dyads.plan import Guide, Step
+from linkwright.dyads.script import Script
 from linkwright.elements.topology import Connection
 from linkwright.kinetostatics.link_balance import applied_rows
 from linkwright.mechanism.geometry import centre
-
-if TYPE_CHECKING:
-    from linkwright.dyads.listing import Listing
 
 #: Share of the largest load below which another is rounding.
 FADED = 1e-12
@@ -26,7 +22,7 @@ CROSS = ("", "", "def cross(a, b):", "    return a[..., 0] * b[..., 1] - a[..., 
 class ForceLines:
     """Writes the calls of the forces into a listing, and their columns."""
 
-    def __init__(self, listing: Listing) -> None:
+    def __init__(self, listing: Script) -> None:
         self.listing = listing
         self.mechanism, self.forces = listing.mechanism, listing.forces
         #: What later groups exert on a link, as loads.

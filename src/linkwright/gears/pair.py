@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from linkwright.core.arrays import Floats
+from linkwright.core.attached import attached
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import require_pair
 from linkwright.errors import RequestError
@@ -230,19 +231,17 @@ class GearPair:
         """x of the wheel's centre, m: beyond the pinion, a ring's on the other side of it."""
         return self.wheel.outward * self.centre_distance
 
+    @attached
     def draw(self, pinion_angle: float = 0.0, *, language: str = "en") -> Drawing:
         """The gears in mesh with their circles and the line of action."""
-        from linkwright.plot.gears import draw_pair
+        raise NotImplementedError
 
-        return draw_pair(self, pinion_angle, language)
-
+    @attached
     def save_dxf(
         self, path: str | Path, pinion_angle: float = 0.0, *, points: int = 60, force: bool = False
     ) -> Path:
         """The outlines, circles and the line of action at true scale (mm) as DXF; needs ezdxf."""
-        from linkwright.export.dxf.gears import save_pair
-
-        return save_pair(self, Path(path), pinion_angle, points, force=force)
+        raise NotImplementedError
 
 
 def _reach(gear: Gear, diameter: float | None = None) -> float:

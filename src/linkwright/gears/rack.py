@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from linkwright.core.arrays import Floats
+from linkwright.core.attached import attached
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
 from linkwright.gears.gear import TOOTH, require_ranges
@@ -54,17 +55,15 @@ class Rack:
         outline = np.concatenate([*teeth, [(last, low), (first, low)]])
         return np.asarray(outline[::-1])
 
+    @attached
     def draw(self, *, language: str = "en") -> Drawing:
         """The rack with its datum line."""
-        from linkwright.plot.gears import draw_rack
+        raise NotImplementedError
 
-        return draw_rack(self, language)
-
+    @attached
     def save_dxf(self, path: str | Path, *, points: int = 12, force: bool = False) -> Path:
         """The outline and the datum line at true scale (mm) as DXF; needs ezdxf."""
-        from linkwright.export.dxf.gears import save_rack
-
-        return save_rack(self, Path(path), points, force=force)
+        raise NotImplementedError
 
     def _half_tooth(self, points: int) -> Floats:
         """From the middle of the space on to the tip's corner, mirrored to x > 0: root, fillet, flank."""

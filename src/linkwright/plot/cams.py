@@ -4,20 +4,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from linkwright.cams.curves import RollerCurve
+from linkwright.cams.result import CamDesign
 from linkwright.core.arrays import Floats
 from linkwright.errors import require_language
 from linkwright.pictures.drawing import Drawing, bounds, captioned
 from linkwright.pictures.svg.element import Element, circle, path
 from linkwright.pictures.symbols.base import SYMBOLS, Shape, joined, vec, way
 from linkwright.words import say
-
-if TYPE_CHECKING:
-    from linkwright.cams.result import CamDesign
 
 DIAGONAL = 620.0
 #: Half the length of the walls between which a stem slides, and their distance.

@@ -3,22 +3,19 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.errors import require_language
+from linkwright.gears.gear import Gear
+from linkwright.gears.pair import GearPair
+from linkwright.gears.rack import Rack
 from linkwright.pictures.drawing import Box, Drawing, bounds, captioned
 from linkwright.pictures.svg.element import Element, circle, element, path, path_data
 from linkwright.pictures.symbols.base import points, ring, vec
 from linkwright.words import say
 from linkwright.words.sentence import Sentence
-
-if TYPE_CHECKING:
-    from linkwright.gears.gear import Gear
-    from linkwright.gears.pair import GearPair
-    from linkwright.gears.rack import Rack
 
 DIAGONAL = 760.0
 #: Thickness of a ring outside its roots, modules.

@@ -7,13 +7,12 @@ from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from linkwright.core.attached import Plotted
+from linkwright.core.attached import Plotted, attached
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import real, require
-from linkwright.core.html import html_table
 from linkwright.core.progress import current_progress
 from linkwright.core.read_only import Frozen
-from linkwright.errors import LinkwrightError, RequestError, speaker, with_remedy
+from linkwright.errors import LinkwrightError, RequestError, with_remedy
 from linkwright.kinematics.outcome import PositionError
 from linkwright.machine.flywheel import FLUCTUATION
 from linkwright.mechanism.mechanism import Mechanism
@@ -158,20 +157,18 @@ class Comparison(Plotted, Frozen):
             raise RequestError("study.no_alternative", label=label, labels=tuple(map(repr, self.labels)))
         return self.labels.index(label)
 
+    @attached
     def evaluation(self, language: str = "en") -> str:
         """A written evaluation, built from the numbers."""
-        from linkwright.study.evaluation import evaluation
+        raise NotImplementedError
 
-        return "\n".join(evaluation(self, language))
-
+    @attached
     def text(self, language: str = "en", width: int | None = None) -> str:
         """The table, best values marked, the ranking with reasons, and the evaluation.
 
         ``width``: characters across within which texts of the table are folded.
         """
-        from linkwright.study.evaluation import report
-
-        return "\n".join(report(self, language, width))
+        raise NotImplementedError
 
     def data(self) -> dict[str, Any]:
         """Plain data, SI."""
@@ -208,12 +205,10 @@ class Comparison(Plotted, Frozen):
         frame.index = [f"{row.criterion.name} [{si_unit(row.dimension)}]" for row in self.rows]
         return frame
 
+    @attached
     def _repr_html_(self) -> str:
         """The table as notebooks show it; * marks the best."""
-        from linkwright.study.evaluation import table_rows
-
-        head, *rows = table_rows(self, speaker("en"))
-        return html_table("", head, rows, self.notes)
+        raise NotImplementedError
 
     def __repr__(self) -> str:
         order = " > ".join(f"{rank.label} ({rank.score:.2f})" for rank in self.ranking)

@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
+from linkwright.core.html import html_table
 from linkwright.errors import speaker
 from linkwright.metrics.quantities import SHOWN, shown
 from linkwright.study.alternatives import Alternative
+from linkwright.study.compare import Comparison, Rank, Row
 from linkwright.study.criteria import criterion
 from linkwright.words import Say
 from linkwright.words.characters import aligned_within
 from linkwright.words.sentence import in_language
-
-if TYPE_CHECKING:
-    from linkwright.study.compare import Comparison, Rank, Row
 
 #: Share of a cycle beside a change point at which the direction of an infinite reaction is told.
 BESIDE = 1e-3
@@ -32,15 +29,21 @@ def told(value: float, dimension: str) -> str:
     return shown(value, dimension, 4 if size < 1e4 else 6)
 
 
-def report(comparison: Comparison, language: str, width: int | None) -> list[str]:
+def text(comparison: Comparison, language: str = "en", width: int | None = None) -> str:
     """The table with the best values marked, the ranking, the evaluation, the notes."""
     say = speaker(language)
     lines = [*table(comparison, say, width), "", say("compare.marked"), "", say("compare.ranking")]
     lines += ranking(comparison, say)
-    lines += ["", say("compare.evaluation"), *evaluation(comparison, language)]
+    lines += ["", say("compare.evaluation"), *sentences(comparison, language)]
     if comparison.notes:
         lines += ["", *(in_language(note, language) for note in comparison.notes)]
-    return lines
+    return "\n".join(lines)
+
+
+def shown_in_notebooks(comparison: Comparison) -> str:
+    """The table as HTML; * marks the best."""
+    head, *rows = table_rows(comparison, speaker("en"))
+    return html_table("", head, rows, comparison.notes)
 
 
 def table(comparison: Comparison, say: Say, width: int | None) -> list[str]:
@@ -101,7 +104,12 @@ def _against(comparison: Comparison, row: Row, index: int, say: Say) -> str:
     )
 
 
-def evaluation(comparison: Comparison, language: str) -> list[str]:
+def evaluation(comparison: Comparison, language: str = "en") -> str:
+    """A written evaluation."""
+    return "\n".join(sentences(comparison, language))
+
+
+def sentences(comparison: Comparison, language: str) -> list[str]:
     """Sentences about the motion, the pivot, the torque, the flywheel, and a verdict."""
     say = speaker(language)
     subjects = {"motion": _motion}

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Flags, Floats, Indices
-from linkwright.core.attached import Plotted
+from linkwright.core.attached import Plotted, attached
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import require
 from linkwright.core.html import columns_html
@@ -115,14 +115,13 @@ class Study(Plotted, Frozen):
             found[f"{name} [{unit}]" if unit else name] = np.asarray(values)
         return found
 
+    @attached
     def text(self, language: str = "en", rows: int = 40, width: int | None = None) -> str:
         """The table (every row, or ``rows`` of them evenly chosen), the best designs, and what failed.
 
         ``width``: characters across within which the heads of the table are folded.
         """
-        from linkwright.study.study_text import report
-
-        return "\n".join(report(self, language, rows, width))
+        raise NotImplementedError
 
     def csv(self) -> str:
         """The columns as CSV, SI; numbers to the last bit."""

@@ -2,23 +2,19 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from linkwright.errors import speaker
 from linkwright.metrics.quantities import number, shown, shown_unit
 from linkwright.study.criteria import criterion
+from linkwright.study.failures import Failure
+from linkwright.study.study import Study
 from linkwright.words import Say
 from linkwright.words.characters import aligned_within
 from linkwright.words.sentence import in_language
 
-if TYPE_CHECKING:
-    from linkwright.study.failures import Failure
-    from linkwright.study.study import Study
 
-
-def report(study: Study, language: str, rows: int, width: int | None) -> list[str]:
+def text(study: Study, language: str = "en", rows: int = 40, width: int | None = None) -> str:
     """Table, best designs, failures, notes."""
     say = speaker(language)
     lines = [
@@ -32,7 +28,7 @@ def report(study: Study, language: str, rows: int, width: int | None) -> list[st
     if study.failures:
         lines += ["", say("study.failed"), *(_failure(each, say, language) for each in study.failures)]
     notes = [in_language(note, language) for note in study.notes]
-    return [*lines, *([""] if notes else []), *notes]
+    return "\n".join([*lines, *([""] if notes else []), *notes])
 
 
 def _table(study: Study, language: str, rows: int, width: int | None, say: Say) -> list[str]:

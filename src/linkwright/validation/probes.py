@@ -158,9 +158,9 @@ def torque(given: Mapping[str, Any]) -> Find:
 
 def calculation(given: Mapping[str, Any]) -> Find:
     """Results of a calculation of the gallery, by the path in its data."""
-    from linkwright import parts
+    from linkwright.parts import load
 
-    data = parts.load(f"gallery:{given['model']}").solve().data()
+    data = load(f"gallery:{given['model']}").solve().data()
 
     def find(what: str) -> float:
         here: Any = data
@@ -223,7 +223,7 @@ def slider_crank(given: Mapping[str, Any]) -> Find:
 
 def motion_law(given: Mapping[str, Any]) -> Find:
     """Largest velocity, acceleration, jerk of a motion law for a rise of 1 over 1."""
-    from linkwright import motion_law as law
+    from linkwright.laws.fitting import motion_law as law
 
     def find(what: str) -> float:
         name, kind = what.split()
@@ -234,10 +234,10 @@ def motion_law(given: Mapping[str, Any]) -> Find:
 
 def regression(given: Mapping[str, Any]) -> Find:
     """A straight line through samples."""
-    from linkwright import parts
+    from linkwright.parts import Fitting, Numbers, Samples
 
-    held = {name: parts.Numbers(tuple(given[name])) for name in ("x", "y")}
-    found = parts.Samples(held, regressions={"r": parts.Fitting("y", ("x",))}).solve().regressions["r"]
+    held = {name: Numbers(tuple(given[name])) for name in ("x", "y")}
+    found = Samples(held, regressions={"r": Fitting("y", ("x",))}).solve().regressions["r"]
     coefficients = zip(("intercept", "slope"), found.coefficients, found.errors, strict=True)
     values = {"deviation": found.deviation, "determination": found.determination}
     for name, value, error in coefficients:

@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from linkwright.cams.result import CamDesign
 from linkwright.errors import RequestError
 from linkwright.export.dxf.sheet import content_of, new_document
 from linkwright.whole_files import refuse_target, write_whole
-
-if TYPE_CHECKING:
-    from linkwright.cams.result import CamDesign
 
 ENDINGS = (".dxf", ".csv", ".txt")
 #: Layers with their colours (numbers of the AutoCAD colour index), seen on white and on dark sheets.
@@ -20,8 +17,9 @@ LAYERS = {"profile": 7, "pitch": 8, "cutter": 3, "base": 150}
 _MM = 1e3
 
 
-def save_profile(design: CamDesign, path: Path, points: int, *, force: bool) -> Path:
+def save_profile(design: CamDesign, path: str | Path, points: int = 720, *, force: bool = False) -> Path:
     """Writes the profile as the file's ending says; raises LinkwrightError where that cannot be."""
+    path = Path(path)
     if path.suffix.lower() not in ENDINGS:
         raise RequestError("cams.profile_ending", path=path, endings=tuple(ENDINGS))
     refuse_target(path, force=force)

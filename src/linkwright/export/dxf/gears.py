@@ -4,22 +4,21 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from linkwright.export.dxf.sheet import content_of, new_document
+from linkwright.gears.pair import GearPair
+from linkwright.gears.rack import Rack
 from linkwright.plot.gears import contact_line
 from linkwright.whole_files import refuse_target, write_whole
-
-if TYPE_CHECKING:
-    from linkwright.gears.pair import GearPair
-    from linkwright.gears.rack import Rack
 
 #: Layers with their colours (numbers of the AutoCAD colour index), seen on white and on dark sheets.
 LAYERS = {"outline": 7, "rolling": 8, "base": 150, "contact": 1}
 _MM = 1e3
 
 
-def save_pair(pair: GearPair, path: Path, pinion_angle: float, points: int, *, force: bool) -> Path:
+def save_pair(
+    pair: GearPair, path: str | Path, pinion_angle: float = 0.0, *, points: int = 60, force: bool = False
+) -> Path:
     """Outlines as closed polylines whose corners lie on the exact curves; circles; the path of contact.
 
     Raises LinkwrightError for a file that exists (without ``force``), a missing folder or package.
@@ -39,7 +38,7 @@ def save_pair(pair: GearPair, path: Path, pinion_angle: float, points: int, *, f
     return write_whole(path, content_of(document), force=force)
 
 
-def save_rack(rack: Rack, path: Path, points: int, *, force: bool) -> Path:
+def save_rack(rack: Rack, path: str | Path, *, points: int = 12, force: bool = False) -> Path:
     """The outline as a closed polyline whose corners lie on the exact curves, and the datum line.
 
     Raises LinkwrightError for a file that exists (without ``force``), a missing folder or package.

@@ -4,37 +4,32 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
 
 from linkwright.core.arrays import Floats
 from linkwright.parts.base import ROUNDING, signed
-from linkwright.parts.beams.elastic import Point, Spread
+from linkwright.parts.beams.elastic import Hold, Point, Spread
 from linkwright.worked.page import Step
-
-if TYPE_CHECKING:
-    from linkwright.parts.beams.beam import BeamSupport
 
 
 def balance_laws(
     step: Step,
-    supports: Mapping[str, BeamSupport],
+    supports: Mapping[str, Hold],
     length: float,
     points: Sequence[Point],
     spreads: Sequence[Spread],
 ) -> None:
     """ΣF = 0 and ΣM = 0 about the first support, the reactions as unknowns."""
     own = supports.items()
-    about = next(iter(supports.values())).at
-    forces = [(1.0, f"{name}.F") for name, each in own if each.kind != "guided"]
+    about = next(iter(supports.values())).x
+    bearing = [(name, each) for name, each in own if each.deflection or not each.slope]
+    forces = [(1.0, f"{name}.F") for name, _ in bearing]
     moments = [
-        (each.at - about, f"{name}.F")
-        for name, each in own
-        if each.kind != "guided" and abs(each.at - about) > ROUNDING * length
+        (each.x - about, f"{name}.F") for name, each in bearing if abs(each.x - about) > ROUNDING * length
     ]
     moments += [
         (1.0, f"{name}.M")
         for name, each in own
-        if each.hold.slope or each.torsional_stiffness
+        if each.slope or each.torsional_stiffness
     ]  # fmt: skip
     known = [p.force for p in points] + [(s.first + s.last) / 2 * (s.end - s.start) for s in spreads]
     turning = [p.couple + p.force * (p.x - about) for p in points]

@@ -376,11 +376,12 @@ class BeamLine(Result):
     def _balance_step(self, say: Say) -> Step:
         """Reactions, and both equations of equilibrium with them."""
         step = Step("1", say("beam.step_reactions"))
-        unknown = sum(h.deflection + h.slope for h in (s.hold for s in self.beam.supports.values()))
+        holds = {name: each.hold for name, each in self.beam.supports.items()}
+        unknown = sum(h.deflection + h.slope for h in holds.values())
         degree = unknown - 2 - len(self.beam.hinges)
         step.say(say("beam.determinate" if degree <= 0 else "beam.indeterminate", degree=degree))
         points, spreads = self.beam._loads()
-        balance_laws(step, self.beam.supports, self.beam.length, points, spreads)
+        balance_laws(step, holds, self.beam.length, points, spreads)
         for name, (force, couple) in self.reactions.items():
             if force or self.beam.supports[name].kind != "guided":
                 put(step, f"{name}.F", "", force, "force")

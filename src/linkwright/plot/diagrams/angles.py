@@ -11,8 +11,9 @@ from linkwright.core.outputs import Output
 from linkwright.errors import RequestError
 from linkwright.kinematics.motion import Motion
 from linkwright.plot.diagrams.base import DIAGRAMS, Request
+from linkwright.plot.diagrams.marks import Curve
 from linkwright.plot.diagrams.outputs import known_link, main_output, turning_links
-from linkwright.plot.diagrams.panels import Curve, OverInput, Panel, look
+from linkwright.plot.diagrams.panels import OverInput, Panel, look
 from linkwright.plot.diagrams.source import TURN, Source
 
 

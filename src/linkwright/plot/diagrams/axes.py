@@ -11,15 +11,12 @@ import numpy as np
 from linkwright.core.arrays import Floats, largest
 from linkwright.core.dataclass import dataclass
 from linkwright.metrics.quantities import SHOWN
-from linkwright.pictures.diagram import INK, Axes, Figure
+from linkwright.pictures.diagram import Axes, Figure
 from linkwright.units import si_unit
-from linkwright.words.characters import printable
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
 
-    from linkwright.plot.diagrams.base import Request
-    from linkwright.plot.diagrams.source import InputAxis
     from linkwright.words import Say
 
 
@@ -75,6 +72,25 @@ def round_up(value: float) -> float:
 _ANGLE_STEPS = (1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 45.0, 60.0, 90.0, 180.0, 360.0, 720.0)
 
 
+@dataclass(frozen=True)
+class InputAxis:
+    """The axis below curves: ``name`` of the driver, ``dimension`` angle, length or time, ``values`` (n,) SI."""
+
+    name: str
+    dimension: str
+    values: Floats
+
+    @property
+    def unit(self) -> Unit:
+        """The unit in which it is shown."""
+        return unit_of(self.dimension)
+
+    @property
+    def backwards(self) -> bool:
+        """Whether the input falls as time goes on, so that the axis runs from right to left."""
+        return bool(self.values[-1] < self.values[0])
+
+
 def label_input(axes: Axes, axis: InputAxis, say: Say) -> None:
     """Label, range and ticks of the axis below: the input in the order of the motion."""
     shown = axis.values * axis.unit.factor
@@ -100,15 +116,6 @@ def input_label(axis: InputAxis, say: Say) -> str:
     symbols = {"angle": "φ", "length": "s", "time": "t"}
     word = say("time") if axis.dimension == "time" else say("input")
     return f"{word} {symbols[axis.dimension]} ({axis.unit.name})"
-
-
-def framed(figure: Figure, title: str, request: Request, legend: Legend | None = None) -> None:
-    """The title: the one asked for, or this one; none where an empty one is asked for. The legend goes below."""
-    text = printable(title if request.title is None else request.title)
-    if text:
-        figure.suptitle(wrapped(text, figure.get_size_inches()[0]), x=0.02, ha="left", color=INK)
-    if legend is not None:
-        legend.put(figure)
 
 
 def wrapped(text: str, inches: float) -> str:

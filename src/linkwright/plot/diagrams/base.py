@@ -10,19 +10,18 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
 from dataclasses import field
 from functools import partial
-from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
+from typing import Any, ClassVar, TypeVar
 
 from linkwright.core.dataclass import dataclass
 from linkwright.machine.flywheel import FLUCTUATION
-from linkwright.pictures.diagram import Figure
+from linkwright.pictures.diagram import INK, Figure
 from linkwright.pictures.drawing import Drawing
+from linkwright.plot.diagrams.axes import Legend, wrapped
+from linkwright.plot.diagrams.source import Source
 from linkwright.registry import Registry
 from linkwright.words import Say, say
+from linkwright.words.characters import printable
 from linkwright.words.sentence import in_language
-
-if TYPE_CHECKING:
-    from linkwright.plot.diagrams.source import Source
-
 
 T = TypeVar("T")
 #: What may be asked of some kinds of diagrams only.
@@ -61,6 +60,15 @@ class Request:
         """The title of a diagram, ``Crank-rocker: joint forces``: its subject is its kind unless given."""
         told = subject or self.say(f"kind.{self.kind}")
         return self.say("titled", name=in_language(name, self.language), subject=told) if name else told
+
+
+def framed(figure: Figure, title: str, request: Request, legend: Legend | None = None) -> None:
+    """The title: the one asked for, or this one; none where an empty one is asked for. The legend goes below."""
+    text = printable(title if request.title is None else request.title)
+    if text:
+        figure.suptitle(wrapped(text, figure.get_size_inches()[0]), x=0.02, ha="left", color=INK)
+    if legend is not None:
+        legend.put(figure)
 
 
 class Kind(ABC):

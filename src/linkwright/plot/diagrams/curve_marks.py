@@ -8,10 +8,10 @@ import numpy as np
 
 from linkwright.core.arrays import Flags, Floats
 from linkwright.pictures.diagram import Axes
-from linkwright.plot.diagrams.axes import round_up, significant
+from linkwright.plot.diagrams.axes import InputAxis, round_up, significant
 from linkwright.plot.diagrams.marks import acting
 from linkwright.plot.diagrams.names import Name, Names
-from linkwright.plot.diagrams.source import InputAxis, Source
+from linkwright.plot.diagrams.source import Source
 
 
 def jumps(source: Source) -> Floats:

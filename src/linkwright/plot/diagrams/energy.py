@@ -13,10 +13,11 @@ from linkwright.metrics.analysis import Analysis, Kind
 from linkwright.metrics.summary import Extreme
 from linkwright.metrics.true_speed import steady_cycle
 from linkwright.pictures.diagram import COLOURS
-from linkwright.plot.diagrams.axes import significant, unit_of
+from linkwright.plot.diagrams.axes import InputAxis, significant, unit_of
 from linkwright.plot.diagrams.base import DIAGRAMS, Request
-from linkwright.plot.diagrams.panels import Curve, Level, OverInput, Panel, with_mean
-from linkwright.plot.diagrams.source import Extremes, InputAxis, Source
+from linkwright.plot.diagrams.marks import Curve
+from linkwright.plot.diagrams.panels import Level, OverInput, Panel, with_mean
+from linkwright.plot.diagrams.source import Extremes, Source
 
 
 @DIAGRAMS.register("energy")

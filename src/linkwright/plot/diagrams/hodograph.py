@@ -12,8 +12,8 @@ from linkwright.mechanism.force_names import chosen_pairs
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.reactions import size as magnitude
 from linkwright.pictures.diagram import COLOURS, FAINT, INK, Axes, Figure, new_figure
-from linkwright.plot.diagrams.axes import Legend, Unit, equal, framed, unit_of
-from linkwright.plot.diagrams.base import DIAGRAMS, Kind, Request
+from linkwright.plot.diagrams.axes import Legend, Unit, equal, unit_of
+from linkwright.plot.diagrams.base import DIAGRAMS, Kind, Request, framed
 from linkwright.plot.diagrams.curve_marks import draw_curve, jumps, mark_inputs
 from linkwright.plot.diagrams.names import Names, write_names
 from linkwright.plot.diagrams.outputs import joint_and_link, known_link

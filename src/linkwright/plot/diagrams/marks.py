@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterable
 
 import numpy as np
 
@@ -16,13 +16,27 @@ from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.loads.over_cycle import activity
 from linkwright.loads.phases import Always
 from linkwright.metrics.analysis import Kind
-from linkwright.pictures.diagram import INK, Axes
-from linkwright.plot.diagrams.axes import Unit
-from linkwright.plot.diagrams.source import Source
+from linkwright.pictures.diagram import COLOURS, INK, Axes
+from linkwright.plot.diagrams.axes import InputAxis, Unit
+from linkwright.plot.diagrams.source import Extremes, Source
 
-if TYPE_CHECKING:
-    from linkwright.plot.diagrams.panels import Curve, Panel
-    from linkwright.plot.diagrams.source import InputAxis
+
+@dataclass(frozen=True)
+class Curve:
+    """A curve: SI ``values`` (n,) over the input up to the cycle's end.
+
+    ``peak``: what is marked on it: ``both`` extremes, ``max``, ``largest`` by size, or nothing where empty;
+    ``extremes``: what they are between the positions, where that is known.
+    """
+
+    label: str
+    values: Floats
+    peak: str = "both"
+    colour: str = COLOURS[0]
+    dash: str = "-"
+    x: Floats | None = None
+    width: float = 1.5
+    extremes: Extremes | None = None
 
 
 @dataclass(frozen=True)
@@ -94,9 +108,9 @@ def _snapped(x: np.ndarray[tuple[int], np.dtype[np.float64]], index: int, limits
 _HALO = {"boxstyle": "round,pad=0.12", "facecolor": "white", "edgecolor": "none", "alpha": 0.8}
 
 
-def mark_peaks(axes: Axes, panel: Panel, axis: InputAxis, unit: Unit) -> None:
+def mark_peaks(axes: Axes, curves: Iterable[Curve], axis: InputAxis, unit: Unit) -> None:
     """Dots with values at the extremes of the curves that ask for it."""
-    for curve in panel.curves:
+    for curve in curves:
         if curve.peak and np.isfinite(curve.values).any():
             _mark(axes, curve, axis, unit)
 

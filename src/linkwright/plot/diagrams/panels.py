@@ -12,9 +12,10 @@ from linkwright.core.arrays import Floats, largest
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.pictures.diagram import COLOURS, FAINT, INK, SHADE, Axes, Figure, new_figure
-from linkwright.plot.diagrams.axes import Legend, Unit, framed, label_input, unit_of
-from linkwright.plot.diagrams.base import Kind, Request
+from linkwright.plot.diagrams.axes import InputAxis, Legend, Unit, label_input, unit_of
+from linkwright.plot.diagrams.base import Kind, Request, framed
 from linkwright.plot.diagrams.marks import (
+    Curve,
     LimitMark,
     PhaseMark,
     limit_marks,
@@ -22,30 +23,12 @@ from linkwright.plot.diagrams.marks import (
     phase_marks,
     through_peaks,
 )
-from linkwright.plot.diagrams.source import Extremes, InputAxis, Source
+from linkwright.plot.diagrams.source import Source
 from linkwright.words import Say
 
 #: A value below this in the unit of the axis has a unit of its own, below that share of the largest it is rounding.
 SMALL, ROUNDING = 0.1, 1e-9
 DASHES = ("-", "--", ":", "-.")
-
-
-@dataclass(frozen=True)
-class Curve:
-    """A curve: SI ``values`` (n,) over the input up to the cycle's end.
-
-    ``peak``: what is marked on it: ``both`` extremes, ``max``, ``largest`` by size, or nothing where empty;
-    ``extremes``: what they are between the positions, where that is known.
-    """
-
-    label: str
-    values: Floats
-    peak: str = "both"
-    colour: str = COLOURS[0]
-    dash: str = "-"
-    x: Floats | None = None
-    width: float = 1.5
-    extremes: Extremes | None = None
 
 
 @dataclass(frozen=True)
@@ -198,7 +181,7 @@ def draw_panel(axes: Axes, panel: Panel, axis: InputAxis, request: Request, lege
     _set_range(axes, panel, unit)
     axes.set_ylabel(unit.label(panel.title, "\n"))
     if request.marks:
-        mark_peaks(axes, panel, axis, unit)
+        mark_peaks(axes, panel.curves, axis, unit)
 
 
 def _fill(axes: Axes, panel: Panel, axis: InputAxis, unit: Unit) -> None:

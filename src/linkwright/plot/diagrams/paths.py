@@ -10,8 +10,8 @@ from linkwright.core.arrays import Floats
 from linkwright.core.outputs import Output
 from linkwright.errors import RequestError
 from linkwright.pictures.diagram import COLOURS, Figure, new_figure
-from linkwright.plot.diagrams.axes import Legend, framed
-from linkwright.plot.diagrams.base import DIAGRAMS, Kind, Request
+from linkwright.plot.diagrams.axes import Legend
+from linkwright.plot.diagrams.base import DIAGRAMS, Kind, Request, framed
 from linkwright.plot.diagrams.curve_marks import draw_curve, mark_inputs
 from linkwright.plot.diagrams.names import Name, Names, write_names
 from linkwright.plot.diagrams.outputs import output_named, traced_points

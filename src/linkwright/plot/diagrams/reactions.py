@@ -15,8 +15,9 @@ from linkwright.mechanism.force_names import chosen_pairs
 from linkwright.metrics.reactions import size as magnitude
 from linkwright.pictures.diagram import COLOURS
 from linkwright.plot.diagrams.base import DIAGRAMS, Request
+from linkwright.plot.diagrams.marks import Curve
 from linkwright.plot.diagrams.outputs import joint_and_link, loaded, main_output
-from linkwright.plot.diagrams.panels import Curve, OverInput, Panel, look
+from linkwright.plot.diagrams.panels import OverInput, Panel, look
 from linkwright.plot.diagrams.source import Extremes, Source
 
 

@@ -10,7 +10,6 @@ from typing import Any, Literal, TypeAlias, TypeVar, cast
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.cycle import at_times
 from linkwright.kinematics.motion import Motion
@@ -20,7 +19,7 @@ from linkwright.machine.running import SteadyRunning, steady_running
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis, Kind
 from linkwright.metrics.summary import Extreme
-from linkwright.plot.diagrams.axes import Unit, unit_of
+from linkwright.plot.diagrams.axes import InputAxis, unit_of
 from linkwright.words import Say
 from linkwright.words.characters import one_line
 from linkwright.words.sentence import Worded
@@ -30,25 +29,6 @@ STEPS = 720
 TURN = 2 * np.pi
 T = TypeVar("T")
 Extremes: TypeAlias = Callable[[Kind], Extreme | None]
-
-
-@dataclass(frozen=True)
-class InputAxis:
-    """The axis below curves: ``name`` of the driver, ``dimension`` angle, length or time, ``values`` (n,) SI."""
-
-    name: str
-    dimension: str
-    values: Floats
-
-    @property
-    def unit(self) -> Unit:
-        """The unit in which it is shown."""
-        return unit_of(self.dimension)
-
-    @property
-    def backwards(self) -> bool:
-        """Whether the input falls as time goes on, so that the axis runs from right to left."""
-        return bool(self.values[-1] < self.values[0])
 
 
 class Source:

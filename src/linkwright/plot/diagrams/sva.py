@@ -16,8 +16,9 @@ from linkwright.kinematics.names import result_meant
 from linkwright.kinetostatics.table import results_of
 from linkwright.pictures.diagram import COLOURS
 from linkwright.plot.diagrams.base import DIAGRAMS, Request
+from linkwright.plot.diagrams.marks import Curve
 from linkwright.plot.diagrams.outputs import main_output, output_named
-from linkwright.plot.diagrams.panels import DASHES, Curve, OverInput, Panel
+from linkwright.plot.diagrams.panels import DASHES, OverInput, Panel
 from linkwright.plot.diagrams.source import Source
 from linkwright.words import Say
 

@@ -10,8 +10,9 @@ from linkwright.errors import RequestError
 from linkwright.kinetostatics.forces import Forces
 from linkwright.metrics.analysis import Analysis
 from linkwright.plot.diagrams.base import DIAGRAMS, Request
+from linkwright.plot.diagrams.marks import Curve
 from linkwright.plot.diagrams.outputs import main_output
-from linkwright.plot.diagrams.panels import Curve, OverInput, Panel, with_mean
+from linkwright.plot.diagrams.panels import OverInput, Panel, with_mean
 from linkwright.plot.diagrams.source import Source
 
 

@@ -5,9 +5,10 @@ from __future__ import annotations
 from linkwright.core.arrays import Floats, largest
 from linkwright.machine.balancing import Balancing
 from linkwright.pictures.diagram import COLOURS, INK, Axes, Figure, new_figure
-from linkwright.plot.diagrams.axes import Legend, equal, framed, label_input, unit_of
-from linkwright.plot.diagrams.base import Request, result_diagram
-from linkwright.plot.diagrams.panels import DASHES, Curve, Panel, draw_panel
+from linkwright.plot.diagrams.axes import Legend, equal, label_input, unit_of
+from linkwright.plot.diagrams.base import Request, framed, result_diagram
+from linkwright.plot.diagrams.marks import Curve
+from linkwright.plot.diagrams.panels import DASHES, Panel, draw_panel
 from linkwright.plot.diagrams.source import Source
 
 #: A shaking force of this share of the one before is zero but for rounding.

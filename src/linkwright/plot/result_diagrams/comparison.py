@@ -9,10 +9,11 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.errors import RequestError
 from linkwright.pictures.diagram import INK, Figure, new_figure
-from linkwright.plot.diagrams.axes import Legend, equal, framed, unit_of
-from linkwright.plot.diagrams.base import Request, result_diagram
-from linkwright.plot.diagrams.panels import Curve, Panel, look, stacked
-from linkwright.plot.diagrams.source import InputAxis, Source
+from linkwright.plot.diagrams.axes import InputAxis, Legend, equal, unit_of
+from linkwright.plot.diagrams.base import Request, framed, result_diagram
+from linkwright.plot.diagrams.marks import Curve
+from linkwright.plot.diagrams.panels import Panel, look, stacked
+from linkwright.plot.diagrams.source import Source
 from linkwright.registry import offered
 from linkwright.study.compare import Comparison
 from linkwright.study.overlay import Overlay

@@ -6,8 +6,8 @@ import numpy as np
 
 from linkwright.metrics.coupler_curve import CouplerCurve
 from linkwright.pictures.diagram import COLOURS, Figure, new_figure
-from linkwright.plot.diagrams.axes import Legend, framed, unit_of
-from linkwright.plot.diagrams.base import Request, result_diagram
+from linkwright.plot.diagrams.axes import Legend, unit_of
+from linkwright.plot.diagrams.base import Request, framed, result_diagram
 
 
 @result_diagram("coupler_curve", CouplerCurve)

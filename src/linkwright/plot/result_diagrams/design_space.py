@@ -9,8 +9,8 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.errors import RequestError
 from linkwright.pictures.diagram import COLOURS, Axes, Figure, new_figure
-from linkwright.plot.diagrams.axes import Legend, framed, significant
-from linkwright.plot.diagrams.base import Request
+from linkwright.plot.diagrams.axes import Legend, significant
+from linkwright.plot.diagrams.base import Request, framed
 from linkwright.plot.result_diagrams.design_table import Column, DesignTable
 
 FAILED = "#c0392b"

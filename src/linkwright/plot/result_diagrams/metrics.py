@@ -8,8 +8,8 @@ from linkwright.errors import RequestError
 from linkwright.metrics.base import METRICS, MetricValue
 from linkwright.metrics.table import MetricsTable
 from linkwright.pictures.diagram import COLOURS, FAINT, Axes, Figure, new_figure
-from linkwright.plot.diagrams.axes import Legend, Unit, framed, unit_of
-from linkwright.plot.diagrams.base import Request, result_diagram
+from linkwright.plot.diagrams.axes import Legend, Unit, unit_of
+from linkwright.plot.diagrams.base import Request, framed, result_diagram
 from linkwright.words.sentence import Sentence
 
 #: Height of a row of dots and of an axis with its label, inches.

@@ -11,8 +11,8 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.parts.base import UNITS, unit
 from linkwright.pictures.diagram import COLOURS, FAINT, INK, Axes, Figure, new_figure
-from linkwright.plot.diagrams.axes import Legend, Unit, angle_ticks, framed, unit_of
-from linkwright.plot.diagrams.base import Request
+from linkwright.plot.diagrams.axes import Legend, Unit, angle_ticks, unit_of
+from linkwright.plot.diagrams.base import Request, framed
 
 if TYPE_CHECKING:
     from matplotlib.axis import Axis

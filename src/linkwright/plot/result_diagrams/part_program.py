@@ -10,8 +10,7 @@ from linkwright.core.arrays import Floats
 from linkwright.parts.programs.problem import Variable
 from linkwright.parts.programs.program import Optimum, unit_of
 from linkwright.pictures.diagram import COLOURS, FAINT, INK, SHADE, Axes, Figure, new_figure
-from linkwright.plot.diagrams.axes import framed
-from linkwright.plot.diagrams.base import Request, result_diagram
+from linkwright.plot.diagrams.base import Request, framed, result_diagram
 
 GRID = 241
 

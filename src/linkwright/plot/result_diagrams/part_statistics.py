@@ -8,8 +8,7 @@ import numpy as np
 
 from linkwright.parts.statistics.samples import Statistics
 from linkwright.pictures.diagram import COLOURS, FAINT, Axes, Figure, new_figure
-from linkwright.plot.diagrams.axes import framed
-from linkwright.plot.diagrams.base import Request, result_diagram
+from linkwright.plot.diagrams.base import Request, framed, result_diagram
 from linkwright.plot.diagrams.panels import DASHES
 
 

@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from linkwright.pictures.diagram import COLOURS, FAINT, Axes, Figure, new_figure
-from linkwright.plot.diagrams.axes import framed
-from linkwright.plot.diagrams.base import Request, result_diagram
+from linkwright.plot.diagrams.base import Request, framed, result_diagram
 from linkwright.plot.result_diagrams.part_axes import unit_for
 from linkwright.tolerance.result import Spread
 

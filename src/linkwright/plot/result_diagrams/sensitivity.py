@@ -11,10 +11,10 @@ from linkwright.core.arrays import Floats
 from linkwright.errors import RequestError
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.pictures.diagram import COLOURS, Figure, new_figure
-from linkwright.plot.diagrams.axes import Legend, framed
-from linkwright.plot.diagrams.base import Request, result_diagram
-from linkwright.plot.diagrams.panels import Curve, Panel, look, stacked
-from linkwright.plot.diagrams.source import InputAxis
+from linkwright.plot.diagrams.axes import InputAxis, Legend
+from linkwright.plot.diagrams.base import Request, framed, result_diagram
+from linkwright.plot.diagrams.marks import Curve
+from linkwright.plot.diagrams.panels import Panel, look, stacked
 from linkwright.plot.result_diagrams.design_table import chosen
 from linkwright.study.ranges import dimension_of
 from linkwright.study.sensitivity import Sensitivity

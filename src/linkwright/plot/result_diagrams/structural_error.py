@@ -7,8 +7,7 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.errors import speaker
 from linkwright.pictures.diagram import COLOURS, FAINT, Figure, new_figure
-from linkwright.plot.diagrams.axes import framed
-from linkwright.plot.diagrams.base import Request, result_diagram
+from linkwright.plot.diagrams.base import Request, framed, result_diagram
 from linkwright.synthesis.result import Synthesis, title_said
 from linkwright.words import say
 

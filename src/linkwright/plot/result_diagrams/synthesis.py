@@ -9,8 +9,8 @@ import numpy as np
 from linkwright.core.arrays import Complexes, Floats
 from linkwright.errors import speaker
 from linkwright.pictures.diagram import COLOURS, FAINT, INK, Axes, Figure, new_figure
-from linkwright.plot.diagrams.axes import Legend, framed
-from linkwright.plot.diagrams.base import Request, result_diagram
+from linkwright.plot.diagrams.axes import Legend
+from linkwright.plot.diagrams.base import Request, framed, result_diagram
 from linkwright.plot.diagrams.position import draw_support
 from linkwright.synthesis.result import Candidate, Synthesis, title_said
 from linkwright.words import say

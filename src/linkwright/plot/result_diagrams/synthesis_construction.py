@@ -12,8 +12,8 @@ import numpy as np
 from linkwright.core.arrays import Complexes
 from linkwright.errors import speaker
 from linkwright.pictures.diagram import COLOURS, FAINT, INK, Axes, Figure, new_figure
-from linkwright.plot.diagrams.axes import Legend, framed
-from linkwright.plot.diagrams.base import Request, result_diagram
+from linkwright.plot.diagrams.axes import Legend
+from linkwright.plot.diagrams.base import Request, framed, result_diagram
 from linkwright.plot.diagrams.position import draw_support
 from linkwright.synthesis.motion_generation.generate import MotionDerivation
 from linkwright.synthesis.requirements.crank_rocker import CrankRockerDerivation, QuickReturnDerivation

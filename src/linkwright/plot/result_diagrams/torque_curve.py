@@ -7,9 +7,10 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.machine.torque_curve import TorqueCurve
 from linkwright.pictures.diagram import Figure
+from linkwright.plot.diagrams.axes import InputAxis
 from linkwright.plot.diagrams.base import Request, result_diagram
-from linkwright.plot.diagrams.panels import Curve, stacked, with_mean
-from linkwright.plot.diagrams.source import InputAxis
+from linkwright.plot.diagrams.marks import Curve
+from linkwright.plot.diagrams.panels import stacked, with_mean
 
 STEPS = 720
 #: How far before a jump the curve is drawn, as a share of its period.

@@ -8,7 +8,7 @@ from linkwright.errors import LinkwrightError
 from linkwright.report.document import Block, Figure, Heading, Paragraph, Table, literal
 from linkwright.report.machine_results import Case, Missing
 from linkwright.report.section import section
-from linkwright.study.evaluation import evaluation, ranking, table_rows
+from linkwright.study.evaluation import ranking, sentences, table_rows
 
 
 @section("comparison", 20.0, optional=True, common=True)
@@ -35,7 +35,7 @@ def blocks(cases: Sequence[Case]) -> Iterator[Block]:
     for line in ranking(found, say):
         yield Paragraph(literal(line.strip()), "bullet" if line.startswith(" ") else "")
     yield Heading(say("compare.evaluation"), 2)
-    for line in evaluation(found, first.language):
+    for line in sentences(found, first.language):
         yield Paragraph(literal(line))
     for kind in ("comparison", "pivot_hodograph"):
         try:

@@ -11,11 +11,12 @@ from linkwright.core.outputs import Output
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinetostatics.forces import Forces
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.plot.diagrams.axes import InputAxis
 from linkwright.plot.diagrams.base import Request
 from linkwright.plot.diagrams.force_polygon import link_forces, polygon_links
 from linkwright.plot.diagrams.outputs import main_output
 from linkwright.plot.diagrams.panels import Panel as Plotted
-from linkwright.plot.diagrams.source import InputAxis, Source
+from linkwright.plot.diagrams.source import Source
 from linkwright.plot.diagrams.sva import Sva
 from linkwright.plot.diagrams.torque import Torque
 from linkwright.sheets.curves import Axis, Curve, CurvePanel
