@@ -52,13 +52,6 @@ class Tape(HigherPair):
     def dimensions(self):
         return {f"{self.name}.radii.{k}": radius for k, radius in enumerate(self.radii)}
 
-    def constrain(self, graph):
-        graph.sum_rotations(self.name, self._factors())
-
-    def connections(self, grouping, links):
-        if self.name not in grouping.redundant and grouping.within(self.turning, links):
-            yield self.between(*self.links)
-
     def _factors(self):
         a, b = self.radii
         return dict(zip(self.turning, (a, -b, b - a), strict=True))

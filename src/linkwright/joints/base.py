@@ -1,14 +1,14 @@
 """What a joint kind supplies, and the registry of the kinds.
 
 A kind is one file with one frozen dataclass, registered under the word of its key ``kind``: the fields of the model
-file, its demands on the structure, how it hangs a link in an open chain, how it is cut, its rows for the rank.
+file, what it leaves and ties of its links, its equation, how it hangs a link in an open chain.
 Solvers ask the joint and never its kind. What a kind leaves out is said when it is needed (:class:`LackingError`).
 """
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import MISSING, fields, replace
 from typing import TYPE_CHECKING, Any, ClassVar, Protocol, Self
 
@@ -25,7 +25,7 @@ from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.core.arrays import Flags, Floats
-    from linkwright.elements.model import Sizes
+    from linkwright.elements.model import Drawing, Model, ModelLink, Sizes
     from linkwright.elements.topology import Group, TreeJoint
     from linkwright.engine.trace import Mask, Scalar
     from linkwright.engine.vector import Vec
@@ -34,10 +34,6 @@ if TYPE_CHECKING:
     from linkwright.fields.reading import Place as Where
     from linkwright.fields.reading import Reader
     from linkwright.kinematics.closed_loops import Body, LoopBuilder
-    from linkwright.mechanism.drawing import Drawing
-    from linkwright.mechanism.mechanism import Link, Mechanism
-    from linkwright.structure.constraints import ConstraintGraph
-    from linkwright.structure.decompose import Grouping
 
 #: The size of a joint's force, from that force.
 Size = Callable[[Scalar], Scalar]
@@ -52,7 +48,7 @@ class Entry:
     place: Where
     name: str
     values: dict[str, Any]
-    links: Mapping[str, Link]
+    links: Mapping[str, ModelLink]
 
     def say(
         self,
@@ -137,7 +133,7 @@ class Joint(ABC):
         """The same joint, with what follows from its first link's points (a guide's direction) made anew."""
         return self
 
-    def settled(self, mechanism: Mechanism, report: Report) -> Joint:
+    def settled(self, mechanism: Model, report: Report) -> Joint:
         """The same joint, with what follows from the joints around it."""
         return self
 
@@ -183,18 +179,10 @@ class Joint(ABC):
         """The two links whose rotations the joint ties to each other, if it does."""
         return ()
 
-    def constrain(self, graph: ConstraintGraph) -> None:
-        """Adds the joint's demands to the graph."""
-        raise self.lacks("constrain")
-
     def between(self, a: str, b: str, driver: str | None = None) -> Connection:
         """The joint as a connection of two of its links."""
         pair = PairType(self.kind, self.letter, self.coordinate, self.freedoms, self.higher)
         return Connection(self.name, pair, a, b, driver)
-
-    def connections(self, grouping: Grouping, links: frozenset[str]) -> Iterable[Connection]:
-        """The joint as pairs of links, for the group of ``links``."""
-        raise self.lacks("connections")
 
     @property
     def turning(self) -> tuple[str, ...]:
@@ -244,7 +232,7 @@ class Joint(ABC):
         """Whether the sizes of the pair fit the places of its links, traced."""
         return True
 
-    def misfit(self, mechanism: Mechanism) -> Sentence | None:
+    def misfit(self, mechanism: Model) -> Sentence | None:
         """What does not fit, where :meth:`fits` is false."""
         return None
 
@@ -257,7 +245,7 @@ class Joint(ABC):
         """Constant angle of the child's x axis to the parent's, rad, where the joint does not turn."""
         raise self.lacks("turned")
 
-    def turn_of(self, child: str, mechanism: Mechanism) -> float:
+    def turn_of(self, child: str, mechanism: Model) -> float:
         """The same as a number."""
         raise self.lacks("turn_of")
 
@@ -279,12 +267,12 @@ class Joint(ABC):
         """Adds the equations of the cut joint to the closed loops; by default those of :meth:`sums`."""
         build.sum(*self.sums(build.mechanism))
 
-    def sums(self, mechanism: Mechanism) -> tuple[Mapping[str, float], Mapping[str, float], float]:
+    def sums(self, mechanism: Model) -> tuple[Mapping[str, float], Mapping[str, float], float]:
         """The row of a higher pair as a sum that is zero: factors of links' rotations (rad, with turns), factors of
         guides' displacements (m), and a constant."""
         raise self.lacks("sums")
 
-    def tied(self, mechanism: Mechanism) -> tuple[Mapping[str, float], Mapping[str, float]]:
+    def tied(self, mechanism: Model) -> tuple[Mapping[str, float], Mapping[str, float]]:
         """Factors of the speeds, of links' rotations and of guides' displacements, that the row of a higher pair ties
         to each other in a position of no special kind; by default those of :meth:`sums`."""
         rotations, slides, _ = self.sums(mechanism)
@@ -330,14 +318,6 @@ class HigherPair(Joint):
     def touching(self) -> tuple[str, str]:
         """A link and its point nearest to which drawings show the force on its line of action."""
         return self.seats[0]
-
-    def constrain(self, graph: ConstraintGraph) -> None:
-        graph.demand(self.name, self.joined)
-
-    def connections(self, grouping: Grouping, links: frozenset[str]) -> Iterable[Connection]:
-        if grouping.within(self.joined, links):
-            a, b = self.joined
-            yield self.between(a, b)
 
 
 class LackingError(LinkwrightError):

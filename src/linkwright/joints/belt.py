@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, ClassVar
 
 from linkwright.core.dataclass import dataclass
-from linkwright.elements.model import Sizes
+from linkwright.elements.model import Model, Sizes
 from linkwright.engine.trace import Mask, Scalar, reciprocal, sqrt
 from linkwright.engine.vector import Vec
 from linkwright.fields.base import Field, Quantity, Word
@@ -17,7 +17,6 @@ from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.core.arrays import Flags, Floats
-    from linkwright.mechanism.mechanism import Mechanism
 
 
 @JOINTS.register("belt")
@@ -70,7 +69,7 @@ class BeltPair(WheelPair):
             "joints.pulleys_touch", sum=length(a + b), centres=self.centres, distance=length(distance)
         )
 
-    def misfit(self, mechanism: Mechanism) -> Sentence | None:
+    def misfit(self, mechanism: Model) -> Sentence | None:
         return self._touching(abs(self.line(mechanism)))
 
     def fits(self, dimensions: Sizes) -> Mask:
@@ -83,7 +82,7 @@ class BeltPair(WheelPair):
         own = {f"{self.name}.pretension": self.pretension} if self.pretension else {}
         return {**super().dimensions(), **own}
 
-    def arms(self, mechanism: Mechanism) -> tuple[float, float]:
+    def arms(self, mechanism: Model) -> tuple[float, float]:
         a, b = self.pitch_radii()
         return a, -self.sense * b
 

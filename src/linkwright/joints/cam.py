@@ -10,7 +10,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.core.dataclass import dataclass
-from linkwright.elements.model import Sizes
+from linkwright.elements.model import Drawing, Model, Sizes
 from linkwright.engine.trace import Scalar, acos, asin, select, sqrt
 from linkwright.engine.vector import Vec
 from linkwright.fields.base import Field, Quantity, Word
@@ -36,8 +36,6 @@ if TYPE_CHECKING:
     from linkwright.kinematics.closed_loops import LoopBuilder
     from linkwright.laws.program import MotionProgram
     from linkwright.laws.traced import LiftCurve
-    from linkwright.mechanism.drawing import Drawing
-    from linkwright.mechanism.mechanism import Mechanism
 
 TOUCH = ("roller", "knife", "flat")
 Points = tuple[float, ...]
@@ -173,7 +171,7 @@ class CamJoint(HigherPair):
             return cls(name, **given, curve=LiftCurve.through(x, y).text, angles=x, lifts=y)
         return None
 
-    def settled(self, mechanism: Mechanism, report: Report) -> Joint:
+    def settled(self, mechanism: Model, report: Report) -> Joint:
         for name, pin in mechanism.joints.items():
             if pin.coordinate != "turn" or self.cam not in pin.joined:
                 continue
@@ -188,7 +186,7 @@ class CamJoint(HigherPair):
         report("follower", Sentence(f"joints.{word}", **values), Sentence(f"joints.{word}_remedy", **values))
         return self
 
-    def _held(self, mechanism: Mechanism, carrier: str) -> str:
+    def _held(self, mechanism: Model, carrier: str) -> str:
         """The guide or the pin that holds the follower on a carrier; empty where there is none."""
         for name, joint in mechanism.joints.items():
             if self.side and joint.coordinate == "turn" and {self.follower, carrier} <= set(joint.joined):
@@ -197,7 +195,7 @@ class CamJoint(HigherPair):
                 return name
         return ""
 
-    def _check(self, mechanism: Mechanism, report: Report) -> Geometry:
+    def _check(self, mechanism: Model, report: Report) -> Geometry:
         from linkwright.joints.cam_geometry import Geometry
 
         found = Geometry.of(self, mechanism)
@@ -339,10 +337,10 @@ class CamJoint(HigherPair):
         none: Flags = push < -1e-9 * max(float(abs(push).max(initial=0.0)), 1e-12)
         return none
 
-    def sums(self, mechanism: Mechanism) -> tuple[Mapping[str, float], Mapping[str, float], float]:
+    def sums(self, mechanism: Model) -> tuple[Mapping[str, float], Mapping[str, float], float]:
         raise LackingError("joints.cam_sums")
 
-    def tied(self, mechanism: Mechanism) -> tuple[Mapping[str, float], Mapping[str, float]]:
+    def tied(self, mechanism: Model) -> tuple[Mapping[str, float], Mapping[str, float]]:
         """With a slope of the lift that no sizes of wheels have: the golden section, m of the base circle or rad."""
         slope = 0.5 * (math.sqrt(5.0) - 1.0) * (1.0 if self.side else self.base_radius)
         if self.side:
@@ -357,7 +355,7 @@ class CamJoint(HigherPair):
     def touching(self) -> tuple[str, str]:
         return self.follower, self.at
 
-    def geometry(self, mechanism: Mechanism) -> Geometry:
+    def geometry(self, mechanism: Model) -> Geometry:
         """Directions and distances of cam and follower on their carrier."""
         from linkwright.joints.cam_geometry import Geometry
 

@@ -7,12 +7,11 @@ import math
 from typing import TYPE_CHECKING
 
 from linkwright.core.dataclass import dataclass
+from linkwright.elements.model import Guide, Model
 from linkwright.engine.trace import Scalar
-from linkwright.joints.lower import SlidingJoint
 
 if TYPE_CHECKING:
     from linkwright.joints.cam import CamJoint
-    from linkwright.mechanism.mechanism import Mechanism
 
 _TURN = 2 * math.pi
 Lift = tuple[Scalar, Scalar, Scalar]
@@ -37,7 +36,7 @@ class Geometry:
     most: float = math.inf
 
     @classmethod
-    def of(cls, joint: CamJoint, mechanism: Mechanism) -> Geometry:
+    def of(cls, joint: CamJoint, mechanism: Model) -> Geometry:
         """From the points of the model."""
         radius = joint.base_radius + (joint.roller_radius if joint.touch == "roller" else 0.0)
         at = complex(*mechanism.link(joint.follower).points[joint.at])
@@ -63,8 +62,8 @@ class Geometry:
     def _guided(
         cls,
         joint: CamJoint,
-        guide: SlidingJoint,
-        mechanism: Mechanism,
+        guide: Guide,
+        mechanism: Model,
         radius: float,
         at: complex,
         centre: complex,

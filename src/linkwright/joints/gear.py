@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from math import cos as cos_of
 from math import pi
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 from linkwright.core.dataclass import dataclass
-from linkwright.elements.model import Sizes
+from linkwright.elements.model import Model, Sizes
 from linkwright.engine.trace import Mask, Scalar, absolute, cos, maximum, reciprocal, select, sqrt, stop, tan
 from linkwright.fields.base import Field, Quantity
 from linkwright.joints.base import JOINTS, Entry, Joint, Size
@@ -16,9 +16,6 @@ from linkwright.joints.ends import Ends
 from linkwright.joints.rolling import RollingPair
 from linkwright.joints.toothed import FITS, Numbers
 from linkwright.words.sentence import Sentence
-
-if TYPE_CHECKING:
-    from linkwright.mechanism.mechanism import Mechanism
 
 #: The pressure angle of standard teeth, and the clearance at their bottom in modules (ISO 53): by so much the centres
 #: of involute wheels may be off, as tolerances and sweeps have it, before teeth touch the bottom or let go.
@@ -119,7 +116,7 @@ class GearPair(RollingPair):
             **({f"{self.name}.module": self.module} if self.module else {}),
         }
 
-    def working_slope(self, mechanism: Mechanism) -> float:
+    def working_slope(self, mechanism: Model) -> float:
         """tan of the pressure angle in mesh."""
         slope = self._slope(self.pressure_angle, self.asked, abs(self.line(mechanism)) ** 2)
         assert isinstance(slope, float)

@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 from linkwright.core.dataclass import dataclass
+from linkwright.elements.model import Drawing, Model
 from linkwright.engine.trace import Scalar
 from linkwright.errors import LinkwrightError
 from linkwright.joints.base import Joint
 from linkwright.joints.ends import Ends
-
-if TYPE_CHECKING:
-    from linkwright.mechanism.drawing import Drawing
-    from linkwright.mechanism.mechanism import Mechanism
 
 
 @dataclass(frozen=True)
@@ -99,7 +96,7 @@ class SlidingJoint(TyingJoint):
         gap = at.point(self.block, self.at) - at.point(self.guide, self.through)
         return at.vector(self.guide, self.slide_direction(at.dimensions)).dot(gap)
 
-    def turn_of(self, child: str, mechanism: Mechanism) -> float:
+    def turn_of(self, child: str, mechanism: Model) -> float:
         turn = self.direction - self.block_angle
         return turn if child == self.block else -turn
 
@@ -124,5 +121,5 @@ class RigidJoint(TyingJoint):
     def point_on(self, link: str) -> str:
         return self.at
 
-    def turn_of(self, child: str, mechanism: Mechanism) -> float:
+    def turn_of(self, child: str, mechanism: Model) -> float:
         return self.angle if child == self.links[1] else -self.angle

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -23,8 +23,6 @@ if TYPE_CHECKING:
     from linkwright.elements.model import Sizes
     from linkwright.elements.topology import Connection, TreeJoint
     from linkwright.kinematics.closed_loops import Body, LoopBuilder
-    from linkwright.structure.constraints import ConstraintGraph
-    from linkwright.structure.decompose import Grouping
 
 
 @JOINTS.register("prismatic")
@@ -110,15 +108,6 @@ class PrismaticJoint(SlidingJoint):
             **super().written(),
             "direction": Direction().written(self.direction_points or self.direction),
         }
-
-    # structure --------------------------------------------------------------------------------
-    def constrain(self, graph: ConstraintGraph) -> None:
-        graph.hold_rotation(self.name, self.guide, self.block)
-        graph.demand(self.name, (self.guide, self.block), 1)
-
-    def connections(self, grouping: Grouping, links: frozenset[str]) -> Iterable[Connection]:
-        if grouping.within((self.guide, self.block), links):
-            yield self.between(self.guide, self.block, grouping.driver(self.name))
 
     # motion -----------------------------------------------------------------------------------
 

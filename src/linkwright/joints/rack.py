@@ -9,7 +9,7 @@ from math import pi
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from linkwright.core.dataclass import dataclass
-from linkwright.elements.model import Guide, Model, Sizes
+from linkwright.elements.model import Drawing, Guide, Model, Sizes
 from linkwright.engine.trace import Mask, Scalar, absolute, tan
 from linkwright.engine.vector import Vec
 from linkwright.fields.base import Field, Quantity
@@ -29,8 +29,6 @@ from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.elements.topology import Connection, Group
-    from linkwright.mechanism.drawing import Drawing
-    from linkwright.mechanism.mechanism import Mechanism
 
 
 @JOINTS.register("rack")
@@ -113,7 +111,7 @@ class RackPair(HigherPair):
         values.setdefault("centre", "")
         return cls(entry.name, direction=direction, side=1, radius=radius, **values)
 
-    def settled(self, mechanism: Mechanism, report: Report) -> Joint:
+    def settled(self, mechanism: Model, report: Report) -> Joint:
         way = self._way(mechanism)
         elsewhere = None if way is not None else replace(self, centre="")._way(mechanism)
         if elsewhere is not None:
@@ -153,7 +151,7 @@ class RackPair(HigherPair):
         """By how much the pinion may be off its place, m."""
         return CLEARANCE * (self.module or 0.0)
 
-    def misfit(self, mechanism: Mechanism) -> Sentence | None:
+    def misfit(self, mechanism: Model) -> Sentence | None:
         way = self._way(mechanism)
         wrong = None if way is None else self._misplaced(way, self._slack)
         return None if wrong is None else wrong[1]
@@ -244,7 +242,7 @@ class RackPair(HigherPair):
         gap = at.point(self.pinion, self.centre) - at.point(self.rack, self.through)
         return gap, at.vector(self.rack, at.unit(f"{self.name}.direction"))
 
-    def sums(self, mechanism: Mechanism) -> tuple[Mapping[str, float], Mapping[str, float], float]:
+    def sums(self, mechanism: Model) -> tuple[Mapping[str, float], Mapping[str, float], float]:
         way = self._way(mechanism)
         assert way is not None
         lever = self.side * self.radius
@@ -258,7 +256,7 @@ class RackPair(HigherPair):
     def seats(self) -> tuple[tuple[str, str], ...]:
         return ((self.pinion, self.centre),)
 
-    def _way(self, mechanism: Mechanism) -> _Way | None:
+    def _way(self, mechanism: Model) -> _Way | None:
         return _Search(self, mechanism).found()
 
 

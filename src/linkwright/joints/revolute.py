@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, ClassVar
 
 from linkwright.core.dataclass import dataclass
@@ -16,8 +16,6 @@ from linkwright.joints.lower import TurningJoint
 if TYPE_CHECKING:
     from linkwright.elements.topology import Connection, TreeJoint
     from linkwright.kinematics.closed_loops import Body, LoopBuilder
-    from linkwright.structure.constraints import ConstraintGraph
-    from linkwright.structure.decompose import Grouping
 
 FRICTION = Quantity("dimensionless", minimum=0, doc="coefficient of Coulomb friction (default 0)")
 
@@ -51,31 +49,6 @@ class RevoluteJoint(TurningJoint):
     def pairs(self) -> int:
         """A pin of k links is k - 1 pairs."""
         return len(self.links) - 1
-
-    def constrain(self, graph: ConstraintGraph) -> None:
-        if len(self.links) == 2:
-            graph.demand(self.name, self.links, 2)
-            return
-        pin = f"pin {self.name}"
-        graph.freedoms[pin] = 2
-        for link in self.links:
-            graph.demand(self.name, (link, pin), 2)
-
-    def connections(self, grouping: Grouping, links: frozenset[str]) -> Iterable[Connection]:
-        """On the frame, or on a link next to it, if one of them is solved."""
-        mine = [link for link in self.links if link in links]
-        pairs = {frozenset((d.link, d.relative_to)): d.name for d in grouping.drivers.get(self.name, ())}
-        present = grouping.firm(self.links) + mine
-        used: list[str] = []
-        for pair, driver in pairs.items():
-            if pair <= set(present) and any(link in links for link in pair):
-                a, b = sorted(pair, key=present.index)
-                used.append(b)
-                yield self.between(a, b, driver)
-        base = present[0]
-        for link in mine:
-            if link != base and link not in used:
-                yield self.between(base, link)
 
     # motion -----------------------------------------------------------------------------------
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from math import dist
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 from linkwright.core.dataclass import dataclass
-from linkwright.elements.model import Sizes
+from linkwright.elements.model import Model, Sizes
 from linkwright.engine.trace import Mask, Scalar, absolute, reciprocal, sqrt
 from linkwright.engine.vector import Vec
 from linkwright.fields.base import Field, Quantity, Word
@@ -15,9 +15,6 @@ from linkwright.joints.base import JOINTS, Entry, Joint, Size
 from linkwright.joints.ends import Ends
 from linkwright.joints.toothed import FITS, WheelPair, length
 from linkwright.words.sentence import Sentence
-
-if TYPE_CHECKING:
-    from linkwright.mechanism.mechanism import Mechanism
 
 
 @JOINTS.register("rolling")
@@ -111,7 +108,7 @@ class RollingPair(WheelPair):
             mesh=Sentence("joints.internal" if self.sense > 0 else "joints.external"),
         )
 
-    def misfit(self, mechanism: Mechanism) -> Sentence | None:
+    def misfit(self, mechanism: Model) -> Sentence | None:
         distance = abs(self.line(mechanism))
         return self._apart(distance, self._slack(distance))
 
@@ -128,7 +125,7 @@ class RollingPair(WheelPair):
         told = "" if self.ratio is None else "mesh"
         return {key: value for key, value in super().written().items() if key != told}
 
-    def arms(self, mechanism: Mechanism) -> tuple[float, float]:
+    def arms(self, mechanism: Model) -> tuple[float, float]:
         points, i = mechanism.link(self.carrier).points, self.transmission
         d = dist(*(points[each] for each in self.centres))
         return d * i / (i - 1.0), -d / (i - 1.0)

@@ -12,12 +12,12 @@ from __future__ import annotations
 
 import math
 from abc import abstractmethod
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.core.dataclass import dataclass
-from linkwright.elements.model import Sizes
+from linkwright.elements.model import Drawing, Model, Sizes
 from linkwright.engine.trace import Scalar, reciprocal, sqrt
 from linkwright.engine.vector import Vec
 from linkwright.fields.base import Field, Quantities, Quantity, pair_schema
@@ -28,13 +28,8 @@ from linkwright.units import number
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
-    from linkwright.elements.topology import Connection
     from linkwright.fields.reading import Place as Where
     from linkwright.fields.reading import Reader
-    from linkwright.mechanism.drawing import Drawing
-    from linkwright.mechanism.mechanism import Mechanism
-    from linkwright.structure.constraints import ConstraintGraph
-    from linkwright.structure.decompose import Grouping
 
 #: A centre distance or a ratio may differ from what the wheels ask for by this share.
 FITS = 1e-6
@@ -140,20 +135,9 @@ class WheelPair(HigherPair):
             return Sentence("joints.same_sign", ratio=self.transmission)
         return super().limit(address, value)
 
-    # structure --------------------------------------------------------------------------------
-    def constrain(self, graph: ConstraintGraph) -> None:
-        i = self.transmission
-        graph.sum_rotations(self.name, dict(zip(self.turning, (i, -1.0, 1.0 - i), strict=True)))
-
-    def connections(self, grouping: Grouping, links: frozenset[str]) -> Iterable[Connection]:
-        if self.name in grouping.redundant or links.isdisjoint(self.turning):
-            return
-        if grouping.within(self.turning, links):
-            yield self.between(*self.links, None)
-
     # motion -----------------------------------------------------------------------------------
     @abstractmethod
-    def arms(self, mechanism: Mechanism) -> tuple[float, float]:
+    def arms(self, mechanism: Model) -> tuple[float, float]:
         """Lever arms k_a, k_b of the row, m."""
 
     @abstractmethod
@@ -189,11 +173,11 @@ class WheelPair(HigherPair):
         key = "teeth" if self.teeth is not None else "radii"
         return self.sense * dimensions(f"{self.name}.{key}.0") / dimensions(f"{self.name}.{key}.1")
 
-    def sums(self, mechanism: Mechanism) -> tuple[Mapping[str, float], Mapping[str, float], float]:
+    def sums(self, mechanism: Model) -> tuple[Mapping[str, float], Mapping[str, float], float]:
         i = self.transmission
         return dict(zip(self.turning, (i, -1.0, 1.0 - i), strict=True)), {}, self.phase or 0.0
 
-    def line(self, mechanism: Mechanism) -> complex:
+    def line(self, mechanism: Model) -> complex:
         """From the centre of a to that of b in the carrier's axes, m."""
         points = mechanism.link(self.carrier).points
         a, b = (complex(*points[each]) for each in self.centres)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.core.dataclass import dataclass
@@ -16,10 +16,8 @@ from linkwright.joints.ends import Ends, Hung
 from linkwright.joints.lower import RigidJoint
 
 if TYPE_CHECKING:
-    from linkwright.elements.topology import Connection, TreeJoint
+    from linkwright.elements.topology import TreeJoint
     from linkwright.kinematics.closed_loops import Body, LoopBuilder
-    from linkwright.structure.constraints import ConstraintGraph
-    from linkwright.structure.decompose import Grouping
 
 
 @JOINTS.register("weld")
@@ -53,15 +51,6 @@ class WeldJoint(RigidJoint):
         if not at or not isinstance(links, list) or len(links) != 2:
             return None
         return at, sorted(links, key=lambda link: link != "frame")
-
-    # structure --------------------------------------------------------------------------------
-    def constrain(self, graph: ConstraintGraph) -> None:
-        graph.hold_rotation(self.name, *self.links)
-        graph.demand(self.name, self.links, 2)
-
-    def connections(self, grouping: Grouping, links: frozenset[str]) -> Iterable[Connection]:
-        if grouping.within(self.links, links):
-            yield self.between(*self.links, grouping.driver(self.name))
 
     # motion -----------------------------------------------------------------------------------
 

@@ -12,6 +12,7 @@ from dataclasses import field
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.linear_sums import SMALL, LinearSums
+from linkwright.joints.base import Joint
 from linkwright.mechanism.mechanism import Mechanism
 
 FRAME = "frame"
@@ -62,13 +63,30 @@ class ConstraintGraph:
         """The graph of a mechanism with its drivers."""
         graph = cls(dict.fromkeys(mechanism.links, 3), [])
         for joint in sorted(mechanism.joints.values(), key=lambda each: not each.ties):
-            joint.constrain(graph)
+            graph.add(joint, mechanism)
         for driver in mechanism.drivers.values():
             turning = mechanism.joints[driver.joint].coordinate == "turn"
             if turning:
                 graph.rotations.join(driver.link, driver.relative_to)
             graph.demand(f"{DRIVER}{driver.name}", (driver.link, driver.relative_to), rotation_only=turning)
         return graph
+
+    def add(self, joint: Joint, mechanism: Mechanism) -> None:
+        """The demands of a joint: a sum of rotations, the one row of another higher pair, or those of a lower pair on
+        rotations and places of its links. A pin of three links or more is a body of its own."""
+        name, links = joint.name, joint.joined
+        if joint.rotations_only:
+            self.sum_rotations(name, joint.sums(mechanism)[0])
+        elif joint.higher:
+            self.demand(name, links)
+        elif len(links) > 2:
+            self.freedoms[pin := f"pin {name}"] = 2
+            for link in links:
+                self.demand(name, (link, pin), 2)
+        else:
+            if joint.ties:
+                self.hold_rotation(name, *joint.ties)
+            self.demand(name, links, 3 - joint.freedoms - bool(joint.ties))
 
     def hold_rotation(self, source: str, a: str, b: str) -> None:
         """The demand that two links keep their angle to each other, noted as redundant if others hold it already."""

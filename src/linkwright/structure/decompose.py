@@ -7,11 +7,12 @@ order (Dulmage and Mendelsohn 1958; Assur 1913; Galletti, Mech. Mach. Theory 21,
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Set
+from collections.abc import Iterable, Iterator, Set
 
 from linkwright.core.given import require
 from linkwright.drivers.base import Driver
-from linkwright.elements.topology import Group
+from linkwright.elements.topology import Connection, Group
+from linkwright.joints.base import Joint
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.structure.analysis import Structure
 from linkwright.structure.chains import make_group
@@ -139,22 +140,42 @@ class Grouping:
         """The group of these links."""
         numbers = sorted({number for link in links for number in self.numbers.get(link, ())})
         mine = frozenset(links)
-        connections = [c for number in numbers for c in self.joints[number].connections(self, mine)]
+        connections = [c for number in numbers for c in self._connections(self.joints[number], mine)]
         group = make_group(links, connections, self.solved.keys())
         for link in links:
             self.solved[link] = len(self.solved)
         return group
 
-    # what a joint asks ------------------------------------------------------------------------
-    def driver(self, joint: str) -> str | None:
-        """Name of the first driver of a joint."""
-        return next((driver.name for driver in self.drivers.get(joint, ())), None)
+    def _connections(self, joint: Joint, links: Set[str]) -> Iterator[Connection]:
+        """A joint as pairs of links, for the group of ``links``: not before all that it ties to each other are in the
+        group or solved."""
+        if joint.coordinate == "turn":
+            yield from self._on_pin(joint, links)
+            return
+        tied = joint.turning if joint.rotations_only else joint.joined
+        idle = joint.rotations_only and (joint.name in self.redundant or links.isdisjoint(tied))
+        if not idle and all(link in links or link in self.solved for link in tied):
+            a, b = joint.joined
+            driver = next((driver.name for driver in self.drivers.get(joint.name, ())), None)
+            yield joint.between(a, b, driver)
 
-    def within(self, joined: Iterable[str], links: Set[str]) -> bool:
-        """Whether all of some links are in a group or solved before it."""
-        return all(link in links or link in self.solved for link in joined)
+    def _on_pin(self, joint: Joint, links: Set[str]) -> Iterator[Connection]:
+        """The links of a pin on the frame, or on a link next to it, if one of them is solved."""
+        mine = [link for link in joint.joined if link in links]
+        pairs = {frozenset((d.link, d.relative_to)): d.name for d in self.drivers.get(joint.name, ())}
+        present = self._firm(joint.joined) + mine
+        used: list[str] = []
+        for pair, driver in pairs.items():
+            if pair <= set(present) and any(link in links for link in pair):
+                a, b = sorted(pair, key=present.index)
+                used.append(b)
+                yield joint.between(a, b, driver)
+        base = present[0]
+        for link in mine:
+            if link != base and link not in used:
+                yield joint.between(base, link)
 
-    def firm(self, joined: Iterable[str]) -> list[str]:
+    def _firm(self, joined: Iterable[str]) -> list[str]:
         """Those of some links that are solved before: the frame first, then those next to it."""
         before = sorted((link for link in joined if link in self.solved), key=self.solved.__getitem__)
         return sorted(before, key=lambda link: (link != FRAME, link not in self.grounded))

@@ -199,8 +199,6 @@ def test_a_kind_says_which_of_its_parts_is_lacking() -> None:
     bare, any_ = Bare("j"), SimpleNamespace(mechanism=None)
     calls = {
         "fields": Bare.fields,
-        "constrain": lambda: bare.constrain(any_),
-        "connections": lambda: bare.connections(any_, frozenset()),
         "residual": lambda: bare.residual(any_),
         "hang": lambda: bare.hang(any_, any_, 0.0),
         "slide_direction": lambda: bare.slide_direction(any_),
