@@ -96,7 +96,7 @@ def _moving(
         return None
     states = {name: row[None, :] for name, row in plain.nominal.states.items()}
     over_time = not whole_turns(plain)
-    if over_time and (states or not along.outputs or any(each.phase.through_end for each in sizes)):
+    if over_time and (states or not along.outputs or any(each.through_end for each in sizes)):
         return None
     along = replace(along, constants={**along.constants, **_middle_numbers(plain, along)})
     if states:

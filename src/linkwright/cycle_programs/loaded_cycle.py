@@ -148,7 +148,7 @@ def _needs_turns(size: Magnitude, mechanism: Mechanism, over_time: bool) -> bool
     """Whether the formula of the phase of a load needs whole turns of one driver of constant speed."""
     if over_time and turns_steadily(mechanism):
         return False
-    return size.phase.through_end or (size.limits is not None and not over_time)
+    return size.through_end or (size.limits is not None and not over_time)
 
 
 def _moves_phases(loads: Iterable[Load], varied: Iterable[str], mechanism: Mechanism) -> bool:

@@ -8,8 +8,8 @@ from linkwright.engine.vector import Vec
 from linkwright.kinematics.outputs import MotionOutputs
 from linkwright.kinematics.trace import MotionTrace
 from linkwright.loads.base import Load
-from linkwright.loads.signals import output_named
-from linkwright.loads.strokes import BetweenLimits, moving_of_turn, share_of, stroke_of_turn
+from linkwright.loads.signals import BetweenLimits, output_named
+from linkwright.loads.strokes import moving_of_turn, share_of, stroke_of_turn
 from linkwright.mechanism.mechanism import Mechanism
 
 
@@ -84,7 +84,7 @@ def guide_state(motion: MotionTrace, joint: str) -> tuple[Vec, Vec, Scalar]:
 
 
 class TracedSite:
-    """One load's view; see :class:`linkwright.loads.site.Site`, :class:`linkwright.loads.course.Course` and
+    """One load's view; see :class:`linkwright.loads.site.Site`, :class:`linkwright.loads.signals.Course` and
     :class:`linkwright.loads.strokes.Turning`.
 
     ``along_input``: the magnitude is traced, with ``phase_known`` all but its phase; else one that varies is an input

@@ -96,7 +96,11 @@ def numbers_of_loads(loads: Iterable[Load], mechanism: Mechanism) -> AlongInput:
     return AlongInput(
         frozenset(given),
         tuple(dict.fromkeys(each.limits.output for each in sizes if each.limits is not None)),
-        tuple(dict.fromkeys(output for each in sizes for output in each.phase.valued)),
+        tuple(
+            dict.fromkeys(
+                each.limits.output for each in sizes if each.limits is not None and each.limits.in_part
+            )
+        ),
         tuple(dict.fromkeys(each.rate for each in sizes if each.rate is not None)),
         {pair: near for each in sizes for pair, near in each.angles(mechanism).items()},
         {

@@ -83,13 +83,11 @@ __all__ = [
 class Load:
     """A load on the mechanism; ``name`` is its name in the model.
 
-    ``exactly_one`` lists groups of fields of which exactly one must be given, ``at_most_one`` of which one
-    may be.
+    ``exactly_one`` lists groups of keys of which exactly one must be given.
     """
 
     kind: ClassVar[str]
     exactly_one: ClassVar[tuple[tuple[str, ...], ...]] = ()
-    at_most_one: ClassVar[tuple[tuple[str, ...], ...]] = ()
     name: str
 
     @classmethod
@@ -225,76 +223,38 @@ def read_load(reader: Reader, node: Node, place: Place, name: str) -> Load | Non
 
 
 def _check_choices(reader: Reader, node: Node, place: Place, cls: type[Load], given: set[str]) -> None:
-    for least, groups in ((1, cls.exactly_one), (0, cls.at_most_one)):
-        for group in groups:
-            chosen = [name for name in group if name in given]
-            if least <= len(chosen) <= 1:
-                continue
-            problem = Sentence("loads.none_given", words=group), Sentence("loads.give_one")
-            if chosen:
-                keep = Sentence("loads.keep_one_of", words=group)
-                problem = Sentence("loads.both_given", given=together(chosen)), keep
-            reader.error(node, place, *problem, "choice")
+    for group in cls.exactly_one:
+        chosen = [name for name in group if name in given]
+        if not chosen:
+            problem, remedy = Sentence("loads.none_given", words=group), Sentence("loads.give_one")
+            reader.error(node, place, problem, remedy, "choice")
+        elif len(chosen) > 1:
+            problem = Sentence("loads.both_given", given=together(chosen))
+            reader.error(node, place, problem, Sentence("loads.keep_one_of", words=group), "choice")
 
 
-def quantity(
-    dimension: str,
-    *,
-    default: Any = REQUIRED,
-    minimum: float | None = None,
-    above: float | None = None,
-    nonzero: bool = False,
-    doc: str = "",
-    key: str = "",
-) -> Any:
-    """A quantity in SI of a dimension named in ``units.DIMENSIONS``; limits in SI. Without ``default`` it
-    is required."""
-    return given(
-        Quantity(dimension, minimum=minimum, above=above, nonzero=nonzero, doc=doc, key=key), default
-    )
+def _declares(kind: type[Field]) -> Callable[..., Any]:
+    """A function that declares an attribute of a load: from the arguments of a field, and its default; without one
+    a file must give it."""
+
+    def declare(*arguments: Any, default: Any = REQUIRED, **options: Any) -> Any:
+        return given(kind(*arguments, **options), default)
+
+    return declare
 
 
-def values(
-    dimension: str,
-    *,
-    names: tuple[str, ...] = (),
-    count: int | None = None,
-    default: Any = REQUIRED,
-    doc: str = "",
-    key: str = "",
-) -> Any:
-    """A list of quantities of one dimension, by ``names`` (x, y) or of a fixed ``count``."""
-    return given(Quantities(dimension, names, count, doc=doc, key=key), default)
-
-
-def link(*, moving: bool = False, default: Any = REQUIRED, doc: str = "", key: str = "") -> Any:
-    """The name of a link; ``moving`` excludes the frame."""
-    return given(LinkName(moving=moving, doc=doc, key=key), default)
-
-
-def links(*, default: Any = REQUIRED, doc: str = "", key: str = "") -> Any:
-    """The names of two different links ``[a, b]``."""
-    return given(LinkNames(doc=doc, key=key), default)
-
-
-def point_of(of: str, *, default: Any = REQUIRED, doc: str = "", key: str = "") -> Any:
-    """The name of a point of the link that the earlier field ``of`` names."""
-    return given(PointName(of, doc=doc, key=key), default)
-
-
-def ray(of: str, *, default: Any = REQUIRED, doc: str = "", key: str = "") -> Any:
-    """Two points ``[P, Q]`` of the link that the earlier field ``of`` names."""
-    return given(PointPair(of, doc=doc, key=key), default)
-
-
-def point(*, default: Any = REQUIRED, doc: str = "", key: str = "") -> Any:
-    """A point of the mechanism, a LinkPoint."""
-    return given(PointReference(doc=doc, key=key), default)
-
-
-def points(*, default: Any = REQUIRED, doc: str = "", key: str = "") -> Any:
-    """Two points of the mechanism, a pair of LinkPoints."""
-    return given(PointReferences(doc=doc, key=key), default)
+#: A quantity in SI of a dimension named in ``units.DIMENSIONS``; limits in SI.
+quantity = _declares(Quantity)
+#: A list of quantities of one dimension, by ``names`` (x, y) or of a fixed ``count``.
+values = _declares(Quantities)
+#: The name of a link; ``moving`` excludes the frame. The names of two different links ``[a, b]``.
+link, links = _declares(LinkName), _declares(LinkNames)
+#: The name of a point of the link that the earlier field ``of`` names; two points ``[P, Q]`` of it.
+point_of, ray = _declares(PointName), _declares(PointPair)
+#: A point of the mechanism, a LinkPoint; a pair of these.
+point, points = _declares(PointReference), _declares(PointReferences)
+#: An Output of the mechanism.
+output = _declares(OutputName)
 
 
 def joint(*coordinates: str, default: Any = REQUIRED, doc: str = "", key: str = "") -> Any:
@@ -310,11 +270,6 @@ def word(*choices: str, default: Any = REQUIRED, doc: str = "", key: str = "") -
 def magnitude(dimension: str, *, word: str = "magnitude") -> Any:
     """A Magnitude, with the keys ``magnitude``, ``ramp``, ``table`` and ``phase``; ``word``: what it is."""
     return dataclasses.field(default=Magnitude(), metadata={"magnitude": magnitude_fields(dimension, word)})
-
-
-def output(*, default: Any = REQUIRED, doc: str = "", key: str = "") -> Any:
-    """An Output of the mechanism."""
-    return given(OutputName(doc=doc, key=key), default)
 
 
 def check_between(values: Mapping[str, Any], report: Callable[[str, str, str], None]) -> None:

@@ -10,7 +10,7 @@ from linkwright.core.expressions import ON_VALUES, Expression
 from linkwright.core.outputs import Output
 from linkwright.engine.late_import import numpy as np
 from linkwright.errors import QuantityError
-from linkwright.loads.signals import Signals, column, input_dimension, named_column, output_named, shown, spot
+from linkwright.loads.signals import Signals, column, input_dimension, named_column, output_named, shown
 from linkwright.loads.strokes import NEAR, TURN, StrokePart
 from linkwright.units import LARGEST
 from linkwright.words.sentence import Sentence, together
@@ -38,12 +38,15 @@ def formula_fault(expression: Expression, signals: Signals, where: Flags, found:
 def _not_finite(
     expression: Expression, columns: Mapping[str, Floats], signals: Signals, index: int
 ) -> Sentence:
+    where = Sentence("loads.only_position")
+    if signals.mechanism.drivers:
+        place = shown(float(signals.input[index]), input_dimension(signals))
+        where = Sentence("loads.at_input", input=place)
     try:
         expression.evaluate({name: float(values[index]) for name, values in columns.items()})
     except QuantityError as error:
-        where = spot(signals, index)
         return Sentence("loads.formula_fails", message=error.message, where=where)
-    return Sentence("loads.formula_not_finite", text=expression.text, where=spot(signals, index))
+    return Sentence("loads.formula_not_finite", text=expression.text, where=where)
 
 
 def _pole_between(
@@ -53,25 +56,20 @@ def _pole_between(
     divisors = [each for each in denominators(expression.tree) if not isinstance(each, Number)]
     if not divisors or len(where) < 2:
         return None
-    closes = signals.closes
-    if closes is not None:
+    q = signals.input
+    if signals.closes is not None:
         columns = {name: _with_next(name, values, signals) for name, values in columns.items()}
-        where = np.append(where, where[0])
-    both = where[:-1] & where[1:] & _neighbours(signals)
+        where, q = np.append(where, where[0]), _with_next("input", q, signals)
+    both = where[:-1] & where[1:] & (np.abs(np.diff(q)) < (_APART if signals.rotary else np.inf))
     for divisor in divisors:
         with np.errstate(all="ignore"):
             values = column(evaluate(divisor, columns, ON_VALUES), len(where))
         for index in np.flatnonzero(both & (values[:-1] * values[1:] < 0)):
             share = _zero(divisor, columns, int(index))
             if share is not None:
-                return _between(expression, signals, int(index), share)
+                place = shown(float(q[index] + share * (q[index + 1] - q[index])), input_dimension(signals))
+                return Sentence("loads.formula_divides", text=expression.text, place=place)
     return None
-
-
-def _neighbours(signals: Signals) -> Flags:
-    """Which positions lie next to the one that follows them."""
-    q = signals.input if signals.closes is None else _with_next("input", signals.input, signals)
-    return np.abs(np.diff(q)) < (_APART if signals.rotary else np.inf)
 
 
 def _with_next(name: str, values: Floats, signals: Signals) -> Floats:
@@ -103,12 +101,6 @@ def _zero(divisor: Node, columns: Mapping[str, Floats], index: int) -> float | N
         else:
             high = middle
     return low if abs(value(low)) <= 1e-6 * size else None
-
-
-def _between(expression: Expression, signals: Signals, index: int, share: float) -> Sentence:
-    q = signals.input if signals.closes is None else _with_next("input", signals.input, signals)
-    place = shown(float(q[index] + share * (q[index + 1] - q[index])), input_dimension(signals))
-    return Sentence("loads.formula_divides", text=expression.text, place=place)
 
 
 def interval_fault(start: float, end: float, signals: Signals) -> Sentence | None:

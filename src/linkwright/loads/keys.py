@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from typing import Any, Literal
 
 from linkwright.core.dataclass import dataclass
@@ -51,11 +52,10 @@ class _Part(Field):
     """A part of a magnitude, which knows its own dimensions."""
 
     def flatten(self, value: Any) -> dict[str, float]:
-        found: dict[str, float] = value.dimensions()
-        return found
+        return {suffix: getattr(value, name) for suffix, name in value.numbers.items()}
 
     def rebuild(self, value: Any, lookup: Callable[[str], float]) -> Any:
-        return value.with_dimensions(lookup)
+        return replace(value, **{name: lookup(suffix) for suffix, name in value.numbers.items()})
 
 
 @dataclass(frozen=True)

@@ -12,8 +12,8 @@ from linkwright.errors import LinkwrightError, with_remedy
 from linkwright.loads.base import Load
 from linkwright.loads.magnitude import Magnitude
 from linkwright.loads.phases import Always
-from linkwright.loads.signals import Signals, column, named_column
-from linkwright.loads.strokes import NEAR, TURN, BetweenLimits, Stretch, strokes
+from linkwright.loads.signals import BetweenLimits, Signals, column, named_column
+from linkwright.loads.strokes import NEAR, TURN, Stretch, strokes
 from linkwright.words.sentence import Sentence
 
 
@@ -81,7 +81,7 @@ def switch_times(magnitude: Magnitude, signals: Signals) -> tuple[Floats, bool]:
 
 class CycleCourse:
     """What the magnitude of a load sees, as arrays (n,) over the positions of signals; see
-    :class:`linkwright.loads.course.Course`."""
+    :class:`linkwright.loads.signals.Course`."""
 
     def __init__(self, load: Load, magnitude: Magnitude, signals: Signals) -> None:
         self.magnitude, self.signals = magnitude, signals
@@ -145,18 +145,20 @@ class CycleCourse:
         count = len(self.signals.time)
         where, share = np.zeros(count, dtype=bool), np.zeros(count)
         for each in strokes(phase, self.signals):
-            rise = each.end[1] - each.begin[1]
-            if ramp and abs(rise) < NEAR * (1.0 + abs(each.end[1])):
+            if ramp and abs(each.rise) < NEAR * (1.0 + abs(each.end.input)):
                 raise LinkwrightError("loads.ramp_without_length", output=phase.output)
             inside, passed = each.place(self.signals)
             where, share = where | inside, np.where(inside, passed, share)
-            if phase.part is not None:
-                self._meet(each, inside, phase)
+            if phase.in_part:
+                self._meet(each, inside, phase.output)
         return where, share
 
-    def _meet(self, stretch: Stretch, inside: Flags, phase: BetweenLimits) -> None:
+    def _meet(self, stretch: Stretch, inside: Flags, output: Output) -> None:
+        """Notes the output at the limits of the stroke in which positions lie, with the turns of an angle."""
+        first, last = stretch.begin.value, stretch.end.value
         turns: Any = 0.0
-        if phase.output.kind == "angle" and abs(stretch.values[1] - stretch.values[0]) < TURN:
-            turns = np.round((self.output(phase.output) - 0.5 * sum(stretch.values)) / TURN)
-        for kind, value in zip((phase.start, phase.end), stretch.values, strict=True):
-            self._ends[kind] = np.where(inside, value + TURN * turns, self._ends.get(kind, value))
+        if output.kind == "angle" and abs(last - first) < TURN:
+            turns = np.round((self.output(output) - 0.5 * (first + last)) / TURN)
+        for each in (stretch.begin, stretch.end):
+            known = self._ends.get(each.kind, each.value)
+            self._ends[each.kind] = np.where(inside, each.value + TURN * turns, known)

@@ -3,54 +3,36 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any, ClassVar, Literal, Self
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.engine.late_import import numpy as np
 from linkwright.engine.trace import Mask, Scalar, absolute, maximum, minimum, select, sign
-from linkwright.loads.course import Course
 from linkwright.loads.faults import interval_fault, part_fault
-from linkwright.loads.signals import Signals, times_of_inputs
-from linkwright.loads.strokes import (
-    NEAR,
-    TURN,
-    BetweenLimits,
-    LimitKind,
-    StrokePart,
-    share_of,
-    turned,
-    within,
-)
+from linkwright.loads.signals import Course, LimitKind, Signals, times_of_inputs
+from linkwright.loads.strokes import NEAR, TURN, StrokePart, share_of, turned, within
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.core.arrays import Flags, Floats
 
+#: Whether a load acts, the share of the phase that is passed, and whether there is such a phase.
+Passed = tuple[Mask, Scalar, Mask]
+
 
 class Phase(ABC):
-    """When a load acts."""
+    """When a load acts.
+
+    ``numbers``: its dimensions by the suffixes of their addresses, as attributes.
+    """
+
+    numbers: ClassVar[Mapping[str, str]] = {}
 
     @abstractmethod
-    def passed(self, course: Course, ramp: bool) -> tuple[Mask, Scalar, Mask]:
-        """Whether the load acts, the share of the phase that is passed, at least for a ``ramp``, and whether there is
-        such a phase."""
-
-    @property
-    def traceable(self) -> bool:
-        """Whether its formula holds as it is."""
-        return True
-
-    @property
-    def fallible(self) -> bool:
-        """Whether designs may have no such phase."""
-        return False
-
-    @property
-    def through_end(self) -> bool:
-        """Whether it goes through the end of a turn of the input."""
-        return False
+    def passed(self, course: Course, ramp: bool) -> Passed:
+        """How far it has gone; the share at least for a ``ramp``."""
 
     @property
     def outputs(self) -> tuple[Output, ...]:
@@ -58,17 +40,9 @@ class Phase(ABC):
         return ()
 
     @property
-    def valued(self) -> tuple[Output, ...]:
-        """The outputs whose values it takes."""
-        return ()
-
-    def limits(self, ramp: bool) -> BetweenLimits | None:
-        """The limits of an output between which the load acts; None where it goes by something else."""
-        return None
-
-    def rate(self, ramp: bool) -> Output | None:
-        """The output by the sign of whose rate alone the load acts; None where it goes by something else."""
-        return None
+    def in_part(self) -> bool:
+        """Whether it goes by the value of that output."""
+        return False
 
     @property
     def constants(self) -> Mapping[str, float]:
@@ -78,26 +52,19 @@ class Phase(ABC):
     def ends(self, signals: Signals) -> tuple[Floats, bool]:
         """Times, s, at which it begins or ends, as far as these are known beforehand, perhaps whole cycles away; and
         whether these are all."""
-        return np.empty(0), True
+        limits = [limit.time for output in self.outputs for limit in signals.limits(output)]
+        return np.array(limits), not self.in_part
 
     def fault(self, signals: Signals, course: Course, exists: Flags) -> Sentence | None:
         """What keeps the cycle from having such a phase."""
         return None
-
-    def dimensions(self) -> dict[str, float]:
-        """Its dimensions by the suffixes of its address."""
-        return {}
-
-    def with_dimensions(self, value: Callable[[str], float]) -> Self:
-        """The same with other values of its dimensions, by suffix."""
-        return self
 
 
 @dataclass(frozen=True)
 class Always(Phase):
     """The whole cycle."""
 
-    def passed(self, course: Course, ramp: bool) -> tuple[Mask, Scalar, Mask]:
+    def passed(self, course: Course, ramp: bool) -> Passed:
         return True, 0.0, True
 
 
@@ -106,11 +73,12 @@ class InputPhase(Phase):
     """While the first driver's coordinate is between ``start`` and ``end`` (rad or m; angles modulo one
     turn)."""
 
+    numbers: ClassVar[Mapping[str, str]] = {".input.0": "start", ".input.1": "end"}
     start: float
     end: float
     across: str = "angle"  # dimension of both
 
-    def passed(self, course: Course, ramp: bool) -> tuple[Mask, Scalar, Mask]:
+    def passed(self, course: Course, ramp: bool) -> Passed:
         """A closed interval; of angles from the larger to the smaller end through the end of the turn where the input
         grows. There is none longer than a turn."""
         start, end = course.dimension("phase.input.0"), course.dimension("phase.input.1")
@@ -125,30 +93,12 @@ class InputPhase(Phase):
         acts, share = within(course.input - minimum(start, start + length), absolute(length))
         return acts, select(length > 0.0, share, 1.0 - share), absolute(gap) <= TURN + NEAR
 
-    @property
-    def traceable(self) -> bool:
-        return not self.fallible or abs(self.end - self.start) <= TURN + NEAR
-
-    @property
-    def fallible(self) -> bool:
-        return self.across == "angle"
-
-    @property
-    def through_end(self) -> bool:
-        return self.across == "angle" and self.end < self.start
-
     def ends(self, signals: Signals) -> tuple[Floats, bool]:
         found = times_of_inputs(np.array([self.start, self.end]), signals)
         return (np.empty(0), False) if found is None else (found, True)
 
     def fault(self, signals: Signals, course: Course, exists: Flags) -> Sentence | None:
         return interval_fault(self.start, self.end, signals)
-
-    def dimensions(self) -> dict[str, float]:
-        return {".input.0": self.start, ".input.1": self.end}
-
-    def with_dimensions(self, value: Callable[[str], float]) -> InputPhase:
-        return InputPhase(value(".input.0"), value(".input.1"), self.across)
 
 
 @dataclass(frozen=True)
@@ -157,7 +107,6 @@ class MovingPhase(Phase):
 
     output: Output
     direction: Literal["increasing", "decreasing"]
-    part: ClassVar[None] = None
     outermost: ClassVar[bool] = False
 
     @property
@@ -170,21 +119,12 @@ class MovingPhase(Phase):
         """The limit at which it ends."""
         return "max" if self.direction == "increasing" else "min"
 
-    def passed(self, course: Course, ramp: bool) -> tuple[Mask, Scalar, Mask]:
+    def passed(self, course: Course, ramp: bool) -> Passed:
         return (*course.moving(self, ramp), True)
 
     @property
     def outputs(self) -> tuple[Output, ...]:
         return (self.output,)
-
-    def limits(self, ramp: bool) -> BetweenLimits | None:
-        return self if ramp else None
-
-    def rate(self, ramp: bool) -> Output | None:
-        return None if ramp else self.output
-
-    def ends(self, signals: Signals) -> tuple[Floats, bool]:
-        return np.array([limit.time for limit in signals.limits(self.output)]), True
 
 
 @dataclass(frozen=True)
@@ -197,7 +137,7 @@ class SwingPhase(Phase):
     part: StrokePart | None = None
     outermost: ClassVar[bool] = True
 
-    def passed(self, course: Course, ramp: bool) -> tuple[Mask, Scalar, Mask]:
+    def passed(self, course: Course, ramp: bool) -> Passed:
         """In a part of the stroke where the output itself is there; there is none in a stroke too short for it."""
         acts, share = course.stroke(self, ramp)
         if self.part is None:
@@ -237,27 +177,17 @@ class SwingPhase(Phase):
         return (1,) if self.part.word == "first" else (0,)
 
     @property
-    def fallible(self) -> bool:
-        return self.part is not None
-
-    @property
     def outputs(self) -> tuple[Output, ...]:
         return (self.output,)
 
     @property
-    def valued(self) -> tuple[Output, ...]:
-        return () if self.part is None else (self.output,)
-
-    def limits(self, ramp: bool) -> BetweenLimits:
-        return self
+    def in_part(self) -> bool:
+        return self.part is not None
 
     @property
     def constants(self) -> Mapping[str, float]:
         amounts = () if self.part is None else self.part.amounts
         return {f"part.{k}": amount.value for k, amount in enumerate(amounts)}
-
-    def ends(self, signals: Signals) -> tuple[Floats, bool]:
-        return np.array([limit.time for limit in signals.limits(self.output)]), self.part is None
 
     def fault(self, signals: Signals, course: Course, exists: Flags) -> Sentence | None:
         if self.part is None or np.all(exists):

@@ -9,7 +9,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.engine.trace import Scalar
 from linkwright.loads import base
 from linkwright.loads.base import LOADS, Load, Magnitude
-from linkwright.loads.site import Site, Wrench, guide_and_block
+from linkwright.loads.site import Site, Wrench
 
 
 @LOADS.register("pressure")
@@ -39,11 +39,11 @@ class Pressure(Load):
 
     def wrenches(self, site: Site) -> list[Wrench]:
         direction, place, _ = site.guide(self.joint)
-        guide, block = guide_and_block(site, self.joint)
+        joint = site.motion.mechanism.guides[self.joint]
         force = direction * (site.magnitude() * self._area(site))
         if self.pushes == "backward":
             force = -force
-        return [Wrench(block, force, place), Wrench(guide, -force, place)]
+        return [Wrench(joint.block, force, place), Wrench(joint.guide, -force, place)]
 
     def _area(self, site: Site) -> Scalar:
         if self.area is not None:

@@ -1,4 +1,4 @@
-"""What the magnitude of a load may follow: the input, the time, outputs of the mechanism, their limits."""
+"""What magnitudes follow: the input, the time, outputs of the mechanism and their limits."""
 
 from __future__ import annotations
 
@@ -8,14 +8,16 @@ from typing import TYPE_CHECKING, Any, Literal, Protocol
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.engine.late_import import numpy as np
+from linkwright.engine.trace import Mask, Scalar
 from linkwright.errors import LinkwrightError
 from linkwright.fields.references import resolve_output
 from linkwright.loads.site import Mechanism
 from linkwright.registry import offered
-from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.core.arrays import Flags, Floats
+
+LimitKind = Literal["max", "min"]
 
 
 @dataclass(frozen=True)
@@ -25,7 +27,7 @@ class Limit:
     input: float
     time: float
     value: float
-    kind: Literal["max", "min"]
+    kind: LimitKind
 
 
 @dataclass(frozen=True)
@@ -37,47 +39,30 @@ class Whole:
 
 
 class Signals(Protocol):
-    """The n positions at which magnitudes are wanted; arrays are (n,)."""
+    """The n positions of a motion at which magnitudes are wanted; arrays are (n,).
+
+    ``input``: coordinate of the first driver, rad or m (raises LinkwrightError without a driver), ``rotary``: whether
+    that turns, ``heading``: 1 where it only grows over the cycle, -1 where it only falls, else 0; ``ok``: which
+    positions are solved; ``closes``: period (s) and gain of the input in it, where the first position follows the
+    last; ``whole``: the cycle over which ``limits`` are found.
+    """
 
     @property
-    def mechanism(self) -> Mechanism:
-        """Whose loads they are."""
-        ...
-
+    def mechanism(self) -> Mechanism: ...
     @property
-    def time(self) -> Floats:
-        """Times, s."""
-        ...
-
+    def time(self) -> Floats: ...
     @property
-    def input(self) -> Floats:
-        """Coordinate of the first driver, rad or m; raises LinkwrightError where there is no driver."""
-        ...
-
+    def input(self) -> Floats: ...
     @property
-    def rotary(self) -> bool:
-        """Whether the first driver turns."""
-        ...
-
+    def rotary(self) -> bool: ...
     @property
-    def heading(self) -> int:
-        """1 where the input only grows over the cycle, -1 where it only falls, else 0."""
-        ...
-
+    def heading(self) -> int: ...
     @property
-    def ok(self) -> Flags:
-        """Which positions are solved."""
-        ...
-
+    def ok(self) -> Flags: ...
     @property
-    def closes(self) -> tuple[float, float] | None:
-        """Period (s) and gain of the input in it, where the first position follows the last; else None."""
-        ...
-
+    def closes(self) -> tuple[float, float] | None: ...
     @property
-    def whole(self) -> Whole:
-        """The cycle over which ``limits`` are found."""
-        ...
+    def whole(self) -> Whole: ...
 
     def output(self, output: Output) -> tuple[Floats, Floats]:
         """Value and rate of an output; angles are continuous over the cycle, rates of rounding size zero."""
@@ -89,6 +74,65 @@ class Signals(Protocol):
 
     def angle_between(self, a: str, b: str, near: float) -> Floats:
         """Angle of link b against link a, rad: within half a turn of ``near`` where the cycle begins, continuous."""
+        ...
+
+
+class BetweenLimits(Protocol):
+    """A phase from a limit of an output to its next one of the other kind; ``outermost``: only from the largest to
+    the smallest value or back, not between all reversals; ``in_part``: only in a part of that."""
+
+    @property
+    def output(self) -> Output: ...
+    @property
+    def start(self) -> LimitKind: ...
+    @property
+    def end(self) -> LimitKind: ...
+    @property
+    def outermost(self) -> bool: ...
+    @property
+    def in_part(self) -> bool: ...
+
+
+class Course(Protocol):
+    """The cycle as one load sees it: arrays of positions, or traced values. ``heading`` is above zero where the
+    ``input`` grows."""
+
+    @property
+    def input(self) -> Scalar: ...
+    @property
+    def rotary(self) -> bool: ...
+    @property
+    def heading(self) -> Scalar: ...
+    def output(self, output: Output) -> Scalar: ...
+    def angle_between(self, a: str, b: str, near: float) -> Scalar: ...
+
+    def named(self, name: str) -> Scalar:
+        """A parameter of the model, ``t``, ``input`` or an output."""
+        ...
+
+    def dimension(self, field: str) -> Scalar:
+        """A quantity of the load."""
+        ...
+
+    def constant(self, field: str) -> Scalar:
+        """A number of the load that is no dimension."""
+        ...
+
+    def lookup(self, x: Scalar) -> Scalar:
+        """The load's table at a place."""
+        ...
+
+    def stroke(self, phase: BetweenLimits, ramp: bool) -> tuple[Mask, Scalar]:
+        """Whether an output goes from one limit to the other, ends included, and the share of the input's way there
+        that is passed, of which a ``ramp`` needs the length."""
+        ...
+
+    def moving(self, phase: BetweenLimits, ramp: bool) -> tuple[Mask, Scalar]:
+        """The same without the ends, where the output is at rest; the share only for a ramp."""
+        ...
+
+    def limit_value(self, output: Output, kind: str) -> Scalar:
+        """The output at the limit of a kind that belongs to this stroke."""
         ...
 
 
@@ -104,31 +148,9 @@ def input_dimension(signals: Signals) -> str:
     return "angle" if signals.rotary else "length"
 
 
-def spot(signals: Signals, index: int) -> str:
-    """Where a position is, for a message."""
-    if not signals.mechanism.drivers:
-        return Sentence("loads.only_position")
-    return Sentence("loads.at_input", input=shown(float(signals.input[index]), input_dimension(signals)))
-
-
 def column(value: Any, count: int) -> Floats:
     """A number or an array as an array (n,)."""
     return np.array(np.broadcast_to(np.asarray(value, dtype=float), (count,)))
-
-
-def times_of_inputs(inputs: Floats, signals: Signals) -> Floats | None:
-    """Times at which the input has some values; of angles modulo one turn, all within the cycle. None where its law
-    is no constant speed."""
-    law = next(iter(signals.mechanism.drivers.values())).law
-    if not law.constant_speed:
-        return None
-    times = law.time_at(inputs)
-    if not signals.rotary:
-        return np.asarray(times)
-    turn = 2 * np.pi / abs(law.constant_speed)
-    laps = np.arange(np.ceil(np.ptp(signals.time) / turn) + 2) - 1
-    first = signals.time.min() + (times - signals.time.min()) % turn
-    return np.asarray((first[:, None] + laps * turn).ravel())
 
 
 def named_column(name: str, signals: Signals) -> Any:
@@ -149,3 +171,18 @@ def output_named(name: str, mechanism: Mechanism) -> Output | None:
     """The output that a name in an expression means."""
     links = {"frame": mechanism.frame, **mechanism.links}
     return resolve_output(name, {link: tuple(each.points) for link, each in links.items()}, mechanism.guides)
+
+
+def times_of_inputs(inputs: Floats, signals: Signals) -> Floats | None:
+    """Times at which the input has some values; of angles modulo one turn, all within the cycle. None where its law
+    is no constant speed."""
+    law = next(iter(signals.mechanism.drivers.values())).law
+    if not law.constant_speed:
+        return None
+    times = law.time_at(inputs)
+    if not signals.rotary:
+        return np.asarray(times)
+    turn = 2 * np.pi / abs(law.constant_speed)
+    laps = np.arange(np.ceil(np.ptp(signals.time) / turn) + 2) - 1
+    first = signals.time.min() + (times - signals.time.min()) % turn
+    return np.asarray((first[:, None] + laps * turn).ravel())

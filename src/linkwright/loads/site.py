@@ -27,9 +27,7 @@ class Body(Protocol):
     """A link, or the frame."""
 
     @property
-    def points(self) -> Mapping[str, tuple[float, float]]:
-        """Its named points in its axes, m."""
-        ...
+    def points(self) -> Mapping[str, tuple[float, float]]: ...
 
 
 class Mechanism(Protocol):
@@ -47,50 +45,32 @@ class Mechanism(Protocol):
     def guides(self) -> Mapping[str, SlidingJoint]: ...
     @property
     def drivers(self) -> Mapping[str, Driver]: ...
-    def link(self, name: str) -> Body:
-        """A link, the frame among them."""
-        ...
+    def link(self, name: str) -> Body: ...
 
 
 class Described(Protocol):
     """Something that knows its mechanism."""
 
     @property
-    def mechanism(self) -> Mechanism:
-        """The mechanism as the file gives it."""
-        ...
+    def mechanism(self) -> Mechanism: ...
 
 
 class Site(Protocol):
-    """The mechanism at one position, as traced values. The frame is at rest."""
+    """The mechanism at one position, as traced values in SI and frame axes. The frame is at rest."""
 
     @property
-    def motion(self) -> Described:
-        """What moves."""
-        ...
-
-    def place(self, link: str, point: str) -> Vec:
-        """A point of a link in frame axes, m."""
-        ...
-
-    def distance(self, link: str, a: str, b: str) -> Scalar:
-        """Distance of two points of a link, m."""
-        ...
-
-    def velocity(self, link: str, point: str) -> Vec:
-        """Velocity of a point of a link, m/s."""
-        ...
+    def motion(self) -> Described: ...
+    def place(self, link: str, point: str) -> Vec: ...
+    def distance(self, link: str, a: str, b: str) -> Scalar: ...
+    def velocity(self, link: str, point: str) -> Vec: ...
+    def omega(self, link: str) -> Scalar: ...
 
     def axis(self, link: str) -> Vec:
         """Unit vector of the link's x axis."""
         ...
 
-    def omega(self, link: str) -> Scalar:
-        """Angular velocity of a link, rad/s."""
-        ...
-
     def turning(self, link: str, against: str) -> Scalar:
-        """Angular velocity of a link against another one, rad/s; zero at rest, where digits would tell its sign."""
+        """Angular velocity of a link against another one; zero at rest, where digits would tell its sign."""
         ...
 
     def heading_of(self, link: str, point: str) -> Vec:
@@ -112,9 +92,3 @@ class Site(Protocol):
     def direction(self, angle: Scalar) -> Vec:
         """Unit vector at an angle given as a dimension."""
         ...
-
-
-def guide_and_block(site: Site, joint: str) -> tuple[str, str]:
-    """The links of a prismatic joint: the one that carries the guide, the one that slides."""
-    found = site.motion.mechanism.guides[joint]
-    return found.guide, found.block

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any, ClassVar, Literal, Self
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.expression_tree import Number, denominators
@@ -14,9 +14,8 @@ from linkwright.core.outputs import Output
 from linkwright.engine.late_import import numpy as np
 from linkwright.engine.table import Table as Curve
 from linkwright.engine.trace import Mask, Scalar, absolute, floor, maximum, select
-from linkwright.loads.course import Course
 from linkwright.loads.faults import formula_fault, table_fault
-from linkwright.loads.signals import Signals, output_named, times_of_inputs
+from linkwright.loads.signals import Course, Signals, output_named, times_of_inputs
 from linkwright.loads.site import Mechanism
 from linkwright.loads.strokes import NEAR, TURN
 from linkwright.words.sentence import Sentence
@@ -28,11 +27,12 @@ if TYPE_CHECKING:
 class Size(ABC):
     """How large a load is while it acts.
 
-    ``key``: of a file; ``ramp``: whether it goes by the share of the phase that is passed; ``fallible``: whether it
-    may have no value somewhere.
+    ``key``: of a file; ``numbers``: its dimensions by the suffixes of their addresses, as attributes; ``ramp``:
+    whether it goes by the share of the phase that is passed; ``fallible``: whether it may have no value somewhere.
     """
 
     key: ClassVar[str] = ""
+    numbers: ClassVar[Mapping[str, str]] = {}
     ramp: ClassVar[bool] = False
     fallible: ClassVar[bool] = False
 
@@ -40,18 +40,9 @@ class Size(ABC):
     def at(self, course: Course, share: Scalar) -> Scalar:
         """The size where a share of the phase is passed; NaN where there is none."""
 
-    def outputs(self, mechanism: Mechanism) -> tuple[Output, ...]:
-        """The outputs whose values it takes."""
+    def outputs(self, mechanism: Mechanism) -> tuple[Output | None, ...]:
+        """The outputs whose values it takes; None for one that is unknown."""
         return ()
-
-    @property
-    def angles(self) -> Mapping[tuple[str, str], float]:
-        """The links a, b of which it takes the angle of b against a, with the angle (rad) near which that begins."""
-        return {}
-
-    def traceable(self, mechanism: Mechanism) -> bool:
-        """Whether its formula holds between positions as well."""
-        return True
 
     @property
     def divides(self) -> bool:
@@ -76,14 +67,6 @@ class Size(ABC):
         """What keeps the values ``found`` from being finite at the positions ``where`` they are needed."""
         return None
 
-    def dimensions(self) -> dict[str, float]:
-        """Its dimensions by the suffixes of its address."""
-        return {}
-
-    def with_dimensions(self, value: Callable[[str], float]) -> Self:
-        """The same with other values of its dimensions, by suffix."""
-        return self
-
 
 @dataclass(frozen=True)
 class One(Size):
@@ -98,16 +81,11 @@ class Constant(Size):
     """One number, SI."""
 
     key: ClassVar[str] = "magnitude"
+    numbers: ClassVar[Mapping[str, str]] = {"": "value"}
     value: float
 
     def at(self, course: Course, share: Scalar) -> Scalar:
         return course.dimension("magnitude")
-
-    def dimensions(self) -> dict[str, float]:
-        return {"": self.value}
-
-    def with_dimensions(self, value: Callable[[str], float]) -> Constant:
-        return Constant(value(""))
 
 
 @dataclass(frozen=True)
@@ -122,19 +100,9 @@ class Formula(Size):
         found: Scalar = self.expression.over({name: course.named(name) for name in self.expression.names})
         return found
 
-    def _named(self, mechanism: Mechanism) -> list[Output | None]:
-        return [
-            output_named(name, mechanism)
-            for name in self.expression.names - {*mechanism.parameters, "t", "input"}
-        ]
-
-    def outputs(self, mechanism: Mechanism) -> tuple[Output, ...]:
-        return tuple(dict.fromkeys(each for each in self._named(mechanism) if each is not None))
-
-    def traceable(self, mechanism: Mechanism) -> bool:
-        """Not where it divides by an output, which may go through zero between two positions."""
-        named = self._named(mechanism)
-        return None not in named and not (named and self.divides)
+    def outputs(self, mechanism: Mechanism) -> tuple[Output | None, ...]:
+        names = self.expression.names - {*mechanism.parameters, "t", "input"}
+        return tuple(output_named(name, mechanism) for name in names)
 
     @property
     def divides(self) -> bool:
@@ -149,6 +117,7 @@ class Ramp(Size):
     """From one number to another, SI, over the phase."""
 
     key: ClassVar[str] = "ramp"
+    numbers: ClassVar[Mapping[str, str]] = {".0": "start", ".1": "end"}
     ramp: ClassVar[bool] = True
     start: float
     end: float
@@ -156,12 +125,6 @@ class Ramp(Size):
     def at(self, course: Course, share: Scalar) -> Scalar:
         first, last = course.dimension("ramp.0"), course.dimension("ramp.1")
         return first + (last - first) * share
-
-    def dimensions(self) -> dict[str, float]:
-        return {".0": self.start, ".1": self.end}
-
-    def with_dimensions(self, value: Callable[[str], float]) -> Ramp:
-        return Ramp(value(".0"), value(".1"))
 
 
 @dataclass(frozen=True)
@@ -205,7 +168,7 @@ class Table(Size):
         slack = NEAR * span
         return x, (x < first - slack) | (x > last + slack)
 
-    def outputs(self, mechanism: Mechanism) -> tuple[Output, ...]:
+    def outputs(self, mechanism: Mechanism) -> tuple[Output | None, ...]:
         return (self.over,) if isinstance(self.over, Output) else ()
 
     @property
@@ -249,7 +212,3 @@ class Twist(Size):
 
     def at(self, course: Course, share: Scalar) -> Scalar:
         return course.angle_between(self.a, self.b, self.near)
-
-    @property
-    def angles(self) -> Mapping[tuple[str, str], float]:
-        return {(self.a, self.b): self.near}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Literal, Protocol
 
 from linkwright.core.dataclass import dataclass
@@ -12,7 +13,7 @@ from linkwright.engine.late_import import numpy as np
 from linkwright.engine.trace import Mask, Scalar, floor, maximum, minimum, select
 from linkwright.errors import LinkwrightError
 from linkwright.fields.base import written_quantity
-from linkwright.loads.signals import Limit, Signals, Whole, input_dimension, shown
+from linkwright.loads.signals import BetweenLimits, Limit, Signals, Whole, input_dimension, shown
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
@@ -21,7 +22,6 @@ if TYPE_CHECKING:
 TURN = 2 * math.pi
 #: Positions this near to the end of a phase (rad, m, or share of the cycle's time) belong to it.
 NEAR = 1e-9
-LimitKind = Literal["max", "min"]
 PartWord = Literal["first", "last", "free"]
 
 
@@ -50,45 +50,29 @@ class StrokePart:
         return {self.word: found[0] if len(found) == 1 else found}
 
 
-class BetweenLimits(Protocol):
-    """A phase from a limit of an output to its next one of the other kind; ``outermost``: only from the largest to
-    the smallest value or back, not between all reversals."""
-
-    @property
-    def output(self) -> Output: ...
-    @property
-    def start(self) -> LimitKind: ...
-    @property
-    def end(self) -> LimitKind: ...
-    @property
-    def part(self) -> StrokePart | None: ...
-    @property
-    def outermost(self) -> bool: ...
-
-
 # found at times ------------------------------------------------------------------------------------
 @dataclass(frozen=True)
 class Stretch:
-    """One way of an output from a limit to another; times and inputs go on through the cycle's end.
+    """One way of an output from a limit to another; times and inputs go on through the cycle's end."""
 
-    ``values``: the output at both limits.
-    """
+    begin: Limit
+    end: Limit
 
-    begin: tuple[float, float]
-    end: tuple[float, float]
-    values: tuple[float, float]
+    @property
+    def rise(self) -> float:
+        """How far the input goes."""
+        return self.end.input - self.begin.input
 
     def place(self, signals: Signals) -> tuple[Flags, Floats]:
         """Whether the positions lie in it, ends included, and the share of the input's way that is passed; (n,)
         each."""
-        length, rise = self.end[0] - self.begin[0], self.end[1] - self.begin[1]
-        since, gained = signals.time - self.begin[0], signals.input - self.begin[1]
-        whole = signals.whole
+        length, whole = self.end.time - self.begin.time, signals.whole
+        since, gained = signals.time - self.begin.time, signals.input - self.begin.input
         slack = NEAR * (whole.period or length)
         if whole.period is not None:
             laps = np.floor((since + slack) / whole.period)
             since, gained = since - laps * whole.period, gained - laps * whole.drift
-        return (since >= -slack) & (since <= length + slack), np.clip(gained / rise, 0.0, 1.0)
+        return (since >= -slack) & (since <= length + slack), np.clip(gained / self.rise, 0.0, 1.0)
 
 
 def strokes(phase: BetweenLimits, signals: Signals) -> list[Stretch]:
@@ -132,30 +116,22 @@ def stretches(limits: Sequence[Limit], start: str, end: str, whole: Whole) -> li
         if (first.kind, last.kind) != (start, end) or (index == 0 and whole.period is None):
             continue
         period, drift = (whole.period or 0.0, whole.drift) if index == 0 else (0.0, 0.0)
-        begin = (first.time - period, first.input - drift)
-        found.append(Stretch(begin, (last.time, last.input), (first.value, last.value)))
+        found.append(Stretch(replace(first, time=first.time - period, input=first.input - drift), last))
     return found
 
 
 # found along laps ----------------------------------------------------------------------------------
 class Turning(Protocol):
-    """A cycle in which an output has one limit of each kind: along the input (rad) of a driver that turns at constant
-    speed, else along the time (s)."""
+    """A cycle in which an output has one limit of each kind: ``along`` the input (rad) of a driver that turns at
+    constant speed, else along the time (s); ``sense``: 1 where that grows, -1 where it falls; ``lap``: how far that
+    goes in the cycle, twice as far where it does not close."""
 
     @property
-    def along(self) -> Scalar:
-        """The input, or the time."""
-        ...
-
+    def along(self) -> Scalar: ...
     @property
-    def sense(self) -> Scalar:
-        """1 where that grows, -1 where it falls."""
-        ...
-
+    def sense(self) -> Scalar: ...
     @property
-    def lap(self) -> Scalar:
-        """How far that goes in the cycle; twice as far where it does not close."""
-        ...
+    def lap(self) -> Scalar: ...
 
     def limit(self, output: Output, kind: str) -> Scalar:
         """Where along it an output has its limit."""

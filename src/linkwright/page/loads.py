@@ -55,12 +55,11 @@ def phases(loads: Iterable[Load], motion: Motion) -> list[Plain]:
         phase = given.phase
         if isinstance(phase, MovingPhase | SwingPhase):
             rows, (rate, _) = program_names(motion.mechanism, phase.output)
-            part = phase.part and {
-                "word": phase.part.word, "amounts": [[a.value, a.share] for a in phase.part.amounts],
-            }  # fmt: skip
+            part = phase.part if isinstance(phase, SwingPhase) else None
+            shares = part and {"word": part.word, "amounts": [[a.value, a.share] for a in part.amounts]}
             found.append({
                 "load": load.name, "rows": list(rows), "rate": rate, "ramp": given.size.ramp,
-                "moving": isinstance(phase, MovingPhase), "part": part, "ends": (phase.start, phase.end),
+                "moving": isinstance(phase, MovingPhase), "part": shares, "ends": (phase.start, phase.end),
             })  # fmt: skip
     return found
 

@@ -22,8 +22,9 @@ from linkwright.loads.force import Force
 from linkwright.loads.magnitude import Magnitude
 from linkwright.loads.over_cycle import evaluate
 from linkwright.loads.phases import Always, InputPhase, MovingPhase, Phase, SwingPhase
+from linkwright.loads.signals import BetweenLimits
 from linkwright.loads.sizes import Constant, Formula, Ramp, Size, Table
-from linkwright.loads.strokes import Amount, BetweenLimits, StrokePart, moving_of_turn, stroke_of_turn
+from linkwright.loads.strokes import Amount, StrokePart, moving_of_turn, stroke_of_turn
 
 PLACE = Output("position", "jaw.P", "x")
 TURN = 2 * np.pi

@@ -93,7 +93,7 @@ def findings_of(name: str) -> tuple[list[Finding], dict[str, object]]:
         return [*found, *(replace(located(each, root, place), key="") for each in barred)], {}
     sure = plain or [False] * len(swings)
     unsure = [
-        load for (load, phase), each in zip(swings.items(), sure, strict=True) if phase.fallible or not each
+        load for (load, phase), each in zip(swings.items(), sure, strict=True) if phase.in_part or not each
     ]
     unsure = [load for load in unsure if all(each.code != "no-motion" for each in found)]
     varying = [load for load, each in mechanism.loads.items() if _varies(each)]
