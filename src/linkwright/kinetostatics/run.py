@@ -23,6 +23,7 @@ from linkwright.kinetostatics.programs import caused_name
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.kinetostatics.solver import ForceSolver
 from linkwright.kinetostatics.traced_loads import traced_loads
+from linkwright.loads.over_cycle import evaluate
 from linkwright.units import LARGEST
 from linkwright.units import format as spelled
 from linkwright.words.sentence import Sentence, together
@@ -183,8 +184,6 @@ def _indeterminate(motion: Motion) -> tuple[str, ...]:
 
 def _load_fields(motion: Motion, names: Iterable[str], signals: MotionSignals) -> dict[str, Floats]:
     """Load magnitudes that depend on the position; friction starts from zero."""
-    from linkwright.loads.over_cycle import evaluate
-
     fields: dict[str, Floats] = {}
     for name in names:
         if kind_of(name) == "magnitude":
