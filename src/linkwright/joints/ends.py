@@ -112,7 +112,7 @@ class _Rotation(Moving):
     """The rotation of a link with its turns, rad."""
 
     def values(self, poses: Poses, angles: Angles) -> Sequence[Scalar]:
-        return (angles(self.link),)
+        return (0.0 if self.link == "frame" else angles(self.link),)
 
     def parts(self, link: str, values: Sequence[Scalar]) -> Sequence[Part]:
         return ((0.0, 0.0, 1.0),)
@@ -172,7 +172,7 @@ class Ends:
 
     def rotation(self, link: str) -> Scalar:
         """Rotation of a link's x axis from the frame's with its turns, rad."""
-        return 0.0 if link == "frame" else self._symbols(_Rotation(link), 1)[0]
+        return self._symbols(_Rotation(link), 1)[0]
 
     def angle_from(self, link: str, against: str, direction: Vec) -> Scalar:
         """Angle of a link's x axis from a ``direction`` in the axes of link ``against``, -π to π, rad."""
