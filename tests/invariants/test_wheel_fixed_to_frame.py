@@ -11,7 +11,7 @@ name: planet around a fixed wheel
 frame: {points: {O: [20 mm, 30 mm]}}
 links:
   arm: {points: {O: [0 mm, 0 mm], A: [120 mm, 10 mm]}, mass: 1.3 kg, inertia: 0.004 kg·m²}
-  planet: {points: {A: [0 mm, 0 mm], Q: [30 mm, 10 mm]}, mass: 0.8 kg, inertia: 0.002 kg·m², mass_centre: [5 mm, 8 mm]}
+  planet: {points: {A: [0 mm, 0 mm], Q: [30 mm, 10 mm]}, mass: 0.8 kg, inertia: 0.002 kg·m²}
 joints: {pair: {PAIR, carrier: arm}}
 driver: {turn: arm, about: O, speed: 100 rpm}
 gravity: [0, -9.81 m/s²]

@@ -86,7 +86,7 @@ class State:
 
     def acceleration_at(self, arm: Vec) -> Vec:
         """Acceleration of that point."""
-        return self.acceleration + arm.perp * self.alpha - arm * (self.omega * self.omega)
+        return self.acceleration + (arm.perp * self.alpha - arm * (self.omega * self.omega))
 
 
 FRAME_STATE = State(FRAME_POSE, ZERO, 0.0)

@@ -16,6 +16,7 @@ that follows from the joint's own force: forces that do no work, which the resid
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from functools import cached_property
 
 from linkwright.elements.model import Sizes
 from linkwright.elements.topology import Connection, TreeJoint
@@ -64,16 +65,42 @@ class _Real:
         return self.put(ends.fixed[index]) if index in ends.fixed else None
 
 
+#: Derivatives with the symbols by which they are these, and those by which they are their opposites.
+Shared = list[tuple[Scalar, tuple[list[int], list[int]]]]
+
+
 class _Row:
     """One row with its derivatives by the symbols that move in it, by the numbers of their lines."""
 
     def __init__(self, ends: Ends, value: Scalar) -> None:
         self.ends, self.value = ends, value
-        self.first = self.derivatives(value)
+        self.first = self._derivatives(value)
+        self._second: dict[int, Shared] = {}
 
-    def derivatives(self, value: Scalar) -> list[tuple[int, Scalar]]:
-        """Those of a value."""
+    @cached_property
+    def shared(self) -> Shared:
+        """The derivatives, equal ones together."""
+        return _shared(self.first)
+
+    def second(self, symbol: int, part: Value) -> Shared:
+        """Derivatives of one of the derivatives."""
+        if symbol not in self._second:
+            self._second[symbol] = _shared(self._derivatives(part))
+        return self._second[symbol]
+
+    def _derivatives(self, value: Scalar) -> list[tuple[int, Scalar]]:
         return self.ends.dimensions.symbols.derivatives(value, self.ends.of)
+
+
+def _shared(parts: Iterable[tuple[int, Scalar]]) -> Shared:
+    """What changes by the same factor is added up before it is multiplied."""
+    found: dict[Scalar, tuple[list[int], list[int]]] = {}
+    for symbol, part in parts:
+        if -part in found:
+            found[-part][1].append(symbol)
+        else:
+            found.setdefault(part, ([], []))[0].append(symbol)
+    return list(found.items())
 
 
 class Rows:
@@ -122,7 +149,7 @@ class Rows:
     def drift(self, states: States) -> list[Scalar]:
         """First derivative of the equations in time."""
         real, rates = self._real(_Poses(states)), in_time(self.seen, lambda moving: moving.rates(states))
-        return [_along(row.first, rates, real) for row in self._rows]
+        return [_along(row.shared, rates, real) for row in self._rows]
 
     def bend(self, states: States) -> list[Scalar]:
         """Second derivative of the equations in time."""
@@ -176,21 +203,28 @@ def in_time(ends: Ends, of: Callable[[Moving], Sequence[Scalar]]) -> dict[int, S
     }
 
 
-def _along(parts: Iterable[tuple[int, Scalar]], rates: Mapping[int, Scalar], real: _Real) -> Scalar:
+def _along(parts: Shared, rates: Mapping[int, Scalar], real: _Real) -> Scalar:
     total: Scalar = 0.0
-    for symbol, part in parts:
-        rate = rates[symbol]
-        if not (isinstance(rate, float) and rate == 0.0):
-            total = total + real.put(part) * rate
+    for part, (forwards, backwards) in parts:
+        change = _sum(rates, forwards) - _sum(rates, backwards)
+        if not (isinstance(change, float) and change == 0.0):
+            total = total + real.put(part) * change
+    return total
+
+
+def _sum(rates: Mapping[int, Scalar], symbols: Sequence[int]) -> Scalar:
+    total: Scalar = 0.0
+    for symbol in symbols:
+        total = total + rates[symbol]
     return total
 
 
 def _twice(row: _Row, rates: Mapping[int, Scalar], seconds: Mapping[int, Scalar], real: _Real) -> Scalar:
     """The parts times second rates, and their own rates times first ones."""
-    total = _along(row.first, seconds, real)
+    total = _along(row.shared, seconds, real)
     for symbol, part in row.first:
         if isinstance(part, Value):
-            total = total + _along(row.derivatives(part), rates, real) * rates[symbol]
+            total = total + _along(row.second(symbol, part), rates, real) * rates[symbol]
     return total
 
 
@@ -247,10 +281,17 @@ class ChainPair:
         self.ends = Ends(dimensions, step.connection.a, step.connection.b)
         self._coordinate = self.ends._symbol()
         self.hung = joint.hang(self.ends, step, self._coordinate)
-        place = self.hung.place
-        self._rows = _Row(self.ends, place.x), _Row(self.ends, place.y)
-        self._normal = Vec(slope(place.x, {self._coordinate: 1.0}), slope(place.y, {self._coordinate: 1.0}))
+        self._normal = self._along() if step.slides else ZERO
         self._last: tuple[Pose, _Real] | None = None
+
+    @cached_property
+    def _rows(self) -> tuple[_Row, _Row]:
+        return _Row(self.ends, self.hung.place.x), _Row(self.ends, self.hung.place.y)
+
+    def _along(self) -> Vec:
+        """∂place/∂q, over the pair's ends."""
+        by, place = {self._coordinate: 1.0}, self.hung.place
+        return Vec(slope(place.x, by), slope(place.y, by))
 
     def _real(self, parent: Pose) -> _Real:
         """Of what does not depend on the coordinate."""
@@ -290,7 +331,7 @@ class ChainPair:
             return State(pose, velocity, parent.omega)
         real, states = self._real(parent.pose), {self.step.parent: parent}
         rates = in_time(self.ends, lambda moving: moving.rates(states))
-        x, y = (_along(row.first, rates, real) for row in self._rows)
+        x, y = (_along(row.shared, rates, real) for row in self._rows)
         return State(pose, Vec(x, y), rate if self.step.turns else parent.omega)
 
     def accelerate(self, parent: State, child: State, rate: Scalar, second: Scalar) -> State:
