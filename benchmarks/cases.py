@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 import linkwright as lw
 from linkwright.engine.program import Program
 from linkwright.engine.trace import Scalar
-from linkwright.kinematics.cycle import Positions, over_cycle
+from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinematics.outputs import MotionOutputs
+from linkwright.kinematics.positions import Positions
 from linkwright.kinematics.programs import Manner
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinetostatics.solver import ForceSolver

@@ -52,7 +52,7 @@ if TYPE_CHECKING:
     from linkwright.kinematics.limits import LimitPosition as LimitPosition
     from linkwright.kinematics.limits import limit_positions as limit_positions
     from linkwright.kinetostatics.forces import Forces as Forces
-    from linkwright.kinetostatics.forces import solve_forces as solve_forces
+    from linkwright.kinetostatics.run import solve_forces as solve_forces
     from linkwright.laws.base import MotionLaw as MotionLaw
     from linkwright.laws.fitting import laws_for as laws_for
     from linkwright.laws.fitting import motion_law as motion_law
@@ -129,11 +129,18 @@ ATTACHED.update(
         "Comparison.evaluation": "linkwright.study.evaluation:evaluation",
         "Comparison.text": "linkwright.study.evaluation:text",
         "Forces._repr_svg_": "linkwright.plot.drawing.draw:picture_of",
+        "Forces.balance_residual": "linkwright.kinetostatics.link_balance:balance_residual",
+        "Forces.columns": "linkwright.kinetostatics.table:force_columns",
         "GearPair.draw": "linkwright.plot.gears:draw_pair",
         "GearPair.save_dxf": "linkwright.export.dxf.gears:save_pair",
         "Mechanism._repr_svg_": "linkwright.plot.drawing.draw:picture_of",
         "Mechanism.structure": "linkwright.structure.decompose:structure",
         "Motion._repr_svg_": "linkwright.plot.drawing.draw:picture_of",
+        "Motion.columns": "linkwright.kinematics.table:motion_columns",
+        "Motion.named_course": "linkwright.kinematics.output_formulas:named_course",
+        "Motion.outcomes": "linkwright.kinematics.reach_sentences:explain",
+        "Motion.refusal": "linkwright.kinematics.refusal:refusal",
+        "Motion.to_dataframe": "linkwright.kinematics.table:motion_frame",
         "Optimum.text": "linkwright.optimisation.report:text",
         "Plotted.plot": "linkwright.plot.diagrams.diagram_by_name:plot",
         "Problem.sketch": "linkwright.plot.sketches.base:sketch",

@@ -22,7 +22,8 @@ from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import output_meant
 from linkwright.kinematics.position_list import MOST
 from linkwright.kinematics.solve import solve_motion
-from linkwright.kinetostatics.forces import Forces, solve_forces
+from linkwright.kinetostatics.forces import Forces
+from linkwright.kinetostatics.run import solve_forces
 from linkwright.kinetostatics.table import results_of
 from linkwright.mechanism.force_names import reaction_pairs
 from linkwright.mechanism.mechanism import Mechanism

@@ -13,10 +13,10 @@ from functools import partial
 
 from linkwright.core.dataclass import dataclass
 from linkwright.course.calculation_chain import Calculation, Change, Line, Values, lines_of, with_terms
-from linkwright.kinematics.cycle import at_inputs
 from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.positions import at_inputs
 from linkwright.kinematics.solve import solve_motion
-from linkwright.kinetostatics.forces import solve_forces
+from linkwright.kinetostatics.run import solve_forces
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.worked.solution import worked
 from linkwright.worked.terms import TWO, ZERO, Term

@@ -20,8 +20,8 @@ from linkwright.engine.program import Program
 from linkwright.engine.stage import Backend, Run, code_for
 from linkwright.kinematics.assembly import modal_groups
 from linkwright.kinematics.change_points import MEETING, TOUCH
-from linkwright.kinematics.cycle import Positions
 from linkwright.kinematics.passing_proof import NEAR
+from linkwright.kinematics.positions import Positions
 
 #: Designs whose positions are evaluated together.
 BLOCK = 4096

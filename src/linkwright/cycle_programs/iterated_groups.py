@@ -19,7 +19,8 @@ from linkwright.engine.recently_made import Recent
 from linkwright.engine.reductions import VALID_COUNT, Reduction, Results
 from linkwright.engine.stage import Backend, Stage
 from linkwright.engine.trace import Scalar, select
-from linkwright.kinematics.cycle import Positions, over_cycle
+from linkwright.kinematics.cycle import over_cycle
+from linkwright.kinematics.positions import Positions
 from linkwright.kinematics.step_rule import StepRule
 from linkwright.kinetostatics.friction import Swinging
 from linkwright.kinetostatics.traced_loads import AlongInput

@@ -42,7 +42,7 @@ from linkwright.engine.stage import Backend, Stage
 from linkwright.engine.threads import cores, spread_over
 from linkwright.engine.trace import Scalar, Trace, absolute, atan, minimum, select, sqrt
 from linkwright.kinematics.cycle import over_cycle
-from linkwright.kinetostatics.forces import solve_forces
+from linkwright.kinetostatics.run import solve_forces
 from linkwright.kinetostatics.traced_loads import AlongInput
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import Analysis

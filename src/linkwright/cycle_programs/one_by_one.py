@@ -14,7 +14,6 @@ from linkwright.errors import LinkwrightError
 from linkwright.kinematics.cycle_angles import STEPS
 from linkwright.kinematics.design import Design
 from linkwright.kinematics.motion import Motion, Rows
-from linkwright.kinematics.reach_sentences import refusal
 from linkwright.kinematics.solve import MotionRun
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinetostatics.run import run_forces
@@ -115,4 +114,4 @@ def sentence_of(traced: Traced, changes: Mapping[str, float]) -> str:
         return error.sentence
     if motion.whole:
         return Sentence("study.not_followed")
-    return refusal(motion).sentence
+    return motion.refusal().sentence

@@ -25,7 +25,8 @@ from linkwright.engine.reductions import Reduction
 from linkwright.engine.stage import Backend, Stage
 from linkwright.engine.trace import Scalar, Trace, absolute, select
 from linkwright.kinematics.assembly import modal_groups
-from linkwright.kinematics.cycle import at_times, over_cycle
+from linkwright.kinematics.cycle import over_cycle
+from linkwright.kinematics.positions import at_times
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import Analysis
 

@@ -42,7 +42,8 @@ from linkwright.engine.program import Program
 from linkwright.engine.stage import Stage
 from linkwright.engine.trace import Scalar, Trace, maximum, minimum, select
 from linkwright.errors import LinkwrightError
-from linkwright.kinematics.cycle import at_times, over_cycle
+from linkwright.kinematics.cycle import over_cycle
+from linkwright.kinematics.positions import at_times
 from linkwright.kinetostatics.friction import Swinging
 from linkwright.kinetostatics.traced_loads import AlongInput
 from linkwright.mechanism.mechanism import Mechanism

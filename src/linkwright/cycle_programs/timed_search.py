@@ -15,7 +15,7 @@ from linkwright.engine.program import Program
 from linkwright.engine.replay import inlined
 from linkwright.engine.trace import Scalar, Trace, floor
 from linkwright.kinematics.bends import law_bends
-from linkwright.kinematics.cycle import at_times
+from linkwright.kinematics.positions import at_times
 
 #: Places at least between two breaks of laws, and how close to these the outermost lie, as share of what is between.
 FEW, BESIDE = 6, 1e-7

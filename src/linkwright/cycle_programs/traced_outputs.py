@@ -18,8 +18,8 @@ from linkwright.engine.trace import Mask, Scalar, Trace, absolute, cos, select, 
 from linkwright.errors import RequestError
 from linkwright.kinematics.assembly import modal_groups
 from linkwright.kinematics.change_points import nearness
-from linkwright.kinematics.cycle import Positions
 from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.positions import Positions
 from linkwright.kinematics.programs import Manner, motion_programs
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinematics.solver import MotionSolver

@@ -10,7 +10,8 @@ from linkwright.core.given import require
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
-from linkwright.kinetostatics.forces import Forces, solve_forces
+from linkwright.kinetostatics.forces import Forces
+from linkwright.kinetostatics.run import solve_forces
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.table import MetricsTable
 

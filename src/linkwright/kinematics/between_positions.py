@@ -11,10 +11,10 @@ from linkwright.core.cached_property import cached_property
 from linkwright.core.outputs import row_name
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.change_points import closes, passages, signs
-from linkwright.kinematics.cycle import Positions, at_one_time, at_times, off_law
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.passage import Passage
 from linkwright.kinematics.passing_proof import modal
+from linkwright.kinematics.positions import Positions, at_one_time, at_times, off_law
 from linkwright.kinematics.solve import reached_modes
 
 

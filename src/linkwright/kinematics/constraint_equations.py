@@ -25,7 +25,6 @@ from linkwright.joints.ends import Ends
 from linkwright.joints.pose import FRAME_POSE, Pose, Rotor
 from linkwright.kinematics.dimensions import Dimensions
 from linkwright.kinematics.equation import Rows
-from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import canonical
 from linkwright.mechanism.drawing import Drawing
 from linkwright.mechanism.geometry import mechanism_size
@@ -223,22 +222,7 @@ class _Traced:
     numbers: list[Scalar]
 
 
-def coordinates(motion: Motion, index: int) -> Floats:
-    """(x, y, θ) of every link at a position, lengths over the size of the mechanism."""
-    mechanism, found = motion.mechanism, []
-    size, places = mechanism_size(mechanism), _first_points(mechanism)
-    motion.rows.fetch(pose_outputs(mechanism), motion.evaluate)  # all in one program
-    wheels = mechanism.higher
-    for name, link in mechanism.links.items():
-        c, s = motion.link(name).direction[index]
-        px, py = next(iter(link.points.values()))
-        x, y = motion.point_of(places[name]).position[index]
-        found += [(x - c * px + s * py) / size, (y - s * px - c * py) / size]
-        found.append(motion.link(name).angle[index] if wheels else math.atan2(s, c))
-    return np.array(found)
-
-
-def _first_points(mechanism: Mechanism) -> dict[str, str]:
+def first_points(mechanism: Mechanism) -> dict[str, str]:
     """The first point of every link."""
     return {
         name: canonical(mechanism, name, next(iter(link.points))) for name, link in mechanism.links.items()
@@ -249,7 +233,7 @@ def pose_outputs(mechanism: Mechanism) -> tuple[str, ...]:
     """Names of the outputs that tell where every link is."""
     wanted = [
         row_names(*each)
-        for name, key in _first_points(mechanism).items()
+        for name, key in first_points(mechanism).items()
         for each in (("direction", name), ("position", key))
     ]
     return tuple(dict.fromkeys(name for pair in wanted for name in pair))

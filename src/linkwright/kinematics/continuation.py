@@ -19,10 +19,10 @@ from linkwright.kinematics.assembly import AssemblyError
 from linkwright.kinematics.branch import Branch, Way, follow, lawful, straight
 from linkwright.kinematics.certificate import distance_to_others
 from linkwright.kinematics.closed_loops import ClosedLoops, counted
-from linkwright.kinematics.cycle import Positions, coordinate_text, off_law, rotary
 from linkwright.kinematics.drawn_assembly import nearest_assembly
 from linkwright.kinematics.followed_way import Followed, Stop
 from linkwright.kinematics.groups import iterated, state_name
+from linkwright.kinematics.positions import Positions, coordinate_text, off_law, rotary
 
 if TYPE_CHECKING:
     from linkwright.kinematics.design import Design

@@ -6,8 +6,9 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.cached_property import cached_property
-from linkwright.kinematics.cycle import CycleError, Positions, over_cycle
+from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.positions import CycleError, Positions
 from linkwright.kinematics.solve import MotionRun
 from linkwright.mechanism.mechanism import Mechanism
 

@@ -7,8 +7,9 @@ import math
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.kinematics.constraint_equations import ConstraintEquations, coordinates
+from linkwright.kinematics.constraint_equations import ConstraintEquations
 from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.rank_of_motion import coordinates
 
 #: Largest equation (lengths over the size, rad) that a found fold may leave, and Newton steps to get there.
 CLOSED = 1e-12

@@ -14,7 +14,7 @@ from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.dataclass import dataclass
 from linkwright.core.read_only import Frozen
 from linkwright.kinematics.branch import CORRECTION, follow, straight
-from linkwright.kinematics.cycle import Positions, at_times
+from linkwright.kinematics.positions import Positions, at_times
 
 if TYPE_CHECKING:
     from linkwright.kinematics.continuation import Follower

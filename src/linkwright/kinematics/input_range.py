@@ -19,9 +19,10 @@ from linkwright.elements.topology import Group
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.branch import FLOOR, Branch
 from linkwright.kinematics.change_points import mark_singular, passages, signs
-from linkwright.kinematics.cycle import CycleError, Positions, at_times, time_span
+from linkwright.kinematics.cycle import time_span
 from linkwright.kinematics.fold import fold
 from linkwright.kinematics.passing_proof import modal
+from linkwright.kinematics.positions import CycleError, Positions, at_times
 from linkwright.kinematics.solve import MotionRun
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.mechanism.geometry import mechanism_size

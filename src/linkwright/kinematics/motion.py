@@ -15,10 +15,10 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import KINDS, NAMED, SLIDE, Output, row_name
 from linkwright.core.read_only import FrozenDict, locked
 from linkwright.errors import RequestError
-from linkwright.kinematics.cycle import Positions
 from linkwright.kinematics.design import Design
 from linkwright.kinematics.names import point_key
-from linkwright.kinematics.outcome import Outcome
+from linkwright.kinematics.outcome import Outcome, PositionError
+from linkwright.kinematics.positions import Positions
 from linkwright.kinematics.rest import moving, pace_name
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.mechanism.mechanism import Mechanism
@@ -267,11 +267,15 @@ class Motion(Plotted):
         return not self.breaks and bool(self.ok.all())
 
     @cached_property
+    @attached
     def outcomes(self) -> list[Outcome]:
         """What became of every position."""
-        from linkwright.kinematics.reach_sentences import explain
+        raise NotImplementedError
 
-        return explain(self)
+    @attached
+    def refusal(self) -> PositionError:
+        """The error for a motion of which some positions cannot be reached, or that is barred between two of them."""
+        raise NotImplementedError
 
     def point(self, name: str) -> PointMotion:
         """Motion of a point: ``C`` for a pin or a name used once, ``jaw.D`` for a point of one link."""
@@ -341,14 +345,17 @@ class Motion(Plotted):
         """An angle, a displacement, a component of a point's motion, an output that the model names, or a rate of
         these, (n,)."""
         if output.kind in NAMED:
-            from linkwright.kinematics.output_formulas import named_course
-
-            return self.kept(("named", output.owner), lambda: named_course(self, output.owner))[output.kind]
+            return self.kept(("named", output.owner), lambda: self.named_course(output.owner))[output.kind]
         if output.kind == "angle":
             return self.link(output.owner).angle
         if KINDS[output.kind].of != "point":
             return self.row(output.kind, output.owner)
         return self.vector(output.kind, self._point_key(output.owner))[:, "xy".index(output.component)]
+
+    @attached
+    def named_course(self, name: str) -> dict[str, Floats]:
+        """Value and derivatives by time of an output that the model names, by their kinds, (n,) each."""
+        raise NotImplementedError
 
     def _fetch(self, names: tuple[str, ...]) -> list[Floats]:
         return self.rows.fetch(names, self.evaluate)
@@ -374,17 +381,15 @@ class Motion(Plotted):
         """Names of all points that move."""
         return self.solver.outputs.point_keys()
 
+    @attached
     def columns(self) -> dict[str, Floats]:
         """All results as named columns (n,), names with units."""
-        from linkwright.kinematics.table import columns, motion_results
+        raise NotImplementedError
 
-        return columns(motion_results(self))
-
+    @attached
     def to_dataframe(self) -> pandas.DataFrame:
         """All results as a table over the first driver's coordinate, its index; needs pandas."""
-        from linkwright.kinematics.table import dataframe, input_column
-
-        return dataframe(self.columns(), index=input_column(self))
+        raise NotImplementedError
 
     @attached
     def _repr_svg_(self) -> str | None:

@@ -106,7 +106,7 @@ class PositionList:
 
     def times(self, mechanism: Mechanism, output: str = "") -> list[float]:
         """The times, s; raises as :meth:`solved`."""
-        from linkwright.kinematics.cycle import CycleError
+        from linkwright.kinematics.positions import CycleError
 
         found = []
         for value, timed in self._values(mechanism, output, "time"):

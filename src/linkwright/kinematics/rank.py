@@ -8,24 +8,18 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import replace
 from functools import partial
 
 import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.errors import LinkwrightError
 from linkwright.kinematics.constraint_equations import (
     ConstraintEquations,
     Row,
-    coordinates,
     drawn_coordinates,
-    pose_outputs,
 )
-from linkwright.kinematics.motion import Motion
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.structure import Structure
 from linkwright.structure.mobility import counts, grubler
 from linkwright.words.sentence import Sentence
 
@@ -66,26 +60,6 @@ class RankReport:
         return self.sentence.say(language)
 
 
-def jacobian_rank(motion: Motion, index: int = 0) -> RankReport:
-    """Rank of the constraint Jacobian of the whole mechanism at a solved position, by singular values.
-
-    A singular value below 1e-9 of the largest counts as zero. Sees what counting cannot: passive constraints
-    (Norton, Design of Machinery, ch. 2; Wittenburg, Dynamics of Multibody Systems, ch. 5). Special lengths and
-    positions have no solved positions; of these :func:`rank_from_drawing` tells. Raises LinkwrightError if the
-    position is not solved.
-    """
-    if not motion.ok[index]:
-        raise LinkwrightError("motion.no_rank", index=index)
-    mechanism = motion.mechanism
-    system = ConstraintEquations(mechanism)
-    here = coordinates(motion, index)
-    if _regular_in_groups(mechanism, motion.structure, here):
-        rank, redundant = len(system.rows(here)), tuple[Row, ...]()
-    else:
-        rank, redundant = _rank(system, here, ZERO)
-    return _report(mechanism, system, rank, redundant, (), False, guides=motion.structure.redundant)
-
-
 def rank_from_drawing(mechanism: Mechanism) -> RankReport | None:
     """Rank in the position of the drawing, for models that counting refuses.
 
@@ -98,7 +72,7 @@ def rank_from_drawing(mechanism: Mechanism) -> RankReport | None:
     system = ConstraintEquations(mechanism)
     here, gap = _closed(system, drawn)
     if gap > CLOSED:
-        return _gaping(mechanism, system, *_rank(system, here, ZERO_DRAWN), gap)
+        return _gaping(mechanism, system, *rank_at(system, here, ZERO_DRAWN), gap)
     return _rank_where_closed(mechanism, system, here, "_drawn")
 
 
@@ -121,63 +95,20 @@ def rank_from_dimensions(mechanism: Mechanism) -> RankReport | None:
 def _rank_where_closed(
     mechanism: Mechanism, system: ConstraintEquations, here: Floats, where: str
 ) -> RankReport:
-    rank, redundant = _rank(system, here, ZERO_DRAWN)
+    rank, redundant = rank_at(system, here, ZERO_DRAWN)
     special = rank < system.freedoms and not _moves(system, here, rank)
     links = () if special else _spare_links(mechanism, here, ZERO_DRAWN)
     joints = () if special or links else _spare_joints(system.rows(here), redundant)
-    return _report(mechanism, system, rank, redundant, links, special, where, joints=joints)
-
-
-def rank_sentence(mechanism: Mechanism, language: str = "en") -> str:
-    """What the rank of the Jacobian at the start of the cycle says about the mobility, or that a group is
-    singular there; empty if it cannot be had."""
-    from linkwright.kinematics.cycle import over_cycle
-    from linkwright.kinematics.solve import MotionRun
-    from linkwright.kinematics.solver import MotionSolver
-
-    try:
-        ends = replace(over_cycle(mechanism, 1), cycle=False)
-        outputs = (*pose_outputs(mechanism), "outcome")
-        motion = MotionRun(MotionSolver(mechanism), ends).solve("mark", outputs)
-    except LinkwrightError:
-        return ""
-    good = np.flatnonzero(motion.ok)
-    if len(good):
-        return jacobian_rank(motion, int(good[0])).say(language)
-    outcome = motion.outcomes[0]
-    return Sentence("rank.singular", outcome=outcome).say(language) if outcome.kind == "singular" else ""
+    return report_of(mechanism, system, rank, redundant, links, special, where, joints=joints)
 
 
 # rank ---------------------------------------------------------------------------------------------
-def _regular_in_groups(mechanism: Mechanism, built: Structure, x: Floats) -> bool:
-    """Whether every group alone is regular, its drivers held: then no equation of the whole implies another.
-
-    Ordered as the groups are solved, the Jacobian of the joints and drivers has the groups' own ones on its diagonal
-    and nothing above them.
-    """
-    turn = {link: number for number, group in enumerate(built.groups) for link in group.links}
-    system = ConstraintEquations(mechanism, order={"frame": -1, **turn})
-    rows = [*system.rows(x), *(system.driver_row(name, x) for name in mechanism.drivers)]
-    of_group: list[list[Row]] = [[] for _ in built.groups]
-    for row in rows:
-        of_group[max(turn.get(link, -1) for link in row.parts)].append(row)
-    for group, own in zip(built.groups, of_group, strict=True):
-        if len(own) != 3 * len(group.links):
-            return False
-        matrix = [
-            [entry for link in group.links for entry in row.parts.get(link, (0.0, 0.0, 0.0))] for row in own
-        ]
-        if _numeric_rank(np.array(matrix, dtype=float), ZERO) < len(own):
-            return False
-    return True
-
-
-def _rank(system: ConstraintEquations, x: Floats, zero: float) -> tuple[int, tuple[Row, ...]]:
+def rank_at(system: ConstraintEquations, x: Floats, zero: float) -> tuple[int, tuple[Row, ...]]:
     """Rank, and the equations that those before them imply (the last ones of each dependence)."""
     rows = system.rows(x)
     matrix = system.matrix(rows)
     redundant = []
-    rank = _numeric_rank(matrix, zero)
+    rank = numeric_rank(matrix, zero)
     if rank == len(rows):
         return rank, ()
     independent, found = np.empty((rank, system.freedoms)), 0
@@ -194,7 +125,7 @@ def _rank(system: ConstraintEquations, x: Floats, zero: float) -> tuple[int, tup
     return rank, tuple(redundant)
 
 
-def _numeric_rank(matrix: Floats, zero: float) -> int:
+def numeric_rank(matrix: Floats, zero: float) -> int:
     if not matrix.size:
         return 0
     values = np.linalg.svd(matrix, compute_uv=False)
@@ -218,7 +149,7 @@ def _spare_links(mechanism: Mechanism, x: Floats, zero: float) -> tuple[str, ...
     full = ConstraintEquations(mechanism)
     rows = full.rows(x)
     matrix = full.matrix(rows)
-    rank = _numeric_rank(matrix, zero)
+    rank = numeric_rank(matrix, zero)
     mobility, states = full.freedoms - rank, np.eye(len(rows) - rank)
     forces = _forces_on_links(full, rows, _null_space(matrix.T, rank))
     keep = {name for driver in mechanism.drivers.values() for name in (driver.link, driver.relative_to)}
@@ -298,7 +229,7 @@ def _assembled(system: ConstraintEquations) -> tuple[Floats | None, int]:
         strewn = random.uniform(-1.0, 1.0, system.freedoms) * extent
         here, gap = _closed(system, strewn, held=next(iter(system.mechanism.drivers), None))
         if gap <= CLOSED:
-            found.append((here, _numeric_rank(system.jacobian(here), ZERO_DRAWN)))
+            found.append((here, numeric_rank(system.jacobian(here), ZERO_DRAWN)))
         if len(found) == ENOUGH:
             break
     return max(found, key=lambda each: each[1], default=(None, 0))
@@ -309,13 +240,13 @@ def _moves(system: ConstraintEquations, x: Floats, rank: int) -> bool:
     for direction in _null_space(system.jacobian(x), rank).T:
         there, gap = _closed(system, x + 0.03 * direction)
         moved = float(np.linalg.norm(there - x))
-        if gap <= CLOSED and moved > 0.015 and _numeric_rank(system.jacobian(there), ZERO_DRAWN) <= rank:
+        if gap <= CLOSED and moved > 0.015 and numeric_rank(system.jacobian(there), ZERO_DRAWN) <= rank:
             return True
     return False
 
 
 # sentences ----------------------------------------------------------------------------------------
-def _report(
+def report_of(
     mechanism: Mechanism,
     system: ConstraintEquations,
     rank: int,

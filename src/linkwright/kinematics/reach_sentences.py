@@ -11,19 +11,20 @@ import numpy as np
 from linkwright.core.arrays import Indices
 from linkwright.core.outputs import row_name
 from linkwright.kinematics.change_points import closes
-from linkwright.kinematics.cycle import FEW, Positions, coordinate_text, cycle_turns, not_back, together
+from linkwright.kinematics.cycle import FEW, cycle_turns, not_back, together
 from linkwright.kinematics.groups import iterated
-from linkwright.kinematics.outcome import Outcome, PositionError
+from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.outcome import Outcome
 from linkwright.kinematics.passage import Passage
+from linkwright.kinematics.positions import Positions, coordinate_text
 from linkwright.kinematics.whole_turns import MOST
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.units import number
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.elements.topology import Group
     from linkwright.kinematics.followed_way import Stop
-    from linkwright.kinematics.motion import Motion
-    from linkwright.mechanism.mechanism import Mechanism
 
 
 #: A position this near (rad, m) to where a way ends is itself singular.
@@ -177,10 +178,10 @@ class _Facts:
         here = np.array([rows.coordinates[name][0][index] for name in names])
         if (np.abs(here - stop.inputs) < ON_LIMIT).all():
             return Outcome(False, _of("singular", group), group.name, "singular")
-        return Outcome(False, _stopped(self.motion, group, stop), group.name, "unreachable")
+        return Outcome(False, way_stopped(self.motion, group, stop), group.name, "unreachable")
 
 
-def _stopped(motion: Motion, group: Group, stop: Stop) -> Sentence:
+def way_stopped(motion: Motion, group: Group, stop: Stop) -> Sentence:
     """Where the way of a group without closed form ends."""
     rotary = motion.positions.rotary
     where = ", ".join(
@@ -193,44 +194,6 @@ def _stopped(motion: Motion, group: Group, stop: Stop) -> Sentence:
 def _of(key: str, group: Group, **values: object) -> Sentence:
     """What is to be said of a group."""
     return Sentence(f"outcome.{key}", signature=group.signature, links=group.links, **values)
-
-
-def _not_passed(motion: Motion) -> PositionError:
-    """The error for a cycle that is barred between two positions, though all of them are reached from both sides."""
-    barred = Outcome(False, Sentence("outcome.between"), None, "barred")
-    way, told = motion.followed, (barred, *motion.notes)
-    if way is not None and way.stops:
-        group = next(each for each in motion.structure.groups if each.name == way.stops[0].group)
-        told = (barred, _stopped(motion, group, way.stops[0]), *motion.notes)
-    said = Sentence(
-        "motion.not_passed", name=motion.mechanism.name, told=told, advice=Sentence("motion.advice")
-    )
-    return PositionError(said, (), barred)
-
-
-def refusal(motion: Motion) -> PositionError:
-    """The error for a motion of which some positions cannot be reached, or that is barred between two of them."""
-    from linkwright.kinematics.input_range import range_sentence
-
-    failed = np.flatnonzero(~motion.ok)
-    if not len(failed):
-        return _not_passed(motion)
-    first = int(failed[0])
-    outcome = motion.outcomes[first]
-    where = input_at(motion, first)
-    if len(failed) > 1:
-        where = Sentence("motion.of_positions", where=where, failed=len(failed), steps=motion.steps)
-    links = next((each.links for each in motion.structure.groups if each.name == outcome.group), ())
-    told = list(motion.notes) if outcome.kind == "barred" else range_sentence(motion.mechanism, tuple(links))
-    said = Sentence(
-        "motion.refused_told" if told else "motion.refused",
-        name=motion.mechanism.name,
-        where=where,
-        sentence=outcome,
-        told=told,
-        advice=Sentence("motion.advice"),
-    )
-    return PositionError(said, tuple(int(i) for i in failed), outcome)
 
 
 def input_at(motion: Motion, index: int) -> str:

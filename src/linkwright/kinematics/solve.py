@@ -20,11 +20,12 @@ from linkwright.kinematics.change_points import (
     signs,
     signs_of_passages,
 )
-from linkwright.kinematics.cycle import Positions, at_inputs, at_times, over_cycle, time_span
+from linkwright.kinematics.cycle import over_cycle, time_span
 from linkwright.kinematics.motion import Motion, Rows
 from linkwright.kinematics.passage import Passage
 from linkwright.kinematics.passing_proof import clear_of_zero
-from linkwright.kinematics.reach_sentences import branch_notes, passage_notes, refusal, turn_notes
+from linkwright.kinematics.positions import Positions, at_inputs, at_times
+from linkwright.kinematics.reach_sentences import branch_notes, passage_notes, turn_notes
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.mechanism.mechanism import Mechanism
 
@@ -140,7 +141,7 @@ class MotionRun:
         motion.followed = followed
         motion.notes += said + turn_notes(motion) + branch_notes(motion)
         if failures == "raise" and not motion.whole:
-            raise refusal(motion)
+            raise motion.refusal()
         return motion
 
     def _at_once(self) -> Motion | None:

@@ -13,10 +13,10 @@ from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.recently_made import Recent
 from linkwright.kinematics.assembly import Assembly, assemble
 from linkwright.kinematics.continuation import Follower
-from linkwright.kinematics.cycle import Positions
 from linkwright.kinematics.design import Design
 from linkwright.kinematics.followed_way import Followed
 from linkwright.kinematics.outputs import MotionOutputs
+from linkwright.kinematics.positions import Positions
 from linkwright.kinematics.programs import AS_IT_IS, Manner, MotionPrograms, motion_programs
 from linkwright.kinematics.trace import MotionTrace
 from linkwright.mechanism.mechanism import Mechanism

@@ -8,12 +8,11 @@ from typing import TYPE_CHECKING
 from linkwright.core.arrays import Floats
 from linkwright.core.outputs import POINT, Output, row_names
 from linkwright.errors import LinkwrightError
+from linkwright.kinematics.motion import Motion
 from linkwright.mechanism.named_output import named_outputs
 
 if TYPE_CHECKING:
     import pandas
-
-    from linkwright.kinematics.motion import Motion
 
 
 def motion_results(motion: Motion) -> dict[Output, Floats]:
@@ -31,6 +30,16 @@ def motion_results(motion: Motion) -> dict[Output, Floats]:
             found |= {Output(kind, name, axis): values[:, k] for k, axis in enumerate("xy")}
     named = named_outputs(motion.mechanism.outputs).values()
     return found | {each: motion.read(each) for each in named}
+
+
+def motion_columns(motion: Motion) -> dict[str, Floats]:
+    """All results of a motion as named columns (n,), names with units."""
+    return columns(motion_results(motion))
+
+
+def motion_frame(motion: Motion) -> pandas.DataFrame:
+    """All results of a motion as a table over the first driver's coordinate; needs pandas."""
+    return dataframe(motion_columns(motion), index=input_column(motion))
 
 
 def columns(found: Mapping[Output, Floats]) -> dict[str, Floats]:

@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 from math import lcm
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from linkwright.core.arrays import Floats, Indices
+from linkwright.core.outputs import row_name
 from linkwright.kinematics.closed_loops import LoopBuilder
+from linkwright.kinematics.positions import at_times
+from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinematics.structure_with_rank import analysed
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.structure.analysis import Structure
-
-if TYPE_CHECKING:
-    from linkwright.kinematics.solver import MotionSolver
 
 #: Cycles of more turns are not looked for.
 MOST = 1000
@@ -104,9 +103,6 @@ def _change(
     wanted = np.flatnonzero(np.maximum(uneven, np.abs(sliding).max(axis=0, initial=0.0)) > WHOLE)
     if not len(wanted):
         return gained
-    from linkwright.kinematics.cycle import at_times
-    from linkwright.kinematics.solver import MotionSolver
-
     solver = MotionSolver(mechanism)
     followed = solver.follow(at_times(mechanism, [0.0, duration]))
     if followed is None:
@@ -130,18 +126,14 @@ def _by_places(
     duration: float,
 ) -> Floats | None:
     """The same from the places of slides at both times, where rotations cannot be followed; None for rotations."""
-    from linkwright.kinematics.cycle import at_times
-    from linkwright.kinematics.solve import MotionRun
-
     names = [unknowns[i][1] for i in wanted if unknowns[i][0] == "slide"]
     if len(names) < len(wanted):
         return None
-    outputs = tuple(f"{kind}:{name}" for name in names for kind in ("s", "sv", "sa"))
-    motion = MotionRun(solver, at_times(solver.mechanism, [0.0, duration])).solve(
-        "mark", (*outputs, "outcome")
-    )
-    if not motion.ok.all():
+    outputs = tuple(row_name("displacement", name) for name in names)
+    positions = at_times(solver.mechanism, [0.0, duration])
+    *places, outcomes = solver.evaluate((*outputs, "outcome"), positions, {}, {})
+    if outcomes.any():
         return None
-    for i, name in zip(wanted, names, strict=True):
-        gained[i] = float(np.diff(motion.joint(name).displacement)[0])
+    for i, place in zip(wanted, places, strict=True):
+        gained[i] = float(np.diff(place)[0])
     return gained

@@ -6,6 +6,6 @@ from linkwright.lazy import offer
 
 if TYPE_CHECKING:
     from linkwright.kinetostatics.forces import Forces as Forces
-    from linkwright.kinetostatics.forces import solve_forces as solve_forces
+    from linkwright.kinetostatics.run import solve_forces as solve_forces
 
 offer(__name__)

@@ -1,4 +1,4 @@
-"""The result of a force analysis, and the one call that makes it."""
+"""The result of a force analysis."""
 
 from __future__ import annotations
 
@@ -11,15 +11,10 @@ from linkwright.core.arrays import Floats
 from linkwright.core.attached import Plotted, attached
 from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
-from linkwright.core.given import require
 from linkwright.core.outputs import kind_of, row_name, row_names
 from linkwright.core.read_only import locked
 from linkwright.errors import RequestError
-from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinematics.motion import Motion, Rows
-from linkwright.kinematics.solve import MotionRun
-from linkwright.kinematics.solver import MotionSolver
-from linkwright.kinetostatics.link_balance import balance_residual
 from linkwright.kinetostatics.solver import ForceSolver
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import no_such
@@ -180,9 +175,10 @@ class Forces(Plotted):
         return locked(self.rows.row(row_name("power"), self.evaluate) - self.power)
 
     @cached_property
+    @attached
     def balance_residual(self) -> Floats:
         """Largest gap in the balance of any link, (n,) N, put together from the results; see ``link_balance``."""
-        return locked(balance_residual(self))
+        raise NotImplementedError
 
     @cached_property
     def shaking_force(self) -> Floats:
@@ -202,12 +198,10 @@ class Forces(Plotted):
         fx, fy, moment, px, py = self.fetch(names)
         return LoadForce(name, locked(np.stack([fx, fy], axis=1)), moment, locked(np.stack([px, py], axis=1)))
 
+    @attached
     def columns(self) -> dict[str, Floats]:
         """All results as named columns (n,), names with units."""
-        from linkwright.kinematics.table import columns
-        from linkwright.kinetostatics.table import force_results
-
-        return columns(force_results(self))
+        raise NotImplementedError
 
     def to_dataframe(self) -> pandas.DataFrame:
         """All results as a table over the first driver's coordinate, its index; needs pandas."""
@@ -276,24 +270,3 @@ class Forces(Plotted):
         joints = ", ".join(self.mechanism.joints)
         kind = "static" if self.static else "kinetostatic"
         return f"Forces({self.mechanism.name!r}: {kind}, {self.steps} positions; joints {joints})"
-
-
-def solve_forces(source: Motion | Mechanism, *, static: bool = False, steps: int = 360) -> Forces:
-    """Reactions of all joints and the effort of every driver, by Assur group in reverse solving order.
-
-    Args:
-        source: a motion, or a mechanism whose cycle is solved first over ``steps``.
-        static: leave the inertia forces out.
-
-    Returns:
-        The forces; with power and balance residuals.
-
-    Raises:
-        LinkwrightError: a load that cannot be evaluated, friction that does not converge or locks.
-    """
-    from linkwright.kinetostatics.run import forces_of_motion, forces_of_run
-
-    if isinstance(source, Motion):
-        return forces_of_motion(source, static)
-    require(source, Motion, Mechanism)
-    return forces_of_run(MotionRun(MotionSolver(source), over_cycle(source, steps)), static)

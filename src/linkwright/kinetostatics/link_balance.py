@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.outputs import row_name, row_names
-
-if TYPE_CHECKING:
-    from linkwright.kinetostatics.forces import Forces
+from linkwright.core.read_only import locked
+from linkwright.kinetostatics.forces import Forces
 
 
 def balance_residual(forces: Forces) -> Floats:
@@ -36,7 +34,7 @@ def balance_residual(forces: Forces) -> Floats:
             force, moment = force + driven[0], moment + driven[1]
         gap = np.maximum(np.hypot(force[:, 0], force[:, 1]), np.abs(moment) / (size or 1.0))
         worst = np.maximum(worst, gap)
-    return worst
+    return locked(worst)
 
 
 Pair = tuple[Floats, Floats]

@@ -9,14 +9,17 @@ from typing import Any
 import numpy as np
 
 from linkwright.core.arrays import Floats
+from linkwright.core.given import require
 from linkwright.core.outputs import Output, kind_of, row_name
 from linkwright.core.search import first_largest
 from linkwright.errors import LinkwrightError
-from linkwright.kinematics.cycle import Positions
+from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinematics.design import Design
 from linkwright.kinematics.motion import Motion, Rows
+from linkwright.kinematics.positions import Positions
 from linkwright.kinematics.reach_sentences import input_at
 from linkwright.kinematics.solve import MotionRun
+from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.friction import FrictionTerm
 from linkwright.kinetostatics.programs import caused_name
@@ -24,6 +27,7 @@ from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.kinetostatics.solver import ForceSolver
 from linkwright.kinetostatics.traced_loads import traced_loads
 from linkwright.loads.over_cycle import evaluate
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.units import LARGEST
 from linkwright.units import format as spelled
 from linkwright.words.sentence import Sentence, together
@@ -35,6 +39,25 @@ FRICTION_CHANGE = 1e-12
 
 class FrictionError(LinkwrightError):
     """Friction for which no finite driver effort is found."""
+
+
+def solve_forces(source: Motion | Mechanism, *, static: bool = False, steps: int = 360) -> Forces:
+    """Reactions of all joints and the effort of every driver, by Assur group in reverse solving order.
+
+    Args:
+        source: a motion, or a mechanism whose cycle is solved first over ``steps``.
+        static: leave the inertia forces out.
+
+    Returns:
+        The forces; with power and balance residuals.
+
+    Raises:
+        LinkwrightError: a load that cannot be evaluated, friction that does not converge or locks.
+    """
+    if isinstance(source, Motion):
+        return forces_of_motion(source, static)
+    require(source, Motion, Mechanism)
+    return forces_of_run(MotionRun(MotionSolver(source), over_cycle(source, steps)), static)
 
 
 def run_forces(

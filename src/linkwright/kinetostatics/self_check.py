@@ -17,7 +17,6 @@ from linkwright.words.sentence import Sentence
 if TYPE_CHECKING:
     from linkwright.kinematics.motion import Motion, Rows
     from linkwright.kinematics.outputs import MotionOutputs
-    from linkwright.kinetostatics.forces import Forces
     from linkwright.kinetostatics.outputs import ForceOutputs
 
 #: What a balance may be off, as share of the largest force of the machine at that position, and a power, as share of
@@ -84,12 +83,12 @@ class ForceChecks:
             if (apart > LIMIT * largest * speed).any():
                 _differ("forces.powers_differ", "W", apart, largest * speed, motion)
 
-    def require_balance(self, forces: Forces) -> None:
-        """Raises SelfCheckError where the links are out of balance under what is told of the forces."""
-        gap, largest = forces.balance_residual, self._largest(self._parts(forces.rows)[0])
+    def require_balance(self, gap: Floats, rows: Rows, motion: Motion) -> None:
+        """Raises SelfCheckError where the gap of the links' balance, (n,) N, is more than rounding."""
+        largest = self._largest(self._parts(rows)[0])
         with np.errstate(all="ignore"):
             if (gap > LIMIT * largest).any():
-                _differ("forces.results_unbalanced", "N", gap, largest, forces.motion)
+                _differ("forces.results_unbalanced", "N", gap, largest, motion)
 
     def _parts(self, rows: Rows) -> tuple[Floats, Floats, Floats]:
         """The rows of forces, of what no joint supplies, and of the two powers."""

@@ -11,10 +11,10 @@ from linkwright.core.arrays import Flags, Floats
 from linkwright.core.cached_property import cached_property
 from linkwright.core.outputs import Output, RelativeAngle
 from linkwright.drivers.base import Law
-from linkwright.kinematics.cycle import Positions
 from linkwright.kinematics.cycle_angles import CycleAngles
 from linkwright.kinematics.limits import limit_inputs, limit_positions
 from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.positions import Positions
 from linkwright.kinetostatics.friction import moving_rate
 from linkwright.loads.signals import Limit, Whole
 from linkwright.mechanism.mechanism import Mechanism

@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.outputs import Output, row_name, row_names
-from linkwright.kinematics.table import directions, motion_results
+from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.table import columns, directions, motion_results
+from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.link_balance import load_outputs, motion_outputs
-
-if TYPE_CHECKING:
-    from linkwright.kinematics.motion import Motion
-    from linkwright.kinetostatics.forces import Forces
 
 _RESULTANTS = (*row_names("shaking_force"), *map(row_name, ("shaking_moment", "power_of_forces", "power")))
 
@@ -21,6 +17,11 @@ _RESULTANTS = (*row_names("shaking_force"), *map(row_name, ("shaking_moment", "p
 def results_of(motion: Motion, forces: Forces | None) -> dict[Output, Floats]:
     """All results of a motion, and of its forces where there are some, (n,) each, SI."""
     return motion_results(motion) if forces is None else force_results(forces)
+
+
+def force_columns(forces: Forces) -> dict[str, Floats]:
+    """All results of forces and their motion as named columns (n,), names with units."""
+    return columns(force_results(forces))
 
 
 def force_results(forces: Forces) -> dict[Output, Floats]:
@@ -46,7 +47,7 @@ def force_results(forces: Forces) -> dict[Output, Floats]:
                 found[Output("couple", name, on=link)] = forces.couple(name, on=link)
     found |= {Output("shaking_force", "", axis): forces.shaking_force[:, k] for k, axis in enumerate("xy")}
     found[Output("shaking_moment")] = forces.shaking_moment
-    forces.solver.programs.checks.require_balance(forces)
+    forces.solver.programs.checks.require_balance(forces.balance_residual, forces.rows, motion)
     found[Output("power_residual")] = forces.power_residual
     found[Output("balance_residual")] = forces.balance_residual
     return found

@@ -12,7 +12,8 @@ from linkwright.core.given import real, require
 from linkwright.core.read_only import Frozen
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.joints.base import Joint
-from linkwright.kinetostatics.forces import Forces, solve_forces
+from linkwright.kinetostatics.forces import Forces
+from linkwright.kinetostatics.run import solve_forces
 from linkwright.mechanism.mechanism import Link, Mechanism
 from linkwright.metrics.analysis import Analysis
 

@@ -25,9 +25,9 @@ from linkwright.engine.wasm import wasm_module
 from linkwright.files.document import Document
 from linkwright.files.model_file import read_text
 from linkwright.files.write import dump
-from linkwright.kinematics.cycle import Positions
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.placement import placements
+from linkwright.kinematics.positions import Positions
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.page.contacts import RackWay, Wheels, contact_shape

@@ -27,9 +27,10 @@ from linkwright.kinematics.names import canonical
 from linkwright.kinematics.step_rule import StepRule
 from linkwright.kinematics.trace import MotionTrace
 from linkwright.kinetostatics.closure import dyads, transmission
-from linkwright.kinetostatics.forces import Forces, solve_forces
+from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.friction import FrictionTerm, traced_rate
 from linkwright.kinetostatics.load_site import TracedSite, guide_state
+from linkwright.kinetostatics.run import solve_forces
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.kinetostatics.traced_loads import AlongInput, numbers_of_loads
 from linkwright.loads.base import Load

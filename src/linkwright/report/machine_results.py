@@ -12,12 +12,13 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.errors import LinkwrightError, speaker
-from linkwright.kinematics.cycle import at_inputs
 from linkwright.kinematics.limits import LimitPosition
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.position_list import PositionList
+from linkwright.kinematics.positions import at_inputs
 from linkwright.kinematics.solve import solve_motion, with_times
-from linkwright.kinetostatics.forces import Forces, solve_forces
+from linkwright.kinetostatics.forces import Forces
+from linkwright.kinetostatics.run import solve_forces
 from linkwright.kinetostatics.table import results_of
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.report.numbers import Heads, without_rounding

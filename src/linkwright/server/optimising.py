@@ -11,7 +11,7 @@ from linkwright.errors import LinkwrightError, RequestError
 from linkwright.files.document import Document
 from linkwright.files.model_file import read_text
 from linkwright.kinematics.solve import solve_motion
-from linkwright.kinetostatics.forces import solve_forces
+from linkwright.kinetostatics.run import solve_forces
 from linkwright.metrics import METRICS, metrics
 from linkwright.metrics.outputs import mechanism_outputs
 from linkwright.optimisation.optimize import optimize

@@ -9,11 +9,12 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError
-from linkwright.kinematics.cycle import at_inputs
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.output_limits import limits_of
+from linkwright.kinematics.positions import at_inputs
 from linkwright.kinematics.solve import with_times
-from linkwright.kinetostatics.forces import Forces, solve_forces
+from linkwright.kinetostatics.forces import Forces
+from linkwright.kinetostatics.run import solve_forces
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.plot.diagrams.axes import significant
 from linkwright.report.machine_results import Case

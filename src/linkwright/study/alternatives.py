@@ -20,7 +20,8 @@ from linkwright.errors import LinkwrightError, RequestError
 from linkwright.files.model_file import load
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
-from linkwright.kinetostatics.forces import Forces, solve_forces
+from linkwright.kinetostatics.forces import Forces
+from linkwright.kinetostatics.run import solve_forces
 from linkwright.machine import flywheel_inertia
 from linkwright.machine.running import require_steady
 from linkwright.mechanism.mechanism import Mechanism

@@ -17,7 +17,7 @@ from linkwright.engine.machine_code import available
 from linkwright.engine.stage import Backend
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.solve import solve_motion
-from linkwright.kinetostatics.forces import solve_forces
+from linkwright.kinetostatics.run import solve_forces
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import Analysis
 from linkwright.metrics.evaluate import unloaded

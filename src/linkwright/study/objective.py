@@ -39,8 +39,9 @@ from linkwright.engine.states import states_as_fields
 from linkwright.engine.table import Table
 from linkwright.engine.trace import Mask, Scalar, Trace, absolute, maximum, select
 from linkwright.errors import RequestError
-from linkwright.kinematics.cycle import Positions, at_inputs, over_cycle
+from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinematics.names import point_key
+from linkwright.kinematics.positions import Positions, at_inputs
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.named_outputs import Quantity
 from linkwright.kinetostatics.signals import MotionSignals

@@ -10,7 +10,8 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.solve import solve_motion
-from linkwright.kinetostatics.forces import Forces, solve_forces
+from linkwright.kinetostatics.forces import Forces
+from linkwright.kinetostatics.run import solve_forces
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.quantities import shown

@@ -27,10 +27,11 @@ from linkwright.engine.stage import BACKENDS, Backend
 from linkwright.engine.trace import Mask, Scalar, absolute, select
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.change_points import nearness, parts
-from linkwright.kinematics.cycle import Positions, over_cycle
+from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinematics.design import Design
 from linkwright.kinematics.motion import Motion, Rows
 from linkwright.kinematics.passing_proof import NEAR
+from linkwright.kinematics.positions import Positions
 from linkwright.kinematics.solve import MotionRun
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.load_site import limit_name

@@ -20,7 +20,6 @@ from linkwright.cycle_programs.traced_outputs import Traced
 from linkwright.engine.stage import BACKENDS, Backend
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.cycle import over_cycle
-from linkwright.kinematics.reach_sentences import refusal
 from linkwright.kinetostatics.friction_stage import MOST
 from linkwright.kinetostatics.named_outputs import Quantity
 from linkwright.mechanism.mechanism import Mechanism
@@ -180,7 +179,7 @@ def sensitivity(
         raise RequestError("study.no_outputs")
     traced = Traced(mechanism, dimensions, positions, turning=True)
     if not traced.nominal.whole:
-        raise refusal(traced.nominal)
+        raise traced.nominal.refusal()
     if traced.nominal.modes:
         traced = Traced(mechanism, dimensions, positions, turning=True, flipping=True)
     return _Derivation(traced, dimensions, asked, steps, way, backend).result()

@@ -29,9 +29,9 @@ from linkwright.engine.states import inputs_as_fields
 from linkwright.engine.threads import chunks, cores
 from linkwright.errors import LinkwrightError, SelfCheckError
 from linkwright.files.write import dump
-from linkwright.kinematics.cycle import Positions
-from linkwright.kinetostatics.forces import solve_forces
+from linkwright.kinematics.positions import Positions
 from linkwright.kinetostatics.named_outputs import Quantity
+from linkwright.kinetostatics.run import solve_forces
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.summary import Summary, finished, reductions
 from linkwright.study.finished_parts import identity, once

@@ -13,7 +13,8 @@ from linkwright.core.given import one_or_more, require
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.joints.toothed import Numbers, whole
 from linkwright.kinematics.assembly import AssemblyError
-from linkwright.kinematics.cycle import Positions, over_cycle
+from linkwright.kinematics.cycle import over_cycle
+from linkwright.kinematics.positions import Positions
 from linkwright.mechanism.geometry import mechanism_size
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered

@@ -8,7 +8,7 @@ import numpy as np
 
 from linkwright.core.given import real
 from linkwright.kinematics import solve_motion
-from linkwright.kinetostatics.forces import solve_forces
+from linkwright.kinetostatics.run import solve_forces
 from linkwright.metrics.evaluate import metrics
 from linkwright.synthesis.linkage import Linkage
 

@@ -20,7 +20,8 @@ from linkwright.drivers.base import Driver
 from linkwright.errors import LinkwrightError
 from linkwright.joints.base import implied_joint
 from linkwright.kinematics.solve import solve_motion
-from linkwright.kinetostatics.forces import Forces, solve_forces
+from linkwright.kinetostatics.forces import Forces
+from linkwright.kinetostatics.run import solve_forces
 from linkwright.loads.base import Load
 from linkwright.mechanism.mechanism import Link, Mechanism
 from linkwright.study.designs import sweep_curves

@@ -16,7 +16,8 @@ from linkwright.core.arrays import Floats
 from linkwright.core.outputs import PLACES
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.names import output_meant
-from linkwright.kinetostatics.forces import Forces, solve_forces
+from linkwright.kinetostatics.forces import Forces
+from linkwright.kinetostatics.run import solve_forces
 from linkwright.tolerance.problem import Tolerances
 
 #: Rounds in which the force follows the moved pin.

@@ -14,7 +14,8 @@ import numpy as np
 from linkwright.files.model_file import load
 from linkwright.kinematics.names import output_meant
 from linkwright.kinematics.solve import solve_motion
-from linkwright.kinetostatics.forces import Forces, solve_forces
+from linkwright.kinetostatics.forces import Forces
+from linkwright.kinetostatics.run import solve_forces
 from linkwright.kinetostatics.table import results_of
 from linkwright.units import parse
 

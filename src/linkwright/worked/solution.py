@@ -12,7 +12,8 @@ from linkwright.errors import LinkwrightError, RequestError, require_language, s
 from linkwright.kinematics.groups import dyad_shape, in_one_step
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
-from linkwright.kinetostatics.forces import Forces, solve_forces
+from linkwright.kinetostatics.forces import Forces
+from linkwright.kinetostatics.run import solve_forces
 from linkwright.words import language_of
 from linkwright.words.sentence import link_said, links_said
 from linkwright.worked.applied_forces import KnownForces

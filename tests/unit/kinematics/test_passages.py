@@ -26,8 +26,9 @@ from linkwright.kinematics.change_points import (
     signs_of_passages,
     way,
 )
-from linkwright.kinematics.cycle import Positions, over_cycle
+from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinematics.passage import Passage
+from linkwright.kinematics.positions import Positions
 from linkwright.kinematics.reach_sentences import passage_notes
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.mechanism.geometry import mechanism_size

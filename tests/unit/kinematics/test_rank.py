@@ -13,8 +13,9 @@ from tests.store import machine, names
 from tests.store import motion as moved
 
 import linkwright as lw
-from linkwright.kinematics.constraint_equations import ConstraintEquations, coordinates
-from linkwright.kinematics.rank import jacobian_rank, rank_from_dimensions, rank_from_drawing
+from linkwright.kinematics.constraint_equations import ConstraintEquations
+from linkwright.kinematics.rank import rank_from_dimensions, rank_from_drawing
+from linkwright.kinematics.rank_of_motion import coordinates, jacobian_rank
 
 PARALLEL_CRANKS = """
 format: 1

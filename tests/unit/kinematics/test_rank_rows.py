@@ -11,9 +11,10 @@ from tests.reference.cam_models import GUIDED, SWINGING, model
 from tests.reference.geared_mechanisms import geared_case
 
 import linkwright as lw
-from linkwright.kinematics.constraint_equations import ConstraintEquations, coordinates
+from linkwright.kinematics.constraint_equations import ConstraintEquations
 from linkwright.kinematics.motion import Motion
-from linkwright.kinematics.rank import jacobian_rank, rank_from_drawing
+from linkwright.kinematics.rank import rank_from_drawing
+from linkwright.kinematics.rank_of_motion import coordinates, jacobian_rank
 
 ON_AN_ARM = """
 format: 1

@@ -5,7 +5,7 @@ import re
 from tests.failures.limited_machines import SWUNG, fourbar
 
 import linkwright as lw
-from linkwright.kinematics.rank import rank_sentence
+from linkwright.kinematics.rank_of_motion import rank_sentence
 
 
 def test_no_rank_is_said_where_no_position_is_reached() -> None:

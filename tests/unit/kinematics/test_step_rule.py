@@ -15,7 +15,7 @@ from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
 from linkwright.engine.vector import Vec
 from linkwright.kinematics.branch import CORRECTION, MISFIT
-from linkwright.kinematics.cycle import at_times
+from linkwright.kinematics.positions import at_times
 from linkwright.kinematics.step_rule import LARGEST, ROOM, StepRule, _angle
 from linkwright.mechanism.geometry import mechanism_size
 

@@ -9,7 +9,8 @@ import pytest
 from tests.refusals import refused
 
 import linkwright as lw
-from linkwright.kinematics.cycle import CycleError, over_cycle, time_span
+from linkwright.kinematics.cycle import over_cycle, time_span
+from linkwright.kinematics.positions import CycleError
 from linkwright.mechanism.mechanism import Cycle
 
 CRANK = """

@@ -18,7 +18,8 @@ from linkwright import gallery, words
 from linkwright.cli import main
 from linkwright.groups.base import DYADS
 from linkwright.kinematics.outcome import Outcome
-from linkwright.kinematics.rank import jacobian_rank, rank_from_drawing, rank_sentence
+from linkwright.kinematics.rank import rank_from_drawing
+from linkwright.kinematics.rank_of_motion import jacobian_rank, rank_sentence
 from linkwright.words.characters import cells
 from linkwright.words.sentence import Sentence, code_of, in_language, values_of
 

@@ -80,7 +80,7 @@ def _forces(motion: Motion, options: argparse.Namespace) -> Forces | None:
     """Forces where arrows need them."""
     if options.forces is None:
         return None
-    from linkwright.kinetostatics.forces import solve_forces
+    from linkwright.kinetostatics.run import solve_forces
 
     return solve_forces(motion, static=options.static)
 

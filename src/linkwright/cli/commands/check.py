@@ -177,7 +177,6 @@ def _task(text: str, name: str) -> tuple[list[Finding], str] | None:
 
 def _turned(name: str, mechanism: Mechanism) -> tuple[list[Finding], list[Finding]]:
     """What there is to say about a cycle: where it cannot be passed, and notes."""
-    from linkwright.kinematics.reach_sentences import refusal
     from linkwright.kinematics.solve import try_motion
 
     motion = try_motion(mechanism, TRIED)
@@ -186,7 +185,7 @@ def _turned(name: str, mechanism: Mechanism) -> tuple[list[Finding], list[Findin
     notes = [Finding("note", name, "", note, code=code_of(note)) for note in motion.notes if motion.ok.any()]
     if motion.whole:
         return [], [*_hardly_determined(name, motion), *notes]
-    barred = refusal(motion)
+    barred = motion.refusal()
     return [Finding("error", name, "", barred.sentence, code=barred.code)], notes
 
 

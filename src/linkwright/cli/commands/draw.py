@@ -111,7 +111,7 @@ def _forces(motion: Motion, options: argparse.Namespace) -> Forces | bool | None
         return None
     if not options.static:
         return True
-    from linkwright.kinetostatics.forces import solve_forces
+    from linkwright.kinetostatics.run import solve_forces
 
     return solve_forces(motion, static=True)
 

@@ -84,7 +84,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
 
 def _with_forces(motion: Motion) -> Motion | Forces:
     """The motion with its forces where there is anything to carry."""
-    from linkwright.kinetostatics.forces import solve_forces
+    from linkwright.kinetostatics.run import solve_forces
 
     return solve_forces(motion) if motion.mechanism.has_loads else motion
 

@@ -77,7 +77,7 @@ def _mechanism(options: argparse.Namespace, asked: Wanted, session: Session) -> 
     from linkwright.cli.machine_rows import of_running
     from linkwright.cli.solve_remarks import closeness
     from linkwright.cli.source import read_model
-    from linkwright.kinetostatics.forces import solve_forces
+    from linkwright.kinetostatics.run import solve_forces
     from linkwright.machine.flywheel import FLUCTUATION
     from linkwright.machine.running import steady_running
 

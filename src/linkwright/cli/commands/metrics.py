@@ -84,7 +84,7 @@ def _evaluated(
     """
     from linkwright.errors import RequestError
     from linkwright.kinematics.solve import solve_motion
-    from linkwright.kinetostatics.forces import solve_forces
+    from linkwright.kinetostatics.run import solve_forces
     from linkwright.metrics import Analysis, metrics
     from linkwright.metrics.evaluate import inapplicable, unloaded
 
@@ -108,7 +108,7 @@ def _all(
     motion: Motion, options: argparse.Namespace
 ) -> tuple[MetricsTable, list[str], LinkwrightError | None]:
     """All numbers that apply, those of the motion alone where the forces fail, and why they do."""
-    from linkwright.kinetostatics.forces import solve_forces
+    from linkwright.kinetostatics.run import solve_forces
     from linkwright.metrics import metrics
 
     if options.forces is False or not (options.forces or motion.mechanism.has_loads):

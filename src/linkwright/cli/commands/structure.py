@@ -23,7 +23,7 @@ def arguments(option: Options) -> None:
 
 def run(options: argparse.Namespace, session: Session) -> int:
     """Prints the structure analysis; with ``--program`` the straight-line program as well."""
-    from linkwright.kinematics.rank import rank_sentence
+    from linkwright.kinematics.rank_of_motion import rank_sentence
     from linkwright.kinematics.structure_with_rank import analysed
 
     mechanism, _ = read_model(options.file, session)

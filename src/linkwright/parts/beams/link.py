@@ -13,8 +13,9 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.plane import cross
 from linkwright.errors import Finding, LinkwrightError, SelfCheckError
 from linkwright.fields.base import Quantity, Text, given
-from linkwright.kinetostatics.forces import Forces, solve_forces
+from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.link_balance import applied_rows, driver_wrenches
+from linkwright.kinetostatics.run import solve_forces
 from linkwright.kinetostatics.self_check import LIMIT
 from linkwright.mechanism.mechanism import Link, Mechanism
 from linkwright.parts.base import Block, Result, Row, Value, fault, put, shown

@@ -12,7 +12,8 @@ from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, ModelError
 from linkwright.kinematics.constraint_equations import ConstraintEquations
 from linkwright.kinematics.solve import solve_motion
-from linkwright.kinetostatics.forces import Forces, solve_forces
+from linkwright.kinetostatics.forces import Forces
+from linkwright.kinetostatics.run import solve_forces
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.parts.base import Block, Result, Row, fault, put
 from linkwright.parts.statics.balance import Balance, structure_balance
@@ -116,8 +117,9 @@ class StructureForces(Result):
                 rows.append(Row("couple", couple, "torque", f"{label} M"))
         for driver in self.forces.mechanism.drivers:
             rows.append(Row("effort", float(self.forces.driver_effort(driver)[0]), "torque", driver))
-        self.forces.solver.programs.checks.require_balance(self.forces)
-        gap = float(self.forces.balance_residual.max())
+        gaps = self.forces.balance_residual
+        self.forces.solver.programs.checks.require_balance(gaps, self.forces.rows, self.forces.motion)
+        gap = float(gaps.max())
         return [Block("reactions", say("statics.reactions"), rows, (say("statics.gap", gap=f"{gap:.1e}"),))]
 
     @cached_property

@@ -13,7 +13,8 @@ from linkwright.core.arrays import Complexes, Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, LinkwrightError, ModelError
 from linkwright.fields.base import Quantities, Quantity, given
-from linkwright.kinetostatics.forces import Forces, solve_forces
+from linkwright.kinetostatics.forces import Forces
+from linkwright.kinetostatics.run import solve_forces
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.parts.base import Block, Result, Row, Value, fault, number, put, shown
 from linkwright.parts.fields import Named, Table, Whole

@@ -11,10 +11,11 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.errors import LinkwrightError, RequestError
-from linkwright.kinematics.cycle import at_times
 from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.positions import at_times
 from linkwright.kinematics.solve import solve_motion
-from linkwright.kinetostatics.forces import Forces, solve_forces
+from linkwright.kinetostatics.forces import Forces
+from linkwright.kinetostatics.run import solve_forces
 from linkwright.machine.running import SteadyRunning, steady_running
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis, Kind

@@ -299,7 +299,7 @@ def _forces_shown(motion: Motion, shown: Shown, forces: Forces | bool | None) ->
     """Forces of the motion that has the shown position."""
     if shown.motion is motion or not forces:
         return solved(motion, forces)
-    from linkwright.kinetostatics.forces import solve_forces
+    from linkwright.kinetostatics.run import solve_forces
 
     known = None if forces is True else solved(motion, forces)
     return solve_forces(shown.motion, static=known is not None and known.static)
@@ -310,7 +310,7 @@ def solved(motion: Motion, forces: Forces | bool | None) -> Forces | None:
     if forces is None or forces is False:
         return None
     if forces is True:
-        from linkwright.kinetostatics.forces import solve_forces
+        from linkwright.kinetostatics.run import solve_forces
 
         return solve_forces(motion)
     same_motion(motion, forces)

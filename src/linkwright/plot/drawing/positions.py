@@ -8,9 +8,9 @@ import numpy as np
 
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError
-from linkwright.kinematics.cycle import at_inputs
 from linkwright.kinematics.limits import LimitPosition
 from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.positions import at_inputs
 from linkwright.kinematics.solve import solve_motion, with_times
 
 At = float | Mapping[str, float]

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from linkwright.errors import LinkwrightError
 from linkwright.joints.base import JOINTS
-from linkwright.kinematics.rank import rank_sentence
+from linkwright.kinematics.rank_of_motion import rank_sentence
 from linkwright.report.document import Block, Figure, Formula, Paragraph, Table, literal, symbols
 from linkwright.report.group_pictures import group_picture, to_one_scale
 from linkwright.report.machine_results import Case

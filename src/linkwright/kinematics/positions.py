@@ -1,0 +1,247 @@
+"""The positions at which a mechanism is solved: times, and every driver's coordinate with its rates."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Hashable, Mapping
+from contextlib import suppress
+from itertools import chain
+from math import cos, sin
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from linkwright.core.arrays import Floats, Indices
+from linkwright.core.cached_property import cached_property
+from linkwright.core.dataclass import dataclass
+from linkwright.core.expressions import amount
+from linkwright.core.inputs import driven
+from linkwright.drivers.base import Driver
+from linkwright.errors import LinkwrightError, QuantityError
+from linkwright.mechanism.mechanism import Mechanism
+from linkwright.registry import no_such
+from linkwright.units import LARGEST, SI_UNITS
+from linkwright.words.sentence import Sentence
+
+#: Dimensions of a coordinate and its rates, by whether the driver turns.
+_RATES = {
+    True: ("angle", "angular_velocity", "angular_acceleration"),
+    False: ("length", "velocity", "acceleration"),
+}
+
+#: Positions of which a turning driver is further apart are no way, but positions of their own, rad.
+LARGEST_STEP = 0.55
+
+
+class CycleError(LinkwrightError):
+    """A cycle that cannot be laid out."""
+
+
+@dataclass(frozen=True)
+class Positions:
+    """n positions of the input: ``time`` (n,) s; per driver coordinate, rate, second derivative, (n,) each.
+
+    ``period``: time in s after which a closed cycle is back at its first position, None for an open one; ``cycle``:
+    the positions are equal steps of one motion, however large the steps are. Times of a closed cycle grow.
+    """
+
+    time: Floats
+    coordinates: Mapping[str, tuple[Floats, Floats, Floats]]
+    rotary: Mapping[str, bool]
+    period: float | None = None
+    cycle: bool = False
+
+    @property
+    def closed(self) -> bool:
+        """Whether the cycle returns to its first position after the last one."""
+        return self.period is not None
+
+    @property
+    def repeated(self) -> bool:
+        """Whether the last position of a closed cycle is the first one again."""
+        return self.period is not None and bool(self.time[-1] - self.time[0] > self.period * (1.0 - 1e-9))
+
+    @cached_property
+    def around(self) -> Floats:
+        """Times, s, with that at which the first position of a closed cycle comes again."""
+        return self.time if self.period is None else np.append(self.time, self.time[0] + self.period)
+
+    @property
+    def count(self) -> int:
+        """Number of positions."""
+        return len(self.time)
+
+    @cached_property
+    def is_way(self) -> bool:
+        """Whether the positions are a cycle, or follow each other closely enough to be one motion."""
+        if self.cycle or self.count < 3:
+            return self.cycle
+        steps = (np.abs(np.diff(q)).max() for name, (q, *_) in self.coordinates.items() if self.rotary[name])
+        return self.closed or bool(max(steps, default=0.0) <= LARGEST_STEP)
+
+    @property
+    def steps(self) -> int:
+        """The number of steps from which the positions of a cycle were made."""
+        return max(1, self.count if self.closed else self.count - 1)
+
+    @cached_property
+    def paces(self) -> dict[str, float]:
+        """The largest rate of every driver, rad/s or m/s."""
+        return {name: float(np.abs(rate).max()) for name, (_, rate, _) in self.coordinates.items()}
+
+    @property
+    def turns(self) -> float:
+        """Turns, at its largest rate, of the driver that turns fastest, from the first position to the end."""
+        fastest = max((pace for name, pace in self.paces.items() if self.rotary[name]), default=0.0)
+        return float(self.around[-1] - self.around[0]) * fastest / (2 * np.pi)
+
+    @cached_property
+    def longest_turn(self) -> float:
+        """The farthest, rad, that a driver at its largest rate turns from one position to the next."""
+        longest = np.abs(np.diff(self.around)).max(initial=0.0)
+        return float(longest) * max(
+            (self.paces[name] for name, rotary in self.rotary.items() if rotary), default=0.0
+        )
+
+    @cached_property
+    def key(self) -> Hashable:
+        """What tells these positions from others."""
+        rows = (self.time, *chain.from_iterable(self.coordinates.values()))
+        return self.closed, self.period, self.cycle, *(row.tobytes() for row in rows)
+
+    def taken(self, order: Indices) -> Positions:
+        """Some of the positions in another order, each for itself."""
+        coordinates = {
+            name: (q[order], rate[order], second[order])
+            for name, (q, rate, second) in self.coordinates.items()
+        }
+        return Positions(self.time[order], coordinates, self.rotary)
+
+    @cached_property
+    def arrays(self) -> dict[str, Floats]:
+        """The program's inputs per position, by name; ``input`` is the first driver's coordinate."""
+        found: dict[str, Floats] = {"time": self.time}
+        for name, course in self.coordinates.items():
+            found |= driven(name, self.rotary[name], course, np.cos, np.sin)
+            found.setdefault("input", course[0])
+        return found
+
+
+def at_times(mechanism: Mechanism, time: ArrayLike, period: float | None = None) -> Positions:
+    """The positions at given times, s, of a closed cycle that is back after a ``period``, s, if one is given."""
+    t = _numbers(time)
+    if not np.isfinite(t).all():
+        raise CycleError("motion.bad_time")
+    coordinates = {name: _driven(driver, t) for name, driver in mechanism.drivers.items()}
+    return Positions(t, coordinates, rotary(mechanism), period)
+
+
+def _numbers(given: ArrayLike) -> Floats:
+    try:
+        found = np.atleast_1d(np.asarray(given, dtype=float))
+    except (TypeError, ValueError):
+        texts = (
+            [given] if isinstance(given, str) else [each for each in np.ravel(given) if isinstance(each, str)]
+        )
+        if texts:
+            raise CycleError(
+                "motion.text_for_number", text=str(texts[0])[:60], right=_in_si(str(texts[0]))
+            ) from None
+        raise CycleError("motion.no_numbers", given=repr(given)[:60]) from None
+    if found.ndim > 1:
+        raise CycleError("motion.no_row", shape=str(found.shape))
+    return found
+
+
+def _in_si(text: str) -> str:
+    """The SI value of an angle, a length or a time, 0.5 for anything else."""
+    for dimension in ("angle", "length", "time"):
+        with suppress(QuantityError):
+            return f"{amount(text, dimension):.6g}"
+    return "0.5"
+
+
+def _driven(driver: Driver, time: Floats) -> tuple[Floats, Floats, Floats]:
+    """Coordinate and rates of a driver; raises CycleError where a law has none, or none that a machine can have."""
+    with np.errstate(all="ignore"):
+        rows = driver.law.coordinate(time)
+    kinds = _RATES[driver.law.rotary]
+    for row, kind in zip(rows, kinds, strict=True):
+        bad = np.flatnonzero(~(np.abs(row) <= LARGEST[kind]))
+        if len(bad):
+            value, at = float(row[bad[0]]), float(time[bad[0]])
+            shown = f"{value:g} {SI_UNITS[kind]}"
+            raise CycleError(
+                "motion.law_beyond", name=driver.name, kind=Sentence(f"nouns.a_{kind}"), value=shown, time=at
+            )
+    return rows
+
+
+def off_law(mechanism: Mechanism, positions: Positions) -> str | None:
+    """The first driver whose coordinates are not those of its law at the times of the positions; None without one."""
+    known = at_times(mechanism, positions.time).coordinates
+    for name, (q, *_) in positions.coordinates.items():
+        lawful = known[name][0]
+        if not (np.abs(q - lawful) <= 1e-12 + 1e-9 * np.abs(lawful)).all():
+            return name
+    return None
+
+
+def at_one_time(mechanism: Mechanism, time: float) -> dict[str, float]:
+    """The programs' inputs at one time, s, by name, of drivers that all have constant speeds."""
+    found = {"time": time}
+    for name, driver in mechanism.drivers.items():
+        q, speed = driver.law.at(time), driver.law.constant_speed
+        assert speed is not None
+        found |= driven(name, driver.law.rotary, (q, speed, 0.0), cos, sin)
+        found.setdefault("input", q)
+    return found
+
+
+def at_inputs(mechanism: Mechanism, at: ArrayLike | Mapping[str, ArrayLike]) -> Positions:
+    """The positions at given coordinates of the first driver, or of several drivers by name (rad or m).
+
+    Rates are those of the drivers' constant speeds. Raises CycleError for a driver with another law whose
+    coordinate is given, since then the time would not be known.
+    """
+    if not mechanism.drivers:
+        raise CycleError("motion.no_input_to_set", name=mechanism.name)
+    given = dict(at) if isinstance(at, Mapping) else {next(iter(mechanism.drivers)): at}
+    if not given:
+        raise CycleError("motion.no_inputs", driver=next(iter(mechanism.drivers)))
+    rows = {}
+    for name, values in given.items():
+        driver = _driver(mechanism, name)
+        if driver.law.constant_speed is None:
+            raise CycleError("motion.own_law", name=name)
+        q = _numbers(values)
+        if not np.isfinite(q).all():
+            raise CycleError("motion.bad_input", name=name)
+        rows[name] = q
+    count = max(len(q) for q in rows.values())
+    first, q = next(iter(rows.items()))
+    time = np.broadcast_to(mechanism.drivers[first].law.time_at(q), (count,))
+    coordinates = {name: _driven(driver, time) for name, driver in mechanism.drivers.items()}
+    for name, q in rows.items():
+        coordinates[name] = (np.broadcast_to(q, (count,)).copy(), *coordinates[name][1:])
+    return Positions(np.array(time), coordinates, rotary(mechanism))
+
+
+def rotary(mechanism: Mechanism) -> dict[str, bool]:
+    return {
+        name: mechanism.joints[driver.joint].coordinate == "turn"
+        for name, driver in mechanism.drivers.items()
+    }
+
+
+def coordinate_text(name: str, value: float, rotary: bool) -> Sentence:
+    """A driver's coordinate in words: ``crank = 30°``."""
+    shown = f"{math.degrees(value):.6g}°" if rotary else f"{value:.6g} m"
+    own = Sentence("nouns.driver") if name == "driver" else name
+    return Sentence("motion.coordinate", name=own, value=shown)
+
+
+def _driver(mechanism: Mechanism, name: str) -> Driver:
+    if name not in mechanism.drivers:
+        raise CycleError(no_such("driver", name, mechanism.drivers))
+    return mechanism.drivers[name]

@@ -1,0 +1,95 @@
+"""Rank of the Jacobian of all joints where a mechanism is solved."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from linkwright.core.arrays import Floats
+from linkwright.errors import LinkwrightError
+from linkwright.kinematics.constraint_equations import ConstraintEquations, Row, first_points, pose_outputs
+from linkwright.kinematics.cycle import over_cycle
+from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.rank import ZERO, RankReport, numeric_rank, rank_at, report_of
+from linkwright.kinematics.solve import MotionRun
+from linkwright.kinematics.solver import MotionSolver
+from linkwright.mechanism.geometry import mechanism_size
+from linkwright.mechanism.mechanism import Mechanism
+from linkwright.structure import Structure
+from linkwright.words.sentence import Sentence
+
+
+def jacobian_rank(motion: Motion, index: int = 0) -> RankReport:
+    """Rank of the constraint Jacobian of the whole mechanism at a solved position, by singular values.
+
+    A singular value below 1e-9 of the largest counts as zero. Sees what counting cannot: passive constraints
+    (Norton, Design of Machinery, ch. 2; Wittenburg, Dynamics of Multibody Systems, ch. 5). Special lengths and
+    positions have no solved positions; of these :func:`rank_from_drawing` tells. Raises LinkwrightError if the
+    position is not solved.
+    """
+    if not motion.ok[index]:
+        raise LinkwrightError("motion.no_rank", index=index)
+    mechanism = motion.mechanism
+    system = ConstraintEquations(mechanism)
+    here = coordinates(motion, index)
+    if _regular_in_groups(mechanism, motion.structure, here):
+        rank, redundant = len(system.rows(here)), tuple[Row, ...]()
+    else:
+        rank, redundant = rank_at(system, here, ZERO)
+    return report_of(mechanism, system, rank, redundant, (), False, guides=motion.structure.redundant)
+
+
+def rank_sentence(mechanism: Mechanism, language: str = "en") -> str:
+    """What the rank of the Jacobian at the start of the cycle says about the mobility, or that a group is
+    singular there; empty if it cannot be had."""
+    try:
+        ends = replace(over_cycle(mechanism, 1), cycle=False)
+        outputs = (*pose_outputs(mechanism), "outcome")
+        motion = MotionRun(MotionSolver(mechanism), ends).solve("mark", outputs)
+    except LinkwrightError:
+        return ""
+    good = np.flatnonzero(motion.ok)
+    if len(good):
+        return jacobian_rank(motion, int(good[0])).say(language)
+    outcome = motion.outcomes[0]
+    return Sentence("rank.singular", outcome=outcome).say(language) if outcome.kind == "singular" else ""
+
+
+def coordinates(motion: Motion, index: int) -> Floats:
+    """(x, y, θ) of every link at a position, lengths over the size of the mechanism."""
+    mechanism, found = motion.mechanism, []
+    size, places = mechanism_size(mechanism), first_points(mechanism)
+    motion.rows.fetch(pose_outputs(mechanism), motion.evaluate)  # all in one program
+    wheels = mechanism.higher
+    for name, link in mechanism.links.items():
+        c, s = motion.link(name).direction[index]
+        px, py = next(iter(link.points.values()))
+        x, y = motion.point_of(places[name]).position[index]
+        found += [(x - c * px + s * py) / size, (y - s * px - c * py) / size]
+        found.append(motion.link(name).angle[index] if wheels else math.atan2(s, c))
+    return np.array(found)
+
+
+def _regular_in_groups(mechanism: Mechanism, built: Structure, x: Floats) -> bool:
+    """Whether every group alone is regular, its drivers held: then no equation of the whole implies another.
+
+    Ordered as the groups are solved, the Jacobian of the joints and drivers has the groups' own ones on its diagonal
+    and nothing above them.
+    """
+    turn = {link: number for number, group in enumerate(built.groups) for link in group.links}
+    system = ConstraintEquations(mechanism, order={"frame": -1, **turn})
+    rows = [*system.rows(x), *(system.driver_row(name, x) for name in mechanism.drivers)]
+    of_group: list[list[Row]] = [[] for _ in built.groups]
+    for row in rows:
+        of_group[max(turn.get(link, -1) for link in row.parts)].append(row)
+    for group, own in zip(built.groups, of_group, strict=True):
+        if len(own) != 3 * len(group.links):
+            return False
+        matrix = [
+            [entry for link in group.links for entry in row.parts.get(link, (0.0, 0.0, 0.0))] for row in own
+        ]
+        if numeric_rank(np.array(matrix, dtype=float), ZERO) < len(own):
+            return False
+    return True

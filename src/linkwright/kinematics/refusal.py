@@ -1,0 +1,47 @@
+"""Why a motion is refused: where positions cannot be reached, and how far its drivers can go."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from linkwright.kinematics.input_range import range_sentence
+from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.outcome import Outcome, PositionError
+from linkwright.kinematics.reach_sentences import input_at, way_stopped
+from linkwright.words.sentence import Sentence
+
+
+def _not_passed(motion: Motion) -> PositionError:
+    """The error for a cycle that is barred between two positions, though all of them are reached from both sides."""
+    barred = Outcome(False, Sentence("outcome.between"), None, "barred")
+    way, told = motion.followed, (barred, *motion.notes)
+    if way is not None and way.stops:
+        group = next(each for each in motion.structure.groups if each.name == way.stops[0].group)
+        told = (barred, way_stopped(motion, group, way.stops[0]), *motion.notes)
+    said = Sentence(
+        "motion.not_passed", name=motion.mechanism.name, told=told, advice=Sentence("motion.advice")
+    )
+    return PositionError(said, (), barred)
+
+
+def refusal(motion: Motion) -> PositionError:
+    """The error for a motion of which some positions cannot be reached, or that is barred between two of them."""
+    failed = np.flatnonzero(~motion.ok)
+    if not len(failed):
+        return _not_passed(motion)
+    first = int(failed[0])
+    outcome = motion.outcomes[first]
+    where = input_at(motion, first)
+    if len(failed) > 1:
+        where = Sentence("motion.of_positions", where=where, failed=len(failed), steps=motion.steps)
+    links = next((each.links for each in motion.structure.groups if each.name == outcome.group), ())
+    told = list(motion.notes) if outcome.kind == "barred" else range_sentence(motion.mechanism, tuple(links))
+    said = Sentence(
+        "motion.refused_told" if told else "motion.refused",
+        name=motion.mechanism.name,
+        where=where,
+        sentence=outcome,
+        told=told,
+        advice=Sentence("motion.advice"),
+    )
+    return PositionError(said, tuple(int(i) for i in failed), outcome)
