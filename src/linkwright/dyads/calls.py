@@ -16,7 +16,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.dyads.listed_numbers import ZERO
 from linkwright.dyads.plan import Guide, Pin, Plan, Step
 from linkwright.kinematics.names import canonical
-from linkwright.mechanism.geometry import centre
+from linkwright.mechanism.link import centre
 from linkwright.words.sentence import Sentence
 
 _MOTION = ("t", "w", "e", "p", "vp", "ap")

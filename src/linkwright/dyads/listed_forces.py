@@ -11,7 +11,7 @@ from linkwright.dyads.plan import Guide, Step
 from linkwright.dyads.script import Script
 from linkwright.elements.topology import Connection
 from linkwright.kinetostatics.link_balance import applied_rows
-from linkwright.mechanism.geometry import centre
+from linkwright.mechanism.link import centre
 
 #: Share of the largest load below which another is rounding.
 FADED = 1e-12

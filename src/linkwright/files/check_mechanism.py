@@ -11,7 +11,8 @@ from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import below
 from linkwright.files.reader import Reader
 from linkwright.joints.base import Joint
-from linkwright.mechanism.mechanism import Link, Mechanism, Vec
+from linkwright.mechanism.link import Link, Vec
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.mechanism.wheel_sizes import disc_radii
 from linkwright.units import number
 from linkwright.words.sentence import Sentence

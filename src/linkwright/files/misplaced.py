@@ -13,7 +13,7 @@ from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.files.node_reader import MODES, PlainReader, meant_kind
 from linkwright.joints.base import JOINTS
 from linkwright.loads.base import LOADS
-from linkwright.mechanism.mechanism import LINK_FIELDS
+from linkwright.mechanism.link import LINK_FIELDS
 from linkwright.registry import PROBABLE, nearest
 
 #: Keys under which a list of elements gives their names.

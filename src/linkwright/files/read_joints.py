@@ -11,7 +11,7 @@ from linkwright.fields.reading import Names, Place
 from linkwright.files.node_reader import as_meant, meant_kind
 from linkwright.files.reader import Reader
 from linkwright.joints.base import IMPLIED, JOINTS, Entry, Joint, implied_joint
-from linkwright.mechanism.mechanism import Link
+from linkwright.mechanism.link import Link
 from linkwright.registry import PROBABLE, nearest
 from linkwright.words.sentence import Sentence, together
 

@@ -12,8 +12,7 @@ from linkwright.fields.reading import Place
 from linkwright.fields.references import Coordinates
 from linkwright.files.node_reader import NAME, as_meant
 from linkwright.files.reader import Reader
-from linkwright.mechanism.geometry import from_drawing
-from linkwright.mechanism.mechanism import FRAME_FIELDS, LINK_FIELDS, Geometry, Link, Vec
+from linkwright.mechanism.link import FRAME_FIELDS, LINK_FIELDS, Geometry, Link, Vec, from_drawing
 from linkwright.registry import offered
 from linkwright.words.sentence import Sentence, together
 

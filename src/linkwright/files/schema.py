@@ -13,7 +13,8 @@ from linkwright.files.read_drivers import CYCLE_FORMS, SLIDE_FIELDS, TURN_FIELDS
 from linkwright.files.read_model import FORMAT, HEADER
 from linkwright.joints.base import JOINTS
 from linkwright.loads.base import LOADS
-from linkwright.mechanism.mechanism import FRAME_FIELDS, LINK_FIELDS, Cycle
+from linkwright.mechanism.link import FRAME_FIELDS, LINK_FIELDS
+from linkwright.mechanism.mechanism import Cycle
 
 _NAME_PATTERN = r"^[^\W\d][\w'-]*$"
 

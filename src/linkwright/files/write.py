@@ -13,8 +13,8 @@ from linkwright.drivers.base import Driver
 from linkwright.fields.references import PLACE
 from linkwright.files.read_model import HEADER, KEPT
 from linkwright.joints.base import IMPLIED, Joint
-from linkwright.mechanism.geometry import STRUCTURAL_POINTS, from_drawing
-from linkwright.mechanism.mechanism import GRAVITY, LINK_FIELDS, Cycle, Link, Mechanism, Vec
+from linkwright.mechanism.link import LINK_FIELDS, STRUCTURAL_POINTS, Link, Vec, from_drawing
+from linkwright.mechanism.mechanism import GRAVITY, Cycle, Mechanism
 from linkwright.units import NONE, number, si_symbol
 
 _SAFE = re.compile(

@@ -25,6 +25,7 @@ from linkwright.joints.base import (
     Report,
     Size,
 )
+from linkwright.joints.cam_geometry import Geometry
 from linkwright.joints.ends import Ends
 from linkwright.laws.program_fields import ProgramField
 from linkwright.words.sentence import Sentence
@@ -32,7 +33,6 @@ from linkwright.words.sentence import Sentence
 if TYPE_CHECKING:
     from linkwright.core.arrays import Flags, Floats
     from linkwright.elements.topology import Connection, Group
-    from linkwright.joints.cam_geometry import Geometry
     from linkwright.kinematics.closed_loops import LoopBuilder
     from linkwright.laws.program import MotionProgram
     from linkwright.laws.traced import LiftCurve
@@ -196,8 +196,6 @@ class CamJoint(HigherPair):
         return ""
 
     def _check(self, mechanism: Model, report: Report) -> Geometry:
-        from linkwright.joints.cam_geometry import Geometry
-
         found = Geometry.of(self, mechanism)
         if not found.reach > 0:
             word = "cam_reach_remedy" if found.most < math.inf else "cam_reach_above"
@@ -357,8 +355,6 @@ class CamJoint(HigherPair):
 
     def geometry(self, mechanism: Model) -> Geometry:
         """Directions and distances of cam and follower on their carrier."""
-        from linkwright.joints.cam_geometry import Geometry
-
         return Geometry.of(self, mechanism)
 
     def radius(self, dimensions: Sizes) -> Scalar:

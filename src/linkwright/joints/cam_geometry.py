@@ -1,20 +1,34 @@
-"""The traced rows of cams: a follower on a guide, and one on a pivot."""
+"""How the follower of a cam is held: on a guide, or on a pivot."""
 
 from __future__ import annotations
 
 import cmath
 import math
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 from linkwright.core.dataclass import dataclass
 from linkwright.elements.model import Guide, Model
-from linkwright.engine.trace import Scalar
 
-if TYPE_CHECKING:
-    from linkwright.joints.cam import CamJoint
 
-_TURN = 2 * math.pi
-Lift = tuple[Scalar, Scalar, Scalar]
+class Follower(Protocol):
+    """A follower on its carrier, as :class:`~linkwright.joints.cam.CamJoint` has it."""
+
+    @property
+    def follower(self) -> str: ...
+    @property
+    def at(self) -> str: ...
+    @property
+    def touch(self) -> str: ...
+    @property
+    def base_radius(self) -> float: ...
+    @property
+    def roller_radius(self) -> float: ...
+    @property
+    def carrier(self) -> str: ...
+    @property
+    def centre(self) -> str: ...
+    @property
+    def holder(self) -> str: ...
 
 
 @dataclass(frozen=True)
@@ -36,7 +50,7 @@ class Geometry:
     most: float = math.inf
 
     @classmethod
-    def of(cls, joint: CamJoint, mechanism: Model) -> Geometry:
+    def of(cls, joint: Follower, mechanism: Model) -> Geometry:
         """From the points of the model."""
         radius = joint.base_radius + (joint.roller_radius if joint.touch == "roller" else 0.0)
         at = complex(*mechanism.link(joint.follower).points[joint.at])
@@ -61,7 +75,7 @@ class Geometry:
     @classmethod
     def _guided(
         cls,
-        joint: CamJoint,
+        joint: Follower,
         guide: Guide,
         mechanism: Model,
         radius: float,

@@ -14,8 +14,8 @@ from linkwright.engine.symbols import Symbols
 from linkwright.engine.trace import Scalar, Trace, cos, sin, sqrt
 from linkwright.engine.vector import Vec
 from linkwright.kinematics.equation import ChainPair
-from linkwright.mechanism.geometry import centre, local_points
-from linkwright.mechanism.mechanism import Link, Mechanism
+from linkwright.mechanism.link import Link, centre, local_points
+from linkwright.mechanism.mechanism import Mechanism
 
 
 class Dimensions:

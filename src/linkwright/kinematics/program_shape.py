@@ -10,7 +10,8 @@ from typing import Any
 from linkwright.core.expressions import Expression
 from linkwright.drivers.base import Driver
 from linkwright.engine.recently_made import Recent
-from linkwright.mechanism.mechanism import Link, Mechanism
+from linkwright.mechanism.link import Link
+from linkwright.mechanism.mechanism import Mechanism
 
 _NUMBER = "#"
 

@@ -14,7 +14,8 @@ from linkwright.errors import LinkwrightError, RequestError
 from linkwright.joints.base import Joint
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.run import solve_forces
-from linkwright.mechanism.mechanism import Link, Mechanism
+from linkwright.mechanism.link import Link
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis
 
 Radius = Mapping[str, float] | float

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import field, fields
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 from linkwright.core.attached import attached
 from linkwright.core.cached_property import cached_property
@@ -15,17 +16,11 @@ from linkwright.core.read_only import Frozen, FrozenDict, frozen
 from linkwright.drivers.base import Driver
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.fields.base import Field, Quantities, Quantity
-from linkwright.fields.references import PLACE, Coordinates, LinkPoints, PlaceOrPoint
+from linkwright.fields.references import PLACE
 from linkwright.joints.base import Joint
 from linkwright.joints.lower import RigidJoint, SlidingJoint, TurningJoint
 from linkwright.loads.base import Load
-from linkwright.mechanism.geometry import (
-    centre,
-    local_points,
-    mechanism_size,
-    point_addresses,
-    second_point_address,
-)
+from linkwright.mechanism.link import Link, Vec
 from linkwright.mechanism.named_output import NamedOutput
 from linkwright.registry import nearest, no_such
 from linkwright.units import LARGEST_OF_ALL, SI_UNITS, Dimension
@@ -34,115 +29,10 @@ from linkwright.words.sentence import Sentence, Worded, in_language
 
 if TYPE_CHECKING:
     from linkwright.core.expressions import Expression
-Vec = tuple[float, float]
 #: What has dimensions of its own.
 _SORTS = ("link", "joint", "driver", "load")
-Geometry = Literal["length", "bent", "coordinates", "drawing", "point"]
-
-LINK_FIELDS: Mapping[str, Field] = {
-    "points": LinkPoints(required=True, doc="the link's points: [A, B], or {A: [x, y], …} in its own axes"),
-    "length": Quantity("length", above=0, doc="distance from the first point to the second"),
-    "lengths": Quantities("length", count=2, above=0, doc="bent link: first to second, first to third point"),
-    "angle": Quantity("angle", doc="bent link: angle from the first length to the second"),
-    "also": Coordinates(doc="further points, by coordinates in the link's axes"),
-    "mass": Quantity("mass", minimum=0, doc="mass (default 0)"),
-    "inertia": Quantity("inertia", minimum=0, doc="moment of inertia about the mass centre (default 0)"),
-    "mass_centre": PlaceOrPoint("length", ("x", "y"), doc="mass centre: [x, y] or a point (default: midway)"),
-}
-FRAME_FIELDS: Mapping[str, Field] = {
-    "points": Coordinates(required=True, doc="fixed points: {O1: [0 m, 0 m], …}"),
-}
 
 GRAVITY = Quantities("acceleration", ("x", "y"), doc="gravity in frame axes", form="[0, -9.81 m/s²]")
-
-
-@dataclass(frozen=True)
-class Link:
-    """A rigid link with named points in its own axes (m), mass (kg) and moment of inertia about its centre
-    (kg·m²).
-
-    ``geometry`` says how the user gave it: ``length`` (two points), ``bent`` (two lengths and an angle),
-    ``coordinates``, ``drawing`` (from the coordinates of an assembled drawing), ``point`` (one point, at
-    the origin).
-    ``points`` holds all points in order, those of ``also`` last. ``mass_centre`` may name one of them;
-    None means the default: midway between the first two points, or at the only one.
-    """
-
-    name: str
-    geometry: Geometry
-    points: Mapping[str, Vec]
-    lengths: tuple[float, ...] = ()
-    angle: float = 0.0
-    mass: float = 0.0
-    inertia: float = 0.0
-    mass_centre: Vec | str | None = None
-
-    def fields(self) -> Mapping[str, Field]:
-        """What a file may say about the link."""
-        return FRAME_FIELDS if self.name == "frame" else LINK_FIELDS
-
-    @property
-    def centre(self) -> Vec:
-        """Mass centre in the link's axes, m."""
-        x, y = centre(self, self.points, self.dimensions().__getitem__)
-        return float(x), float(y)
-
-    @cached_property
-    def reach(self) -> float:
-        """The largest coordinate of a point, m."""
-        return max((abs(each) for place in self.points.values() for each in place), default=0.0)
-
-    @cached_property
-    def coinciding(self) -> tuple[int, ...]:
-        """Of points at one place the number of the first, none where all lie apart."""
-        first, places = dict[Vec, int](), self.points.values()
-        if len(set(places)) == len(places):
-            return ()
-        return tuple([first.setdefault(place, i) for i, place in enumerate(places)])
-
-    def geometry_dimensions(self) -> dict[str, float]:
-        """Addresses of the dimensions that place the points, with their SI values."""
-        found: dict[str, float] = {}
-        for index, (point, (x, y)) in enumerate(self.points.items()):
-            addresses = point_addresses(self, index, point)
-            if addresses is not None:
-                found.update(zip(addresses, (x, y), strict=True))
-            elif index == 1:
-                found[second_point_address(self, point)] = self.lengths[0] if self.lengths else x
-            elif index == 2:
-                found[f"{self.name}.lengths.1"], found[f"{self.name}.angle"] = self.lengths[1], self.angle
-        return found
-
-    def dimensions(self) -> dict[str, float]:
-        """Addresses of all dimensions of the link with their SI values."""
-        found = self.geometry_dimensions()
-        if self.name == "frame":
-            return found
-        found[f"{self.name}.mass"], found[f"{self.name}.inertia"] = self.mass, self.inertia
-        if isinstance(self.mass_centre, tuple):
-            found[f"{self.name}.mass_centre.x"], found[f"{self.name}.mass_centre.y"] = self.mass_centre
-        return found
-
-    def with_dimensions(self, value: Callable[[str], float]) -> Link:
-        """The same link with the values that ``value`` gives for the addresses of ``dimensions``."""
-        name = self.name
-        lengths: tuple[float, ...] = ()
-        if self.geometry == "length":
-            lengths = (value(f"{name}.length"),)
-        elif self.geometry == "bent":
-            lengths = (value(f"{name}.lengths.0"), value(f"{name}.lengths.1"))
-        moved = {
-            point: (float(x), float(y))
-            for point, (x, y) in local_points(self, value, math.cos, math.sin).items()
-        }
-        angle = value(f"{name}.angle") if self.geometry == "bent" else self.angle
-        if name == "frame":
-            return Link(name, self.geometry, moved, lengths, angle)
-        centre = self.mass_centre
-        if isinstance(centre, tuple):
-            centre = value(f"{name}.mass_centre.x"), value(f"{name}.mass_centre.y")
-        mass, inertia = value(f"{name}.mass"), value(f"{name}.inertia")
-        return Link(name, self.geometry, moved, lengths, angle, mass, inertia, centre)
 
 
 @dataclass(frozen=True)
@@ -333,6 +223,28 @@ class Mechanism(Frozen):
             found = found.union(*touching)
         return frozenset(found)
 
+    def ground_place(self, link: str, point: str) -> complex:
+        """Where a point of the frame, or of a link that is welded to it, stands in frame axes: x + iy, m."""
+        turn, shift = self._ground_poses[link]
+        return shift + turn * complex(*self.link(link).points[point])
+
+    @cached_property
+    def _ground_poses(self) -> dict[str, tuple[complex, complex]]:
+        """Unit turn and shift of the axes of the frame and of every link welded to it, also through others."""
+        poses = {"frame": (1.0 + 0j, 0j)}
+        open_ends = ["frame"]
+        while open_ends:
+            held = open_ends.pop()
+            for weld in self.welds.values():
+                other = next((each for each in weld.joined if each not in poses), None)
+                if held not in weld.joined or other is None:
+                    continue
+                turn = poses[held][0] * cmath.rect(1.0, weld.turn_of(other, self))
+                at = poses[held][1] + poses[held][0] * complex(*self.link(held).points[weld.at])
+                poses[other] = (turn, at - turn * complex(*self.link(other).points[weld.at]))
+                open_ends.append(other)
+        return poses
+
     def pin_links(self, name: str) -> tuple[str, ...]:
         """The links on the pin of that name; none where there is no such pin."""
         joint = self.joints.get(name)
@@ -389,8 +301,18 @@ class Mechanism(Frozen):
 
     @cached_property
     def size(self) -> float:
-        """A power of two in metres, not below the largest coordinate, offset or stroke."""
-        return mechanism_size(self)
+        """A power of two in metres, not below the largest coordinate, offset or stroke.
+
+        A power of two, so that dividing by it does not round, and so that small changes of a design do not change it.
+        """
+        reach = [link.reach for link in (self.frame, *self.links.values())]
+        reach += [abs(c) for point in self.drawing.values() for c in point]
+        reach += [abs(getattr(joint, "offset", 0.0)) for joint in self.joints.values()]
+        for driver in self.drivers.values():
+            if self.joints[driver.joint].coordinate == "slide":
+                reach.append(abs(driver.law.at(0.0)))
+        largest = max(reach)
+        return 2.0 ** math.frexp(largest)[1] if largest > 0.0 else 1.0
 
     @cached_property
     def higher(self) -> bool:

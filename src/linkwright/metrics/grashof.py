@@ -10,7 +10,6 @@ from math import hypot
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.trace import Scalar, maximum, minimum
 from linkwright.joints.lower import TurningJoint
-from linkwright.mechanism.geometry import ground_place
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Metric, MetricValue, Number, Remark
@@ -75,7 +74,7 @@ def four_bars(mechanism: Mechanism) -> tuple[FourBar, ...]:
             continue
         for a, b, coupler in _couplers(mechanism, pins, (first, a0), (second, b0)):
             ends = {first: (a0, a), coupler: (a, b), second: (b0, b)}
-            frame = ground_place(mechanism, held[b0], b0) - ground_place(mechanism, held[a0], a0)
+            frame = mechanism.ground_place(held[b0], b0) - mechanism.ground_place(held[a0], a0)
             lengths = {"frame": abs(frame)}
             lengths |= {link: _length(mechanism, link, *pair) for link, pair in ends.items()}
             named = {"frame": (f"{held[a0]}.{a0}", f"{held[b0]}.{b0}")}

@@ -20,7 +20,7 @@ from linkwright.core.json_data import Plain
 from linkwright.core.outputs import row_name
 from linkwright.kinematics.names import canonical
 from linkwright.loads.base import Load
-from linkwright.mechanism.mechanism import Link
+from linkwright.mechanism.link import Link
 from linkwright.page.contacts import CamContact, RackWay, Wheel, Wheels, contact_shape
 from linkwright.pictures.symbols.base import PIN, SYMBOLS, Shape, Vec
 from linkwright.plot.drawing.guides import clear_shift, ground_side, is_cylinder, travel, welds

@@ -23,7 +23,8 @@ from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.run import solve_forces
 from linkwright.loads.base import Load
-from linkwright.mechanism.mechanism import Link, Mechanism
+from linkwright.mechanism.link import Link
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.study.designs import sweep_curves
 from linkwright.tolerance.pin_turning_law import TurnedByReaction
 from linkwright.tolerance.problem import Clearance, Tolerances

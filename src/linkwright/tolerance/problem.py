@@ -14,7 +14,8 @@ from linkwright import units
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.fields.base import Quantity, Text, Word, given
-from linkwright.mechanism.mechanism import Link, Mechanism
+from linkwright.mechanism.link import Link
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.parts.base import si_unit
 from linkwright.parts.fields import AnyQuantity, ByAddress, Either, Listed, Named, Table, Whole
 from linkwright.parts.mechanism_field import MECHANISM, OfMechanism

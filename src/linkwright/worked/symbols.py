@@ -12,7 +12,7 @@ from linkwright.elements.topology import TreeJoint
 from linkwright.joints.base import Joint
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import canonical
-from linkwright.mechanism.mechanism import Link
+from linkwright.mechanism.link import Link
 from linkwright.words import Say
 from linkwright.worked.terms import NOWHERE, ONE, ZERO, Pair, Term, number, symbol
 

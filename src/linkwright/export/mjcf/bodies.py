@@ -14,7 +14,7 @@ from linkwright.export.mjcf.text import numbers
 from linkwright.export.results import Results
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.placement import placements
-from linkwright.mechanism.mechanism import Link
+from linkwright.mechanism.link import Link
 
 #: Mass and inertia of links without any, as a share of the largest mass.
 LEAST = 1e-3

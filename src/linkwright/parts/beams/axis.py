@@ -12,7 +12,7 @@ from numpy.polynomial import Polynomial, legendre
 from linkwright.core.arrays import Floats, Indices
 from linkwright.core.dataclass import dataclass
 from linkwright.core.plane import cross
-from linkwright.mechanism.mechanism import Link
+from linkwright.mechanism.link import Link
 
 #: Stations between two corners.
 STATIONS = 201

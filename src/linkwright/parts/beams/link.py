@@ -17,7 +17,8 @@ from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.link_balance import applied_rows, driver_wrenches
 from linkwright.kinetostatics.run import solve_forces
 from linkwright.kinetostatics.self_check import LIMIT
-from linkwright.mechanism.mechanism import Link, Mechanism
+from linkwright.mechanism.link import Link
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.parts.base import Block, Result, Row, Value, fault, put, shown
 from linkwright.parts.beams.axis import LinkAxis, SpreadMass
 from linkwright.parts.beams.balance import polynomial_text
