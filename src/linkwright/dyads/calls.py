@@ -366,9 +366,9 @@ class _Caller:
     def _loads(self) -> None:
         """Points at which loads of the model act."""
         for load in self.mechanism.loads.values():
-            link, point = getattr(load, "on", None), getattr(load, "at", None)
-            if isinstance(link, str) and isinstance(point, str) and link in self.mechanism.links:
-                self.loaded.setdefault(link, []).append(-self._point(link, point))
+            at = load.named_points[0] if load.acts_on and load.named_points else None
+            if at is not None and at.link in self.mechanism.links:
+                self.loaded.setdefault(at.link, []).append(-self._point(at.link, at.point))
             else:
                 self.found.notes.append(Sentence("calls.other_load", load=load.name))
 

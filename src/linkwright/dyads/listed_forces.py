@@ -193,10 +193,10 @@ class ForceLines:
         if size == 0.0:
             return []
         force = self._vector(link, fx, fy, size)
-        acting = [each for each in self.mechanism.loads.values() if getattr(each, "on", None) == link]
-        point = getattr(acting[0], "at", None) if len(acting) == 1 else None
-        if isinstance(point, str) and self._through(link, point, fx, fy, moment):
-            return [f"Load({force}, {self.listing.point(link, point)})"]
+        acting = [each for each in self.mechanism.loads.values() if each.acts_on == link]
+        points = acting[0].named_points if len(acting) == 1 else ()
+        if points and self._through(link, points[0].point, fx, fy, moment):
+            return [f"Load({force}, {self.listing.point(link, points[0].point)})"]
         couple = self._named(f"{link}_couple", series(np.where(np.abs(moment) > FADED * size, moment, 0.0)))
         if force == "(0, 0)":
             return [f"Load(couple={couple})"]

@@ -157,6 +157,27 @@ class Load:
             elif keys := each.metadata.get("magnitude"):
                 yield from ((key, keys[key], part) for key, part in value.by_key.items())
 
+    @property
+    def acts_on(self) -> str | None:
+        """The link that it names alone, of several the first."""
+        return next((value for _, each, value in self.given() if isinstance(each, LinkName)), None)
+
+    @property
+    def pair(self) -> tuple[str, ...]:
+        """The two links between which it acts; none where it names no pair."""
+        return next((value for _, each, value in self.given() if isinstance(each, LinkNames)), ())
+
+    @property
+    def named_points(self) -> tuple[LinkPoint, ...]:
+        """The points that it names."""
+        found: list[LinkPoint] = []
+        for _, each, value in self.given():
+            if isinstance(each, PointName) and value is not None:
+                found.append(LinkPoint(getattr(self, each.of), value))
+            elif isinstance(each, PointReference | PointReferences) and value is not None:
+                found += [value] if isinstance(value, LinkPoint) else value
+        return tuple(found)
+
     def dimensions(self) -> dict[str, float]:
         """Addresses ``loads.NAME.FIELD`` of the load's dimensions with their SI values."""
         return {

@@ -287,5 +287,5 @@ def _load(machine: Machine, load: Load) -> Iterator[Plain]:
 
 
 def _common_pin(machine: Machine, load: Load) -> str | None:
-    links = {str(name) for name in (getattr(load, "links", None) or ())}
+    links = set(load.pair)
     return next((name for name, joint in machine.pins.items() if links and links <= set(joint.links)), None)

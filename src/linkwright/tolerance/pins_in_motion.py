@@ -165,7 +165,8 @@ def _with_gap(mechanism: Mechanism, pin: str, clearance: Clearance, law: TurnedB
     links |= {} if on == "frame" else {on: bored}
     old = mechanism.pins[pin]
     del joints[pin]
-    _refuse_attached({**joints, **mechanism.loads}, pin, on)
+    elsewhere = {name: load for name, load in mechanism.loads.items() if load.acts_on != on}
+    _refuse_attached({**joints, **elsewhere}, pin, on)
     joints[pin] = replace(old, links=tuple(gap if name == on else name for name in old.links))
     joints[hole] = implied_joint(hole, (on, gap))
     drawing = dict(mechanism.drawing)
@@ -185,7 +186,7 @@ def _with_gap(mechanism: Mechanism, pin: str, clearance: Clearance, law: TurnedB
 def _refuse_attached(elements: Mapping[str, object], pin: str, on: str) -> None:
     """Raises LinkwrightError where a joint, or a load of two links, uses the hole's point of the link as well."""
     for name, each in elements.items():
-        if getattr(each, "on", None) != on and {pin, on} <= set(_words(each)):
+        if {pin, on} <= set(_words(each)):
             raise LinkwrightError("tolerance.attached", what=name, pin=pin, link=on)
 
 
@@ -204,7 +205,7 @@ def _words(value: object) -> Iterator[str]:
 
 def _at_hole(load: Load, pin: str, on: str, hole: str) -> Load:
     """A load of the link with the hole stays at the hole's centre."""
-    if getattr(load, "on", None) != on:
+    if load.acts_on != on:
         return load
     moved: dict[str, object] = {}
     for one in fields(load):

@@ -101,7 +101,7 @@ def link_forces(forces: Forces, link: str, index: int) -> list[LinkForce]:
 
 
 def _load_name(forces: Forces, link: str) -> str:
-    names = [name for name, load in forces.mechanism.loads.items() if getattr(load, "on", None) == link]
+    names = [name for name, load in forces.mechanism.loads.items() if load.acts_on == link]
     return names[0] if len(names) == 1 else "ΣP"
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from linkwright.fields.references import PointName
 from linkwright.joints.base import JointName
 from linkwright.loads.base import LinkPoint, Load
 from linkwright.pictures.svg.element import Element
@@ -46,7 +45,7 @@ def mark(machine: Machine, load: Load, index: int, forces: bool = True) -> Shape
 def _held(machine: Machine, load: Load, index: int) -> Shape:
     """The symbol of a load that lies between points, about a pin or at a place, by what the load names."""
     ends = [machine.paper(each.link, each.point, index) for each in named_points(machine, load)]
-    links = [name for name in (getattr(load, "links", None) or (getattr(load, "on", None),)) if name]
+    links = load.pair or ((load.acts_on,) if load.acts_on else ())
     pin = None if ends or len(links) != 2 else _common_pin(machine, (links[0], links[1]), index)
     if load.kind in SYMBOLS and len(ends) == 2:
         return SYMBOLS[load.kind](start=ends[0], end=ends[1])
@@ -59,18 +58,9 @@ def _held(machine: Machine, load: Load, index: int) -> Shape:
 
 
 def named_points(machine: Machine, load: Load) -> list[LinkPoint]:
-    """The points that a load of any kind names in its fields."""
-    found: list[LinkPoint] = []
-    for _, declared, value in load.given():
-        if isinstance(value, LinkPoint):
-            found.append(value)
-        elif isinstance(value, tuple) and all(isinstance(each, LinkPoint) for each in value):
-            found += value
-        elif isinstance(declared, PointName) and value is not None:
-            found.append(LinkPoint(getattr(load, declared.of), value))
-        elif isinstance(declared, JointName) and value is not None:
-            found.append(_joint_point(machine, value))
-    return found
+    """The points that a load of any kind names in its fields, and those of the joints that it names."""
+    joints = [value for _, each, value in load.given() if isinstance(each, JointName) and value is not None]
+    return [*load.named_points, *(_joint_point(machine, name) for name in joints)]
 
 
 def _joint_point(machine: Machine, name: str) -> LinkPoint:
