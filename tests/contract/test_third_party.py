@@ -64,6 +64,21 @@ class Tether(Load):
 
     def from_cycle(self, signals):
         return self.rate * signals.output(self.follows)[0]
+
+
+@LOADS.register("gale")
+@dataclass(frozen=True, kw_only=True)
+class Gale(Load):
+    """A force to the right at a point, of any size within any phase."""
+
+    kind: ClassVar[str] = "gale"
+    exactly_one: ClassVar = (("magnitude", "ramp", "table"),)
+    on: str = base.link(moving=True, doc="the link")
+    at: str = base.point_of("on", doc="its point")
+    magnitude: base.Magnitude = base.magnitude("force")
+
+    def wrenches(self, site):
+        return [Wrench(self.on, site.direction(0.0) * site.magnitude(), site.place(self.on, self.at))]
 '''
 PACKAGE += LAW
 PACKAGE += '''
@@ -108,7 +123,7 @@ def installed(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
     yield
     sys.path.remove(str(folder))
     del sys.modules["windpackage"]
-    taken_away(package.LOADS, "wind", "tether")
+    taken_away(package.LOADS, "wind", "tether", "gale")
     taken_away(package.LAWS, "settling")
     taken_away(package.METRICS, "mean_crank_torque")
 
@@ -219,4 +234,37 @@ def test_a_load_of_its_own_way_follows_an_output_at_a_point() -> None:
     found = lw.sweep(machine, {"loads.gust.rate": [100.0, 200.0]}, outputs=["driver.effort max"], steps=36)
     assert found["driver.effort max"] == pytest.approx(np.array([1, 2]) * forces.input_torque.max())
     with refused("study.cycle_load_slope", name="gust", kind="tether"):
-        lw.sensitivity(machine, of=["driver.effort max"], by=["crank.length"], steps=36)
+        lw.sensitivity(machine, of=["driver.effort rms"], by=["crank.length"], steps=36)
+
+
+@pytest.mark.parametrize(
+    "size",
+    [
+        "magnitude: 40 N",
+        'magnitude: "40 N + 100*guide*(1 N/m)"',
+        "ramp: [10 N, 60 N], phase: {of: guide, from: min, to: max}",
+        "ramp: [10 N, 60 N], phase: {input: [300 deg, 70 deg]}",
+        "table: {over: guide, x: [0.4 m, 1 m], y: [9 N, 90 N]}, phase: {moving: rod, direction: increasing}",
+    ],
+)
+def test_a_load_has_all_sizes_and_phases_by_one_line(size: str) -> None:
+    """As the force of the library has them: in files, alone, in sweeps and in derivatives."""
+    text = MODEL.replace("LAW", "speed: 3 rad/s").replace("cycle: {duration: 2 s}\n", "")
+    own, known = (
+        lw.loads(
+            text.replace("kind: wind, on: piston, at: B, size: 50 N", f"{kind}, on: piston, at: B, {size}")
+        )
+        for kind in ("kind: gale", "kind: force, direction: 0 deg")
+    )
+    assert lw.loads(dump(own)).loads == own.loads
+    assert set(own.dimensions()) | {"loads.gust.direction"} == set(known.dimensions())
+    torques = [lw.solve_forces(each, steps=36).input_torque for each in (own, known)]
+    assert torques[0].tolist() == torques[1].tolist() and np.abs(torques[0]).max() > 0.5
+    lengths = {"crank.length": np.array([0.19, 0.2, 0.21])}
+    swept = [lw.sweep(each, lengths, outputs=["driver.effort max"], steps=36) for each in (own, known)]
+    assert swept[0]["driver.effort max"].tolist() == swept[1]["driver.effort max"].tolist()
+    slopes = [
+        lw.sensitivity(each, of=["driver.effort rms"], by=["crank.length"], steps=36) for each in (own, known)
+    ]
+    gradients = [each.gradient("driver.effort rms").tolist() for each in slopes]
+    assert gradients[0] == gradients[1] and abs(gradients[0][0]) > 1.0

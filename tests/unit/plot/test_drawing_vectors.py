@@ -17,6 +17,7 @@ from linkwright.loads import base
 from linkwright.loads.base import LOADS, LinkPoint, Load
 from linkwright.loads.site import Site, Wrench
 from linkwright.plot.animation import animate
+from linkwright.plot.drawing.load_marks import Mark, Push, mark_of
 
 SVG = "{http://www.w3.org/2000/svg}"
 
@@ -134,12 +135,32 @@ class Field(Load):
 
 @pytest.fixture
 def outside_kinds() -> Iterator[None]:
-    kinds = (Magnet, Wind, Field)
+    kinds = (Magnet, Wind, Draught, Field)
     for each in kinds:
         LOADS.register(each.kind)(each)
     yield
     for each in kinds:
         del LOADS._elements[each.kind]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Draught(Wind):
+    """The same with a mark that the package registers."""
+
+    kind: ClassVar[str] = "outside_draught"
+
+
+@mark_of.register
+def _draught(load: Draught, motion: lw.Motion, index: int) -> Mark:
+    return Push(load.on, "A", 0.0)
+
+
+@pytest.mark.usefixtures("outside_kinds")
+def test_a_load_of_another_package_has_the_mark_that_it_registers() -> None:
+    machine = lw.loads(TWISTED + "  gust: {kind: outside_draught, on: crank}\n")
+    assert mark_of(machine.loads["gust"], lw.solve_motion(machine, steps=4), 1) == Push("crank", "A", 0.0)
+    drawing = draw(machine)
+    assert drawing.notes == () and "gust" in texts(drawing, "lw-load-name")
 
 
 @pytest.mark.usefixtures("outside_kinds")
