@@ -46,9 +46,11 @@ class Slopes:
         for index in t.needed([value.index], stop=found):
             if index in found:
                 continue
-            node, slope = t.node(index), 0.0  # type: Node, Scalar
-            if node.op not in WITHOUT_SLOPE and not all(_is_zero(found.get(a, 0.0)) for a in node.args):
-                slope = _tangent(t, node, [_line(t, a) for a in node.args], Value(t, index), found)
+            line = t.lines[index]
+            args, slope = line[1:], 0.0  # type: tuple[int, ...], Scalar
+            changing = [arg for arg in args if not _is_zero(found.get(arg, 0.0))]
+            if changing and line[0] not in WITHOUT_SLOPE:
+                slope = _tangent(t, t.node(index), [_line(t, arg) for arg in args], Value(t, index), found)
             found[index] = slope
         return found.get(value.index, 0.0)
 

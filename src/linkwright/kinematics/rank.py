@@ -99,7 +99,7 @@ def _rank_where_closed(
     special = rank < system.freedoms and not _moves(system, here, rank)
     links = () if special else _spare_links(mechanism, here, ZERO_DRAWN)
     joints = () if special or links else _spare_joints(system.rows(here), redundant)
-    return report_of(mechanism, system, rank, redundant, links, special, where, joints=joints)
+    return report_of(mechanism, rank, redundant, links, special, where, joints=joints)
 
 
 # rank ---------------------------------------------------------------------------------------------
@@ -248,7 +248,6 @@ def _moves(system: ConstraintEquations, x: Floats, rank: int) -> bool:
 # sentences ----------------------------------------------------------------------------------------
 def report_of(
     mechanism: Mechanism,
-    system: ConstraintEquations,
     rank: int,
     implied: Sequence[Row],
     links: tuple[str, ...],
@@ -258,9 +257,10 @@ def report_of(
     joints: tuple[str, ...] = (),
 ) -> RankReport:
     count = grubler(counts(mechanism))
-    mobility = system.freedoms - rank
-    equations, redundant = system.freedoms - count, _said(implied)
-    make = partial(RankReport, rank, system.freedoms, equations, count, redundant, links, special)
+    freedoms = 3 * len(mechanism.links)
+    mobility = freedoms - rank
+    equations, redundant = freedoms - count, _said(implied)
+    make = partial(RankReport, rank, freedoms, equations, count, redundant, links, special)
     if mobility == count:
         return make(Sentence(f"rank.confirmed{where}", count=count))
     wheels = bool(guides) and all(mechanism.joints[name].higher for name in guides)

@@ -32,13 +32,12 @@ def jacobian_rank(motion: Motion, index: int = 0) -> RankReport:
     if not motion.ok[index]:
         raise LinkwrightError("motion.no_rank", index=index)
     mechanism = motion.mechanism
-    system = ConstraintEquations(mechanism)
     here = coordinates(motion, index)
-    if _regular_in_groups(mechanism, motion.structure, here):
-        rank, redundant = len(system.rows(here)), tuple[Row, ...]()
-    else:
-        rank, redundant = rank_at(system, here, ZERO)
-    return report_of(mechanism, system, rank, redundant, (), False, guides=motion.structure.redundant)
+    redundant: tuple[Row, ...] = ()
+    rank = _rank_of_groups(mechanism, motion.structure, here)
+    if rank is None:
+        rank, redundant = rank_at(ConstraintEquations(mechanism), here, ZERO)
+    return report_of(mechanism, rank, redundant, (), False, guides=motion.structure.redundant)
 
 
 def rank_sentence(mechanism: Mechanism, language: str = "en") -> str:
@@ -72,11 +71,11 @@ def coordinates(motion: Motion, index: int) -> Floats:
     return np.array(found)
 
 
-def _regular_in_groups(mechanism: Mechanism, built: Structure, x: Floats) -> bool:
-    """Whether every group alone is regular, its drivers held: then no equation of the whole implies another.
+def _rank_of_groups(mechanism: Mechanism, built: Structure, x: Floats) -> int | None:
+    """The rank where every group alone is regular, its drivers held: then no equation of the whole implies another.
 
     Ordered as the groups are solved, the Jacobian of the joints and drivers has the groups' own ones on its diagonal
-    and nothing above them.
+    and nothing above them. None where a group is not regular.
     """
     turn = {link: number for number, group in enumerate(built.groups) for link in group.links}
     system = ConstraintEquations(mechanism, order={"frame": -1, **turn})
@@ -86,10 +85,10 @@ def _regular_in_groups(mechanism: Mechanism, built: Structure, x: Floats) -> boo
         of_group[max(turn.get(link, -1) for link in row.parts)].append(row)
     for group, own in zip(built.groups, of_group, strict=True):
         if len(own) != 3 * len(group.links):
-            return False
+            return None
         matrix = [
             [entry for link in group.links for entry in row.parts.get(link, (0.0, 0.0, 0.0))] for row in own
         ]
         if numeric_rank(np.array(matrix, dtype=float), ZERO) < len(own):
-            return False
-    return True
+            return None
+    return len(rows) - len(mechanism.drivers)
