@@ -297,12 +297,6 @@ class Joint(ABC):
         return Sentence(key) if has(key) else cls.kind
 
     @classmethod
-    def said(cls, key: str, **values: object) -> Sentence:
-        """A sentence about joints of the kind: its own, ``KEY_KIND``, where the catalogue has one."""
-        own = f"{key}_{cls.kind}"
-        return Sentence(own if has(own) else key, **values)
-
-    @classmethod
     def lacks(cls, what: str) -> LackingError:
         """The error for what the kind does not supply."""
         return LackingError("model.kind_lacks", kind=getattr(cls, "kind", cls.__name__), what=what)
@@ -313,11 +307,6 @@ class HigherPair(Joint):
 
     freedoms: ClassVar[int] = 2
     higher: ClassVar[bool] = True
-
-    @property
-    def touching(self) -> tuple[str, str]:
-        """A link and its point nearest to which drawings show the force on its line of action."""
-        return self.seats[0]
 
 
 class LackingError(LinkwrightError):

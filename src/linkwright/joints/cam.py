@@ -349,10 +349,6 @@ class CamJoint(HigherPair):
     def seats(self) -> tuple[tuple[str, str], ...]:
         return ((self.follower, self.holder),) if self.side else ((self.cam, self.centre),)
 
-    @property
-    def touching(self) -> tuple[str, str]:
-        return self.follower, self.at
-
     def geometry(self, mechanism: Model) -> Geometry:
         """Directions and distances of cam and follower on their carrier."""
         return Geometry.of(self, mechanism)

@@ -30,6 +30,7 @@ from linkwright.loads.over_cycle import evaluate
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.units import LARGEST
 from linkwright.units import format as spelled
+from linkwright.words import has
 from linkwright.words.sentence import Sentence, together
 
 #: Iterations of the friction, and the change, as share of what the largest reaction causes, at which these end.
@@ -186,8 +187,9 @@ def _contacts_lost(forces: Forces) -> Iterable[Sentence]:
         )
         sizes = np.linalg.norm(forces.reaction(name, on=joint.joined[-1]), axis=1)[at]
         most, where = float(sizes.max()), float(motion.input[at[first_largest(sizes)]])
-        yield joint.said(
-            "forces.contact_lost",
+        own = f"forces.contact_lost_{joint.kind}"
+        yield Sentence(
+            own if has(own) else "forces.contact_lost",
             name=name,
             kind=joint.word(),
             places=together(places),

@@ -9,7 +9,7 @@ from math import atan2, pi, sqrt
 
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.late_import import numpy as np
-from linkwright.joints.base import Joint
+from linkwright.joints.base import HigherPair, Joint
 from linkwright.joints.belt import BeltPair
 from linkwright.joints.cam import CamJoint
 from linkwright.joints.gear import GearPair
@@ -149,6 +149,17 @@ def _(joint: CamJoint, mechanism: Mechanism, tooth: Teeth) -> Iterator[Mark]:
     else:
         start, end = shape.face()
         yield Mark("face", joint.follower, _vec(start), to=_vec(end))
+
+
+@singledispatch
+def touching(joint: HigherPair) -> tuple[str, str]:
+    """A link and its point nearest to which the force of a pair is drawn on its line of action."""
+    return joint.seats[0]
+
+
+@touching.register
+def _(joint: CamJoint) -> tuple[str, str]:
+    return joint.follower, joint.at
 
 
 def _vec(place: complex) -> Vec:

@@ -18,6 +18,7 @@ from linkwright.joints.base import HigherPair
 from linkwright.kinematics.names import canonical, find_point
 from linkwright.mechanism.force_names import Symbol, reaction_index, reaction_pairs
 from linkwright.pictures.symbols.base import EMPTY, SYMBOLS, Shape, joined, vec
+from linkwright.plot.drawing.joint_marks import touching
 from linkwright.plot.drawing.labels import Label
 from linkwright.plot.drawing.view import View
 
@@ -309,7 +310,7 @@ def _reactions(forces: Forces, names: Sequence[str] | None) -> tuple[Vectors, To
             continue
         couple = forces.couple(joint, on=on)
         if isinstance(found, HigherPair):
-            near = _position(forces.motion, ".".join(found.touching))
+            near = _position(forces.motion, ".".join(touching(found)))
             feet[name] = _on_the_line(feet[name], values[name], couple, near)
         else:
             couples[name] = couple
