@@ -474,8 +474,11 @@ def plain(line: str) -> str:
 def members(value: type) -> Iterator[str]:
     """Methods and properties that are documented, one line each."""
     rows = []
-    shared = vars(Plotted) if issubclass(value, Plotted) else {}
-    for name, member in {**vars(value), **shared}.items():
+    room = value.__module__.rpartition(".")[0]
+    own = [each for each in value.__mro__ if each.__module__.rpartition(".")[0] == room]
+    shared = [Plotted] if issubclass(value, Plotted) else []
+    listed = {name: member for each in (*reversed(own), *shared) for name, member in vars(each).items()}
+    for name, member in listed.items():
         if name.startswith("_") or not inspect.getdoc(member) or isinstance(member, type):
             continue
         if not (callable(member) or isinstance(member, property) or hasattr(member, "func")):

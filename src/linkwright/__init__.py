@@ -137,7 +137,7 @@ ATTACHED.update(
         "Mechanism.structure": "linkwright.structure.decompose:structure",
         "Motion._repr_svg_": "linkwright.plot.drawing.draw:picture_of",
         "Motion.columns": "linkwright.kinematics.table:motion_columns",
-        "Motion.named_course": "linkwright.kinematics.output_formulas:named_course",
+        "Motion._named_course": "linkwright.kinematics.output_formulas:named_course",
         "Motion.outcomes": "linkwright.kinematics.reach_sentences:explain",
         "Motion.refusal": "linkwright.kinematics.refusal:refusal",
         "Motion.to_dataframe": "linkwright.kinematics.table:motion_frame",

@@ -345,7 +345,7 @@ class Motion(Plotted):
         """An angle, a displacement, a component of a point's motion, an output that the model names, or a rate of
         these, (n,)."""
         if output.kind in NAMED:
-            return self.kept(("named", output.owner), lambda: self.named_course(output.owner))[output.kind]
+            return self.kept(("named", output.owner), lambda: self._named_course(output.owner))[output.kind]
         if output.kind == "angle":
             return self.link(output.owner).angle
         if KINDS[output.kind].of != "point":
@@ -353,7 +353,7 @@ class Motion(Plotted):
         return self.vector(output.kind, self._point_key(output.owner))[:, "xy".index(output.component)]
 
     @attached
-    def named_course(self, name: str) -> dict[str, Floats]:
+    def _named_course(self, name: str) -> dict[str, Floats]:
         """Value and derivatives by time of an output that the model names, by their kinds, (n,) each."""
         raise NotImplementedError
 
